@@ -1,0 +1,22 @@
+#include "core/cloud/point_cloud.hpp"
+
+namespace nextview {
+
+Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range) {
+  Scan scan;
+  scan.origin = T_world_camera.translation();
+  const auto& camera = image.camera;
+  scan.returns.reserve(image.range.size());
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) {
+      const float range = image.range[std::size_t(v) * camera.width + u];
+      const bool met_surface = DepthImage::is_range(range);
+      if (!met_surface && !DepthImage::is_beyond_range(range)) continue;
+      const Vector3 direction = T_world_camera.linear() * camera.direction(u, v);
+      const double length = met_surface ? double(range) : max_range;
+      (met_surface ? scan.returns : scan.passes).push_back((scan.origin + length * direction).cast<float>());
+    }
+  return scan;
+}
+
+}  // namespace nextview

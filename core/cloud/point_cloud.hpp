@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "core/sensor/depth_image.hpp"
+
+namespace nextview {
+
+/// Points [m, world].
+using PointCloud = std::vector<Eigen::Vector3f>;
+
+/// One view's measurement as the map takes it: rays from the camera to where they ended, or to where they were given
+/// up.
+struct Scan {
+  Vector3 origin = Vector3::Zero();  ///< camera centre [m, world]
+  PointCloud returns;                ///< where rays met a surface
+  PointCloud passes;                 ///< where rays beyond range were given up (at the maximum range); they carve only
+};
+
+/// Returns and passes of a depth image; invalid pixels give neither. Points in pixel order.
+Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range);
+
+struct CloudConfig {
+  bool outlier_removal = true;      ///< statistical outlier removal of the returns (PCL)
+  int outlier_neighbours = 16;      ///< neighbours whose mean distance is looked at
+  double outlier_deviations = 3.0;  ///< points whose mean distance is this many standard deviations over the average go
+  bool down_sampling = false;       ///< voxel-grid down-sampling of the returns (PCL)
+  double down_sampling_leaf = 0.002;  ///< [m]
+
+  /// @throws std::invalid_argument naming the field and its bounds.
+  void validate() const;
+};
+
+/// The returns after outlier removal and down-sampling, each if switched on. Outlier removal keeps the order;
+/// down-sampling puts one centroid a leaf, in the order of the leaves (x fastest).
+/// @throws std::invalid_argument if the configuration is not valid, or if the leaf is too small for the cloud's extent
+/// (PCL numbers
+///         leaves with 32 bits).
+PointCloud clean(const PointCloud& returns, const CloudConfig& config);
+
+/// Binary little-endian PLY with x y z floats. Written beside the file, then renamed.
+/// @throws std::runtime_error naming the file and the reason.
+void write_ply(const PointCloud& cloud, const std::filesystem::path& file);
+
+/// The vertices of an ASCII or binary PLY file; other elements and properties are passed over.
+/// @throws std::runtime_error with one line that names the file and the reason: missing, not PLY, truncated, claims
+/// more than the file
+///         holds, no x y z, not finite.
+PointCloud read_ply(const std::filesystem::path& file);
+
+}  // namespace nextview

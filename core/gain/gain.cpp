@@ -1,0 +1,173 @@
+#include "core/gain/gain.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+bool is_unknown(const RayVoxel& v) { return v.voxel_class == VoxelClass::unknown; }  // unmeasured ones are, at p = 0.5
+bool is_occupied(const RayVoxel& v) { return v.measured && v.voxel_class == VoxelClass::occupied; }
+bool is_behind_surface(const RayVoxel& v) { return !v.measured && v.occlusion_distance > 0; }
+
+/// Most gains are their first sum.
+GainValue plain_sum(const GainSums& s) { return {s.sum[0], {1.0, 0.0, 0.0}}; }
+
+/// Each gain: `ray` calls add(voxel's place on the ray, which sum, how much).
+struct OcclusionAware {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums&, Add add) {
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i) add(i, 0, ray.visibility[i] * ray.voxels[i].entropy);
+  }
+  static constexpr auto value = plain_sum;
+};
+
+struct UnobservedVoxel {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums&, Add add) {
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i)
+      if (is_unknown(ray.voxels[i])) add(i, 0, ray.visibility[i] * ray.voxels[i].entropy);
+  }
+  static constexpr auto value = plain_sum;
+};
+
+struct RearSideVoxel {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums&, Add add) {
+    for (std::size_t i = 1; i < ray.voxels.size(); ++i)
+      if (is_occupied(ray.voxels[i]) && is_unknown(ray.voxels[i - 1])) add(i, 0, 1.0);
+  }
+  static constexpr auto value = plain_sum;
+};
+
+struct RearSideEntropy {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums&, Add add) {
+    if (ray.voxels.empty() || !is_occupied(ray.voxels.back())) return;
+    std::size_t first = ray.voxels.size() - 1;
+    while (first > 0 && is_unknown(ray.voxels[first - 1])) --first;
+    for (std::size_t i = first; i < ray.voxels.size(); ++i) add(i, 0, ray.visibility[i] * ray.voxels[i].entropy);
+  }
+  static constexpr auto value = plain_sum;
+};
+
+struct ProximityCount {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums&, Add add) {
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i)
+      if (is_behind_surface(ray.voxels[i])) add(i, 0, ray.occlusion_reach - ray.voxels[i].occlusion_distance);
+  }
+  static constexpr auto value = plain_sum;
+};
+
+/// Vasquez-Gomez et al. 2014: is a view's share of occupied, occluded and unknown ends near the wanted one?
+struct AreaFactor {
+  enum End { occupied, occluded, unknown };
+
+  template <class Add>
+  static void ray(const Ray& ray, GainSums& sums, Add add) {
+    bool previous_free = true;
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i) {
+      const RayVoxel& v = ray.voxels[i];
+      if (is_behind_surface(v)) return add(i, occluded, 1.0);
+      if (is_occupied(v)) {
+        if (v.has_node) sums.node_seen = true;
+        // The reference counts an occupied end only behind what it takes for free.
+        if (ray.semantics == Semantics::published || previous_free) add(i, occupied, 1.0);
+        return;
+      }
+      // `node_seen` outlives the ray: a leak of the reference code, kept for its numbers.
+      previous_free = v.has_node ? !is_unknown(v) : !sums.node_seen;
+      if (v.has_node) sums.node_seen = true;
+    }
+    if (!ray.voxels.empty()) add(ray.voxels.size() - 1, unknown, 1.0);
+  }
+
+  /// Rises from 0 to 1 at x = a and falls back to 0 at x = 1.
+  static double f(double x, double a) {
+    if (x <= a) return -2.0 * x * x * x / (a * a * a) + 3.0 * x * x / (a * a);
+    const double b = a - 1.0;
+    return (-2.0 * x * x * x + 3.0 * (a + 1.0) * x * x - 6.0 * a * x + 3.0 * a - 1.0) / (b * b * b);
+  }
+
+  static GainValue value(const GainSums& s) {
+    const double n = s.sum[occupied] + s.sum[occluded] + s.sum[unknown];
+    if (n == 0.0) return {};
+    const double of_occupied = f(s.sum[occupied] / n, 0.2), of_occluded = f(s.sum[occluded] / n, 0.8);
+    const auto each = [](double value, double count) { return count > 0.0 ? value / count : 0.0; };
+    return {of_occupied + of_occluded, {each(of_occupied, s.sum[occupied]), each(of_occluded, s.sum[occluded]), 0.0}};
+  }
+};
+
+/// Kriegel et al. 2015: mean entropy of the voxels on rays that end on the object.
+struct AverageEntropy {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums& sums, Add add) {
+    if (ray.voxels.empty() || !is_occupied(ray.voxels.back())) return;
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i) add(i, 0, ray.voxels[i].entropy);
+    sums.sum[1] += static_cast<double>(ray.voxels.size());
+  }
+  static GainValue value(const GainSums& s) {
+    if (s.sum[1] == 0.0) return {};
+    return {s.sum[0] / s.sum[1], {1.0 / s.sum[1], 0.0, 0.0}};
+  }
+};
+
+template <class G>
+constexpr Gain make(std::string_view name, std::string_view unit, std::string_view summary, bool needs_occlusion = false) {
+  return {name, unit, summary, needs_occlusion,
+          [](const Ray& ray, GainSums& sums) {
+            G::ray(ray, sums, [&sums](std::size_t, int k, double amount) { sums.sum[k] += amount; });
+          },
+          [](const GainSums& sums) { return G::value(sums); },
+          [](const Ray& ray, GainSums& sums, const std::array<double, 3>& worth, std::span<double> contribution) {
+            G::ray(ray, sums, [&](std::size_t i, int k, double amount) { contribution[i] += worth[k] * amount; });
+          }};
+}
+
+constexpr std::array all_gains = {
+    make<OcclusionAware>("occlusion-aware", "nats", "entropy along each ray, weighted by how likely the ray gets there"),
+    make<UnobservedVoxel>("unobserved-voxel", "nats", "the same, over unknown voxels only"),
+    make<RearSideVoxel>("rear-side-voxel", "voxels", "occupied voxels met from behind: right after an unknown one"),
+    make<RearSideEntropy>("rear-side-entropy", "nats", "entropy of the unknown stretch in front of an occupied end"),
+    make<ProximityCount>("proximity-count", "voxels", "unmeasured voxels behind a surface, the nearer the more", true),
+    make<AreaFactor>("area-factor", "", "nearness of the shares of occupied and occluded ends to 0.2 and 0.8", true),
+    make<AverageEntropy>("average-entropy", "nats", "mean entropy of the voxels on rays that end on the object"),
+};
+
+constexpr std::array<WeightedGain, 2> prerelease = {{{"average-entropy", 30.0}, {"rear-side-entropy", 1.0}}};
+
+double total(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+}  // namespace
+
+std::span<const Gain> gains() { return all_gains; }
+
+const Gain& gain(std::string_view name) {
+  std::string known;
+  for (const Gain& g : all_gains) {
+    if (g.name == name) return g;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", g.name);
+  }
+  throw std::invalid_argument(fmt::format("there is no gain '{}'; there are {}", name, known));
+}
+
+std::span<const WeightedGain> prerelease_weights() { return prerelease; }
+
+std::vector<double> combine(std::span<const double> weights, std::span<const std::vector<double>> values,
+                            Semantics semantics) {
+  std::vector<double> combined(values.empty() ? 0 : values.front().size(), 0.0);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double sum = semantics == Semantics::published ? total(values[k]) : 1.0;
+    if (sum == 0.0) continue;
+    for (std::size_t v = 0; v < combined.size(); ++v) combined[v] += weights[k] * values[k][v] / sum;
+  }
+  if (semantics == Semantics::reference)
+    if (const double sum = total(combined); sum != 0.0)
+      for (double& c : combined) c /= sum;
+  return combined;
+}
+
+}  // namespace nextview

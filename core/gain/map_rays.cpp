@@ -1,0 +1,23 @@
+#include "core/gain/map_rays.hpp"
+
+#include "core/map/traversal.hpp"
+
+namespace nextview {
+
+MapRays::MapRays(const VoxelGrid& grid, std::span<const Voxel> voxels, double occupancy_threshold, double max_range)
+    : grid_(grid), voxels_(voxels), occupancy_threshold_(occupancy_threshold), max_range_(max_range) {}
+
+void MapRays::cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const {
+  visited.clear();
+  walk_ray(grid_, origin, direction, max_range_, [&](int x, int y, int z) {
+    const Voxel& voxel = voxels_[grid_.index({x, y, z})];
+    RayVoxel& seen = visited.emplace_back();
+    static_cast<Voxel&>(seen) = voxel;
+    seen.has_node = voxel.measured || voxel.occlusion_distance > 0;
+    seen.lattice = {static_cast<std::int16_t>(x + grid_.first.x()), static_cast<std::int16_t>(y + grid_.first.y()),
+                    static_cast<std::int16_t>(z + grid_.first.z())};
+    return !(voxel.measured && voxel.probability >= occupancy_threshold_);
+  });
+}
+
+}  // namespace nextview

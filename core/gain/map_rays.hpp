@@ -1,0 +1,49 @@
+#pragma once
+#include <memory>
+
+#include "core/gain/ray.hpp"
+#include "core/map/occupancy_map.hpp"
+
+namespace nextview {
+
+/// Rays through a dense map, clipped to its region of interest (published semantics). The map, or whatever else made the voxels,
+/// must outlive it.
+class MapRays : public RayCaster {
+ public:
+  MapRays(const VoxelGrid& grid, std::span<const Voxel> voxels, double occupancy_threshold, double max_range);
+  void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const override;
+
+ private:
+  VoxelGrid grid_;
+  std::span<const Voxel> voxels_;
+  double occupancy_threshold_;
+  double max_range_;
+};
+
+/// The map of the reference semantics: a real pruning octree, whose quirks are part of the numbers, with its rays.
+class ReferenceMap : public RayCaster {
+ public:
+  struct Parameters {
+    double resolution = 0.01;             ///< [m]
+    InverseSensorModel model;
+    bool use_bounding_box = true;
+    Vector3 lower = Vector3::Zero();      ///< bounding box [m, world]; points outside are dropped
+    Vector3 upper = Vector3::Zero();
+    double max_sensor_range = 1.5;        ///< [m]
+    double occlusion_distance = 0.3;      ///< [m]
+    double max_ray_depth = 1.5;           ///< [m]
+  };
+
+  explicit ReferenceMap(const Parameters& parameters);
+  ~ReferenceMap() override;
+
+  void insert(const Vector3& origin, std::span<const Eigen::Vector3f> points);
+  void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const override;
+
+ private:
+  struct Tree;
+  Parameters parameters_;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace nextview

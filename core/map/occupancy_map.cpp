@@ -1,0 +1,144 @@
+#include "core/map/occupancy_map.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/map/traversal.hpp"
+
+namespace nextview {
+namespace {
+
+enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
+
+/// Cameras and points in single precision, as OctoMap has them.
+double distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const Eigen::Vector3f d = b - a;
+  return std::sqrt(static_cast<double>(d.x() * d.x() + d.y() * d.y() + d.z() * d.z()));
+}
+
+/// The point at `max_range` on the way from origin to point, with OctoMap's rounding.
+Eigen::Vector3f shortened(const Eigen::Vector3f& origin, const Eigen::Vector3f& point, double max_range) {
+  Eigen::Vector3f direction = point - origin;
+  const auto length = static_cast<float>(distance(origin, point));
+  for (float& d : direction) d /= length;
+  return origin + direction * static_cast<float>(max_range);
+}
+
+}  // namespace
+
+OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model)
+    : grid_(grid), model_(model), log_odds_(grid.voxel_count()), voxels_(grid.voxel_count()), touched_(grid.voxel_count()) {
+  model.validate();
+}
+
+void OccupancyMap::refresh(std::uint32_t voxel) {
+  Voxel& v = voxels_[voxel];
+  const double p = probability(log_odds_[voxel]);
+  v.probability = static_cast<float>(p);
+  v.entropy = static_cast<float>(entropy(p));
+  v.voxel_class = model_.classify(p);
+  v.measured = true;
+}
+
+void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
+  log_odds_[voxel] = log_odds;
+  refresh(voxel);
+}
+
+void OccupancyMap::insert(const Scan& scan, double max_range) {
+  const Eigen::Vector3f origin = scan.origin.cast<float>();
+  const auto in_grid = [&](int x, int y, int z) {
+    return unsigned(x) < unsigned(grid_.size.x()) && unsigned(y) < unsigned(grid_.size.y()) &&
+           unsigned(z) < unsigned(grid_.size.z());
+  };
+  // Hits first: a voxel where a ray ends is a hit, whatever else passes through it.
+  for (const auto& point : scan.returns) {
+    const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
+    if (grid_.contains(cell) && distance(origin, point) <= max_range) touched_[grid_.index(cell)] = hit;
+  }
+  // Rays side by side: they only ever turn `untouched` into `passed`, so their order does not matter.
+  const auto pass = [&](const PointCloud& ends) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const bool short_enough = distance(origin, ends[i]) <= max_range;
+        const Eigen::Vector3f end = short_enough ? ends[i] : shortened(origin, ends[i], max_range);
+        bool inside = false;
+        walk_segment(grid_, origin, end, [&](int x, int y, int z) {
+          if (!in_grid(x, y, z)) return !inside;  // the region is convex: a ray that left it is done
+          inside = true;
+          std::atomic_ref<std::uint8_t> touch(touched_[grid_.index({x, y, z})]);
+          if (touch.load(std::memory_order_relaxed) == untouched) touch.store(passed, std::memory_order_relaxed);
+          return true;
+        });
+      }
+    });
+  };
+  pass(scan.returns);
+  pass(scan.passes);
+
+  const auto hit_update = static_cast<float>(nextview::log_odds(model_.hit));
+  const auto miss_update = static_cast<float>(nextview::log_odds(model_.miss));
+  update_touched([&](std::uint32_t, std::uint8_t touch) { return touch == hit ? hit_update : miss_update; });
+}
+
+/// Adds update(voxel, touch) to the log-odds of each touched voxel, clamps, and clears the scratch.
+template <class Update>
+void OccupancyMap::update_touched(Update update) {
+  const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
+  const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
+  constexpr std::size_t chunk = 8;  // eight touches are looked at as one word: most voxels are untouched
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096), [&](const auto& range) {
+    for (std::size_t c = range.begin(); c != range.end(); ++c) {
+      const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
+      if (last - first == chunk) {
+        std::uint64_t word;
+        std::memcpy(&word, &touched_[first], chunk);
+        if (word == 0) continue;
+      }
+      for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
+        if (touched_[v] == untouched) continue;
+        log_odds_[v] = std::clamp(log_odds_[v] + update(v, touched_[v]), lowest, highest);
+        refresh(v);
+        touched_[v] = untouched;
+      }
+    }
+  });
+}
+
+void OccupancyMap::register_local(const OccupancyMap& local) {
+  const bool same_grid = local.grid_.first == grid_.first && local.grid_.size == grid_.size &&
+                         local.grid_.resolution == grid_.resolution;
+  if (!same_grid) throw std::invalid_argument("occupancy map: a local map must have the grid of the map it is registered into");
+  for (std::size_t v = 0; v < voxels_.size(); ++v) touched_[v] = local.voxels_[v].measured ? passed : untouched;
+  update_touched([&](std::uint32_t v, std::uint8_t) { return local.log_odds_[v]; });
+}
+
+void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double reach) {
+  const Eigen::Vector3f origin = scan.origin.cast<float>();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.returns.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Eigen::Vector3f& point = scan.returns[i];
+      const double length = distance(origin, point);
+      if (length > max_range || length == 0.0 || !grid_.contains(grid_.cell_at(point.cast<double>()))) continue;
+      const Eigen::Vector3f end = shortened(origin, point, length + reach);
+      int behind = -1;  // the return's own voxel is no. 0
+      walk_segment(grid_, point, end, [&](int x, int y, int z) {
+        if (!grid_.contains({x, y, z}) || ++behind > 255) return false;
+        Voxel& voxel = voxels_[grid_.index({x, y, z})];
+        if (behind == 0 || voxel.measured) return true;
+        std::atomic_ref<std::uint8_t> nearest(voxel.occlusion_distance);
+        std::uint8_t seen = nearest.load(std::memory_order_relaxed);
+        while ((seen == 0 || behind < seen) &&
+               !nearest.compare_exchange_weak(seen, static_cast<std::uint8_t>(behind), std::memory_order_relaxed)) {
+        }
+        return true;
+      });
+    }
+  });
+}
+
+}  // namespace nextview

@@ -1,0 +1,51 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+#include "core/map/occupancy.hpp"
+#include "core/map/voxel_grid.hpp"
+
+namespace nextview {
+
+/// The conventional occupancy map inside a region of interest: every voxel has log-odds of its own (two independence
+/// assumptions). A dense mirror of OctoMap's tree: same values to the bit, 20 times faster. Files are OctoMap's own (octree_file.hpp).
+class OccupancyMap {
+ public:
+  /// @throws std::invalid_argument if the model is not valid.
+  OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model);
+
+  /// Updates each voxel at most once: a hit where a return ends, a miss where a ray passes and none ends (as OctoMap's
+  /// insertPointCloud). Rays longer than `max_range` [m] carve up to it and end nowhere; passes carve only.
+  void insert(const Scan& scan, double max_range);
+
+  /// Adds a local map, made of one scan, to this one: the paper's registration of local octrees. Gives the same map as inserting the scan.
+  /// @throws std::invalid_argument if grid or sensor model differ.
+  void register_local(const OccupancyMap& local);
+
+  /// From each return a traversal runs `distance` [m] farther along its ray; voxels it meets unmeasured learn how far behind a
+  /// surface they are: the smallest number of steps wins. Proximity count and area factor need it, nothing else does.
+  void mark_occlusions(const Scan& scan, double max_range, double distance);
+
+  /// Sets one voxel, measured, as loading does.
+  void set_log_odds(std::uint32_t voxel, float log_odds);
+
+  const VoxelGrid& grid() const { return grid_; }
+  const InverseSensorModel& model() const { return model_; }
+  std::span<const Voxel> voxels() const { return voxels_; }
+  std::span<const float> log_odds() const { return log_odds_; }  ///< 0 where unmeasured
+
+ private:
+  void refresh(std::uint32_t voxel);
+  template <class Update>
+  void update_touched(Update update);
+
+  VoxelGrid grid_;
+  InverseSensorModel model_;
+  std::vector<float> log_odds_;
+  std::vector<Voxel> voxels_;
+  std::vector<std::uint8_t> touched_;  ///< scratch of insert: 0, pass or hit
+};
+
+}  // namespace nextview

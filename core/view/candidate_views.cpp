@@ -1,0 +1,96 @@
+#include "core/view/candidate_views.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vector3 on_sphere(double elevation, double azimuth) {
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
+/// Shares `count` views among rings in proportion to `weights`; the largest remainders get the views left over.
+std::vector<int> share_out(int count, const std::vector<double>& weights) {
+  double total = 0.0;
+  for (double w : weights) total += w;
+  std::vector<int> shares;
+  double cumulated = 0.0;
+  int given = 0;
+  for (double w : weights) {
+    cumulated += w;
+    const int upto = static_cast<int>(std::lround(count * cumulated / total));
+    shares.push_back(upto - given);
+    given = upto;
+  }
+  return shares;
+}
+
+/// Rings at the given elevations [rad], each with its share of the views; every other ring is turned by half a step.
+std::vector<Vector3> on_rings(const std::vector<double>& elevations, const std::vector<int>& shares) {
+  std::vector<Vector3> directions;
+  for (std::size_t ring = 0; ring < elevations.size(); ++ring)
+    for (int i = 0; i < shares[ring]; ++i)
+      directions.push_back(on_sphere(elevations[ring], 2.0 * pi * (i + 0.5 * (ring % 2)) / shares[ring]));
+  return directions;
+}
+
+/// Latitude rings as far apart as neighbours on a ring, from `lowest` [rad] to the pole.
+std::vector<Vector3> latitude_rings(int count, double lowest) {
+  const double area = 2.0 * pi * (1.0 - std::sin(lowest)) / count;
+  const int rings = std::max(1, static_cast<int>(std::lround((pi / 2 - lowest) / std::sqrt(area))));
+  std::vector<double> elevations, weights;
+  for (int r = 0; r < rings; ++r) {
+    elevations.push_back(lowest + (pi / 2 - lowest) * (r + 0.5) / rings);
+    weights.push_back(std::cos(elevations.back()));
+  }
+  return on_rings(elevations, share_out(count, weights));
+}
+
+std::vector<Vector3> fibonacci(int count) {
+  const double golden_angle = pi * (3.0 - std::sqrt(5.0));
+  std::vector<Vector3> directions;
+  for (int i = 0; i < count; ++i)
+    directions.push_back(on_sphere(std::asin(1.0 - (2.0 * i + 1.0) / count), golden_angle * i));
+  return directions;
+}
+
+std::vector<Vector3> equal_rings(int count, int rings) {
+  std::vector<double> elevations;
+  for (int r = 0; r < rings; ++r) elevations.push_back(rings == 1 ? 0.0 : (pi / 3) * (2.0 * r / (rings - 1) - 1.0));
+  return on_rings(elevations, share_out(count, std::vector<double>(rings, 1.0)));
+}
+
+}  // namespace
+
+void CandidateViewsConfig::validate() const {
+  if (layout == ViewLayout::file) {
+    if (file.empty()) throw std::invalid_argument("candidate views: layout 'file' needs the name of a views file");
+    return;
+  }
+  if (count < 1 || count > 10'000)
+    throw std::invalid_argument(fmt::format("candidate views: count must be from 1 to 10000, not {}", count));
+  if (!(radius >= 0.01 && radius <= 100.0))
+    throw std::invalid_argument(fmt::format("candidate views: radius must be from 0.01 to 100 m, not {}", radius));
+  if (rings < 1 || rings > count)
+    throw std::invalid_argument(fmt::format("candidate views: rings must be from 1 to the number of views, not {}", rings));
+}
+
+std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target) {
+  config.validate();
+  if (config.layout == ViewLayout::file) return read_views(config.file);
+  const auto directions = config.layout == ViewLayout::hemisphere  ? latitude_rings(config.count, 0.0)
+                          : config.layout == ViewLayout::sphere    ? latitude_rings(config.count, -pi / 2)
+                          : config.layout == ViewLayout::fibonacci ? fibonacci(config.count)
+                                                                   : equal_rings(config.count, config.rings);
+  std::vector<Pose> views;
+  for (const Vector3& direction : directions) views.push_back(look_at(target + config.radius * direction, target));
+  return views;
+}
+
+}  // namespace nextview

@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/view/pose.hpp"
+
+namespace nextview {
+
+/// How candidate views are laid out (the view space). All face the target.
+enum class ViewLayout {
+  hemisphere,  ///< latitude rings of equal spacing on the upper half of a sphere
+  sphere,      ///< latitude rings of equal spacing on the whole sphere (default)
+  rings,       ///< `rings` rings of equal size between 60 degrees above and below the horizon
+  fibonacci,   ///< spherical Fibonacci lattice on the whole sphere
+  file         ///< poses read from `file`
+};
+
+struct CandidateViewsConfig {
+  ViewLayout layout = ViewLayout::sphere;
+  int count = 48;        ///< number of views; ignored by `file`
+  double radius = 0.9;   ///< distance from the target [m]; ignored by `file`
+  int rings = 3;         ///< number of rings; `rings` only
+  std::string file;      ///< views file; `file` only
+
+  /// @throws std::invalid_argument naming the field and its bounds.
+  void validate() const;
+};
+
+std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target);
+
+}  // namespace nextview

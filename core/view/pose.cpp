@@ -1,0 +1,59 @@
+#include "core/view/pose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace nextview {
+
+Pose look_at(const Vector3& position, const Vector3& target) {
+  const Vector3 forward = (target - position).normalized();
+  // Near the vertical the world's z axis gives no sense of up.
+  const Vector3 up = std::abs(forward.z()) > 0.999 ? Vector3::UnitY() : Vector3::UnitZ();
+  const Vector3 right = forward.cross(up).normalized();
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << right, forward.cross(right), forward;
+  T_world_camera.translation() = position;
+  return T_world_camera;
+}
+
+Pose make_pose(const Vector3& position, const Eigen::Quaterniond& orientation) {
+  Pose pose = Pose::Identity();
+  pose.linear() = orientation.normalized().toRotationMatrix();
+  pose.translation() = position;
+  return pose;
+}
+
+double rotation_angle(const Pose& a, const Pose& b) {
+  return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
+}
+
+std::vector<Pose> read_views(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(fmt::format("{}: cannot be read; it should hold candidate views", file.string()));
+  const auto fail = [&](std::size_t line, const std::string& reason) {
+    return std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, reason));
+  };
+  std::string text;
+  std::size_t count = 0;
+  if (!std::getline(in, text) || !(std::istringstream(text) >> count) || count == 0 || count > 100'000)
+    throw fail(1, "expected the number of views, from 1 to 100000, alone on the first line");
+  std::vector<Pose> views;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!std::getline(in, text)) throw fail(i + 2, fmt::format("expected {} views, found {}", count, i));
+    std::istringstream line(text);
+    Eigen::Matrix<double, 7, 1> v;
+    for (double& value : v)
+      if (!(line >> value)) throw fail(i + 2, "expected a view as `x y z qx qy qz qw`");
+    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    if (!v.allFinite() || std::abs(q.norm() - 1.0) > 1e-3)
+      throw fail(i + 2, "the view's quaternion (qx qy qz qw) must be finite and of length 1");
+    views.push_back(make_pose(v.head<3>(), q));
+  }
+  return views;
+}
+
+}  // namespace nextview

@@ -1,0 +1,26 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <vector>
+
+namespace nextview {
+
+using Vector3 = Eigen::Vector3d;
+
+/// A pose is T_world_camera: it takes points of the camera frame (x right, y down, z forward, [m]) to the world.
+using Pose = Eigen::Isometry3d;
+
+/// A camera at `position` [m, world] whose z axis points at `target`; the world's z axis is up in its image.
+/// Looking straight up or down, the world's y axis takes the place of up.
+Pose look_at(const Vector3& position, const Vector3& target);
+
+Pose make_pose(const Vector3& position, const Eigen::Quaterniond& orientation);
+
+/// Angle of the rotation that takes the orientation of `a` to that of `b` [rad], in [0, pi].
+double rotation_angle(const Pose& a, const Pose& b);
+
+/// The views file: a count, then one view a line as `x y z qx qy qz qw` (T_world_camera, [m]).
+/// @throws std::runtime_error naming the file, the line and what is wrong with it.
+std::vector<Pose> read_views(const std::filesystem::path& file);
+
+}  // namespace nextview
