@@ -35,8 +35,7 @@ struct CloudConfig {
 /// The returns after outlier removal and down-sampling, each if switched on. Outlier removal keeps the order;
 /// down-sampling puts one centroid a leaf, in the order of the leaves (x fastest).
 /// @throws std::invalid_argument if the configuration is not valid, or if the leaf is too small for the cloud's extent
-/// (PCL numbers
-///         leaves with 32 bits).
+///         (PCL numbers leaves with 32 bits).
 PointCloud clean(const PointCloud& returns, const CloudConfig& config);
 
 /// Binary little-endian PLY with x y z floats. Written beside the file, then renamed.
@@ -45,8 +44,7 @@ void write_ply(const PointCloud& cloud, const std::filesystem::path& file);
 
 /// The vertices of an ASCII or binary PLY file; other elements and properties are passed over.
 /// @throws std::runtime_error with one line that names the file and the reason: missing, not PLY, truncated, claims
-/// more than the file
-///         holds, no x y z, not finite.
+///         more than the file holds, no x y z, not finite.
 PointCloud read_ply(const std::filesystem::path& file);
 
 }  // namespace nextview

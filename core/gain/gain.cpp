@@ -88,8 +88,9 @@ struct AreaFactor {
   /// Rises from 0 to 1 at x = a and falls back to 0 at x = 1.
   static double f(double x, double a) {
     if (x <= a) return -2.0 * x * x * x / (a * a * a) + 3.0 * x * x / (a * a);
-    const double b = a - 1.0;
-    return (-2.0 * x * x * x + 3.0 * (a + 1.0) * x * x - 6.0 * a * x + 3.0 * a - 1.0) / (b * b * b);
+    const double b = (a - 1.0) * (a - 1.0) * (a - 1.0);
+    // Term by term, as the reference code has it: a share of 1 gives 2.8e-14 there, not 0.
+    return -2.0 / b * x * x * x + 3.0 * (a + 1.0) / b * x * x - 6.0 * a / b * x + (3.0 * a - 1.0) / b;
   }
 
   static GainValue value(const GainSums& s) {

@@ -11,11 +11,15 @@ using octomap::KeySet;
 using octomap::OcTreeKey;
 using octomap::point3d;
 
-/// Expansion and pruning copy the value only: the other two fields keep what the node had.
+/// Pruning and expansion copy the value only: the other fields of the node that is left, or made, start anew, as measured.
 class Node : public octomap::OcTreeNode {
  public:
-  bool measured = false;
+  bool unmeasured = false;     ///< made by an occlusion traversal, and no measurement has landed here since
   int occlusion_distance = 0;  ///< 0: not behind a surface
+
+  bool operator==(const Node& other) const {  // what pruning takes for equal
+    return value == other.value && unmeasured == other.unmeasured && occlusion_distance == other.occlusion_distance;
+  }
 };
 
 point3d to_octomap(const Vector3& p) {
@@ -31,12 +35,22 @@ struct ReferenceMap::Tree : octomap::OccupancyOcTreeBase<Node> {
 
   void measure(const OcTreeKey& key, bool occupied) {
     Node* node = search(key);
-    if (node && !node->measured) {
+    if (node && node->unmeasured) {
       node->setLogOdds(occupied ? prob_hit_log : prob_miss_log);  // for a collapsed block, the whole of it
+      node->unmeasured = false;
     } else {
-      node = updateNode(key, occupied, true);
+      updateNode(key, occupied);
     }
-    node->measured = true;
+  }
+
+  void occlude(const OcTreeKey& key, int distance) {
+    Node* node = search(key);
+    if (!node) {
+      node = updateNode(key, false);  // may complete a block: then this is the whole of it
+      node->unmeasured = true;
+    }
+    if (!node->unmeasured) return;
+    if (node->occlusion_distance == 0 || distance < node->occlusion_distance) node->occlusion_distance = distance;
   }
 };
 
@@ -65,7 +79,7 @@ void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f
   for (const Eigen::Vector3f& p : points) {
     if (outside(p)) continue;
     const point3d point(p.x(), p.y(), p.z());
-    if ((point - from).norm() <= parameters_.max_sensor_range) {
+    if ((point - from).norm() <= parameters_.max_sensor_range + 1e-6) {
       if (tree_->computeRayKeys(from, point, ray)) free.insert(ray.begin(), ray.end());
       occupied.insert(tree_->coordToKey(point));
       inserted.push_back(point);
@@ -83,11 +97,7 @@ void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f
     if (!tree_->computeRayKeys(point, end, ray)) continue;
     int behind = -1;
     for (const OcTreeKey& key : ray) {
-      if (++behind == 0) continue;  // the point's own voxel
-      Node* node = tree_->search(key);
-      if (!node) node = tree_->updateNode(key, false);
-      if (node->measured) continue;
-      if (node->occlusion_distance == 0 || behind < node->occlusion_distance) node->occlusion_distance = behind;
+      if (++behind > 0) tree_->occlude(key, behind);  // no. 0 is the point's own voxel
     }
   }
 }
@@ -107,9 +117,9 @@ void ReferenceMap::cast(const Vector3& origin, const Vector3& direction, std::ve
     const Node* node = tree_->search(key);
     voxel.has_node = node != nullptr;
     if (!node) return;
-    voxel.measured = node->measured;
+    voxel.measured = !node->unmeasured;
     voxel.occlusion_distance = static_cast<std::uint8_t>(std::min(node->occlusion_distance, 255));
-    if (!node->measured) return;
+    if (node->unmeasured) return;
     const double p = node->getOccupancy();
     voxel.probability = static_cast<float>(p);
     voxel.entropy = static_cast<float>(entropy(p));

@@ -1,0 +1,105 @@
+#include "core/mesh/file_claims.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+namespace nextview {
+namespace {
+
+std::uint32_t little_endian_32(std::string_view bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (int i = 3; i >= 0; --i) value = value << 8 | static_cast<unsigned char>(bytes[offset + i]);
+  return value;
+}
+
+bool is_text(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(),
+                     [](char c) { return c >= ' ' || c == '\n' || c == '\r' || c == '\t'; });
+}
+
+std::string false_text_stl_claim(std::string_view bytes) {
+  // Writers end with "endsolid"; readers do not ask for it, and a part of the surface would be missing in silence.
+  const std::string_view tail = bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 1000));
+  return tail.find("endsolid") == std::string_view::npos ? "is truncated: an STL text must end with 'endsolid'" : "";
+}
+
+std::string false_stl_claim(std::string_view bytes) {
+  constexpr std::size_t header = 84, triangle = 50;
+  const std::uint64_t triangles = bytes.size() >= header ? little_endian_32(bytes, header - 4) : 0;
+  const std::uint64_t expected = header + triangle * triangles;
+  if (bytes.size() == expected) return "";
+  // Binary headers may begin with "solid" too; only a text has no bytes but characters.
+  if (bytes.starts_with("solid") && is_text(bytes.substr(0, 500))) return false_text_stl_claim(bytes);
+  if (bytes.size() < header)
+    return "is neither an STL text nor long enough for a binary STL's header; it may be truncated";
+  return fmt::format(
+      "its STL header claims {} triangles, which take {} bytes, but the file has {}; it may be truncated", triangles,
+      expected, bytes.size());
+}
+
+/// Takes the next number off the front of `text`; negative if there is none.
+std::int64_t take_count(std::string_view& text) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos) return -1;
+  text.remove_prefix(start);
+  std::int64_t count = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc()) return -1;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return count;
+}
+
+/// Lines that hold something besides a comment.
+std::int64_t lines_of_content(std::string_view text) {
+  std::int64_t lines = 0;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const std::size_t start = line.find_first_not_of(" \t\r");
+    lines += start != std::string_view::npos && line[start] != '#';
+  }
+  return lines;
+}
+
+std::string false_off_claim(std::string_view bytes) {
+  const std::size_t keyword = bytes.substr(0, 20).find("OFF");
+  if (keyword == std::string_view::npos) return "does not begin with OFF";
+  std::string_view rest = bytes.substr(keyword + 3);
+  for (std::size_t start; (start = rest.find_first_not_of(" \t\r\n")) != std::string_view::npos && rest[start] == '#';)
+    rest.remove_prefix(std::min(rest.size(), rest.find('\n', start)));
+  const std::int64_t vertices = take_count(rest), faces = take_count(rest), edges = take_count(rest);
+  if (vertices < 0 || faces < 0 || edges < 0)
+    return "its OFF header must hold the numbers of vertices, faces and edges";
+  rest.remove_prefix(std::min(rest.size(), rest.find('\n')));
+  const std::int64_t lines = lines_of_content(rest);
+  if (vertices <= lines && faces <= lines - vertices) return "";
+  return fmt::format("its OFF header claims {} vertices and {} faces, but {} lines follow; it may be truncated",
+                     vertices, faces, lines);
+}
+
+std::string false_glb_claim(std::string_view bytes) {
+  constexpr std::size_t header = 12, chunk_header = 8;
+  if (bytes.size() < header + chunk_header || !bytes.starts_with("glTF")) return "is not a binary glTF";
+  const std::uint64_t length = little_endian_32(bytes, 8);
+  for (std::uint64_t chunk = header; chunk + chunk_header <= length && length <= bytes.size();) {
+    chunk += chunk_header + little_endian_32(bytes, chunk);
+    if (chunk > length) return "one of its glTF chunks claims to be longer than the file; it may be truncated";
+  }
+  if (length <= bytes.size()) return "";
+  return fmt::format("its glTF header claims {} bytes, but the file has {}; it may be truncated", length, bytes.size());
+}
+
+}  // namespace
+
+std::string false_claim(std::string_view extension, std::string_view bytes) {
+  if (extension == ".ply") return false_ply_claim(bytes);
+  if (extension == ".stl") return false_stl_claim(bytes);
+  if (extension == ".off") return false_off_claim(bytes);
+  if (extension == ".glb") return false_glb_claim(bytes);
+  return "";
+}
+
+}  // namespace nextview

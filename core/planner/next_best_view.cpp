@@ -1,0 +1,49 @@
+#include "core/planner/next_best_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nextview {
+namespace {
+
+/// Gains that differ by less than this share of the largest count as tied.
+constexpr double tie = 1e-9;
+
+std::string why_degenerate(const std::vector<double>& gains) {
+  if (gains.size() < 2) return "";
+  const auto [least, most] = std::minmax_element(gains.begin(), gains.end());
+  if (*most == 0.0 && *least == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
+  if (*most - *least <= tie * std::abs(*most))
+    return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", *most);
+  const auto ties = std::count_if(gains.begin(), gains.end(), [&](double g) { return *most - g <= tie * std::abs(*most); });
+  if (ties * 2 > static_cast<std::ptrdiff_t>(gains.size()))
+    return fmt::format("{} of {} candidates tie at the largest gain, {:.6g}", ties, gains.size(), *most);
+  return "";
+}
+
+}  // namespace
+
+Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights) {
+  double gain_sum = 0.0, cost_sum = 0.0;
+  std::vector<double> gains;
+  for (const Candidate& c : candidates) {
+    if (!c.available) continue;
+    gain_sum += c.gain;
+    cost_sum += c.cost;
+    gains.push_back(c.gain);
+  }
+  Ranking ranking;
+  for (std::size_t v = 0; v < candidates.size(); ++v) {
+    Candidate& c = candidates[v];
+    c.utility = 0.0;
+    if (!c.available) continue;
+    if (gain_sum != 0.0) c.utility += weights.gain * c.gain / gain_sum;  // Eq. 13
+    if (cost_sum != 0.0) c.utility -= weights.cost * c.cost / cost_sum;
+    if (!ranking.best || c.utility > candidates[*ranking.best].utility) ranking.best = v;  // Eq. 14
+  }
+  ranking.degenerate = why_degenerate(gains);
+  return ranking;
+}
+
+}  // namespace nextview

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nextview {
+
+/// One candidate view as the planner ranks it.
+struct Candidate {
+  bool available = true;  ///< not yet visited, and reachable
+  double gain = 0.0;      ///< in the gain's own unit
+  double cost = 0.0;      ///< of going there (distance [m])
+  double utility = 0.0;   ///< set by rank()
+};
+
+struct UtilityWeights {
+  double gain = 1.0;
+  double cost = 1.0;
+};
+
+/// A ranking and whether it says anything.
+struct Ranking {
+  std::optional<std::size_t> best;  ///< Eq. 14; nothing if no candidate is available. Ties go to the first in list order
+  std::string degenerate;           ///< why the gains do not tell the candidates apart; empty if they do
+};
+
+/// Sets the utility of the available candidates, U = w_g G / sum G - w_c C / sum C (Eq. 13; a term whose sum is 0 is 0), and finds the
+/// next best view.
+Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights);
+
+}  // namespace nextview

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+
+namespace nextview {
+
+/// When a scan is done. Each criterion but the number of views is off at 0.
+struct TerminationConfig {
+  int views = 20;              ///< after this many views
+  double coverage = 0.0;       ///< surface coverage reached, of what can be seen, at d_reg
+  double gain = 0.0;           ///< the best gain fell to this share of the first step's
+  double new_voxels = 0.0;     ///< a view measured less than this share of the region's voxels for the first time
+  double entropy_slope = 0.0;  ///< a view lowered the map's entropy (Eq. 18) by less than this share
+
+  /// @throws std::invalid_argument naming the field and its bounds.
+  void validate() const;
+};
+
+/// How far a scan has come, as the criteria see it.
+struct ScanProgress {
+  int views = 0;
+  double coverage = 0.0;       ///< of visible surface
+  double best_gain = 0.0;      ///< of the candidates left
+  double first_gain = 0.0;     ///< best gain after the first view
+  double new_voxel_share = 1.0;
+  double entropy_drop_share = 1.0;
+  bool candidates_left = true;
+};
+
+/// Why the scan is done, for people; empty while it is not.
+std::string termination_reason(const TerminationConfig& config, const ScanProgress& progress);
+
+}  // namespace nextview

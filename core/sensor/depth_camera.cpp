@@ -1,0 +1,112 @@
+#include "core/sensor/depth_camera.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/random/counter_random.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+/// Noise may bring a surface from beyond the maximum range into it; the draws stay within this many standard
+/// deviations.
+constexpr double largest_noise = 7.0;
+void require(double value, double lowest, double highest, const char* field, const char* unit) {
+  if (!(value >= lowest && value <= highest))
+    throw std::invalid_argument(
+        fmt::format("depth camera: {} = {} must lie between {} and {}{}", field, value, lowest, highest, unit));
+}
+
+/// Four rows of an image, or what is left of it. Taken column by column, 16 pixels in a row are a block of 4 x 4: rays
+/// that stay together.
+struct Strip {
+  static constexpr int height = 4;
+  int width, first_row, rows;
+
+  Strip(int index, const PinholeCamera& camera)
+      : width(camera.width), first_row(index * height), rows(std::min(height, camera.height - first_row)) {}
+  static int count(const PinholeCamera& camera) { return (camera.height + height - 1) / height; }
+  int pixels() const { return rows * width; }
+  std::size_t pixel(int i) const { return std::size_t(first_row + i % rows) * width + i / rows; }
+};
+
+std::vector<RayScene::Hit> cast(const RayScene& scene, const Pose& T_world_camera, const Strip& strip,
+                                const std::vector<Eigen::Vector3f>& directions, double reach) {
+  const Eigen::Matrix3d R_world_camera = T_world_camera.linear();
+  std::vector<Eigen::Vector3f> rays(strip.pixels());
+  for (int i = 0; i < strip.pixels(); ++i)
+    rays[i] = (R_world_camera * directions[strip.pixel(i)].cast<double>()).cast<float>();
+  std::vector<RayScene::Hit> hits(rays.size());
+  scene.cast(T_world_camera.translation(), rays, static_cast<float>(reach), hits);
+  return hits;
+}
+
+/// `to_range(pixel, hit)` makes a pixel of what its ray met within `reach` [m].
+template <class ToRange>
+DepthImage sense_image(const RayScene& scene, const Pose& T_world_camera, const PinholeCamera& camera,
+                       const std::vector<Eigen::Vector3f>& directions, double reach, const ToRange& to_range) {
+  DepthImage image{camera, std::vector<float>(directions.size())};
+  tbb::parallel_for(0, Strip::count(camera), [&](int index) {
+    const Strip strip(index, camera);
+    const std::vector<RayScene::Hit> hits = cast(scene, T_world_camera, strip, directions, reach);
+    for (int i = 0; i < strip.pixels(); ++i) image.range[strip.pixel(i)] = to_range(strip.pixel(i), hits[i]);
+  });
+  return image;
+}
+
+}  // namespace
+
+void DepthCameraConfig::validate() const {
+  require(width, 1, 16384, "width", " px");
+  require(height, 1, 16384, "height", " px");
+  require(field_of_view, 1.0, 170.0, "field_of_view", " deg");
+  require(max_range, 0.001, 1000.0, "max_range", " m");
+  require(min_range, 0.0, max_range, "min_range", " m (max_range)");
+  require(range_noise, 0.0, 1.0, "range_noise", " m");
+  require(dropout, 0.0, 1.0, "dropout", "");
+  require(grazing_limit, 0.0, 90.0, "grazing_limit", " deg");
+}
+
+PinholeCamera DepthCameraConfig::camera() const {
+  return PinholeCamera::from_field_of_view(width, height, field_of_view * degree);
+}
+
+DepthCamera::DepthCamera(const DepthCameraConfig& config) : config_(config) {
+  config.validate();
+  camera_ = config.camera();
+  directions_.reserve(std::size_t(camera_.width) * camera_.height);
+  for (int v = 0; v < camera_.height; ++v)
+    for (int u = 0; u < camera_.width; ++u) directions_.push_back(camera_.direction(u, v).cast<float>());
+}
+
+DepthImage DepthCamera::sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed,
+                              std::uint32_t view_index) const {
+  const CounterRandom noise(seed, random_stream::range_noise, view_index);
+  const CounterRandom dropout(seed, random_stream::dropout, view_index);
+  const double grazing_cosine = std::cos(config_.grazing_limit * degree);
+  const auto to_range = [&](std::size_t pixel, const RayScene::Hit& hit) {
+    if (config_.dropout > 0.0 && dropout.uniform(pixel)[0] < config_.dropout) return DepthImage::invalid;
+    if (DepthImage::is_beyond_range(hit.range)) return DepthImage::beyond_range;
+    const auto range = static_cast<float>(hit.range + config_.range_noise * noise.normal(pixel)[0]);
+    if (range > config_.max_range) return DepthImage::beyond_range;
+    return hit.cosine < grazing_cosine || range < config_.min_range ? DepthImage::invalid : range;
+  };
+  const double reach = config_.max_range + largest_noise * config_.range_noise;
+  return sense_image(scene, T_world_camera, camera_, directions_, reach, to_range);
+}
+
+DepthImage DepthCamera::sense_ideal(const RayScene& scene, const Pose& T_world_camera) const {
+  const auto to_range = [&](std::size_t, const RayScene::Hit& hit) {
+    return hit.range > config_.max_range   ? DepthImage::beyond_range
+           : hit.range < config_.min_range ? DepthImage::invalid
+                                           : hit.range;
+  };
+  return sense_image(scene, T_world_camera, camera_, directions_, config_.max_range, to_range);
+}
+
+}  // namespace nextview

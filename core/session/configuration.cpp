@@ -1,0 +1,214 @@
+#include "core/session/configuration.hpp"
+
+#include <fmt/format.h>
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/file/atomic_file.hpp"
+#include "core/gain/gain.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array baselines = {"random", "farthest", "fixed-order", "covering-order", "oracle"};
+
+/// A TOML value as a setting takes it. Whole numbers do for numbers.
+std::string value_text(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  throw std::invalid_argument("takes a single value");
+}
+
+class TomlReader {
+ public:
+  /// With `only`, keys outside of that section are errors.
+  TomlReader(const fs::path& file, Configuration& configuration, std::string only = "")
+      : file_(file), only_(std::move(only)), configuration_(configuration), settings_(settings(configuration)) {
+    for (const Setting& s : settings_) keys_.push_back(s.key);
+  }
+
+  void read(const std::string& text) {
+    toml::table table;
+    try {
+      table = toml::parse(text, file_.string());
+    } catch (const toml::parse_error& error) {
+      throw failure(error.source().begin.line, std::string(error.description()));
+    }
+    // The preset first: what else the file says of the sensor overrides it.
+    if (const auto preset = table.at_path("sensor.preset").value<std::string>(); preset && only_.empty())
+      apply_sensor_preset(configuration_, *preset);
+    apply(table, "");
+  }
+
+ private:
+  void apply(const toml::table& table, const std::string& prefix) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      if (const auto* inner = node.as_table()) {
+        apply(*inner, key + ".");
+        continue;
+      }
+      const auto setting = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+      const auto line = node.source().begin.line;
+      if (setting == settings_.end())
+        throw failure(line, fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys_)));
+      if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
+        throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
+      try {
+        setting->set(value_text(node));
+      } catch (const std::invalid_argument& error) {
+        throw failure(line, error.what());
+      }
+    }
+  }
+
+  std::runtime_error failure(std::uint32_t line, const std::string& reason) const {
+    return std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line, reason));
+  }
+
+  fs::path file_;
+  std::string only_;
+  Configuration& configuration_;
+  std::vector<Setting> settings_;
+  std::vector<std::string> keys_;
+};
+
+void require(bool good, const std::string& what) {
+  if (!good) throw std::invalid_argument(what);
+}
+
+}  // namespace
+
+std::vector<std::string> gain_names() {
+  std::vector<std::string> names;
+  for (const Gain& g : gains()) names.emplace_back(g.name);
+  names.emplace_back("combined");
+  names.insert(names.end(), baselines.begin(), baselines.end());
+  return names;
+}
+
+bool is_baseline(const std::string& name) {
+  return std::find(baselines.begin(), baselines.end(), name) != baselines.end();
+}
+
+std::vector<std::pair<std::string, double>> parse_combined_weights(const std::string& text) {
+  std::vector<std::pair<std::string, double>> weights;
+  if (text.empty()) {
+    for (const WeightedGain& w : prerelease_weights()) weights.emplace_back(w.name, w.weight);
+    return weights;
+  }
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto equals = part.find('=');
+    char* end = nullptr;
+    const double weight = equals == std::string::npos ? NAN : std::strtod(part.c_str() + equals + 1, &end);
+    require(std::isfinite(weight) && *end == '\0' && end != part.c_str() + equals + 1,
+            fmt::format("planner.combined_weights takes `gain=weight,gain=weight`, not '{}'", part));
+    weights.emplace_back(gain(part.substr(0, equals)).name, weight);
+  }
+  return weights;
+}
+
+void Configuration::validate() const {
+  sensor.validate();
+  cloud.validate();
+  views.validate();
+  termination.validate();
+  map.model.validate();
+  const auto in = [](double value, double low, double high, const char* key, const char* unit) {
+    require(value >= low && value <= high, fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
+  };
+  require(object.longest_side == 0.0 || (object.longest_side >= 1e-3 && object.longest_side <= 100.0),
+          fmt::format("object.longest_side must be 0 or from 0.001 to 100 m, not {}", object.longest_side));
+  in(map.resolution, 1e-4, 1.0, "map.resolution", " m");
+  in(map.region_edge, 1e-3, 1000.0, "map.region_edge", " m");
+  in(map.region_edge / map.resolution, 1.0, 512.0, "map.region_edge / map.resolution", " voxels");
+  in(planner.ray_columns, 1, 2000, "planner.ray_columns", "");
+  in(planner.ray_rows, 1, 2000, "planner.ray_rows", "");
+  in(planner.ray_length, 1e-3, 1000.0, "planner.ray_length", " m");
+  in(planner.weights.gain, 0.0, 1e6, "planner.gain_weight", "");
+  in(planner.weights.cost, 0.0, 1e6, "planner.cost_weight", "");
+  in(planner.start_azimuth, -360.0, 360.0, "planner.start_azimuth", " deg");
+  in(planner.start_elevation, -90.0, 90.0, "planner.start_elevation", " deg");
+  in(evaluation.d_reg, 1e-5, 1.0, "evaluation.d_reg", " m");
+  in(evaluation.surface_samples, 1, 10'000'000, "evaluation.surface_samples", "");
+  const auto names = gain_names();
+  require(std::find(names.begin(), names.end(), planner.gain) != names.end(),
+          fmt::format("there is no gain '{}'; did you mean '{}'?", planner.gain, nearest(planner.gain, names)));
+  require(planner.gain != "oracle" || evaluation.enabled, "planner.gain oracle needs evaluation.enabled");
+  parse_combined_weights(planner.combined_weights);
+}
+
+Configuration read_configuration(const fs::path& file, const Configuration& base) {
+  Configuration configuration = base;
+  TomlReader(file, configuration).read(read_file(file, 1 << 20));
+  return configuration;
+}
+
+std::string to_toml(const Configuration& configuration) {
+  Configuration copy = configuration;
+  std::string text, section;
+  for (const Setting& s : settings(copy)) {
+    const auto dot = s.key.find('.');
+    const std::string room = dot == std::string::npos ? "" : s.key.substr(0, dot);
+    if (room != section) text += fmt::format("\n[{}]\n", room);
+    section = room;
+    std::ostringstream value;
+    if (std::holds_alternative<std::string*>(s.value) || std::holds_alternative<Setting::Choice>(s.value))
+      value << toml::value<std::string>(s.text());
+    else
+      value << s.text();
+    text += fmt::format("{} = {}  # {}{}\n", s.key.substr(dot == std::string::npos ? 0 : dot + 1), value.str(), s.help,
+                        s.unit.empty() ? "" : fmt::format(" [{}]", s.unit));
+  }
+  return text;
+}
+
+void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
+  fs::path file = assets_folder() / "sensors" / (preset + ".toml");
+  if (!fs::exists(file)) file = preset;
+  if (!fs::exists(file)) {
+    std::vector<std::string> known;
+    for (const auto& entry : fs::directory_iterator(assets_folder() / "sensors")) known.push_back(entry.path().stem());
+    std::sort(known.begin(), known.end());
+    throw std::runtime_error(
+        fmt::format("there is no sensor '{}'; there are {}, or give a file", preset, fmt::join(known, ", ")));
+  }
+  configuration.sensor = {};
+  TomlReader(file, configuration, "sensor.").read(read_file(file, 1 << 20));
+  configuration.sensor_preset = preset;
+}
+
+fs::path assets_folder() {
+  const char* folder = std::getenv("NEXTVIEW_ASSETS");
+  return folder ? folder : NEXTVIEW_ASSETS_DIR;
+}
+
+fs::path default_object() {
+  const fs::path gearbox = "/usr/share/opencascade/data/stl/TR12J_OCC.stl";
+  return fs::exists(gearbox) ? gearbox : assets_folder() / "objects" / "slotted_housing.ply";
+}
+
+fs::path resolve_object(const std::string& name) {
+  if (name.empty()) return default_object();
+  if (fs::exists(name)) return name;
+  if (name == "gearbox") return default_object();
+  if (name == "bunny") return "/usr/share/glmark2/models/bunny.obj";
+  for (const char* ending : {"", ".ply"}) {
+    const fs::path file = assets_folder() / "objects" / (name + ending);
+    if (fs::exists(file)) return file;
+  }
+  throw std::runtime_error(fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
+}
+
+}  // namespace nextview

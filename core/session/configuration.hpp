@@ -1,0 +1,115 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+#include "core/gain/ray.hpp"
+#include "core/map/occupancy.hpp"
+#include "core/planner/next_best_view.hpp"
+#include "core/planner/termination.hpp"
+#include "core/sensor/depth_camera.hpp"
+#include "core/view/candidate_views.hpp"
+
+namespace nextview {
+
+struct ObjectConfig {
+  std::string file;           ///< mesh file; empty: the default object
+  double longest_side = 0.5;  ///< the mesh is scaled to this [m]; 0 keeps its size
+};
+
+enum class Insertion { local_octree, direct };
+
+struct MapConfig {
+  double resolution = 0.01;   ///< voxel edge [m]
+  double region_edge = 1.28;  ///< edge of the region of interest, a cube around the object [m]
+  Insertion insertion = Insertion::local_octree;
+  InverseSensorModel model;
+};
+
+struct PlannerConfig {
+  std::string gain = "occlusion-aware";  ///< one of gain_names()
+  Semantics semantics = Semantics::published;
+  UtilityWeights weights;
+  std::string combined_weights;   ///< `gain=weight,gain=weight`; empty: the pre-release weights
+  int ray_columns = 38;           ///< rays that score a view
+  int ray_rows = 25;
+  double ray_length = 1.5;        ///< [m]
+  double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
+  double start_elevation = 20.0;  ///< [deg]
+};
+
+struct EvaluationConfig {
+  bool enabled = true;             ///< compare with the mesh after each view
+  double d_reg = 0.005;            ///< registration distance of surface coverage [m]; the paper's 0.0005 is always reported too
+  int surface_samples = 50'000;
+};
+
+/// Everything that decides what a scan does: the same configuration gives the same bytes.
+struct Configuration {
+  std::uint64_t seed = 1;
+  ObjectConfig object;
+  std::string sensor_preset = "paper";
+  DepthCameraConfig sensor;
+  CloudConfig cloud;
+  MapConfig map;
+  CandidateViewsConfig views;
+  PlannerConfig planner;
+  TerminationConfig termination;
+  EvaluationConfig evaluation;
+
+  /// @throws std::invalid_argument naming the field and its bounds.
+  void validate() const;
+};
+
+/// Every name that `planner.gain` takes: the gains, the combination, and the baselines.
+std::vector<std::string> gain_names();
+/// 'random', 'farthest', 'fixed-order', 'covering-order' and 'oracle' rank views by other means than volumetric information.
+bool is_baseline(const std::string& gain);
+
+/// `average-entropy=30,rear-side-entropy=1`. @throws std::invalid_argument
+std::vector<std::pair<std::string, double>> parse_combined_weights(const std::string& text);
+
+/// One setting of a configuration. Files, the command line, `--help` and panels are all made from the list of these.
+struct Setting {
+  struct Choice {
+    std::vector<std::string> names;
+    std::function<std::size_t()> get;
+    std::function<void(std::size_t)> set;
+  };
+  std::string key;   ///< as in the file and, behind `--`, on the command line: "sensor.range_noise"
+  std::string unit;  ///< "m", "deg", …; empty if it has none
+  std::string help;
+  std::variant<bool*, int*, double*, std::uint64_t*, std::string*, Choice> value;
+
+  std::string text() const;
+  /// @throws std::invalid_argument naming the key and what it takes.
+  void set(const std::string& text);
+};
+
+/// The settings of `configuration`, which must outlive them.
+std::vector<Setting> settings(Configuration& configuration);
+
+/// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the nearest known one.
+/// @throws std::runtime_error "file:line: reason".
+Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = {});
+std::string to_toml(const Configuration& configuration);
+
+/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path. @throws std::runtime_error
+void apply_sensor_preset(Configuration& configuration, const std::string& preset);
+
+/// Files that come with the program. NEXTVIEW_ASSETS in the environment overrides where they are.
+std::filesystem::path assets_folder();
+/// The gearbox housing of Debian's occt-misc, or, where that is not installed, the slotted housing of assets/objects.
+std::filesystem::path default_object();
+/// What `object.file` means: a path; else a name in assets/objects, with or without .ply; "bunny" and "gearbox"; empty: the default.
+/// @throws std::runtime_error if it is none of these.
+std::filesystem::path resolve_object(const std::string& name);
+
+/// Of `known`, the one that `word` is most likely meant to be.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace nextview

@@ -1,0 +1,124 @@
+#include "core/session/known_object.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/random/counter_random.hpp"
+
+namespace nextview {
+namespace {
+
+std::vector<Eigen::Vector3f> sample_normals(const TriangleMesh& mesh, const SurfaceSamples& samples) {
+  std::vector<Eigen::Vector3f> normals;
+  for (const std::uint32_t t : samples.triangles) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    normals.push_back((mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized());
+  }
+  return normals;
+}
+
+}  // namespace
+
+KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera,
+                         std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
+                         std::uint64_t seed, const Progress& progress, std::stop_token stop)
+    : scene_(scene),
+      camera_(camera),
+      samples_(sample_surface(mesh, surface_samples, seed)),
+      normals_(sample_normals(mesh, samples_)),
+      seen_from_(see_from(candidates, progress, stop)),
+      seen_(samples_.points.size()),
+      truth_(ground_truth(mesh, grid)),
+      coverage_(samples_.points, seen_by_any(), d_reg),
+      coverage_paper_(samples_.points, seen_by_any(), paper_d_reg) {
+  if (stop.stop_requested()) throw std::runtime_error("stopped");
+}
+
+std::vector<std::vector<std::uint32_t>> KnownObject::see_from(std::span<const Pose> candidates, const Progress& progress,
+                                                              std::stop_token stop) const {
+  std::vector<std::vector<std::uint32_t>> seen_from(candidates.size());
+  std::atomic<std::size_t> done = 0;
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t v) {
+    if (stop.stop_requested()) return;
+    seen_from[v] = samples_seen(candidates[v]);
+    if (progress) progress(double(++done) / double(candidates.size()), "finding what each candidate can see");
+  });
+  return seen_from;
+}
+
+std::vector<std::uint8_t> KnownObject::seen_by_any() const {
+  std::vector<std::uint8_t> seen(samples_.points.size());
+  for (const auto& samples : seen_from_)
+    for (const std::uint32_t s : samples) seen[s] = 1;
+  return seen;
+}
+
+std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera) const {
+  const DepthCameraConfig& config = camera_.config();
+  const Eigen::Vector3f origin = T_world_camera.translation().cast<float>();
+  const Pose T_camera_world = T_world_camera.inverse();
+  const float least_cosine = static_cast<float>(std::cos(config.grazing_limit * std::numbers::pi / 180.0));
+
+  std::vector<std::uint32_t> in_image;
+  std::vector<Eigen::Vector3f> directions;
+  std::vector<float> ranges;
+  for (std::uint32_t s = 0; s < samples_.points.size(); ++s) {
+    const Eigen::Vector3f to_sample = samples_.points[s] - origin;
+    const float range = to_sample.norm();
+    const Vector3 in_camera = T_camera_world * samples_.points[s].cast<double>();
+    if (range < config.min_range || range > config.max_range || in_camera.z() <= 0.0) continue;
+    const Eigen::Vector2d pixel = camera_.camera().project(in_camera);
+    if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > config.width - 0.5 || pixel.y() > config.height - 0.5) continue;
+    const Eigen::Vector3f direction = to_sample / range;
+    if (std::abs(direction.dot(normals_[s])) < least_cosine) continue;
+    in_image.push_back(s);
+    directions.push_back(direction);
+    ranges.push_back(range);
+  }
+  std::vector<RayScene::Hit> hits(directions.size());
+  scene_.cast(T_world_camera.translation(), directions, static_cast<float>(config.max_range) + 0.01f, hits);
+  constexpr float tolerance = 5e-4f;  // the sample lies on the surface: the ray meets it, give or take rounding [m]
+  std::vector<std::uint32_t> seen;
+  for (std::size_t i = 0; i < in_image.size(); ++i)
+    if (hits[i].range > ranges[i] - tolerance) seen.push_back(in_image[i]);
+  return seen;
+}
+
+void KnownObject::add_view(const Pose& T_world_camera, const PointCloud& points) {
+  for (const std::uint32_t s : samples_seen(T_world_camera)) seen_[s] = 1;
+  coverage_.add(points);
+  coverage_paper_.add(points);
+}
+
+std::size_t KnownObject::new_samples(std::size_t candidate) const {
+  const auto& samples = seen_from_[candidate];
+  return static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [&](std::uint32_t s) { return !seen_[s]; }));
+}
+
+std::vector<std::size_t> KnownObject::covering_order(std::uint64_t seed) const {
+  std::vector<std::size_t> cover, others(seen_from_.size());
+  std::iota(others.begin(), others.end(), std::size_t{0});
+  std::vector<std::uint8_t> covered(samples_.points.size());
+  const auto adds = [&](std::size_t view) {
+    return std::count_if(seen_from_[view].begin(), seen_from_[view].end(), [&](std::uint32_t s) { return !covered[s]; });
+  };
+  while (!others.empty()) {
+    const auto best = std::max_element(others.begin(), others.end(), [&](auto a, auto b) { return adds(a) < adds(b); });
+    if (adds(*best) == 0) break;
+    for (const std::uint32_t s : seen_from_[*best]) covered[s] = 1;
+    cover.push_back(*best);
+    others.erase(best);
+  }
+  const CounterRandom random(seed, random_stream::covering_order);
+  for (std::size_t i = cover.size(); i > 1; --i)  // Fisher-Yates
+    std::swap(cover[i - 1], cover[static_cast<std::size_t>(random.uniform(i)[0] * double(i))]);
+  cover.insert(cover.end(), others.begin(), others.end());
+  return cover;
+}
+
+}  // namespace nextview

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "core/evaluation/coverage.hpp"
+#include "core/map/ground_truth.hpp"
+#include "core/mesh/surface_samples.hpp"
+#include "core/sensor/depth_camera.hpp"
+
+namespace nextview {
+
+/// Told how far a job has come, from 0 to 1, and what it is doing. Called from the thread that does the job.
+using Progress = std::function<void(double fraction, std::string_view what)>;
+
+/// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it (oracle, covering order).
+class KnownObject {
+ public:
+  /// The paper's registration distance [m], reported beside the chosen one.
+  static constexpr double paper_d_reg = 0.0005;
+
+  /// @throws std::runtime_error if stopped.
+  KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera, std::span<const Pose> candidates,
+              const VoxelGrid& grid, std::size_t surface_samples, double d_reg, std::uint64_t seed, const Progress& progress,
+              std::stop_token stop);
+
+  /// Surface samples that a perfect camera sees from a pose: in its image and ranges, not too slanted, nothing in between.
+  std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera) const;
+
+  /// A view was taken from here and gave these points.
+  void add_view(const Pose& T_world_camera, const PointCloud& points);
+
+  /// How many surface samples the candidate would see that no view has seen yet (the oracle's gain).
+  std::size_t new_samples(std::size_t candidate) const;
+  /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
+  std::vector<std::size_t> covering_order(std::uint64_t seed) const;
+
+  const GroundTruth& truth() const { return truth_; }
+  const SurfaceCoverage& coverage() const { return coverage_; }
+  const SurfaceCoverage& coverage_paper() const { return coverage_paper_; }
+  const SurfaceSamples& samples() const { return samples_; }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> see_from(std::span<const Pose> candidates, const Progress& progress,
+                                                   std::stop_token stop) const;
+  std::vector<std::uint8_t> seen_by_any() const;
+
+  const RayScene& scene_;
+  DepthCamera camera_;
+  SurfaceSamples samples_;
+  std::vector<Eigen::Vector3f> normals_;               ///< of the samples
+  std::vector<std::vector<std::uint32_t>> seen_from_;  ///< of each candidate
+  std::vector<std::uint8_t> seen_;                     ///< 1: a view taken has seen the sample
+  GroundTruth truth_;
+  SurfaceCoverage coverage_, coverage_paper_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,269 @@
+#include "core/session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/evaluation/entropy.hpp"
+#include "core/map/traversal.hpp"
+#include "core/mesh/mesh_file.hpp"
+
+namespace nextview {
+namespace {
+
+Pose start_view(const Configuration& c) {
+  const double azimuth = c.planner.start_azimuth * std::numbers::pi / 180.0;
+  const double elevation = c.planner.start_elevation * std::numbers::pi / 180.0;
+  const Vector3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  return look_at(c.views.radius * direction, Vector3::Zero());
+}
+
+VoxelGrid region(const Configuration& c) {
+  return region_of_interest(Vector3::Zero(), c.map.region_edge, c.map.resolution);  // load_mesh centres the object
+}
+
+RayBundle scoring_rays(const Configuration& c, const PinholeCamera& camera) {
+  if (c.planner.semantics == Semantics::reference)
+    return RayBundle::reference(camera, {0.25, 0.25}, {0.75, 0.75}, {10.0, 10.0});
+  return RayBundle::regular(camera, c.planner.ray_columns, c.planner.ray_rows);
+}
+
+std::unique_ptr<ReferenceMap> reference_map(const Configuration& c) {
+  if (c.planner.semantics != Semantics::reference) return nullptr;
+  ReferenceMap::Parameters p;
+  p.resolution = c.map.resolution;
+  p.model = c.map.model;
+  p.lower = region(c).lower();
+  p.upper = region(c).upper();
+  p.max_sensor_range = c.sensor.max_range;
+  p.max_ray_depth = c.planner.ray_length;
+  return std::make_unique<ReferenceMap>(p);
+}
+
+Configuration validated(Configuration c) {
+  c.validate();
+  return c;
+}
+
+/// Adds the seconds until its end to a stage.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::size_t measured_voxels(const OccupancyMap& map) {
+  std::size_t count = 0;
+  for (const Voxel& v : map.voxels()) count += v.measured;
+  return count;
+}
+
+}  // namespace
+
+Session::Session(Configuration configuration, const Progress& progress, std::stop_token stop)
+    : configuration_(validated(std::move(configuration))),
+      object_file_(resolve_object(configuration_.object.file)),
+      mesh_(std::make_shared<TriangleMesh>(load_mesh(object_file_, {configuration_.object.longest_side}))),
+      scene_(*mesh_),
+      camera_(configuration_.sensor),
+      candidates_(candidate_views(configuration_.views, Vector3::Zero())),
+      start_view_(nextview::start_view(configuration_)),
+      map_(region(configuration_), configuration_.map.model),
+      map_rays_(map_.grid(), map_.voxels(), configuration_.map.model.occupancy_threshold, configuration_.planner.ray_length),
+      reference_map_(reference_map(configuration_)),
+      bundle_(scoring_rays(configuration_, camera_.camera())),
+      robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
+      visited_(candidates_.size()),
+      visited_voxels_(map_.grid().voxel_count()) {
+  const Vector3 size = mesh_->bounding_box().sizes();
+  if (size.maxCoeff() > configuration_.map.region_edge)
+    throw std::invalid_argument(
+        fmt::format("{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
+                    "object.longest_side or enlarge map.region_edge",
+                    object_file_.string(), size.maxCoeff(), configuration_.map.region_edge));
+  const EvaluationConfig& e = configuration_.evaluation;
+  if (e.enabled)
+    known_object_ = std::make_unique<KnownObject>(*mesh_, scene_, camera_, candidates_, map_.grid(), e.surface_samples, e.d_reg,
+                                                  configuration_.seed, progress, stop);
+}
+
+/// One turn of Algorithm 2.
+bool Session::step(const Progress& progress, std::stop_token stop) {
+  if (!finished_.empty()) throw std::logic_error("the scan is finished: " + finished_);
+  const auto tell = [&](double fraction, std::string_view what) {
+    if (progress) progress(fraction, what);
+  };
+  StepRecord record;
+  record.step = static_cast<int>(records_.size()) + 1;
+  record.view = next_ ? static_cast<int>(*next_) : -1;
+  record.overridden = overridden_;
+  record.T_world_camera = next_view();
+  record.motion = robot_->cost(robot_->pose(), record.T_world_camera);
+  if (next_) {
+    record.gain = records_.back().candidates[*next_].gain;
+    record.utility = records_.back().candidates[*next_].utility;
+  }
+
+  tell(0.0, "taking the view");
+  const Pose came_from = robot_->pose();
+  robot_->move_to(record.T_world_camera);                                        // robot manipulation to view p
+  const Measurement measurement = measure(record.T_world_camera, record);  // z <- take scan measurement
+  if (stop.stop_requested()) {
+    robot_->move_to(came_from);
+    return false;
+  }
+  tell(0.4, "updating the map");
+  update_map(measurement, record);  // M <- update octree map M by measurement z
+  if (next_) visited_[*next_] = true;  // delete v_i
+  taken_.push_back(record.T_world_camera);
+  tell(0.5, "comparing with the object");
+  evaluate(measurement, record);
+  tell(0.7, "scoring the candidate views");
+  rank_candidates(record, stop);  // ray casting (M, v_i) for all candidates left
+  next_ = record.ranking.best;    // p <- next best view
+  overridden_ = false;
+  clouds_.push_back(measurement.scan.returns);
+  records_.push_back(std::move(record));
+  finished_ = termination();  // if p meets the terminal criterion, finish
+  tell(1.0, "done");
+  return true;
+}
+
+Session::Measurement Session::measure(const Pose& T_world_camera, StepRecord& record) const {
+  Measurement measurement;
+  DepthImage image;
+  {
+    Stopwatch watch(record.seconds.sense);
+    image = camera_.sense(scene_, T_world_camera, configuration_.seed, static_cast<std::uint32_t>(record.step));
+  }
+  {
+    Stopwatch watch(record.seconds.clean);
+    measurement.scan = back_project(image, T_world_camera, configuration_.sensor.max_range);
+    record.returns = measurement.scan.returns.size();
+    record.passes = measurement.scan.passes.size();
+    measurement.scan.returns = clean(measurement.scan.returns, configuration_.cloud);
+    record.points = measurement.scan.returns.size();
+  }
+  if (known_object_) {
+    Stopwatch watch(record.seconds.evaluate);
+    measurement.ideal_image = camera_.sense_ideal(scene_, T_world_camera);
+  }
+  return measurement;
+}
+
+void Session::update_map(const Measurement& measurement, StepRecord& record) {
+  const double max_range = configuration_.sensor.max_range;
+  const std::size_t measured_before = measured_voxels(map_);
+  const double entropy_before = records_.empty() ? total_entropy(map_.voxels()) : records_.back().total_entropy;
+  {
+    Stopwatch watch(record.seconds.insert);
+    if (configuration_.map.insertion == Insertion::local_octree) {
+      OccupancyMap local(map_.grid(), map_.model());
+      local.insert(measurement.scan, max_range);
+      map_.register_local(local);
+    } else {
+      map_.insert(measurement.scan, max_range);
+    }
+    if (needs_occlusion(configuration_))
+      map_.mark_occlusions(measurement.scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
+    if (reference_map_) reference_map_->insert(measurement.scan.origin, measurement.scan.returns);
+  }
+  Stopwatch watch(record.seconds.evaluate);
+  record.new_voxels = measured_voxels(map_) - measured_before;
+  record.entropy = unmeasured_entropy(map_.voxels());
+  record.total_entropy = total_entropy(map_.voxels());
+  record.realised_gain = (entropy_before - record.total_entropy) * std::numbers::ln2;  // Eq. 12: other voxels keep theirs
+}
+
+void Session::evaluate(const Measurement& measurement, StepRecord& record) {
+  if (!known_object_) return;
+  Stopwatch watch(record.seconds.evaluate);
+  const Scan ideal = back_project(measurement.ideal_image, record.T_world_camera, configuration_.sensor.max_range);
+  const Eigen::Vector3f origin = ideal.origin.cast<float>();
+  for (const PointCloud* ends : {&ideal.returns, &ideal.passes})
+    for (const Eigen::Vector3f& end : *ends) {
+      const auto mark = [&](int x, int y, int z) {
+        if (map_.grid().contains({x, y, z})) visited_voxels_[map_.grid().index({x, y, z})] = 1;
+        return true;
+      };
+      walk_segment(map_.grid(), origin, end, mark);
+      const Eigen::Vector3i last = map_.grid().cell_at(end.cast<double>());
+      mark(last.x(), last.y(), last.z());
+    }
+  known_object_->add_view(record.T_world_camera, measurement.scan.returns);
+  record.coverage = known_object_->coverage().of_all();
+  record.coverage_visible = known_object_->coverage().of_visible();
+  record.coverage_paper = known_object_->coverage_paper().of_all();
+  const auto p = probabilities(map_.voxels());
+  const GroundTruth& truth = known_object_->truth();
+  record.quality = map_quality(p, truth, TruthConvention::touch, ScoredSet::visited, visited_voxels_);
+  record.quality_near_surface = map_quality(p, truth, TruthConvention::touch, ScoredSet::visited_band, visited_voxels_);
+}
+
+void Session::rank_candidates(StepRecord& record, std::stop_token stop) {
+  Stopwatch watch(record.seconds.score);
+  record.candidates.resize(candidates_.size());
+  std::vector<std::size_t> available;
+  for (std::size_t v = 0; v < candidates_.size(); ++v) {
+    Candidate& c = record.candidates[v];
+    c.cost = robot_->cost(robot_->pose(), candidates_[v]).distance;
+    c.available = !visited_[v] && !robot_->unreachable(candidates_[v]);
+    if (c.available) available.push_back(v);
+  }
+  const PlanningState state{configuration_, caster(), bundle_, known_object_.get(), candidates_, taken_};
+  const auto gains = candidate_gains(state, available, stop);
+  for (std::size_t i = 0; i < available.size(); ++i) record.candidates[available[i]].gain = gains[i];
+  // Baselines stand for a policy of their own, in which the way there has no say.
+  UtilityWeights weights = configuration_.planner.weights;
+  if (is_baseline(configuration_.planner.gain)) weights = {1.0, 0.0};
+  record.ranking = rank(record.candidates, weights);
+}
+
+std::string Session::termination() const {
+  const StepRecord& last = records_.back();
+  ScanProgress progress;
+  progress.views = static_cast<int>(records_.size());
+  progress.coverage = last.coverage_visible;
+  progress.candidates_left = last.ranking.best.has_value();
+  const auto best_gain = [](const StepRecord& r) {
+    double best = 0.0;
+    for (const Candidate& c : r.candidates)
+      if (c.available) best = std::max(best, c.gain);
+    return best;
+  };
+  progress.best_gain = best_gain(last);
+  progress.first_gain = best_gain(records_.front());
+  progress.new_voxel_share = double(last.new_voxels) / double(map_.voxels().size());
+  if (records_.size() > 1)
+    progress.entropy_drop_share = 1.0 - last.entropy / records_[records_.size() - 2].entropy;
+  return termination_reason(configuration_.termination, progress);
+}
+
+void Session::override_next_view(std::size_t candidate) {
+  const bool known = candidate < candidates_.size();
+  if (!known || visited_[candidate] || robot_->unreachable(candidates_[candidate]))
+    throw std::invalid_argument(fmt::format("candidate view {} is not available", candidate));
+  if (records_.empty()) throw std::invalid_argument("the first view is the start view; step once before choosing another");
+  overridden_ = next_ != candidate;
+  next_ = candidate;
+}
+
+const RayCaster& Session::caster() const {
+  if (reference_map_) return *reference_map_;
+  return map_rays_;
+}
+
+std::optional<ScoreExplanation> Session::explain(std::size_t candidate) const {
+  const PlannerConfig& planner = configuration_.planner;
+  if (is_baseline(planner.gain) || planner.gain == "combined") return std::nullopt;
+  return explain_score(caster(), candidates_.at(candidate), bundle_, gain(planner.gain),
+                       {planner.semantics, occlusion_reach(configuration_)});
+}
+
+}  // namespace nextview

@@ -1,0 +1,39 @@
+#include "tests/render/window_picture.hpp"
+
+#include "tests/render/samples.hpp"
+#include "ui/scene.hpp"
+#include "ui/surface/window_surface.hpp"
+
+namespace nextview {
+
+Image draw_everything(RenderSurface& surface) {
+  const Vector3 viewer(0.5, -0.8, 0.4);
+  const auto candidates = samples::candidates();
+  const auto scores = samples::scores(candidates, viewer);
+  const auto map = samples::map(viewer);
+  ViewsPicture views;
+  views.camera = PinholeCamera::from_field_of_view(640, 480, 1.0123);
+  views.candidates = candidates;
+  views.scores = scores;
+  views.chosen = 17;
+
+  Scene scene;
+  scene.attach(surface);
+  scene.set_caption("Everything at once");
+  scene.mesh().show(samples::torus(), MeshStyle::ghost);
+  scene.cloud().show(samples::cloud(viewer));
+  scene.octree().show(map.grid, map.voxels);
+  scene.views().show(views);
+  scene.rays().show(samples::rays(candidates[17]), {});
+  scene.region().show({map.grid.lower(), map.grid.upper()});
+  scene.frame();
+  surface.render();
+  return surface.read_back();
+}
+
+void draw_in_window(const std::filesystem::path& png) {
+  WindowSurface surface("Nextview", 960, 600);
+  write_png(draw_everything(surface), png);
+}
+
+}  // namespace nextview

@@ -1,0 +1,14 @@
+#pragma once
+#include <filesystem>
+
+#include "ui/surface/render_surface.hpp"
+
+namespace nextview {
+
+/// The picture that is drawn both ways: all layers at once.
+Image draw_everything(RenderSurface& surface);
+
+/// Draws it in a window on the display and writes it.
+void draw_in_window(const std::filesystem::path& png);
+
+}  // namespace nextview

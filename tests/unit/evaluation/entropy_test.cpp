@@ -1,0 +1,83 @@
+#include "core/evaluation/entropy.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace nextview {
+namespace {
+
+std::vector<Voxel> random_voxels(unsigned seed, std::size_t count) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<float> uniform;
+  std::vector<Voxel> voxels(count);
+  for (Voxel& v : voxels) {
+    v.measured = uniform(generator) < 0.4f;
+    if (!v.measured) continue;
+    v.probability = uniform(generator);
+    v.entropy = static_cast<float>(entropy(v.probability));
+  }
+  return voxels;
+}
+
+/// Entropy by the definition [bits].
+double bits(double p) { return -p * std::log2(p) - (1.0 - p) * std::log2(1.0 - p); }
+
+TEST(Entropy, AnUnmeasuredMapHasOneBitAVoxel) {
+  const std::vector<Voxel> voxels(128 * 128 * 128);
+  EXPECT_EQ(unmeasured_entropy(voxels), 2097152.0);
+  EXPECT_NEAR(total_entropy(voxels), 2097152.0, 0.1);
+  EXPECT_EQ(unmeasured_entropy({}), 0.0);
+}
+
+TEST(Entropy, MeasuredVoxelsAreDecidedInTheOneAndKeepTheirDoubtInTheOther) {
+  const auto voxels = random_voxels(1, 100'000);
+  double unmeasured = 0.0, total = 0.0;
+  for (const Voxel& v : voxels) {
+    unmeasured += v.measured ? 0 : 1;
+    total += bits(v.probability);
+  }
+  EXPECT_EQ(unmeasured_entropy(voxels), unmeasured);
+  EXPECT_NEAR(total_entropy(voxels), total, 1e-6 * total);
+}
+
+TEST(Entropy, RealisedGainIsWhatTheVoxelsOfTheMaskLost) {
+  const auto before = random_voxels(2, 100'000), after = random_voxels(3, 100'000);
+  std::vector<std::uint8_t> mask(before.size());
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = i % 5 == 0;
+  double all = 0.0, masked = 0.0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const double lost = (bits(before[i].probability) - bits(after[i].probability)) * std::log(2.0);
+    all += lost;
+    if (i % 5 == 0) masked += lost;
+  }
+  EXPECT_NEAR(realised_gain(before, after), all, 0.01);
+  EXPECT_NEAR(realised_gain(before, after, mask), masked, 0.01);
+  EXPECT_EQ(realised_gain(before, before), 0.0);
+  EXPECT_EQ(realised_gain(before, after), -realised_gain(after, before));  // nats, and signed
+  const std::vector<Voxel> unknown(10);
+  std::vector<Voxel> certain(10);
+  for (Voxel& v : certain) v = {0.0f, 0.0f, VoxelClass::free, true, 0};
+  EXPECT_NEAR(realised_gain(unknown, certain), 10.0 * std::log(2.0), 1e-6);
+  EXPECT_NEAR(realised_gain(certain, unknown), -10.0 * std::log(2.0), 1e-6);
+}
+
+TEST(Entropy, LengthsThatDifferAreRefused) {
+  const std::vector<Voxel> two(2), three(3);
+  EXPECT_THROW(realised_gain(two, three), std::invalid_argument);
+  EXPECT_THROW(realised_gain(two, two, std::vector<std::uint8_t>{1}), std::invalid_argument);
+}
+
+TEST(Entropy, SameBitsOnAnyNumberOfThreads) {
+  const auto voxels = random_voxels(4, 400'000);
+  const double many = total_entropy(voxels);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(total_entropy(voxels), many);
+}
+
+}  // namespace
+}  // namespace nextview

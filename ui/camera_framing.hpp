@@ -1,0 +1,21 @@
+#pragma once
+#include <span>
+
+#include "core/view/pose.hpp"
+
+namespace nextview {
+
+/// The part of a viewport that the picture's contents must stay within, as a share of its width and height from each
+/// side.
+struct FrameMargins {
+  double left = 0.04, right = 0.04, bottom = 0.04, top = 0.04;
+};
+
+/// Moves a camera with a fixed orientation as near as it can while it sees all points.
+/// `T_world_camera` gives the orientation (x right, y down, z forward), `vertical_angle` [rad] and `aspect` (width /
+/// height) the perspective. Returns the camera centre [m, world].
+/// @throws std::invalid_argument if there are no points or the margins leave no room.
+Vector3 frame_points(const Eigen::Matrix3d& R_world_camera, double vertical_angle, double aspect,
+                     const FrameMargins& margins, std::span<const Vector3> points);
+
+}  // namespace nextview

@@ -1,0 +1,35 @@
+#pragma once
+#include <vtkContextItem.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nextview {
+
+/// The best candidate views as bars, best first; equal scores in the candidates' order.
+struct RankingContent {
+  std::string title;
+  std::string unit;
+  std::vector<double> scores;         ///< one a candidate
+  std::vector<std::size_t> visited;   ///< candidates that no longer take part
+  std::optional<std::size_t> chosen;  ///< stands out; shown even if others are better
+  std::string note;                   ///< one line beneath, for example why a ranking says nothing
+};
+
+/// The candidates in the order of the ranking, without visited ones.
+std::vector<std::size_t> ranked(const RankingContent& content);
+
+/// Draws a ranking into a rectangle of the picture [px].
+class Ranking : public vtkContextItem {
+ public:
+  static Ranking* New();
+  vtkTypeMacro(Ranking, vtkContextItem)
+
+      bool Paint(vtkContext2D* context) override;
+
+  RankingContent content;
+  double x = 0, y = 0, width = 0, height = 0;
+};
+
+}  // namespace nextview

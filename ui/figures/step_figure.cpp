@@ -1,0 +1,184 @@
+#include "ui/figures/step_figure.hpp"
+
+#include <fmt/format.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkRenderer.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ui/figures/ranking.hpp"
+#include "ui/painter.hpp"
+#include "ui/surface/offscreen_surface.hpp"
+
+namespace nextview {
+namespace {
+
+struct Panel {
+  double x, y, width, height;  ///< [px]
+
+  Viewport in(const RenderSurface& surface) const {
+    return {x / surface.width(), y / surface.height(), (x + width) / surface.width(), (y + height) / surface.height()};
+  }
+};
+
+/// Two 3D views above, the ranking and the two curves beneath, a title line at the top.
+struct Layout {
+  Panel views, map, ranking, entropy, coverage;
+  double title_y;
+
+  explicit Layout(const RenderSurface& surface) {
+    constexpr double gap = 16, title = 64;
+    const double width = surface.width(), height = surface.height();
+    const double column = std::floor((width - 4 * gap) / 3);
+    const double lower = std::floor(0.31 * height), upper = height - title - lower - 2 * gap;
+    const double third = 3 * gap + 2 * column;
+    views = {gap, lower + 2 * gap, 2 * column + gap, upper};
+    map = {third, lower + 2 * gap, column, upper};
+    ranking = {gap, gap, column, lower};
+    entropy = {2 * gap + column, gap, column, lower};
+    coverage = {third, gap, column, lower};
+    title_y = height - 44;
+  }
+};
+
+/// What lies beneath the panels: the title line and the panels' frames.
+class Sheet : public vtkContextItem {
+ public:
+  static Sheet* New();
+  vtkTypeMacro(Sheet, vtkContextItem)
+
+      bool Paint(vtkContext2D* context) override {
+    Painter painter(*context);
+    painter.text(16, title_y, title, theme::title, theme::ink, TextWeight::semi_bold);
+    painter.text(width - 16, title_y, subtitle, theme::caption, theme::soft_ink, TextWeight::regular, TextAlign::right);
+    for (const Panel& panel : panels) {
+      painter.frame(panel.x - 1, panel.y - 1, panel.width + 2, panel.height + 2, theme::hairline);
+    }
+    return true;
+  }
+
+  std::string title, subtitle;
+  double title_y = 0, width = 0;
+  std::vector<Panel> panels;
+};
+
+vtkStandardNewMacro(Sheet);
+
+ViewsPicture views_of(const StepPicture& picture) {
+  ViewsPicture views;
+  views.camera = picture.camera;
+  views.candidates = picture.candidates;
+  views.scores = picture.scores;
+  views.visited = picture.visited;
+  views.chosen = picture.chosen;
+  views.path = picture.path;
+  views.score_name = picture.gain_name;
+  views.score_unit = picture.gain_unit;
+  if (picture.chosen) {
+    const Vector3 target = 0.5 * (picture.grid.lower() + picture.grid.upper());
+    views.reach = (picture.candidates.at(*picture.chosen).translation() - target).norm();
+  }
+  return views;
+}
+
+}  // namespace
+
+struct StepFigure::Parts {
+  explicit Parts(RenderSurface& target) : surface(target), layout(target) {}
+
+  RenderSurface& surface;
+  Layout layout;
+  vtkNew<vtkRenderer> sheet_renderer;
+  vtkNew<vtkContextActor> sheet_actor;
+  vtkNew<Sheet> sheet;
+  vtkNew<Ranking> ranking;
+  Scene views, map;
+  Chart entropy, coverage;
+};
+
+StepFigure::StepFigure(RenderSurface& surface) : parts_(std::make_unique<Parts>(surface)) {
+  Parts& p = *parts_;
+  p.sheet_renderer->SetBackground(theme::paper.data());
+  p.sheet_renderer->AddActor(p.sheet_actor);
+  p.sheet_actor->GetScene()->SetRenderer(p.sheet_renderer);
+  p.sheet_actor->GetScene()->AddItem(p.sheet);
+  p.sheet_actor->GetScene()->AddItem(p.ranking);
+  p.sheet->title_y = p.layout.title_y;
+  p.sheet->width = surface.width();
+  p.sheet->panels = {p.layout.views, p.layout.map, p.layout.ranking, p.layout.entropy, p.layout.coverage};
+  p.ranking->x = p.layout.ranking.x;
+  p.ranking->y = p.layout.ranking.y;
+  p.ranking->width = p.layout.ranking.width;
+  p.ranking->height = p.layout.ranking.height;
+  surface.window().AddRenderer(p.sheet_renderer);
+  p.views.attach(surface, p.layout.views.in(surface));
+  p.map.attach(surface, p.layout.map.in(surface));
+  p.entropy.attach(surface, p.layout.entropy.in(surface));
+  p.coverage.attach(surface, p.layout.coverage.in(surface));
+}
+
+StepFigure::~StepFigure() {
+  parts_->sheet_actor->GetScene()->SetRenderer(nullptr);
+  parts_->surface.window().RemoveRenderer(parts_->sheet_renderer);
+}
+
+void StepFigure::show(const StepPicture& picture) {
+  Parts& p = *parts_;
+  ViewDirection direction = picture.direction.value_or(ViewDirection{});
+  if (!picture.direction && picture.chosen) direction = beside(picture.candidates.at(*picture.chosen));
+  p.sheet->title = step_title(picture);
+  p.sheet->subtitle = picture.object_name;
+
+  p.views.set_caption("Candidate views");
+  if (picture.object) p.views.mesh().show(*picture.object, picture.object_style);
+  p.views.cloud().show(picture.cloud, picture.point_size);
+  p.views.rays().show(picture.rays, picture.ray_values);
+  p.views.views().show(views_of(picture));
+  p.views.region().show({picture.grid.lower(), picture.grid.upper()});
+  p.views.frame(direction);
+
+  p.map.set_caption("Occupancy map");
+  p.map.octree().show(picture.grid, picture.voxels);
+  p.map.frame(direction);
+
+  p.ranking->content = {"Best candidates, " + picture.gain_name,
+                        picture.gain_unit,
+                        picture.scores,
+                        picture.visited,
+                        picture.chosen,
+                        picture.ranking_note};
+  p.entropy.show(picture.entropy);
+  p.coverage.show(picture.coverage);
+}
+
+Image draw_step_figure(const StepPicture& picture, int width, int height) {
+  OffscreenSurface surface(width, height);
+  StepFigure figure(surface);
+  figure.show(picture);
+  surface.render();
+  return surface.read_back();
+}
+
+ViewDirection beside(const Pose& T_world_camera) {
+  const Vector3 backwards = -T_world_camera.linear().col(2);
+  return {std::atan2(backwards.y(), backwards.x()) * 180 / std::numbers::pi + 65, 22};
+}
+
+std::string step_title(const StepPicture& picture) {
+  std::string title = fmt::format("Step {}", picture.step);
+  if (picture.step_count > 0) title += fmt::format(" of {}", picture.step_count);
+  if (!picture.chosen) return title;
+  title += fmt::format(" · next best view {}", *picture.chosen);
+  if (*picture.chosen < picture.scores.size()) {
+    title += fmt::format(" · {} {}", picture.gain_name, short_number(picture.scores[*picture.chosen]));
+    if (!picture.gain_unit.empty()) title += " " + picture.gain_unit;
+  }
+  return title;
+}
+
+}  // namespace nextview

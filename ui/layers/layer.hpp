@@ -1,0 +1,51 @@
+#pragma once
+#include <vtkSmartPointer.h>
+
+#include <span>
+#include <vector>
+
+#include "core/view/pose.hpp"
+#include "ui/legend.hpp"
+
+class vtkProp;
+class vtkProperty;
+class vtkRenderer;
+
+namespace nextview {
+
+/// Something that is seen in 3D. A layer owns its VTK actors, which live in one renderer, and is empty until shown.
+class Layer {
+ public:
+  explicit Layer(vtkRenderer& renderer);
+  virtual ~Layer();
+  Layer(const Layer&) = delete;
+  Layer& operator=(const Layer&) = delete;
+
+  void set_visible(bool visible);
+  bool visible() const { return visible_; }
+
+  /// Points that enclose what the layer draws [m, world], for framing; none if it is empty.
+  std::span<const Vector3> outline() const { return outline_; }
+  /// What its colours mean; none if it is empty.
+  std::span<const Legend> legends() const { return legends_; }
+  std::span<const Label> labels() const { return labels_; }
+
+ protected:
+  void add(vtkProp& prop);
+  void describe(std::vector<Vector3> outline, std::vector<Legend> legends, std::vector<Label> labels = {});
+
+ private:
+  vtkSmartPointer<vtkRenderer> renderer_;
+  std::vector<vtkSmartPointer<vtkProp>> props_;
+  std::vector<Vector3> outline_;
+  std::vector<Legend> legends_;
+  std::vector<Label> labels_;
+  bool visible_ = true;
+};
+
+void set_colour(vtkProperty& property, const Colour& colour);
+
+/// The eight corners of a box; none if it is empty.
+std::vector<Vector3> corners(const Eigen::AlignedBox3d& box);
+
+}  // namespace nextview

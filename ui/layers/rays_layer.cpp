@@ -1,0 +1,42 @@
+#include "ui/layers/rays_layer.hpp"
+
+#include <vtkActor.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+
+#include "ui/layers/geometry.hpp"
+
+namespace nextview {
+
+RaysLayer::RaysLayer(vtkRenderer& renderer)
+    : Layer(renderer), mapper_(vtkSmartPointer<vtkPolyDataMapper>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
+  mapper_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
+  actor_->SetMapper(mapper_);
+  actor_->GetProperty()->LightingOff();
+  actor_->GetProperty()->SetOpacity(0.8);
+  actor_->GetProperty()->SetLineWidth(1.3f);
+  add(*actor_);
+}
+
+void RaysLayer::show(std::span<const RaySegment> segments, const RayValues& values) {
+  double high = 0.0;
+  std::vector<Vector3> points;
+  for (const RaySegment& segment : segments) {
+    high = std::max(high, segment.value);
+    points.insert(points.end(), {segment.from, segment.to});
+  }
+  Geometry geometry;
+  const ColourMap map = ColourMap::contribution();
+  for (const RaySegment& segment : segments) {
+    geometry.add_line(segment.from, segment.to, high > 0 ? map.at(segment.value / high) : map.at(0));
+  }
+  mapper_->SetInputDataObject(geometry.polydata());
+  std::vector<Legend> legends;
+  if (!segments.empty()) legends.push_back({values.name, {}, Legend::Range{map, 0.0, high, values.unit}});
+  describe(std::move(points), std::move(legends));
+}
+
+}  // namespace nextview

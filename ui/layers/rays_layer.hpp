@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+
+#include "ui/layers/layer.hpp"
+
+class vtkActor;
+class vtkPolyDataMapper;
+
+namespace nextview {
+
+/// A piece of a ray with the value to colour it by, for example the entropy it meets.
+struct RaySegment {
+  Vector3 from, to;  ///< [m, world]
+  double value = 0.0;
+};
+
+/// What the values of ray segments are, for the legend.
+struct RayValues {
+  std::string name = "information along rays";
+  std::string unit;
+};
+
+/// Rays of a view, coloured from 0 to the largest value. Without a value (0) they stay pale.
+class RaysLayer : public Layer {
+ public:
+  explicit RaysLayer(vtkRenderer& renderer);
+
+  void show(std::span<const RaySegment> segments, const RayValues& values);
+
+ private:
+  vtkSmartPointer<vtkPolyDataMapper> mapper_;
+  vtkSmartPointer<vtkActor> actor_;
+};
+
+}  // namespace nextview

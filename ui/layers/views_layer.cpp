@@ -1,0 +1,147 @@
+#include "ui/layers/views_layer.hpp"
+
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "ui/layers/geometry.hpp"
+
+namespace nextview {
+namespace {
+
+struct Frustum {
+  Vector3 apex;
+  std::array<Vector3, 4> base;  ///< around the image's border
+
+  Frustum(const PinholeCamera& camera, const Pose& T_world_camera, double depth) : apex(T_world_camera.translation()) {
+    const double right = camera.width - 0.5, bottom = camera.height - 0.5;  // pixel centres are at whole numbers
+    const std::array<Eigen::Vector2d, 4> pixels{{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
+    for (int i = 0; i < 4; ++i) {
+      const Vector3 direction = camera.direction(pixels[i].x(), pixels[i].y());
+      base[i] = T_world_camera * Vector3(direction * (depth / direction.z()));
+    }
+  }
+
+  void add_faces(Geometry& geometry, const Colour& colour, bool with_base) const {
+    for (int i = 0; i < 4; ++i) geometry.add_triangle(apex, base[i], base[(i + 1) % 4], colour);
+    if (!with_base) return;
+    geometry.add_triangle(base[0], base[1], base[2], colour);
+    geometry.add_triangle(base[0], base[2], base[3], colour);
+  }
+
+  void add_outline(Geometry& geometry, const Colour& colour) const {
+    for (int i = 0; i < 4; ++i) {
+      geometry.add_line(apex, base[i], colour);
+      geometry.add_line(base[i], base[(i + 1) % 4], colour);
+    }
+  }
+};
+
+void check(const ViewsPicture& picture) {
+  if (!picture.scores.empty() && picture.scores.size() != picture.candidates.size()) {
+    throw std::invalid_argument(
+        fmt::format("scores: {} for {} candidates", picture.scores.size(), picture.candidates.size()));
+  }
+  const auto beyond = [&](std::size_t index) { return index >= picture.candidates.size(); };
+  if (std::any_of(picture.visited.begin(), picture.visited.end(), beyond)) {
+    throw std::invalid_argument("visited: an index is no candidate's");
+  }
+  if (picture.chosen && beyond(*picture.chosen)) throw std::invalid_argument("chosen: the index is no candidate's");
+}
+
+struct Scores {
+  double low = 0.0, high = 0.0;  ///< over the candidates that are not visited
+  std::vector<bool> visited;
+
+  explicit Scores(const ViewsPicture& picture) : visited(picture.candidates.size(), false) {
+    for (const std::size_t index : picture.visited) visited[index] = true;
+    bool first = true;
+    for (std::size_t i = 0; i < picture.scores.size(); ++i) {
+      if (visited[i]) continue;
+      low = first ? picture.scores[i] : std::min(low, picture.scores[i]);
+      high = first ? picture.scores[i] : std::max(high, picture.scores[i]);
+      first = false;
+    }
+  }
+
+  Colour colour(const ViewsPicture& picture, std::size_t candidate) const {
+    if (picture.chosen == candidate) return theme::chosen;
+    if (visited[candidate]) return theme::visited;
+    return picture.scores.empty() ? theme::object : ColourMap::score().at(picture.scores[candidate], low, high);
+  }
+};
+
+std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores) {
+  if (picture.candidates.empty() && picture.path.empty()) return {};
+  Legend views{"views", {}, {}};
+  if (picture.chosen) views.swatches.push_back({"chosen", theme::chosen});
+  if (!picture.visited.empty()) views.swatches.push_back({"visited", theme::visited});
+  if (picture.scores.empty() && !picture.candidates.empty()) views.swatches.push_back({"candidate", theme::object});
+  std::vector<Legend> result;
+  if (!picture.scores.empty()) {
+    result.push_back(
+        {picture.score_name, {}, Legend::Range{ColourMap::score(), scores.low, scores.high, picture.score_unit}});
+  }
+  if (!views.swatches.empty()) result.push_back(views);
+  return result;
+}
+
+}  // namespace
+
+ViewsLayer::ViewsLayer(vtkRenderer& renderer)
+    : Layer(renderer),
+      frustums_(make_part(1.0, 1.0)),
+      outlines_(make_part(1.0, 1.0)),
+      path_(make_part(2.0, 1.0)),
+      chosen_faces_(make_part(1.0, 0.10)),
+      chosen_outline_(make_part(2.0, 1.0)) {}
+
+ViewsLayer::Part ViewsLayer::make_part(double line_width, double opacity) {
+  Part part{vtkSmartPointer<vtkPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New()};
+  part.mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
+  part.actor->SetMapper(part.mapper);
+  part.actor->GetProperty()->LightingOff();  // a colour is a score here, so light must not change it
+  part.actor->GetProperty()->SetLineWidth(static_cast<float>(line_width));
+  part.actor->GetProperty()->SetOpacity(opacity);
+  add(*part.actor);
+  return part;
+}
+
+void ViewsLayer::show(const ViewsPicture& picture) {
+  check(picture);
+  const Scores scores(picture);
+  Geometry frustums, outlines, path, chosen_faces, chosen_outline;
+  std::vector<Vector3> points;
+  for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
+    const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
+    const Colour colour = scores.colour(picture, i);
+    frustum.add_faces(frustums, colour, true);
+    frustum.add_outline(outlines, mix(colour, theme::ink, 0.45));
+    points.push_back(frustum.apex);
+    points.insert(points.end(), frustum.base.begin(), frustum.base.end());
+  }
+  for (std::size_t i = 0; i < picture.path.size(); ++i) {
+    points.push_back(picture.path[i].translation());
+    if (i > 0) path.add_line(picture.path[i - 1].translation(), points.back(), theme::visited);
+  }
+  std::vector<Label> labels;
+  if (picture.chosen) {
+    const Frustum frustum(picture.camera, picture.candidates[*picture.chosen], picture.reach);
+    frustum.add_faces(chosen_faces, theme::chosen, false);
+    frustum.add_outline(chosen_outline, theme::chosen);
+    labels.push_back({{frustum.apex}, fmt::format("view {}", *picture.chosen), theme::chosen, true});
+  }
+  frustums_.mapper->SetInputDataObject(frustums.polydata());
+  outlines_.mapper->SetInputDataObject(outlines.polydata());
+  path_.mapper->SetInputDataObject(path.polydata());
+  chosen_faces_.mapper->SetInputDataObject(chosen_faces.polydata());
+  chosen_outline_.mapper->SetInputDataObject(chosen_outline.polydata());
+  describe(std::move(points), legends_of(picture, scores), std::move(labels));
+}
+
+}  // namespace nextview

@@ -1,0 +1,35 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ui/colour_map.hpp"
+
+namespace nextview {
+
+/// What the colours of a layer mean. Named colours, or a colour map with its range, or both.
+struct Legend {
+  struct Swatch {
+    std::string name;
+    Colour colour;
+  };
+  struct Range {
+    ColourMap map;
+    double low, high;
+    std::string unit;  ///< empty: dimensionless
+  };
+  std::string title;
+  std::vector<Swatch> swatches;
+  std::optional<Range> range;
+};
+
+/// A word at a place in the scene; drawn above everything. Of several places, the lowest in the picture is taken.
+struct Label {
+  std::vector<Eigen::Vector3d> places;  ///< [m, world]
+  std::string text;
+  Colour colour;
+  bool strong = false;
+};
+
+}  // namespace nextview

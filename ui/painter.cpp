@@ -1,0 +1,92 @@
+#include "ui/painter.hpp"
+
+#include <fmt/format.h>
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkPen.h>
+#include <vtkTextProperty.h>
+
+#include <cmath>
+
+namespace nextview {
+namespace {
+
+unsigned char channel(double value) { return static_cast<unsigned char>(std::lround(value * 255)); }
+
+constexpr double legend_line = 20.0, swatch_size = 13.0, bar_height = 12.0;  // [px]
+
+}  // namespace
+
+std::string short_number(double value) { return fmt::format("{:.4g}", value); }
+
+void Painter::text(double x, double y, const std::string& text, int size, const Colour& colour, TextWeight weight,
+                   TextAlign align) {
+  vtkTextProperty& property = *context_.GetTextProp();
+  set_text(property, size, colour, weight);
+  property.SetJustification(align == TextAlign::left     ? VTK_TEXT_LEFT
+                            : align == TextAlign::centre ? VTK_TEXT_CENTERED
+                                                         : VTK_TEXT_RIGHT);
+  property.SetVerticalJustificationToBottom();
+  context_.DrawString(float(std::round(x)), float(std::round(y)), text);
+}
+
+double Painter::text_width(const std::string& text, int size, TextWeight weight) {
+  set_text(*context_.GetTextProp(), size, theme::ink, weight);
+  float bounds[4];
+  context_.ComputeStringBounds(text, bounds);
+  return bounds[2];
+}
+
+void Painter::line(double x1, double y1, double x2, double y2, double width, const Colour& colour) {
+  context_.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  context_.GetPen()->SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), 255);
+  context_.GetPen()->SetWidth(float(width));
+  context_.DrawLine(float(x1), float(y1), float(x2), float(y2));
+}
+
+void Painter::box(double x, double y, double width, double height, const Colour& colour, double opacity) {
+  context_.GetPen()->SetLineType(vtkPen::NO_PEN);
+  context_.GetBrush()->SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), channel(opacity));
+  context_.DrawRect(float(x), float(y), float(width), float(height));
+}
+
+void Painter::frame(double x, double y, double width, double height, const Colour& colour) {
+  line(x, y, x + width, y, 1, colour);
+  line(x, y + height, x + width, y + height, 1, colour);
+  line(x, y, x, y + height, 1, colour);
+  line(x + width, y, x + width, y + height, 1, colour);
+}
+
+double Painter::legend_height(const Legend& legend) {
+  const double lines = double(legend.swatches.size()) + (legend.title.empty() ? 0 : 1) + (legend.range ? 1 : 0);
+  return lines * legend_line + (legend.range ? bar_height + 3 : 0);
+}
+
+double Painter::legend(double x, double y, const Legend& legend) {
+  double at = y;
+  if (!legend.title.empty()) {
+    at -= legend_line;
+    const std::string unit = legend.range && !legend.range->unit.empty() ? " [" + legend.range->unit + "]" : "";
+    text(x, at, legend.title + unit, theme::small_text, theme::ink, TextWeight::semi_bold);
+  }
+  for (const Legend::Swatch& swatch : legend.swatches) {
+    at -= legend_line;
+    box(x, at + 1, swatch_size, swatch_size, swatch.colour);
+    frame(x, at + 1, swatch_size, swatch_size, mix(swatch.colour, theme::ink, 0.3));
+    text(x + swatch_size + 8, at, swatch.name, theme::small_text, theme::ink);
+  }
+  if (legend.range) {
+    at -= bar_height + 5;
+    for (int i = 0; i < int(legend_width); ++i) {
+      box(x + i, at, 1, bar_height, legend.range->map.at(i / (legend_width - 1)));
+    }
+    frame(x, at, legend_width, bar_height, theme::soft_ink);
+    at -= legend_line - 2;
+    text(x, at, short_number(legend.range->low), theme::small_text, theme::soft_ink);
+    text(x + legend_width, at, short_number(legend.range->high), theme::small_text, theme::soft_ink,
+         TextWeight::regular, TextAlign::right);
+  }
+  return legend_height(legend);
+}
+
+}  // namespace nextview

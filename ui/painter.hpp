@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ui/legend.hpp"
+#include "ui/text.hpp"
+
+class vtkContext2D;
+
+namespace nextview {
+
+enum class TextAlign { left, centre, right };
+
+/// Draws flat things in pixels, the origin in the lower left corner: text, lines, boxes, legends.
+class Painter {
+ public:
+  explicit Painter(vtkContext2D& context) : context_(context) {}
+
+  /// The text's baseline starts (or is centred, or ends) at (x, y).
+  void text(double x, double y, const std::string& text, int size, const Colour& colour,
+            TextWeight weight = TextWeight::regular, TextAlign align = TextAlign::left);
+  double text_width(const std::string& text, int size, TextWeight weight = TextWeight::regular);
+  void line(double x1, double y1, double x2, double y2, double width, const Colour& colour);
+  void box(double x, double y, double width, double height, const Colour& colour, double opacity = 1.0);
+  void frame(double x, double y, double width, double height, const Colour& colour);
+
+  /// Draws a legend whose upper left corner is (x, y); returns its height.
+  double legend(double x, double y, const Legend& legend);
+  static double legend_height(const Legend& legend);
+
+ private:
+  vtkContext2D& context_;
+};
+
+inline constexpr double legend_width = 168.0;  ///< [px]
+
+/// "1234", "12.3", "0.00123": four significant digits for people.
+std::string short_number(double value);
+
+}  // namespace nextview

@@ -1,0 +1,74 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "ui/camera_framing.hpp"
+#include "ui/layers/cloud_layer.hpp"
+#include "ui/layers/mesh_layer.hpp"
+#include "ui/layers/octree_layer.hpp"
+#include "ui/layers/rays_layer.hpp"
+#include "ui/layers/region_layer.hpp"
+#include "ui/layers/views_layer.hpp"
+#include "ui/surface/render_surface.hpp"
+
+namespace nextview {
+
+/// A part of a surface, as shares of its width and height from the lower left corner.
+struct Viewport {
+  double left = 0.0, bottom = 0.0, right = 1.0, top = 1.0;
+};
+
+/// Where the camera looks from, seen from what it looks at.
+struct ViewDirection {
+  double azimuth = -50.0;   ///< from the x axis towards the y axis [deg]
+  double elevation = 24.0;  ///< above the horizon [deg]
+};
+
+/// One 3D picture: layers, light, background, orientation axes, scale bar and the legends of what is visible. z is up.
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// Draws into this part of the surface from now on. The surface may go before the scene.
+  void attach(RenderSurface& surface, const Viewport& viewport = {});
+
+  MeshLayer& mesh() { return *mesh_; }
+  CloudLayer& cloud() { return *cloud_; }
+  OctreeLayer& octree() { return *octree_; }
+  ViewsLayer& views() { return *views_; }
+  RaysLayer& rays() { return *rays_; }
+  RegionLayer& region() { return *region_; }
+
+  void set_caption(const std::string& caption);
+  void set_axes(bool axes, bool scale_bar);
+
+  /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a surface, for its
+  /// proportions.
+  void frame(const ViewDirection& direction = {});
+  /// Frames these points [m, world].
+  void frame(std::span<const Vector3> points, const ViewDirection& direction = {});
+
+  /// Takes over the layers' legends and labels; call it after layers changed. frame() does so too.
+  void annotate();
+
+  vtkRenderer& renderer();
+
+ private:
+  std::array<Layer*, 6> layers() const;  ///< in the order of their legends
+  std::array<FrameMargins, 2> margins() const;
+
+  struct Overlay;
+  vtkSmartPointer<vtkRenderer> renderer_;
+  std::unique_ptr<MeshLayer> mesh_;
+  std::unique_ptr<CloudLayer> cloud_;
+  std::unique_ptr<OctreeLayer> octree_;
+  std::unique_ptr<ViewsLayer> views_;
+  std::unique_ptr<RaysLayer> rays_;
+  std::unique_ptr<RegionLayer> region_;
+  std::unique_ptr<Overlay> overlay_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,130 @@
+#include "ui/scene_overlay.hpp"
+
+#include <fmt/format.h>
+#include <vtkCamera.h>
+#include <vtkContext2D.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "ui/painter.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double margin = 16.0;        // [px]
+constexpr double axis_length = 30.0;   // [px]
+constexpr double legend_gap = 14.0;    // [px]
+constexpr double longest_bar = 150.0;  // [px]
+
+struct Axis {
+  const char* name;
+  Vector3 in_view;  ///< x right, y up, z towards the viewer
+};
+
+std::array<Axis, 3> axes_in_view(vtkCamera& camera) {
+  vtkMatrix4x4* view = camera.GetViewTransformMatrix();
+  std::array<Axis, 3> axes{{{"x", {}}, {"y", {}}, {"z", {}}}};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int row = 0; row < 3; ++row) axes[axis].in_view[row] = view->GetElement(row, axis);
+  }
+  // The axis that points away from the viewer most is drawn first.
+  std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.in_view.z() < b.in_view.z(); });
+  return axes;
+}
+
+void paint_axes(Painter& painter, vtkCamera& camera) {
+  const double x = margin + axis_length + 8, y = margin + axis_length;
+  for (const Axis& axis : axes_in_view(camera)) {
+    const Eigen::Vector2d tip = axis.in_view.head<2>() * axis_length;
+    painter.line(x, y, x + tip.x(), y + tip.y(), 2, theme::ink);
+    const Eigen::Vector2d label =
+        tip + (tip.norm() > 1 ? Eigen::Vector2d(tip.normalized() * 9) : Eigen::Vector2d::Zero());
+    painter.text(x + label.x(), y + label.y() - 8, axis.name, theme::small_text, theme::ink, TextWeight::semi_bold,
+                 TextAlign::centre);
+  }
+}
+
+/// The longest of 1, 2 or 5 times a power of ten that fits.
+double round_length(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= longest) return factor * power;
+  }
+  return power;
+}
+
+void paint_scale_bar(Painter& painter, vtkRenderer& renderer, const Vector3& reference) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 position(camera.GetPosition());
+  const double distance = Vector3(camera.GetDirectionOfProjection()).dot(reference - position);
+  if (distance <= 0) return;
+  const double height = 2 * distance * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
+  const double pixels_per_metre = renderer.GetSize()[1] / height;
+  const double length = round_length(longest_bar / pixels_per_metre);
+  const double x = margin + 2 * axis_length + 44, y = margin + 4, width = length * pixels_per_metre;
+  painter.line(x, y, x + width, y, 2, theme::ink);
+  painter.line(x, y - 4, x, y + 4, 2, theme::ink);
+  painter.line(x + width, y - 4, x + width, y + 4, 2, theme::ink);
+  const std::string text = length >= 0.1 ? fmt::format("{:g} m", length) : fmt::format("{:g} mm", length * 1000);
+  painter.text(x + width / 2, y + 6, text, theme::small_text, theme::ink, TextWeight::regular, TextAlign::centre);
+}
+
+/// Pixels, if in front of the camera.
+std::optional<Eigen::Vector2d> project(vtkRenderer& renderer, const Vector3& point) {
+  vtkMatrix4x4* projection =
+      renderer.GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer.GetTiledAspectRatio(), -1, 1);
+  double clip[4] = {point.x(), point.y(), point.z(), 1.0};
+  projection->MultiplyPoint(clip, clip);
+  if (clip[3] <= 0) return {};
+  return Eigen::Vector2d((clip[0] / clip[3] + 1) / 2 * renderer.GetSize()[0],
+                         (clip[1] / clip[3] + 1) / 2 * renderer.GetSize()[1]);
+}
+
+void paint_label(Painter& painter, vtkRenderer& renderer, const Label& label) {
+  std::optional<Eigen::Vector2d> place;
+  for (const Vector3& candidate : label.places) {
+    const auto pixel = project(renderer, candidate);
+    if (pixel && (!place || pixel->y() < place->y())) place = pixel;
+  }
+  if (!place) return;
+  const auto weight = label.strong ? TextWeight::semi_bold : TextWeight::regular;
+  const double width = painter.text_width(label.text, theme::small_text, weight);
+  const double x = std::clamp(place->x() + 10, 4.0, std::max(4.0, renderer.GetSize()[0] - width - 8));
+  const bool above = label.places.size() == 1;  // of several, the lowest was taken: there is room beneath it
+  const double y = std::max(place->y() + (above ? 10 : -6), 4.0);
+  painter.box(x - 4, y - 3, width + 8, 20, theme::paper, 0.75);
+  painter.text(x, y, label.text, theme::small_text, label.colour, weight);
+}
+
+}  // namespace
+
+vtkStandardNewMacro(SceneOverlay);
+
+double SceneOverlay::legends_height() const {
+  double height = margin;
+  for (const Legend& legend : legends) height += Painter::legend_height(legend) + legend_gap;
+  return height;
+}
+
+bool SceneOverlay::Paint(vtkContext2D* context) {
+  Painter painter(*context);
+  const int* size = renderer->GetSize();
+  if (axes) paint_axes(painter, *renderer->GetActiveCamera());
+  if (scale_bar) paint_scale_bar(painter, *renderer, scale_reference);
+  for (const Label& label : labels) paint_label(painter, *renderer, label);
+  double y = size[1] - margin;
+  if (!caption.empty()) painter.text(margin, y - 18, caption, theme::caption, theme::ink, TextWeight::semi_bold);
+  for (const Legend& legend : legends) {
+    y -= painter.legend(size[0] - margin - legend_width, y, legend) + legend_gap;
+  }
+  return true;
+}
+
+}  // namespace nextview

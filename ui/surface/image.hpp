@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace nextview {
+
+/// An RGBA picture, 8 bits a channel, rows from top to bottom.
+struct Image {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+  std::vector<std::uint8_t> rgba;
+
+  bool operator==(const Image&) const = default;
+};
+
+/// Writes beside the file, then renames. The same picture gives the same bytes.
+/// @throws std::runtime_error naming the file and the reason.
+void write_png(const Image& image, const std::filesystem::path& file);
+
+/// @throws std::runtime_error naming the file and the reason: missing, not a PNG picture, truncated.
+Image read_png(const std::filesystem::path& file);
+
+}  // namespace nextview

@@ -1,0 +1,64 @@
+#include "ui/surface/offscreen_surface.hpp"
+
+#include <GL/osmesa.h>
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "ui/surface/headless.hpp"
+
+namespace nextview {
+namespace {
+
+/// OSMesa's functions come from the preloaded library; the program itself does not link OSMesa.
+template <class Function>
+Function osmesa(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(RTLD_DEFAULT, name));
+}
+
+}  // namespace
+
+OffscreenSurface::OffscreenSurface(int width, int height) : buffer_(std::size_t(width) * height * 4) {
+  if (!drawing_headless()) {
+    throw std::runtime_error("cannot draw into memory: this process was not started to draw headless");
+  }
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            24,
+                            OSMESA_STENCIL_BITS,
+                            8,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0};
+  context_ = osmesa<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(attributes, nullptr);
+  if (!context_) throw std::runtime_error("cannot draw into memory: OSMesa gives no OpenGL 3.3 core context");
+  start(width, height);
+}
+
+OffscreenSurface::~OffscreenSurface() {
+  finish();
+  osmesa<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(static_cast<OSMesaContext>(context_));
+}
+
+void OffscreenSurface::make_current() {
+  const auto make_current = osmesa<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
+  if (!make_current(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, width(), height())) {
+    throw std::runtime_error(fmt::format("cannot draw into memory: OSMesa takes no {} x {} pixels", width(), height()));
+  }
+}
+
+bool OffscreenSurface::is_current() const {
+  return osmesa<decltype(&OSMesaGetCurrentContext)>("OSMesaGetCurrentContext")() == context_;
+}
+
+void* OffscreenSurface::gl_function(const char* name) const {
+  return reinterpret_cast<void*>(osmesa<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress")(name));
+}
+
+}  // namespace nextview
