@@ -5,16 +5,16 @@
 #include <exception>
 #include <filesystem>
 
-#include "core/mesh/file_bytes.hpp"
+#include "core/file/atomic_file.hpp"
 #include "core/mesh/parts.hpp"
 
 int main(int argc, char** argv) try {
   const std::filesystem::path folder = argc > 1 ? argv[1] : "assets/objects";
   std::filesystem::create_directories(folder);
   for (const nextview::Part& part :
-       {nextview::slotted_plate(), nextview::slotted_housing(), nextview::sphere(), nextview::box()}) {
-    nextview::write_bytes(folder / (part.name + ".ply"), nextview::ply_bytes(part.mesh));
-    if (!part.openings.empty()) nextview::write_bytes(folder / (part.name + ".json"), nextview::openings_json(part));
+       {nextview::slotted_plate(), nextview::slotted_housing(), nextview::sphere_part(), nextview::box_part()}) {
+    nextview::write_file(folder / (part.name + ".ply"), nextview::ply_bytes(part.mesh));
+    if (!part.openings.empty()) nextview::write_file(folder / (part.name + ".json"), nextview::openings_json(part));
     fmt::print("{}: {} triangles, {}\n", part.name, part.mesh.triangles.size(),
                nextview::topology(part.mesh).summary());
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 namespace nextview {
@@ -45,6 +46,26 @@ Vector3 frame_points(const Eigen::Matrix3d& R_world_camera, double vertical_angl
   double depth = std::min(x.depth, y.depth);
   for (const Vector3& p : in_camera) depth = std::min(depth, p.z() - 1e-3);
   return R_world_camera * Vector3(x.position(depth), y.position(depth), depth);
+}
+
+bool clears_upper_right(const Eigen::Matrix3d& R_world_camera, const Vector3& position, double vertical_angle,
+                        double aspect, const Eigen::Vector2d& corner, std::span<const Vector3> points) {
+  const double vertical = std::tan(vertical_angle / 2);
+  std::vector<Eigen::Vector2d> from_corner;
+  for (const Vector3& point : points) {
+    const Vector3 p = R_world_camera.transpose() * (point - position);
+    from_corner.emplace_back(0.5 + 0.5 * p.x() / (p.z() * vertical * aspect) - corner.x(),
+                             0.5 - 0.5 * p.y() / (p.z() * vertical) - corner.y());
+  }
+  // Clear if a straight line through the corner has all points on its lower left.
+  constexpr int directions = 16;
+  for (int i = 0; i <= directions; ++i) {
+    const double angle = i * std::numbers::pi / 2 / directions;
+    const Eigen::Vector2d outward(std::cos(angle), std::sin(angle));
+    const auto beyond = [&](const Eigen::Vector2d& p) { return outward.dot(p) > 0; };
+    if (std::none_of(from_corner.begin(), from_corner.end(), beyond)) return true;
+  }
+  return false;
 }
 
 }  // namespace nextview

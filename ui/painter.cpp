@@ -6,6 +6,7 @@
 #include <vtkPen.h>
 #include <vtkTextProperty.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nextview {
@@ -14,6 +15,11 @@ namespace {
 unsigned char channel(double value) { return static_cast<unsigned char>(std::lround(value * 255)); }
 
 constexpr double legend_line = 20.0, swatch_size = 13.0, bar_height = 12.0;  // [px]
+
+std::string title_of(const Legend& legend) {
+  const bool has_unit = legend.range && !legend.range->unit.empty();
+  return has_unit ? fmt::format("{} [{}]", legend.title, legend.range->unit) : legend.title;
+}
 
 }  // namespace
 
@@ -57,6 +63,14 @@ void Painter::frame(double x, double y, double width, double height, const Colou
   line(x + width, y, x + width, y + height, 1, colour);
 }
 
+double Painter::legend_width(const Legend& legend) {
+  double width = std::max(usual_legend_width, text_width(title_of(legend), theme::small_text, TextWeight::semi_bold));
+  for (const Legend::Swatch& swatch : legend.swatches) {
+    width = std::max(width, swatch_size + 8 + text_width(swatch.name, theme::small_text));
+  }
+  return width;
+}
+
 double Painter::legend_height(const Legend& legend) {
   const double lines = double(legend.swatches.size()) + (legend.title.empty() ? 0 : 1) + (legend.range ? 1 : 0);
   return lines * legend_line + (legend.range ? bar_height + 3 : 0);
@@ -66,8 +80,7 @@ double Painter::legend(double x, double y, const Legend& legend) {
   double at = y;
   if (!legend.title.empty()) {
     at -= legend_line;
-    const std::string unit = legend.range && !legend.range->unit.empty() ? " [" + legend.range->unit + "]" : "";
-    text(x, at, legend.title + unit, theme::small_text, theme::ink, TextWeight::semi_bold);
+    text(x, at, title_of(legend), theme::small_text, theme::ink, TextWeight::semi_bold);
   }
   for (const Legend::Swatch& swatch : legend.swatches) {
     at -= legend_line;
@@ -77,13 +90,13 @@ double Painter::legend(double x, double y, const Legend& legend) {
   }
   if (legend.range) {
     at -= bar_height + 5;
-    for (int i = 0; i < int(legend_width); ++i) {
-      box(x + i, at, 1, bar_height, legend.range->map.at(i / (legend_width - 1)));
+    for (int i = 0; i < int(usual_legend_width); ++i) {
+      box(x + i, at, 1, bar_height, legend.range->map.at(i / (usual_legend_width - 1)));
     }
-    frame(x, at, legend_width, bar_height, theme::soft_ink);
+    frame(x, at, usual_legend_width, bar_height, theme::soft_ink);
     at -= legend_line - 2;
     text(x, at, short_number(legend.range->low), theme::small_text, theme::soft_ink);
-    text(x + legend_width, at, short_number(legend.range->high), theme::small_text, theme::soft_ink,
+    text(x + usual_legend_width, at, short_number(legend.range->high), theme::small_text, theme::soft_ink,
          TextWeight::regular, TextAlign::right);
   }
   return legend_height(legend);

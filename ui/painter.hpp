@@ -26,13 +26,15 @@ class Painter {
 
   /// Draws a legend whose upper left corner is (x, y); returns its height.
   double legend(double x, double y, const Legend& legend);
+  double legend_width(const Legend& legend);
   static double legend_height(const Legend& legend);
 
  private:
   vtkContext2D& context_;
 };
 
-inline constexpr double legend_width = 168.0;  ///< [px]
+/// Of most legends, and of every colour bar [px].
+inline constexpr double usual_legend_width = 168.0;
 
 /// "1234", "12.3", "0.00123": four significant digits for people.
 std::string short_number(double value);

@@ -109,17 +109,25 @@ void Scene::frame(const ViewDirection& direction) {
   frame(points, direction);
 }
 
-/// Room for the legends either beside or beneath them, as shares of the viewport.
-std::array<FrameMargins, 2> Scene::margins() const {
+/// The nearest camera of this orientation that shows all points clear of the legends.
+Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const {
   const SceneOverlay& overlay = *overlay_->item;
   const double width = std::max(renderer_->GetSize()[0], 1), height = std::max(renderer_->GetSize()[1], 1);
-  FrameMargins beside{20 / width, 20 / width, 44 / height, (overlay.caption.empty() ? 24 : 46) / height};
-  FrameMargins beneath = beside;
-  if (!overlay.legends.empty()) {
-    beside.right = std::min((legend_width + 36) / width, 0.5);
-    beneath.top = std::clamp(overlay.legends_height() / height, beneath.top, 0.5);
+  const auto framed = [&](const FrameMargins& margins) {
+    return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
+  };
+  const FrameMargins centred{20 / width, 20 / width, 44 / height, (overlay.caption.empty() ? 24 : 46) / height};
+  const Vector3 middle = framed(centred);
+  if (overlay.legends.empty()) return middle;
+  FrameMargins beside = centred, beneath = centred;
+  beside.right = std::min((usual_legend_width + 36) / width, 0.5);
+  beneath.top = std::clamp(overlay.legends_height() / height, centred.top, 0.5);
+  if (clears_upper_right(R_world_camera, middle, radians(vertical_angle), width / height,
+                         {1 - beside.right, 1 - beneath.top}, points)) {
+    return middle;
   }
-  return {beside, beneath};
+  const Vector3 left = framed(beside), lower = framed(beneath), forward = R_world_camera.col(2);
+  return forward.dot(left) > forward.dot(lower) ? left : lower;
 }
 
 void Scene::frame(std::span<const Vector3> points, const ViewDirection& direction) {
@@ -128,12 +136,7 @@ void Scene::frame(std::span<const Vector3> points, const ViewDirection& directio
   const Vector3 towards_camera(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
                                std::sin(elevation));
   const Eigen::Matrix3d R_world_camera = look_at(towards_camera, Vector3::Zero()).linear();
-  const double aspect = double(std::max(renderer_->GetSize()[0], 1)) / std::max(renderer_->GetSize()[1], 1);
-  const auto [beside, beneath] = margins();
-  Vector3 position = frame_points(R_world_camera, radians(vertical_angle), aspect, beside, points);
-  const Vector3 other = frame_points(R_world_camera, radians(vertical_angle), aspect, beneath, points);
-  if (towards_camera.dot(other) < towards_camera.dot(position)) position = other;  // nearer, so everything is larger
-
+  const Vector3 position = camera_position(R_world_camera, points);
   Eigen::AlignedBox3d box;
   for (const Vector3& point : points) box.extend(point);
   const Vector3 focus = position - towards_camera * towards_camera.dot(position - box.center());

@@ -58,7 +58,7 @@ class Scene {
 
  private:
   std::array<Layer*, 6> layers() const;  ///< in the order of their legends
-  std::array<FrameMargins, 2> margins() const;
+  Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
   vtkSmartPointer<vtkRenderer> renderer_;

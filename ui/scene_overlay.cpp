@@ -121,8 +121,10 @@ bool SceneOverlay::Paint(vtkContext2D* context) {
   for (const Label& label : labels) paint_label(painter, *renderer, label);
   double y = size[1] - margin;
   if (!caption.empty()) painter.text(margin, y - 18, caption, theme::caption, theme::ink, TextWeight::semi_bold);
+  double width = 0;
+  for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
   for (const Legend& legend : legends) {
-    y -= painter.legend(size[0] - margin - legend_width, y, legend) + legend_gap;
+    y -= painter.legend(size[0] - margin - width, y, legend) + legend_gap;
   }
   return true;
 }

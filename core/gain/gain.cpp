@@ -9,7 +9,7 @@ namespace nextview {
 namespace {
 
 bool is_unknown(const RayVoxel& v) { return v.voxel_class == VoxelClass::unknown; }  // unmeasured ones are, at p = 0.5
-bool is_occupied(const RayVoxel& v) { return v.measured && v.voxel_class == VoxelClass::occupied; }
+bool is_occupied(const RayVoxel& v) { return v.voxel_class == VoxelClass::occupied; }
 bool is_behind_surface(const RayVoxel& v) { return !v.measured && v.occlusion_distance > 0; }
 
 /// Most gains are their first sum.
@@ -72,7 +72,7 @@ struct AreaFactor {
     for (std::size_t i = 0; i < ray.voxels.size(); ++i) {
       const RayVoxel& v = ray.voxels[i];
       if (is_behind_surface(v)) return add(i, occluded, 1.0);
-      if (is_occupied(v)) {
+      if (v.measured && is_occupied(v)) {
         if (v.has_node) sums.node_seen = true;
         // The reference counts an occupied end only behind what it takes for free.
         if (ray.semantics == Semantics::published || previous_free) add(i, occupied, 1.0);

@@ -14,7 +14,7 @@ struct Ray {
   std::span<const RayVoxel> voxels;   ///< v_0 ... v_N
   std::span<const double> visibility;  ///< pi_0 ... pi_N: how likely the ray gets that far
   Semantics semantics = Semantics::published;
-  int occlusion_reach = 60;            ///< d_max of proximity count [voxels]
+  double occlusion_reach = 60.0;       ///< d_max of proximity count [voxels]
 };
 
 /// What a gain adds up over the rays of one view: up to three sums, and what the reference's area factor carries from ray to ray.

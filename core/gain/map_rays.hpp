@@ -26,10 +26,11 @@ class ReferenceMap : public RayCaster {
   struct Parameters {
     double resolution = 0.01;             ///< [m]
     InverseSensorModel model;
+    double unknown_prior = 0.5;           ///< probability of what has not been measured
     bool use_bounding_box = true;
     Vector3 lower = Vector3::Zero();      ///< bounding box [m, world]; points outside are dropped
     Vector3 upper = Vector3::Zero();
-    double max_sensor_range = 1.5;        ///< [m]
+    double max_sensor_range = 1.5;        ///< [m]; negative: no limit
     double occlusion_distance = 0.3;      ///< [m]
     double max_ray_depth = 1.5;           ///< [m]
   };

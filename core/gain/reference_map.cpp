@@ -79,12 +79,13 @@ void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f
   for (const Eigen::Vector3f& p : points) {
     if (outside(p)) continue;
     const point3d point(p.x(), p.y(), p.z());
-    if ((point - from).norm() <= parameters_.max_sensor_range + 1e-6) {
+    const double range_limit = parameters_.max_sensor_range;
+    if (range_limit < 0.0 || (point - from).norm() <= range_limit + 1e-6) {
       if (tree_->computeRayKeys(from, point, ray)) free.insert(ray.begin(), ray.end());
       occupied.insert(tree_->coordToKey(point));
       inserted.push_back(point);
     } else {
-      const point3d end = from + (point - from).normalized() * static_cast<float>(parameters_.max_sensor_range);
+      const point3d end = from + (point - from).normalized() * static_cast<float>(range_limit);
       if (tree_->computeRayKeys(from, end, ray)) free.insert(ray.begin(), ray.end());
     }
   }
@@ -116,11 +117,9 @@ void ReferenceMap::cast(const Vector3& origin, const Vector3& direction, std::ve
     for (int axis = 0; axis < 3; ++axis) voxel.lattice[axis] = static_cast<std::int16_t>(int(key[axis]) - 32768);
     const Node* node = tree_->search(key);
     voxel.has_node = node != nullptr;
-    if (!node) return;
-    voxel.measured = !node->unmeasured;
-    voxel.occlusion_distance = static_cast<std::uint8_t>(std::min(node->occlusion_distance, 255));
-    if (node->unmeasured) return;
-    const double p = node->getOccupancy();
+    voxel.measured = node && !node->unmeasured;
+    if (node) voxel.occlusion_distance = static_cast<std::uint16_t>(std::min(node->occlusion_distance, 65535));
+    const double p = voxel.measured ? node->getOccupancy() : parameters_.unknown_prior;
     voxel.probability = static_cast<float>(p);
     voxel.entropy = static_cast<float>(entropy(p));
     voxel.voxel_class = parameters_.model.classify(p);

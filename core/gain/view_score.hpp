@@ -18,7 +18,7 @@ struct ViewScore {
 
 struct ScoreOptions {
   Semantics semantics = Semantics::published;
-  int occlusion_reach = 60;  ///< d_max of proximity count [voxels]
+  double occlusion_reach = 60.0;  ///< d_max of proximity count [voxels]
 };
 
 /// Scores each view by each gain, the views in parallel; the same result on any number of threads.

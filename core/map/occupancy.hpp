@@ -21,7 +21,7 @@ struct Voxel {
   float entropy = 0.6931472f;              ///< [nats]
   VoxelClass voxel_class = VoxelClass::unknown;
   bool measured = false;                   ///< a measurement has touched it (a Gibbs map: it is informed)
-  std::uint8_t occlusion_distance = 0;     ///< how far behind a measured surface it lies [voxels along the ray]; 0: not behind one
+  std::uint16_t occlusion_distance = 0;    ///< how far behind a measured surface it lies [voxels along the ray]; 0: not behind one
 };
 
 /// OctoMap's inverse sensor model and the bounds of the classes (SCIENCE: the conventional map).

@@ -127,13 +127,13 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double re
       const Eigen::Vector3f end = shortened(origin, point, length + reach);
       int behind = -1;  // the return's own voxel is no. 0
       walk_segment(grid_, point, end, [&](int x, int y, int z) {
-        if (!grid_.contains({x, y, z}) || ++behind > 255) return false;
+        if (!grid_.contains({x, y, z}) || ++behind > 65535) return false;
         Voxel& voxel = voxels_[grid_.index({x, y, z})];
         if (behind == 0 || voxel.measured) return true;
-        std::atomic_ref<std::uint8_t> nearest(voxel.occlusion_distance);
-        std::uint8_t seen = nearest.load(std::memory_order_relaxed);
+        std::atomic_ref<std::uint16_t> nearest(voxel.occlusion_distance);
+        std::uint16_t seen = nearest.load(std::memory_order_relaxed);
         while ((seen == 0 || behind < seen) &&
-               !nearest.compare_exchange_weak(seen, static_cast<std::uint8_t>(behind), std::memory_order_relaxed)) {
+               !nearest.compare_exchange_weak(seen, static_cast<std::uint16_t>(behind), std::memory_order_relaxed)) {
         }
         return true;
       });

@@ -53,6 +53,10 @@ void append(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& T_f
   for (unsigned c = 0; c < node.mNumChildren; ++c) append(scene, *node.mChildren[c], T_file_node, all);
 }
 
+std::runtime_error failure(const Assimp::Importer& importer) {
+  return std::runtime_error(std::string("cannot be read by Assimp: ") + importer.GetErrorString());
+}
+
 }  // namespace
 
 bool has_reader(const std::string& extension) { return Assimp::Importer().IsExtensionSupported(extension); }
@@ -60,10 +64,10 @@ bool has_reader(const std::string& extension) { return Assimp::Importer().IsExte
 ImportedTriangles read_scene(const std::filesystem::path& file) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(file.string(), 0);
-  if (!scene || !scene->mRootNode) throw std::runtime_error(importer.GetErrorString());
+  if (!scene || !scene->mRootNode) throw failure(importer);
   check_indices(*scene);
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (!scene) throw std::runtime_error(importer.GetErrorString());
+  if (!scene) throw failure(importer);
   ImportedTriangles all;
   append(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), all);
   return all;

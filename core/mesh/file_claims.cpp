@@ -52,32 +52,41 @@ std::int64_t take_count(std::string_view& text) {
   return count;
 }
 
-/// Lines that hold something besides a comment.
-std::int64_t lines_of_content(std::string_view text) {
-  std::int64_t lines = 0;
+/// Takes the next line that holds something besides a comment; empty at the end.
+std::string_view take_line(std::string_view& text) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(text.size(), line.size() + 1));
     const std::size_t start = line.find_first_not_of(" \t\r");
-    lines += start != std::string_view::npos && line[start] != '#';
+    if (start != std::string_view::npos && line[start] != '#') return line;
   }
-  return lines;
+  return {};
+}
+
+bool is_face(std::string_view line, std::int64_t vertices) {
+  const std::int64_t corners = take_count(line);
+  for (std::int64_t i = 0; i < corners; ++i)
+    if (const std::int64_t vertex = take_count(line); vertex < 0 || vertex >= vertices) return false;
+  return corners > 0;
 }
 
 std::string false_off_claim(std::string_view bytes) {
   const std::size_t keyword = bytes.substr(0, 20).find("OFF");
   if (keyword == std::string_view::npos) return "does not begin with OFF";
   std::string_view rest = bytes.substr(keyword + 3);
-  for (std::size_t start; (start = rest.find_first_not_of(" \t\r\n")) != std::string_view::npos && rest[start] == '#';)
-    rest.remove_prefix(std::min(rest.size(), rest.find('\n', start)));
-  const std::int64_t vertices = take_count(rest), faces = take_count(rest), edges = take_count(rest);
+  std::string_view counts = take_line(rest);
+  const std::int64_t vertices = take_count(counts), faces = take_count(counts), edges = take_count(counts);
   if (vertices < 0 || faces < 0 || edges < 0)
     return "its OFF header must hold the numbers of vertices, faces and edges";
-  rest.remove_prefix(std::min(rest.size(), rest.find('\n')));
-  const std::int64_t lines = lines_of_content(rest);
-  if (vertices <= lines && faces <= lines - vertices) return "";
-  return fmt::format("its OFF header claims {} vertices and {} faces, but {} lines follow; it may be truncated",
-                     vertices, faces, lines);
+  for (std::int64_t i = 0; i < vertices; ++i)
+    if (take_line(rest).empty())
+      return fmt::format("its OFF header claims {} vertices, but only {} lines follow; it may be truncated", vertices,
+                         i);
+  for (std::int64_t i = 0; i < faces; ++i)  // Assimp takes the last vertex for one that is not there.
+    if (const std::string_view line = take_line(rest); line.empty() || !is_face(line, vertices))
+      return fmt::format("its OFF header claims {} faces of {} vertices, but face {} is {}", faces, vertices, i,
+                         line.empty() ? "missing; it may be truncated" : "not a list of such vertices");
+  return "";
 }
 
 std::string false_glb_claim(std::string_view bytes) {

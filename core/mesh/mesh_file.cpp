@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/mesh/file_bytes.hpp"
+#include "core/file/atomic_file.hpp"
 #include "core/mesh/file_claims.hpp"
 #include "core/mesh/scene_import.hpp"
 #include "core/mesh/weld.hpp"
@@ -30,6 +30,12 @@ std::string lower_case_extension(const std::filesystem::path& file) {
   return extension;
 }
 
+/// Opening a pipe would wait for someone to write into it.
+bool is_device(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::is_other(file, error);
+}
+
 /// Readers quote what they did not understand, line breaks and binary bytes included.
 std::string one_line(std::string_view text) {
   std::string line(text.substr(0, std::min(text.find('\n'), std::size_t{200})));
@@ -40,6 +46,7 @@ std::string one_line(std::string_view text) {
 
 /// @throws std::runtime_error with the reason alone, as everything below does
 void check_content(const std::string& extension, std::string_view bytes) {
+  if (bytes.empty()) throw std::runtime_error("is empty");
   if (!has_reader(extension))
     throw std::runtime_error(
         fmt::format("'{}' is no known mesh file type; use ply, obj, stl, off, 3mf or gltf", extension));
@@ -124,7 +131,8 @@ TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions&
   if (!(options.longest_side >= 0.0 && options.longest_side <= largest_own_size))
     throw std::invalid_argument(
         fmt::format("longest_side must lie between 0 (the file's own size) and {} m", largest_own_size));
-  std::string bytes = read_bytes(file, options.largest_file);
+  if (is_device(file)) throw std::runtime_error(fmt::format("{}: is a device or a pipe, not a file", file.string()));
+  std::string bytes = read_file(file, options.largest_file);
   try {
     check_content(lower_case_extension(file), bytes);
     bytes = std::string();  // Assimp reads the file itself; no need to hold it twice.

@@ -119,7 +119,7 @@ Part slotted_housing() {
   return part;
 }
 
-Part sphere() {
+Part sphere_part() {
   std::vector<Eigen::Vector3d> corners;
   TriangleMesh mesh = icosahedron(corners);
   for (Eigen::Vector3d& corner : corners) corner.normalize();
@@ -128,6 +128,6 @@ Part sphere() {
   return {"sphere", mesh, {}};
 }
 
-Part box() { return {"box", LatticeSolid({{{-0.25, 0.25}, {-0.1655, 0.1655}, {-0.1235, 0.1235}}}).surface(), {}}; }
+Part box_part() { return {"box", LatticeSolid({{{-0.25, 0.25}, {-0.1655, 0.1655}, {-0.1235, 0.1235}}}).surface(), {}}; }
 
 }  // namespace nextview

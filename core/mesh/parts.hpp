@@ -35,8 +35,8 @@ Part slotted_plate();
 /// A box open at the top, walls 20 mm thick, with slots of the same widths in one long wall and bores in the other.
 Part slotted_housing();
 /// An icosahedron, each triangle divided in four five times; corners on a sphere of radius 0.25 m.
-Part sphere();
-Part box();
+Part sphere_part();
+Part box_part();
 
 /// The openings as JSON text: unit, frame, and for each opening the fields of Opening.
 std::string openings_json(const Part& part);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/mesh/file_bytes.hpp"
+#include "core/file/atomic_file.hpp"
 
 namespace nextview {
 namespace {
@@ -119,7 +119,8 @@ RecordedScan read_scan(LineReader& reader) {
 }  // namespace
 
 RecordedScene read_recorded_scene(const std::filesystem::path& file) {
-  const std::string text = read_bytes(file);
+  const std::string text = read_file(file);
+  if (text.empty()) throw std::runtime_error(fmt::format("{}: is empty", file.string()));
   LineReader reader(file, text);
   RecordedScene scene;
   while (reader.next_line()) {

@@ -75,8 +75,8 @@ std::string gain_unit(const std::string& name) {
   return std::string(gain(name).unit);
 }
 
-int occlusion_reach(const Configuration& configuration) {
-  return static_cast<int>(std::lround(2.0 * occlusion_distance / configuration.map.resolution));
+double occlusion_reach(const Configuration& configuration) {
+  return 2.0 * occlusion_distance / configuration.map.resolution;
 }
 
 bool needs_occlusion(const Configuration& configuration) {

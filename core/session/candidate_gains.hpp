@@ -27,7 +27,7 @@ std::vector<double> candidate_gains(const PlanningState& state, std::span<const 
 /// Unit of `planner.gain`, for people: "nats", "voxels", "m", "samples" or "".
 std::string gain_unit(const std::string& gain);
 /// d_max of proximity count [voxels].
-int occlusion_reach(const Configuration& configuration);
+double occlusion_reach(const Configuration& configuration);
 /// Whether ranking by `planner.gain` wants the map's occlusion distances.
 bool needs_occlusion(const Configuration& configuration);
 

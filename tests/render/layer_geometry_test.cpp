@@ -94,6 +94,19 @@ TEST(CameraFraming, AllPointsAreWithinTheMarginsAndTouchTwoOfThem) {
   EXPECT_TRUE((left < 1e-9 && right < 1e-9) || (bottom < 1e-9 && top < 1e-9)) << "the camera could be nearer";
 }
 
+TEST(CameraFraming, PointsInTheUpperRightAreSeen) {
+  const Eigen::Matrix3d R = look_at({0, -1, 0}, Vector3::Zero()).linear();  // x right, z up in the picture
+  const auto clear = [&](const Vector3& a, const Vector3& b) {
+    const double angle = 2 * std::atan(0.5);  // the picture is 1 m high where the points are
+    return clears_upper_right(R, {0, -1, 0}, angle, 1.0, {0.7, 0.7}, std::vector{a, b});
+  };
+  EXPECT_TRUE(clear({0.15, 0, 0.4}, {-0.4, 0, -0.4})) << "left of it";
+  EXPECT_TRUE(clear({0.4, 0, 0.15}, {-0.4, 0, -0.4})) << "beneath it";
+  EXPECT_TRUE(clear({0.15, 0, 0.22}, {0.22, 0, 0.15})) << "around its corner";
+  EXPECT_FALSE(clear({0.3, 0, 0.3}, {-0.4, 0, -0.4})) << "in it";
+  EXPECT_FALSE(clear({0.1, 0, 0.45}, {0.45, 0, 0.1})) << "the way between the points crosses it";
+}
+
 TEST(ColourMaps, LightnessChangesEvenly) {
   for (const ColourMap& map : {ColourMap::score(), ColourMap::contribution()}) {
     const double first = lightness(map.at(0)), last = lightness(map.at(1));

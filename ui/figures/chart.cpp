@@ -55,8 +55,8 @@ struct Scale {
   }
 };
 
-/// `margin` is a share of the range that stays free at both ends, so that no marker is cut.
-void set_ticks(vtkAxis& axis, const std::vector<double>& ticks, double margin) {
+/// The margins are shares of the range that stay free at its ends, so that no marker is cut.
+void set_ticks(vtkAxis& axis, const std::vector<double>& ticks, double low_margin, double high_margin) {
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   for (const double tick : ticks) {
@@ -65,8 +65,8 @@ void set_ticks(vtkAxis& axis, const std::vector<double>& ticks, double margin) {
   }
   axis.SetCustomTickPositions(positions, labels);
   axis.SetBehavior(vtkAxis::FIXED);
-  const double free = margin * (ticks.back() - ticks.front());
-  axis.SetRange(ticks.front() - free, ticks.back() + free);
+  const double range = ticks.back() - ticks.front();
+  axis.SetRange(ticks.front() - low_margin * range, ticks.back() + high_margin * range);
 }
 
 void style_axis(vtkAxis& axis, const std::string& title) {
@@ -180,9 +180,9 @@ void Chart::show(const ChartContent& content) {
   chart.GetLegend()->SetVerticalAlignment(rising ? vtkChartLegend::BOTTOM : vtkChartLegend::TOP);
   style_axis(*chart.GetAxis(vtkAxis::BOTTOM), Scale(1.0, "").title(content.x_label, content.x_unit));
   style_axis(*chart.GetAxis(vtkAxis::LEFT), scale.title(content.y_label, content.y_unit));
-  set_ticks(*chart.GetAxis(vtkAxis::BOTTOM), round_ticks(x.low, x.high, 8, content.whole_x), 0.015);
+  set_ticks(*chart.GetAxis(vtkAxis::BOTTOM), round_ticks(x.low, x.high, 8, content.whole_x), 0.02, 0.02);
   set_ticks(*chart.GetAxis(vtkAxis::LEFT),
-            round_ticks(std::min(0.0, y.low) / scale.factor, top / scale.factor, 5, false), 0.0);
+            round_ticks(std::min(0.0, y.low) / scale.factor, top / scale.factor, 5, false), 0.0, 0.03);
 }
 
 }  // namespace nextview

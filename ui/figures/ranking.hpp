@@ -7,11 +7,12 @@
 
 namespace nextview {
 
-/// The best candidate views as bars, best first; equal scores in the candidates' order.
+/// The best candidate views, best first; equals in the candidates' order. Bars show the scores.
 struct RankingContent {
   std::string title;
-  std::string unit;
+  std::string score_name, unit;
   std::vector<double> scores;         ///< one a candidate
+  std::vector<double> utilities;      ///< one a candidate, and then the order is theirs; or none
   std::vector<std::size_t> visited;   ///< candidates that no longer take part
   std::optional<std::size_t> chosen;  ///< stands out; shown even if others are better
   std::string note;                   ///< one line beneath, for example why a ranking says nothing
@@ -30,6 +31,9 @@ class Ranking : public vtkContextItem {
 
   RankingContent content;
   double x = 0, y = 0, width = 0, height = 0;
+
+ private:
+  std::pair<double, double> score_range(const std::vector<std::size_t>& candidates) const;
 };
 
 }  // namespace nextview

@@ -146,12 +146,8 @@ void StepFigure::show(const StepPicture& picture) {
   p.map.octree().show(picture.grid, picture.voxels);
   p.map.frame(direction);
 
-  p.ranking->content = {"Best candidates, " + picture.gain_name,
-                        picture.gain_unit,
-                        picture.scores,
-                        picture.visited,
-                        picture.chosen,
-                        picture.ranking_note};
+  p.ranking->content = {"Best candidates", picture.gain_name, picture.gain_unit, picture.scores,
+                        picture.utilities, picture.visited,   picture.chosen,    picture.ranking_note};
   p.entropy.show(picture.entropy);
   p.coverage.show(picture.coverage);
 }

@@ -33,7 +33,8 @@ struct StepPicture {
   PinholeCamera camera;
   std::vector<Pose> candidates;       ///< T_world_camera
   std::vector<double> scores;         ///< one a candidate [gain_unit]
-  std::vector<std::size_t> visited;   ///< candidates
+  std::vector<double> utilities;      ///< one a candidate if the ranking is by utility, otherwise none
+  std::vector<std::size_t> visited;   ///< candidates that no longer take part
   std::optional<std::size_t> chosen;  ///< a candidate: the next best view
   std::vector<Pose> path;             ///< views taken so far, the start view first; T_world_camera
   std::vector<RaySegment> rays;       ///< of the chosen view

@@ -31,24 +31,24 @@ std::uint32_t Geometry::add_point(const Eigen::Vector3d& point) {
   return static_cast<std::uint32_t>(points_.size() - 1);
 }
 
-void Geometry::add_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Colour& colour) {
-  lines_.push_back({{add_point(from), add_point(to)}, colour});
+void Geometry::add_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Colour& colour, double opacity) {
+  lines_.push_back({{add_point(from), add_point(to)}, colour, opacity});
 }
 
 void Geometry::add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                             const Colour& colour) {
-  triangles_.push_back({{add_point(a), add_point(b), add_point(c)}, colour});
+  triangles_.push_back({{add_point(a), add_point(b), add_point(c)}, colour, 1.0});
 }
 
 vtkSmartPointer<vtkPolyData> Geometry::polydata() const {
   vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfComponents(4);
   const auto cells = [&](const std::vector<Cell>& source) {
     vtkNew<vtkCellArray> result;
     for (const Cell& cell : source) {
       result->InsertNextCell(int(cell.points.size()));
       for (const std::uint32_t point : cell.points) result->InsertCellPoint(point);
-      for (const double channel : cell.colour) {
+      for (const double channel : {cell.colour[0], cell.colour[1], cell.colour[2], cell.opacity}) {
         colours->InsertNextValue(static_cast<unsigned char>(std::lround(channel * 255)));
       }
     }

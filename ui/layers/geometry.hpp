@@ -14,7 +14,7 @@ namespace nextview {
 /// Lines and triangles with a colour each, gathered before VTK draws them.
 class Geometry {
  public:
-  void add_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Colour& colour);
+  void add_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Colour& colour, double opacity = 1.0);
   void add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Colour& colour);
 
   /// Cell colours are the cells' scalars.
@@ -24,6 +24,7 @@ class Geometry {
   struct Cell {
     std::vector<std::uint32_t> points;
     Colour colour;
+    double opacity;
   };
   std::uint32_t add_point(const Eigen::Vector3d& point);
 

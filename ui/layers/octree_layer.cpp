@@ -1,5 +1,6 @@
 #include "ui/layers/octree_layer.hpp"
 
+#include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkDataObject.h>
@@ -76,7 +77,10 @@ std::vector<Legend> legends_of(const VoxelFilter& filter, VoxelColouring colouri
   }
   Legend legend{"voxels", {}, {}};
   if (filter.occupied) legend.swatches.push_back({"occupied", theme::occupied});
-  if (filter.unknown) legend.swatches.push_back({"unknown, measured", theme::unknown});
+  if (filter.unknown) {
+    const std::string bound = filter.unknown_from > 0 ? fmt::format(", p ≥ {:g}", filter.unknown_from) : "";
+    legend.swatches.push_back({"measured, unknown" + bound, theme::unknown});
+  }
   if (filter.free) legend.swatches.push_back({"free", theme::free});
   return {legend};
 }
@@ -109,7 +113,7 @@ OctreeLayer::Part OctreeLayer::make_part() {
 
 void OctreeLayer::show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter,
                        VoxelColouring colouring) {
-  const auto solid = exposed_faces(grid, voxels, {filter.occupied, filter.unknown, false});
+  const auto solid = exposed_faces(grid, voxels, {filter.occupied, filter.unknown, false, filter.unknown_from});
   const auto free = exposed_faces(grid, voxels, {false, false, filter.free});
   solid_.mapper->SetInputDataObject(face_polydata(grid, voxels, solid));
   free_.mapper->SetInputDataObject(face_polydata(grid, voxels, free));

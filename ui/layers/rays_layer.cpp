@@ -6,17 +6,24 @@
 #include <vtkProperty.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/layers/geometry.hpp"
 
 namespace nextview {
+
+namespace {
+
+/// Opacity of a segment that contributes nothing: just enough to see where the rays go.
+constexpr double faintest = 0.12;
+
+}  // namespace
 
 RaysLayer::RaysLayer(vtkRenderer& renderer)
     : Layer(renderer), mapper_(vtkSmartPointer<vtkPolyDataMapper>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
   mapper_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
   actor_->SetMapper(mapper_);
   actor_->GetProperty()->LightingOff();
-  actor_->GetProperty()->SetOpacity(0.8);
   actor_->GetProperty()->SetLineWidth(1.3f);
   add(*actor_);
 }
@@ -31,7 +38,8 @@ void RaysLayer::show(std::span<const RaySegment> segments, const RayValues& valu
   Geometry geometry;
   const ColourMap map = ColourMap::contribution();
   for (const RaySegment& segment : segments) {
-    geometry.add_line(segment.from, segment.to, high > 0 ? map.at(segment.value / high) : map.at(0));
+    const double share = high > 0 ? std::clamp(segment.value / high, 0.0, 1.0) : 0.0;
+    geometry.add_line(segment.from, segment.to, map.at(share), faintest + (1 - faintest) * std::sqrt(share));
   }
   mapper_->SetInputDataObject(geometry.polydata());
   std::vector<Legend> legends;

@@ -20,7 +20,7 @@ struct RayValues {
   std::string unit;
 };
 
-/// Rays of a view, coloured from 0 to the largest value. Without a value (0) they stay pale.
+/// Rays of a view, coloured from 0 to the largest value. What has no value (0) is nearly clear.
 class RaysLayer : public Layer {
  public:
   explicit RaysLayer(vtkRenderer& renderer);

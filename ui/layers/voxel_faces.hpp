@@ -13,11 +13,15 @@ struct VoxelFilter {
   bool occupied = true;
   bool unknown = true;  ///< measured, but neither free nor occupied yet
   bool free = false;
+  /// Unknown voxels below this probability stay hidden: they are space that a ray or two passed, and would hide the
+  /// rest.
+  double unknown_from = 0.5;
 
   bool shows(const Voxel& voxel) const {
     return voxel.measured &&
            ((occupied && voxel.voxel_class == VoxelClass::occupied) ||
-            (unknown && voxel.voxel_class == VoxelClass::unknown) || (free && voxel.voxel_class == VoxelClass::free));
+            (unknown && voxel.voxel_class == VoxelClass::unknown && voxel.probability >= unknown_from) ||
+            (free && voxel.voxel_class == VoxelClass::free));
   }
 };
 

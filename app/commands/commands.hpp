@@ -1,0 +1,14 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace nextview {
+
+/// A subcommand registers its options with the program and the function that runs it; the function returns the exit code.
+void add_scan_command(CLI::App& program);
+void add_score_command(CLI::App& program);
+
+/// Exit codes: 0 done, 2 bad input or settings, 130 stopped by the user.
+inline constexpr int exit_bad_input = 2;
+inline constexpr int exit_stopped = 130;
+
+}  // namespace nextview

@@ -1,0 +1,63 @@
+#include "app/commands/options.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace nextview {
+namespace {
+
+struct ShortName {
+  const char* name;
+  const char* key;
+};
+constexpr std::array short_names = {
+    ShortName{"--gain", "planner.gain"},   ShortName{"--views", "termination.views"},
+    ShortName{"--seed", "seed"},           ShortName{"--semantics", "planner.semantics"},
+    ShortName{"--sensor", "sensor.preset"}, ShortName{"--resolution", "map.resolution"},
+};
+
+std::string describe(const Setting& setting) {
+  std::string text = setting.help;
+  if (!setting.unit.empty()) text += fmt::format(" [{}]", setting.unit);
+  if (const auto* choice = std::get_if<Setting::Choice>(&setting.value))
+    text += fmt::format("; one of {}", fmt::join(choice->names, ", "));
+  const std::string value = setting.text();
+  return value.empty() ? text : fmt::format("{} (default {})", text, value);
+}
+
+}  // namespace
+
+void ConfigurationOptions::add_to(CLI::App& app) {
+  app.add_option("OBJECT", object_, "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …");
+  app.add_option("--config", file_, "configuration file (TOML); options override it")->type_name("FILE");
+  static Configuration defaults;
+  for (const Setting& setting : settings(defaults)) {
+    std::string names = "--" + setting.key;
+    std::string group = "Settings";
+    for (const auto& [name, key] : short_names)
+      if (setting.key == key) {
+        // The key itself stays an option where it is not the short name already.
+        names = names == name ? names : fmt::format("{},{}", name, names);
+        group = "Common settings";
+      }
+    app.add_option_function<std::string>(
+           names, [this, key = setting.key](const std::string& text) { given_[key] = text; }, describe(setting))
+        ->group(group)
+        ->type_name(setting.unit.empty() ? "VALUE" : setting.unit);
+  }
+}
+
+Configuration ConfigurationOptions::configuration() const {
+  Configuration configuration;
+  if (!file_.empty()) configuration = read_configuration(file_);
+  if (const auto preset = given_.find("sensor.preset"); preset != given_.end()) apply_sensor_preset(configuration, preset->second);
+  auto list = settings(configuration);
+  for (Setting& setting : list)
+    if (const auto given = given_.find(setting.key); given != given_.end()) setting.set(given->second);
+  if (!object_.empty()) configuration.object.file = object_;
+  configuration.validate();
+  return configuration;
+}
+
+}  // namespace nextview

@@ -1,0 +1,25 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/session/configuration.hpp"
+
+namespace nextview {
+
+/// What the command line says of a configuration: a file, and settings by their keys, which override it.
+class ConfigurationOptions {
+ public:
+  /// Adds OBJECT, --config, an option for every setting (`--sensor.range_noise 0.001`), and the short names of the common ones.
+  void add_to(CLI::App& app);
+  /// @throws std::runtime_error, std::invalid_argument with one line for people.
+  Configuration configuration() const;
+
+ private:
+  std::string file_;
+  std::string object_;
+  std::map<std::string, std::string> given_;  ///< key -> text
+};
+
+}  // namespace nextview

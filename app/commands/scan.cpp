@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
+#include "core/session/scan_files.hpp"
+#include "ui/figures/session_figure.hpp"
+
+namespace nextview {
+namespace {
+
+struct ScanArguments {
+  ConfigurationOptions options;
+  std::string out = "out";
+  bool no_pictures = false;
+};
+
+std::atomic<bool> interrupted = false;
+
+/// Turns Ctrl+C into a requested stop, so that what has been scanned is still written.
+class StopOnInterrupt {
+ public:
+  StopOnInterrupt() : previous_(std::signal(SIGINT, [](int) { interrupted = true; })) {
+    watcher_ = std::jthread([this](std::stop_token done) {
+      while (!done.stop_requested() && !interrupted) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      if (interrupted) source_.request_stop();
+    });
+  }
+  ~StopOnInterrupt() { std::signal(SIGINT, previous_); }
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  void (*previous_)(int);
+  std::stop_source source_;
+  std::jthread watcher_;
+};
+
+/// A line on a terminal that tells what is going on; nothing where errors go to a file.
+class ProgressLine {
+ public:
+  void operator()(double fraction, std::string_view what) const {
+    if (visible_) fmt::print(stderr, "\r\033[K{:3.0f} %  {}", 100.0 * fraction, what);
+  }
+  void clear() const {
+    if (visible_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool visible_ = ::isatty(STDERR_FILENO);
+};
+
+void print_head(const Session& session) {
+  const Configuration& c = session.configuration();
+  const std::string unit = gain_unit(c.planner.gain);
+  fmt::print("{}: {}\n", session.object_file().filename().string(), topology(*session.mesh()).summary());
+  fmt::print("{} candidate views, ranked by {}{} ({} semantics)\n\n", session.candidates().size(), c.planner.gain,
+             unit.empty() ? "" : fmt::format(" [{}]", unit), c.planner.semantics == Semantics::published ? "published" : "reference");
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "returns", "new",
+             "coverage", "entropy", "log loss", "seconds");
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "voxels", "% visible",
+             "kbit", "nats*", "");
+}
+
+void print_step(const StepRecord& r) {
+  const StageSeconds& s = r.seconds;
+  fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
+             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.returns, r.new_voxels,
+             100.0 * r.coverage_visible, r.entropy / 1e3, r.quality_near_surface.log_loss,
+             s.sense + s.clean + s.insert + s.evaluate + s.score);
+  if (!r.ranking.degenerate.empty()) fmt::print("       ! no ranking: {}\n", r.ranking.degenerate);
+  std::fflush(stdout);
+}
+
+void print_files(const Session& session, const std::filesystem::path& out, bool pictures) {
+  fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
+  if (session.known_object() && !session.records().empty())
+    fmt::print("* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; of all the\n"
+               "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
+               1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
+               100.0 * session.records().back().coverage_paper);
+  fmt::print("\n{}/\n", out.string());
+  if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
+  fmt::print("  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
+             "  cloud.ply       the cleaned point cloud\n"
+             "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
+             "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
+             out.string());
+}
+
+int run(const ScanArguments& arguments) {
+  const Configuration configuration = arguments.options.configuration();
+  const std::filesystem::path out = arguments.out;
+  prepare_output_folder(out);
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
+  Session session(configuration, progress, stop.token());
+  progress.clear();
+  print_head(session);
+  std::unique_ptr<SessionFigure> figure;
+  if (!arguments.no_pictures) figure = std::make_unique<SessionFigure>();
+  while (session.finished().empty() && session.step(progress, stop.token())) {
+    progress.clear();
+    print_step(session.records().back());
+    if (figure) figure->write(session, out / fmt::format("step_{:02}.png", session.records().size()));
+  }
+  progress(1.0, "writing the files");
+  write_scan(session, out);
+  progress.clear();
+  print_files(session, out, figure != nullptr);
+  return session.finished().empty() ? exit_stopped : 0;
+}
+
+}  // namespace
+
+void add_scan_command(CLI::App& program) {
+  auto arguments = std::make_shared<ScanArguments>();
+  CLI::App* app = program.add_subcommand("scan", "Scan an object without a display: pictures, map, cloud and numbers");
+  arguments->options.add_to(*app);
+  app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
+  app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
+  app->footer("Examples:\n  nextview scan --out out\n  nextview scan bunny.ply --gain rear-side-entropy --views 10 --seed 7 --out bunny\n"
+              "  nextview scan --config out/config.toml --sensor.range_noise 0.005 --out noisy");
+  app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
+}
+
+}  // namespace nextview

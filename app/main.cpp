@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
+#include "ui/surface/headless.hpp"
+#if __has_include("ui/window/window.hpp")
+#include "ui/window/window.hpp"
+#else
+namespace nextview { inline int run_window(const Configuration&) { return 0; } }
+#endif
+
+namespace {
+
+/// Whether this command draws into memory: it is settled before anything else, as the program then starts itself again.
+bool draws_headless(const std::vector<std::string_view>& arguments) {
+  const auto has = [&](std::string_view word) { return std::find(arguments.begin(), arguments.end(), word) != arguments.end(); };
+  return has("scan") && !has("--no-pictures") && !has("--help") && !has("-h");
+}
+
+int run(int argc, char** argv) {
+  using namespace nextview;
+  CLI::App program("Nextview: where should the scanner look next? Without a subcommand it opens the window.");
+  program.set_version_flag("--version", "nextview " NEXTVIEW_VERSION);
+  program.require_subcommand(0, 1);
+  program.fallthrough();
+  program.footer("Examples:\n  nextview bunny.ply\n  nextview scan --out out\n  nextview SUBCOMMAND --help");
+
+  std::unique_ptr<tbb::global_control> limit;
+  const auto limit_threads = [&](int threads) {
+    if (threads > 0) limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+  };
+  program.add_option_function<int>("--threads", limit_threads, "threads to use; 0: all. Results never depend on it")
+      ->check(CLI::Range(0, 1024));
+  ConfigurationOptions options;
+  add_scan_command(program);
+  add_score_command(program);
+  CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
+  options.add_to(*window);
+  window->footer("Examples:\n  nextview window bunny.ply --gain area-factor\n  nextview bunny.ply");
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::RuntimeError& end) {  // a subcommand ran
+    return end.get_exit_code();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    fmt::print(stderr, "nextview: {}; see nextview --help\n", error.what());
+    return exit_bad_input;
+  }
+  return run_window(options.configuration());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace nextview;
+  try {
+    std::vector<char*> arguments(argv, argv + argc);
+    // `nextview FILE --gain …` and a bare `nextview` mean the window.
+    static char window[] = "window";
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    const bool names_command = first == "scan" || first == "score" || first == "window" || first == "--help" || first == "-h" ||
+                               first == "--version" || first == "--threads";
+    if (!names_command) arguments.insert(arguments.begin() + 1, window);
+    if (draws_headless({arguments.begin() + 1, arguments.end()})) ensure_headless(argc, argv);
+    return run(static_cast<int>(arguments.size()), arguments.data());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "nextview: {}\n", error.what());
+    return exit_bad_input;
+  }
+}

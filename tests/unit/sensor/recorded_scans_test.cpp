@@ -1,0 +1,154 @@
+#include "core/sensor/recorded_scans.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <iostream>
+#include <sstream>
+
+#include "tests/unit/mesh/temporary_folder.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string good =
+    "param resolution_m 0.01\n"
+    "param fx 448.1\r\n"
+    "\n"
+    "scan 1 2 3 0 0 0.70710678118654757 0.70710678118654757 2\n"
+    "0.5 -0.25 1e-1\n"
+    "  3 4\t5  \n"
+    "scan 0 0 0 0 0 0 1 0\n"
+    "view -1 -2 -3 0 0 0 1.0005\n"
+    "view 0 0 0 1 0 0 0";
+
+TEST(RecordedScans, everyPartIsRead) {
+  const TemporaryFolder folder;
+  const RecordedScene scene = read_recorded_scene(folder.write("scene.txt", good));
+  EXPECT_EQ(scene.parameters, (std::map<std::string, double>{{"resolution_m", 0.01}, {"fx", 448.1}}));
+  ASSERT_EQ(scene.scans.size(), 2u);
+  ASSERT_EQ(scene.scans[0].points.size(), 2u);
+  EXPECT_EQ(scene.scans[0].points[0], Vector3(0.5, -0.25, 0.1));
+  EXPECT_EQ(scene.scans[0].points[1], Vector3(3, 4, 5));
+  EXPECT_TRUE(scene.scans[1].points.empty());
+  // A quarter turn about z takes x to y.
+  EXPECT_LT((scene.scans[0].T_world_camera * Vector3(1, 0, 0) - Vector3(1, 3, 3)).norm(), 1e-12);
+  ASSERT_EQ(scene.views.size(), 2u);
+  EXPECT_LT((scene.views[0] * Vector3(1, 1, 1) - Vector3(0, -1, -2)).norm(), 1e-12) << "the quaternion is normalised";
+  EXPECT_LT((scene.views[1] * Vector3(0, 1, 0) - Vector3(0, -1, 0)).norm(), 1e-12);
+}
+
+/// The message, after checking that it is one line that begins with the file's name.
+std::string complaint(const std::filesystem::path& file) {
+  try {
+    read_recorded_scene(file);
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    EXPECT_THAT(message, StartsWith(file.string() + ":"));
+    return message.substr(std::min(message.size(), file.string().size()));
+  }
+  return "no complaint";
+}
+
+TEST(RecordedScans, whatIsNoFileSaysWhy) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(complaint(folder / "nowhere.txt"), HasSubstr("No such file"));
+  std::filesystem::create_directory(folder / "folder");
+  EXPECT_THAT(complaint(folder / "folder"), HasSubstr("directory"));
+  EXPECT_THAT(complaint(folder.write("empty.txt", "")), EndsWith("is empty"));
+  EXPECT_THAT(complaint(folder.write("blank.txt", "\n \n")), HasSubstr("no scan"));
+  EXPECT_THAT(complaint(folder.write("views.txt", "view 0 0 0 0 0 0 1\n")), HasSubstr("no scan"));
+}
+
+TEST(RecordedScans, whatIsWrongIsNamedWithItsLine) {
+  const TemporaryFolder folder;
+  struct Wrong {
+    const char *line, *instead, *where, *reason;
+  };
+  for (const auto& [line, instead, where, reason] : std::vector<Wrong>{
+           {"param fx 448.1", "param fx", ":2:", "param NAME VALUE"},
+           {"param fx 448.1", "param fx nan", ":2:", "finite"},
+           {"param fx 448.1", "param fx 1 2", ":2:", "more than"},
+           {"param fx 448.1", "param resolution_m 1", ":2:", "twice"},
+           {"param fx 448.1", "parameter fx 1", ":2:", "expected a line"},
+           {"0.5 -0.25 1e-1", "0.5 -0.25", ":5:", "x y z"},
+           {"0.5 -0.25 1e-1", "0.5 -0.25 inf", ":5:", "finite"},
+           {"0.5 -0.25 1e-1", "0.5 -0.25 1e999", ":5:", "finite"},
+           {"0.5 -0.25 1e-1", "0.5 -0.25 0.1m", ":5:", "apart"},
+           {"0.5 -0.25 1e-1", "0.5,-0.25,0.1", ":5:", "apart"},
+           {"0.5 -0.25 1e-1", "0.5 -0.25 1 1", ":5:", "more than"},
+           {"0.5 -0.25 1e-1", "scan 0 0 0 0 0 0 1 0", ":5:", "x y z"},
+           {"  3 4\t5  ", "", ":7:", "x y z"},
+           {"0 0 0.70710678118654757 0.70710678118654757 2", "0 0 0.5 0.5 2", ":4:", "length 0.7"},
+           {"0.70710678118654757 2", "0.70710678118654757 1", ":6:", "expected a line"},
+           {"0.70710678118654757 2", "0.70710678118654757", ":4:", "count"},
+           {"0.70710678118654757 2", "0.70710678118654757 -2", ":4:", "count"},
+           {"0.70710678118654757 2", "0.70710678118654757 2.5", ":4:", "apart"},
+           {"0.70710678118654757 2", "0.70710678118654757 2000000000", ":4:", "claims 2000000000 points"},
+           {"0.70710678118654757 2", "0.70710678118654757 99999999999999999999", ":4:", "count"},
+           {"0 0 0 1.0005", "0 0 0 1.0015", ":8:", "length 1.0015"},
+           {"0 0 0 1.0005", "0 0 0", ":8:", "view px py pz"},
+           {"view 0 0 0 1 0 0 0", "view 0 0 0 0 0 0 0", ":9:", "length 0"}}) {
+    std::string text = good;
+    text.replace(text.find(line), std::string_view(line).size(), instead);
+    const std::string said = complaint(folder.write("scene.txt", text));
+    EXPECT_THAT(said, StartsWith(where)) << instead;
+    EXPECT_THAT(said, HasSubstr(reason)) << instead;
+  }
+}
+
+TEST(RecordedScans, truncatedOrGarbage) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(complaint(folder.write("cut.txt", good.substr(0, good.find("  3 4")))),
+              HasSubstr("ends after 1 of 2 points"));
+  std::string bytes;
+  for (int i = 0; i < 1000; ++i) bytes.push_back(static_cast<char>(i * 37));
+  EXPECT_THAT(complaint(folder.write("garbage.txt", bytes)), StartsWith(":1:"));
+}
+
+TEST(RecordedScans, theConformanceScenesAreReadWhole) {
+  for (const auto& [name, scans] :
+       std::vector<std::pair<std::string, std::size_t>>{{"scans1.txt", 1}, {"scans6.txt", 6}}) {
+    const std::filesystem::path file = std::filesystem::path(NEXTVIEW_SHARED_DIR) / "conformance" / name;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    const auto start = std::chrono::steady_clock::now();
+    const RecordedScene scene = read_recorded_scene(file);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    std::cout << name << ": read in " << took.count() << " ms\n";
+    EXPECT_EQ(scene.scans.size(), scans);
+    EXPECT_EQ(scene.views.size(), 48u);
+    // Again with streams, slowly: every number of every point.
+    std::ifstream in(file);
+    std::size_t scan = 0, left = 0, point = 0;
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream words(line);
+      if (left > 0) {
+        Vector3 p;
+        words >> p.x() >> p.y() >> p.z();
+        ASSERT_EQ(scene.scans.at(scan - 1).points.at(point++), p);
+        --left;
+      } else if (line.starts_with("scan")) {
+        std::string word;
+        for (int i = 0; i < 9; ++i) words >> word;
+        left = std::stoul(word);
+        ASSERT_EQ(scene.scans.at(scan++).points.size(), left);
+        point = 0;
+      } else if (line.starts_with("param")) {
+        std::string word, key;
+        double value;
+        words >> word >> key >> value;
+        ASSERT_EQ(scene.parameters.at(key), value);
+      }
+    }
+    EXPECT_EQ(scan, scans);
+  }
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+
+#include "core/view/candidate_views.hpp"
+
+namespace nextview {
+namespace {
+
+class ViewsFile : public testing::Test {
+ protected:
+  ViewsFile()
+      : file_(std::filesystem::temp_directory_path() /
+              ("nextview_views_" + std::to_string(::getpid()) + "_" +
+               testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt")) {}
+  ~ViewsFile() override { std::filesystem::remove(file_); }
+
+  void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
+  std::vector<Pose> read(const std::string& text) const {
+    write(text);
+    return read_views(file_);
+  }
+  /// The reason, which must name the file and be one line; empty if the text is read.
+  std::string reason(const std::string& text) const {
+    try {
+      read(text);
+      return "";
+    } catch (const std::runtime_error& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find(file_.string()), std::string::npos) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+      return what;
+    }
+  }
+  std::filesystem::path file_;
+};
+
+constexpr const char* two_views =
+    "2\n"
+    "0.1 0.2 0.3 0 0 0 1\n"
+    "-1 2e-1 3.5 0.5 0.5 0.5 0.5\n";
+
+TEST_F(ViewsFile, IsReadAsWritten) {
+  const std::vector<Pose> views = read(two_views);
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_EQ(views[0].translation(), Vector3(0.1, 0.2, 0.3));
+  EXPECT_EQ(views[0].linear(), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(views[1].translation(), Vector3(-1, 0.2, 3.5));
+  // (x y z w) = (½ ½ ½ ½) takes x to y, y to z and z to x.
+  EXPECT_LT((views[1].linear() * Vector3::UnitX() - Vector3::UnitY()).norm(), 1e-12);
+  EXPECT_LT((views[1].linear() * Vector3::UnitY() - Vector3::UnitZ()).norm(), 1e-12);
+}
+
+TEST_F(ViewsFile, GivesCandidatesIndependentOfTheTarget) {
+  write(two_views);
+  CandidateViewsConfig config;
+  config.layout = ViewLayout::file;
+  config.file = file_.string();
+  config.count = 7;
+  for (const Vector3& target : {Vector3(0, 0, 0), Vector3(1, 2, 3)}) {
+    const std::vector<Pose> views = candidate_views(config, target);
+    ASSERT_EQ(views.size(), 2u);
+    EXPECT_EQ(views[1].translation(), Vector3(-1, 0.2, 3.5));
+  }
+}
+
+TEST_F(ViewsFile, AcceptsCarriageReturnsAndNoFinalNewline) {
+  EXPECT_EQ(read("1\r\n0.1 0.2 0.3 0 0 0 1\r\n").size(), 1u);
+  EXPECT_EQ(read("1\n0.1 0.2 0.3 0 0 0 1").size(), 1u);
+}
+
+TEST_F(ViewsFile, RoundedQuaternionsAreMadeUnit) {
+  const std::vector<Pose> views = read("1\n0 0 0 0.3827 0 0 0.9239\n");
+  EXPECT_LT((views[0].linear().transpose() * views[0].linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+}
+
+TEST_F(ViewsFile, SaysWhatIsWrongAndWhere) {
+  EXPECT_NE(reason(""), "");
+  EXPECT_NE(reason("\n\n"), "");
+  EXPECT_NE(reason("views\n"), "");
+  EXPECT_NE(reason("-1\n"), "");
+  EXPECT_NE(reason("0\n"), "");
+  EXPECT_NE(reason("1.5\n0 0 0 0 0 0 1\n"), "");
+  EXPECT_NE(reason("999999999999999999999999\n0 0 0 0 0 0 1\n"), "");
+  EXPECT_NE(reason("1000000000\n0 0 0 0 0 0 1\n"), "");
+  EXPECT_NE(reason("2\n0 0 0 0 0 0 1\n"), "") << "one view of two";
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 1\n0 0 0 0 0 0 1\n"), "") << "two views of one";
+  EXPECT_NE(reason("1\n0 0 0 0 0 1\n"), "") << "six numbers";
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 1 5\n"), "") << "eight numbers";
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 one\n"), "");
+  EXPECT_NE(reason("1\n0 0 nan 0 0 0 1\n"), "");
+  EXPECT_NE(reason("1\n0 0 inf 0 0 0 1\n"), "");
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 nan\n"), "");
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 1e999\n"), "");
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 0\n"), "") << "zero quaternion";
+  EXPECT_NE(reason("1\n0 0 0 1 1 1 1\n"), "") << "quaternion of length 2";
+  EXPECT_NE(reason("1\n0 0 0 0 0 0 1e300\n"), "");
+  const std::string third = reason("3\n0 0 0 0 0 0 1\n0 0 0 0 0 0 1\n0 0 0 0 x 0 1\n");
+  EXPECT_NE(third.find(":4"), std::string::npos) << "names no line: " << third;
+}
+
+TEST_F(ViewsFile, MissingFilesAndFoldersAreErrors) {
+  for (const std::filesystem::path& path : {std::filesystem::path("/nonexistent/views.txt"), file_.parent_path()}) {
+    try {
+      read_views(path);
+      ADD_FAILURE() << path;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+    }
+  }
+}
+
+// A cut within the last number may leave a shorter number; every other cut is noticed.
+TEST_F(ViewsFile, TruncatedAnywhereIsNoCrash) {
+  const std::string text = two_views;
+  const std::size_t last_number = text.rfind(' ') + 1;
+  for (std::size_t length = 0; length < text.size() - 1; ++length) {
+    const std::string why = reason(text.substr(0, length));
+    if (length <= last_number) {
+      EXPECT_NE(why, "") << length;
+    }
+  }
+}
+
+TEST_F(ViewsFile, GarbageIsNoCrash) {
+  std::mt19937 random(8);
+  for (int n = 0; n < 500; ++n) {
+    std::string text = two_views;
+    for (int k = 0; k < 3; ++k) text[random() % text.size()] = char(random());
+    reason(text);
+    std::string noise(random() % 300, ' ');
+    for (char& c : noise) c = char(random());
+    EXPECT_NE(reason(noise), "");
+  }
+}
+
+}  // namespace
+}  // namespace nextview

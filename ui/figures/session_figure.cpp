@@ -1,0 +1,99 @@
+#include "ui/figures/session_figure.hpp"
+
+#include <fmt/format.h>
+
+#include "ui/surface/offscreen_surface.hpp"
+
+namespace nextview {
+namespace {
+
+/// Points drawn at most: more do not show, and a software renderer feels each.
+constexpr std::size_t most_points = 150'000;
+
+PointCloud thinned(const std::vector<PointCloud>& clouds) {
+  std::size_t total = 0;
+  for (const PointCloud& cloud : clouds) total += cloud.size();
+  const std::size_t stride = total / most_points + 1;
+  PointCloud points;
+  std::size_t i = 0;
+  for (const PointCloud& cloud : clouds)
+    for (const Eigen::Vector3f& p : cloud)
+      if (i++ % stride == 0) points.push_back(p);
+  return points;
+}
+
+}  // namespace
+
+std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution, std::size_t count) {
+  std::vector<RaySegment> segments;
+  // A stride that shares no factor with common row lengths, so that the rays kept do not line up in columns.
+  std::size_t stride = explanation.rays.size() / std::max<std::size_t>(count, 1) + 1;
+  while (stride > 1 && (stride % 2 == 0 || stride % 19 == 0 || stride % 5 == 0)) ++stride;
+  for (std::size_t i = stride / 2; i < explanation.rays.size(); i += stride) {
+    const auto& ray = explanation.rays[i];
+    if (ray.voxels.empty()) continue;
+    const auto& last = ray.voxels.back().lattice;
+    const Vector3 centre = (Vector3(last[0], last[1], last[2]) + Vector3::Constant(0.5)) * resolution;
+    segments.push_back({origin, origin + ray.direction * (centre - origin).dot(ray.direction), ray.contribution});
+  }
+  return segments;
+}
+
+StepPicture step_picture(const Session& session) {
+  const StepRecord& last = session.records().back();
+  const Configuration& c = session.configuration();
+  StepPicture picture;
+  picture.step = last.step;
+  picture.step_count = c.termination.views;
+  picture.object_name = session.object_file().stem().string();
+  picture.gain_name = c.planner.gain;
+  picture.gain_unit = gain_unit(c.planner.gain);
+  picture.object = session.mesh().get();
+  picture.grid = session.map().grid();
+  picture.voxels = session.map().voxels();
+  picture.cloud = thinned(session.clouds());
+  picture.camera = session.camera().camera();
+  picture.candidates = session.candidates();
+  picture.chosen = session.next_candidate();
+  picture.ranking_note = last.ranking.degenerate;
+  for (std::size_t v = 0; v < last.candidates.size(); ++v) picture.scores.push_back(last.candidates[v].gain);
+  for (const StepRecord& r : session.records()) {
+    picture.path.push_back(r.T_world_camera);
+    if (r.view >= 0) picture.visited.push_back(static_cast<std::size_t>(r.view));
+  }
+  if (picture.chosen) {
+    if (const auto explanation = session.explain(*picture.chosen))
+      picture.rays = ray_segments(*explanation, session.next_view().translation(), picture.grid.resolution);
+    picture.ray_values = {picture.gain_name + " along rays", picture.gain_unit};
+  }
+  ChartSeries unmeasured{"unmeasured voxels (Eq. 18)", {}, {}}, total{"all voxels, sum of H(p)", {}, {}};
+  ChartSeries visible{"of the visible surface", {}, {}}, all{"of all the surface", {}, {}};
+  for (const StepRecord& r : session.records()) {
+    for (ChartSeries* series : {&unmeasured, &total, &visible, &all}) series->x.push_back(r.step);
+    unmeasured.y.push_back(r.entropy / 1e6);
+    total.y.push_back(r.total_entropy / 1e6);
+    visible.y.push_back(100.0 * r.coverage_visible);
+    all.y.push_back(100.0 * r.coverage);
+  }
+  picture.entropy.y_unit = "Mbit";
+  picture.entropy.series = {unmeasured, total};
+  picture.coverage.title = fmt::format("Surface coverage at d_reg = {:g} mm", 1e3 * c.evaluation.d_reg);
+  if (session.known_object()) picture.coverage.series = {visible, all};
+  return picture;
+}
+
+struct SessionFigure::Parts {
+  OffscreenSurface surface{1600, 1000};
+  StepFigure figure{surface};
+};
+
+SessionFigure::SessionFigure() : parts_(std::make_unique<Parts>()) {}
+SessionFigure::~SessionFigure() = default;
+
+void SessionFigure::write(const Session& session, const std::filesystem::path& file) {
+  parts_->figure.show(step_picture(session));
+  parts_->surface.render();
+  write_png(parts_->surface.read_back(), file);
+}
+
+}  // namespace nextview

@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+#include "core/session/session.hpp"
+#include "ui/figures/step_figure.hpp"
+
+namespace nextview {
+
+/// What the session's last step looks like: the map after it, and how the candidates rank for the next. Points into the session.
+/// @pre the session has taken a step
+StepPicture step_picture(const Session& session);
+
+/// Rays of a score, thinned to about `count`, each as a segment to the last voxel it visits, valued by what it contributes.
+std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution, std::size_t count = 110);
+
+/// Draws a session's steps headless, one after the other.
+class SessionFigure {
+ public:
+  SessionFigure();
+  ~SessionFigure();
+  /// @throws std::runtime_error if the file cannot be written.
+  void write(const Session& session, const std::filesystem::path& file);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace nextview

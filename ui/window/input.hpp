@@ -1,0 +1,75 @@
+#pragma once
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+namespace nextview {
+
+/// Keys that mean something in the window; letters and digits are their upper-case characters.
+enum class Key : int {
+  space = ' ',
+  tab = 256,
+  enter,
+  escape,
+  backspace,
+  del,
+  left,
+  right,
+  up,
+  down,
+  home,
+  end,
+  page_up,
+  page_down,
+  f1,
+  control,
+  shift,
+  alt,
+  count
+};
+constexpr Key key(char character) { return static_cast<Key>(character); }
+
+enum class PointerButton { left, right, middle };
+
+/// What a person does, in the order in which it is done.
+namespace input {
+
+struct Move {
+  double x, y;  ///< framebuffer pixels from the upper left corner
+};
+struct Button {
+  PointerButton button;
+  bool down;
+};
+struct Wheel {
+  double steps;  ///< away from the person is positive
+};
+struct KeyChange {
+  Key key;
+  bool down;
+};
+struct Text {
+  unsigned int character;  ///< Unicode
+};
+struct Drop {
+  std::filesystem::path file;
+};
+
+}  // namespace input
+
+using InputEvent = std::variant<input::Move, input::Button, input::Wheel, input::KeyChange, input::Text, input::Drop>;
+
+/// Input that waits for the next frame. ImGui sees the state at the beginning of a frame only, so a press and a release
+/// in the same frame would be lost: a frame takes moves, then at most one of everything else.
+class InputQueue {
+ public:
+  void push(const InputEvent& event) { waiting_.push_back(event); }
+  bool empty() const { return waiting_.empty(); }
+  /// What the next frame may see, in order.
+  std::vector<InputEvent> take_frame();
+
+ private:
+  std::vector<InputEvent> waiting_;
+};
+
+}  // namespace nextview

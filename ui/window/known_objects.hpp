@@ -1,0 +1,14 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace nextview {
+
+/// What `object.file` takes besides paths: the objects that the window offers.
+std::span<const char* const> known_objects();
+
+/// What people call the object of this file: the name of a known object, or the file's.
+std::string object_name(const std::filesystem::path& file);
+
+}  // namespace nextview
