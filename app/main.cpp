@@ -12,11 +12,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "ui/surface/headless.hpp"
-#if __has_include("ui/window/window.hpp")
 #include "ui/window/window.hpp"
-#else
-namespace nextview { inline int run_window(const Configuration&) { return 0; } }
-#endif
 
 namespace {
 

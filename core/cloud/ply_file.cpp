@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "core/cloud/ply_header.hpp"
 #include "core/cloud/point_cloud.hpp"
+#include "core/file/atomic_file.hpp"
 
 namespace nextview {
 namespace {
@@ -128,49 +126,22 @@ class VertexReader {
   std::size_t at_;  ///< where reading goes on [bytes]
 };
 
-std::string load(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error("there is no such file");
-  const auto size = std::filesystem::file_size(file);
-  if (size > largest_file)
-    throw std::runtime_error(fmt::format("its {} bytes are more than the {} that are allowed", size, largest_file));
-  std::string data(size, '\0');
-  std::ifstream in(file, std::ios::binary);
-  if (!in.read(data.data(), static_cast<std::streamsize>(size))) throw std::runtime_error(std::strerror(errno));
-  return data;
-}
-
-void write(const PointCloud& cloud, const std::filesystem::path& file) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << "ply\nformat binary_little_endian 1.0\ncomment points [m, world]\nelement vertex " << cloud.size()
-      << "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-  out.write(reinterpret_cast<const char*>(cloud.data()), static_cast<std::streamsize>(cloud.size() * 12));
-  out.close();
-  if (!out) throw std::runtime_error(std::strerror(errno));
-}
-
 }  // namespace
 
 void write_ply(const PointCloud& cloud, const std::filesystem::path& file) {
-  std::filesystem::path partial = file;
-  partial += ".partial";
-  try {
-    write(cloud, partial);
-    std::filesystem::rename(partial, file);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.what()));
-  }
+  AtomicFile out(file);
+  out.stream() << "ply\nformat binary_little_endian 1.0\ncomment points [m, world]\nelement vertex " << cloud.size()
+               << "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  out.stream().write(reinterpret_cast<const char*>(cloud.data()), static_cast<std::streamsize>(cloud.size() * 12));
+  out.commit();
 }
 
 PointCloud read_ply(const std::filesystem::path& file) {
+  const std::string data = read_file(file, largest_file);
   try {
-    const std::string data = load(file);
     return VertexReader(data).read();
-  } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("cannot read {}: {}", file.string(), error.what()));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), error.what()));
   }
 }
 

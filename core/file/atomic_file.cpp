@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
 namespace nextview {
 namespace {
@@ -19,7 +20,7 @@ std::runtime_error cannot(const char* what, const std::filesystem::path& file, i
 
 AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)) {
   temporary_ = file_;
-  temporary_ += fmt::format(".{}.part", ::getpid());
+  temporary_ += fmt::format(".{}-{}.part", ::getpid(), fmt::ptr(this));  // no two writers share one
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) throw cannot("written", file_, errno);
@@ -59,9 +60,15 @@ std::string read_file(const std::filesystem::path& file, std::uintmax_t largest)
   const auto size = std::filesystem::file_size(file, error);
   if (!error && size > largest)
     throw std::runtime_error(fmt::format("{}: has {} bytes; at most {} are read", file.string(), size, largest));
-  std::string content(error ? 0 : size, '\0');
-  in.read(content.data(), static_cast<std::streamsize>(content.size()));
-  if (in.gcount() != static_cast<std::streamsize>(content.size())) throw cannot("read", file, errno);
+  std::string content;
+  content.reserve(error ? 0 : size);
+  std::vector<char> part(1 << 16);  // pipes and devices do not tell their size
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
+    content.append(part.data(), static_cast<std::size_t>(in.gcount()));
+    if (content.size() > largest)
+      throw std::runtime_error(fmt::format("{}: has more than the {} bytes that are read at most", file.string(), largest));
+  }
+  if (in.bad()) throw cannot("read", file, errno);
   return content;
 }
 

@@ -82,7 +82,11 @@ struct AreaFactor {
       previous_free = v.has_node ? !is_unknown(v) : !sums.node_seen;
       if (v.has_node) sums.node_seen = true;
     }
-    if (!ray.voxels.empty()) add(ray.voxels.size() - 1, unknown, 1.0);
+    // A ray past the region ends in the void: it counts, but there is no voxel to say so of.
+    if (ray.voxels.empty())
+      sums.sum[unknown] += 1.0;
+    else
+      add(ray.voxels.size() - 1, unknown, 1.0);
   }
 
   /// Rises from 0 to 1 at x = a and falls back to 0 at x = 1.

@@ -8,16 +8,19 @@ MapRays::MapRays(const VoxelGrid& grid, std::span<const Voxel> voxels, double oc
     : grid_(grid), voxels_(voxels), occupancy_threshold_(occupancy_threshold), max_range_(max_range) {}
 
 void MapRays::cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const {
-  visited.clear();
+  // Room for the longest ray through the grid, so that the loop writes through a bare pointer.
+  visited.resize(grid_.size.sum() + 3);
+  RayVoxel* next = visited.data();
   walk_ray(grid_, origin, direction, max_range_, [&](int x, int y, int z) {
     const Voxel& voxel = voxels_[grid_.index({x, y, z})];
-    RayVoxel& seen = visited.emplace_back();
+    RayVoxel& seen = *next++;
     static_cast<Voxel&>(seen) = voxel;
     seen.has_node = voxel.measured || voxel.occlusion_distance > 0;
     seen.lattice = {static_cast<std::int16_t>(x + grid_.first.x()), static_cast<std::int16_t>(y + grid_.first.y()),
                     static_cast<std::int16_t>(z + grid_.first.z())};
     return !(voxel.measured && voxel.probability >= occupancy_threshold_);
   });
+  visited.resize(next - visited.data());
 }
 
 }  // namespace nextview

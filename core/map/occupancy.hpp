@@ -34,6 +34,7 @@ struct InverseSensorModel {
   double free_below = 0.2;           ///< class free: p < this
   double occupied_above = 0.8;       ///< class occupied: p > this; between the two: unknown
 
+  bool operator==(const InverseSensorModel&) const = default;
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;
 

@@ -79,15 +79,13 @@ void OccupancyMap::insert(const Scan& scan, double max_range) {
   };
   pass(scan.returns);
   pass(scan.passes);
-
-  const auto hit_update = static_cast<float>(nextview::log_odds(model_.hit));
-  const auto miss_update = static_cast<float>(nextview::log_odds(model_.miss));
-  update_touched([&](std::uint32_t, std::uint8_t touch) { return touch == hit ? hit_update : miss_update; });
+  update_touched();
 }
 
-/// Adds update(voxel, touch) to the log-odds of each touched voxel, clamps, and clears the scratch.
-template <class Update>
-void OccupancyMap::update_touched(Update update) {
+/// Adds the hit or the miss to the log-odds of each touched voxel, clamps, and clears the scratch.
+void OccupancyMap::update_touched() {
+  const auto hit_update = static_cast<float>(nextview::log_odds(model_.hit));
+  const auto miss_update = static_cast<float>(nextview::log_odds(model_.miss));
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   constexpr std::size_t chunk = 8;  // eight touches are looked at as one word: most voxels are untouched
@@ -101,7 +99,7 @@ void OccupancyMap::update_touched(Update update) {
       }
       for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
         if (touched_[v] == untouched) continue;
-        log_odds_[v] = std::clamp(log_odds_[v] + update(v, touched_[v]), lowest, highest);
+        log_odds_[v] = std::clamp(log_odds_[v] + (touched_[v] == hit ? hit_update : miss_update), lowest, highest);
         refresh(v);
         touched_[v] = untouched;
       }
@@ -112,9 +110,12 @@ void OccupancyMap::update_touched(Update update) {
 void OccupancyMap::register_local(const OccupancyMap& local) {
   const bool same_grid = local.grid_.first == grid_.first && local.grid_.size == grid_.size &&
                          local.grid_.resolution == grid_.resolution;
-  if (!same_grid) throw std::invalid_argument("occupancy map: a local map must have the grid of the map it is registered into");
-  for (std::size_t v = 0; v < voxels_.size(); ++v) touched_[v] = local.voxels_[v].measured ? passed : untouched;
-  update_touched([&](std::uint32_t v, std::uint8_t) { return local.log_odds_[v]; });
+  if (!same_grid || !(local.model_ == model_))
+    throw std::invalid_argument("occupancy map: a local map must have the grid and the model of the map it is registered into");
+  // One scan's log-odds tell hits from passes; they may be clamped already, so they are not what is added.
+  for (std::size_t v = 0; v < voxels_.size(); ++v)
+    touched_[v] = !local.voxels_[v].measured ? untouched : local.log_odds_[v] > 0.0f ? hit : passed;
+  update_touched();
 }
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double reach) {

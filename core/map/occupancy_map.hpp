@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/map/huge_pages.hpp"
 #include "core/map/occupancy.hpp"
 #include "core/map/voxel_grid.hpp"
 
@@ -38,14 +39,13 @@ class OccupancyMap {
 
  private:
   void refresh(std::uint32_t voxel);
-  template <class Update>
-  void update_touched(Update update);
+  void update_touched();
 
   VoxelGrid grid_;
   InverseSensorModel model_;
-  std::vector<float> log_odds_;
-  std::vector<Voxel> voxels_;
-  std::vector<std::uint8_t> touched_;  ///< scratch of insert: 0, pass or hit
+  std::vector<float, HugePages<float>> log_odds_;
+  std::vector<Voxel, HugePages<Voxel>> voxels_;
+  std::vector<std::uint8_t, HugePages<std::uint8_t>> touched_;  ///< scratch of insert: 0, pass or hit
 };
 
 }  // namespace nextview

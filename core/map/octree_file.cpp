@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <octomap/OcTree.h>
 
+#include <charconv>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -60,9 +64,10 @@ class TreeBytes {
   }
   /// .bt: two bits a child, in two bytes; 3 says that the child's own two bytes follow.
   bool binary_node(int depth) {
-    if (bytes_.size() - at_ < 2) return false;
+    if (depth == tree_depth || bytes_.size() - at_ < 2) return false;
     const unsigned children = static_cast<unsigned char>(bytes_[at_]) | static_cast<unsigned char>(bytes_[at_ + 1]) << 8;
     at_ += 2;
+    if (children == 0 && depth > 0) return false;
     for (int c = 0; c < 8; ++c)
       if ((children >> 2 * c & 3) == 3 && !node(depth + 1)) return false;
     return true;
@@ -73,7 +78,33 @@ class TreeBytes {
   std::size_t at_ = 0;
 };
 
-std::unique_ptr<octomap::OcTree> read_tree(const std::filesystem::path& file) {
+/// The head of a tree's file, and the bytes that follow it.
+struct Head {
+  std::string_view id, size, resolution, data;
+};
+
+/// OctoMap's own reader takes the word `data` anywhere for the end of the head; here it stands alone on its line.
+std::optional<Head> parse_head(std::string_view content) {
+  Head head;
+  for (std::size_t begin = 0, end; (end = content.find('\n', begin)) != content.npos; begin = end + 1) {
+    const std::string_view line = content.substr(begin, end - begin);
+    head.data = content.substr(end + 1);
+    if (line == "data") return head;
+    if (line.starts_with("id ")) head.id = line.substr(3);
+    if (line.starts_with("size ")) head.size = line.substr(5);
+    if (line.starts_with("res ")) head.resolution = line.substr(4);
+  }
+  return std::nullopt;
+}
+
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+std::unique_ptr<octomap::OcTree> read_tree(const std::filesystem::path& file, const InverseSensorModel& model) {
   const auto fail = [&](std::string_view reason) {
     return std::runtime_error(fmt::format("{}: {}", file.string(), reason));
   };
@@ -81,22 +112,20 @@ std::unique_ptr<octomap::OcTree> read_tree(const std::filesystem::path& file) {
   const bool binary = content.starts_with("# Octomap OcTree binary file");
   if (!binary && !content.starts_with("# Octomap OcTree file"))
     throw fail("is not an octree; expected OctoMap's .ot or .bt");
-  const std::size_t data = content.find("\ndata\n");
-  if (data == std::string::npos || content.substr(0, data).find("\nid OcTree") == std::string::npos)
-    throw fail("its header is damaged, or it holds another kind of tree than OcTree");
-  if (!TreeBytes(std::string_view(content).substr(data + 6), binary).well_formed())
-    throw fail("is truncated or damaged");
-  std::istringstream in(content);
-  if (binary) {
-    auto tree = std::make_unique<octomap::OcTree>(0.1);
-    if (!tree->readBinary(in)) throw fail("cannot be read as OctoMap's .bt");
-    return tree;
-  }
-  std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(in));
-  auto* tree = dynamic_cast<octomap::OcTree*>(any.get());
-  if (!tree) throw fail("cannot be read as OctoMap's .ot");
-  any.release();
-  return std::unique_ptr<octomap::OcTree>(tree);
+  const std::optional<Head> head = parse_head(content);
+  if (!head || head->id != "OcTree") throw fail("its header is damaged, or it holds another kind of tree than OcTree");
+  const auto resolution = parse<double>(head->resolution);
+  if (!resolution || !(*resolution >= 1e-6 && *resolution <= 1e3))
+    throw fail(fmt::format("its voxel edge, `res {}`, is not between 1e-6 and 1000 m", head->resolution));
+  if (!TreeBytes(head->data, binary).well_formed()) throw fail("is truncated or damaged");
+  auto tree = std::make_unique<octomap::OcTree>(*resolution);
+  tree->setClampingThresMin(model.clamp_min);  // what .bt has for free and for occupied
+  tree->setClampingThresMax(model.clamp_max);
+  std::istringstream data{std::string(head->data)};
+  binary ? tree->readBinaryData(data) : tree->readData(data);
+  if (parse<std::size_t>(head->size) != tree->size())
+    throw fail(fmt::format("is damaged: has {} nodes where its header says `size {}`", tree->size(), head->size));
+  return tree;
 }
 
 /// Lattice cells that a leaf covers along one axis: its lowest, and how many.
@@ -121,7 +150,8 @@ void write_octree(const OccupancyMap& map, const std::filesystem::path& file) {
 }
 
 OccupancyMap read_octree(const std::filesystem::path& file, const InverseSensorModel& model) {
-  const auto tree = read_tree(file);
+  model.validate();
+  const auto tree = read_tree(file, model);
   constexpr int limit = std::numeric_limits<int>::max();
   Eigen::Vector3i lowest = Eigen::Vector3i::Constant(limit), highest = Eigen::Vector3i::Constant(-limit);
   for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace nextview {
@@ -12,10 +13,15 @@ VoxelGrid region_of_interest(const Vector3& centre, double edge, double resoluti
     throw std::invalid_argument(fmt::format(
         "region of interest: an edge of {} m at a resolution of {} m makes {} voxels along each side; it must be from 1 to 1024",
         edge, resolution, voxels));
+  const Vector3 first = (centre / resolution - Vector3::Constant(0.5 * voxels)).array().round();
+  if (!(first.array().abs() + voxels <= 32768.0).all())  // an octree's 16 bits an axis
+    throw std::invalid_argument(
+        fmt::format("region of interest: its centre ({}, {}, {}) m must lie within {} m of the world's origin", centre.x(),
+                    centre.y(), centre.z(), 32768.0 * resolution));
   VoxelGrid grid;
   grid.resolution = resolution;
   grid.size.setConstant(static_cast<int>(voxels));
-  grid.first = (centre / resolution - Vector3::Constant(0.5 * voxels)).array().round().matrix().cast<int>();
+  grid.first = first.cast<int>();
   return grid;
 }
 

@@ -95,7 +95,7 @@ std::vector<Setting> settings(Configuration& configuration);
 
 /// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the nearest known one.
 /// @throws std::runtime_error "file:line: reason".
-Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = {});
+Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration());
 std::string to_toml(const Configuration& configuration);
 
 /// Sets the sensor to a preset: the name of a file in assets/sensors, or a path. @throws std::runtime_error

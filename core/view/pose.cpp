@@ -11,8 +11,9 @@ namespace nextview {
 
 Pose look_at(const Vector3& position, const Vector3& target) {
   const Vector3 forward = (target - position).normalized();
-  // Near the vertical the world's z axis gives no sense of up.
-  const Vector3 up = std::abs(forward.z()) > 0.999 ? Vector3::UnitY() : Vector3::UnitZ();
+  // Along the vertical the world's z axis gives no sense of up.
+  const bool vertical = std::hypot(forward.x(), forward.y()) < 1e-6;
+  const Vector3 up = vertical ? Vector3::UnitY() : Vector3::UnitZ();
   const Vector3 right = forward.cross(up).normalized();
   Pose T_world_camera = Pose::Identity();
   T_world_camera.linear() << right, forward.cross(right), forward;
@@ -39,20 +40,24 @@ std::vector<Pose> read_views(const std::filesystem::path& file) {
   };
   std::string text;
   std::size_t count = 0;
-  if (!std::getline(in, text) || !(std::istringstream(text) >> count) || count == 0 || count > 100'000)
+  const auto next_line = [&] { return std::getline(in, text) ? std::istringstream(text) : std::istringstream(); };
+  std::istringstream first = next_line();
+  if (!(first >> count) || !(first >> std::ws).eof() || count == 0 || count > 100'000)
     throw fail(1, "expected the number of views, from 1 to 100000, alone on the first line");
   std::vector<Pose> views;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!std::getline(in, text)) throw fail(i + 2, fmt::format("expected {} views, found {}", count, i));
-    std::istringstream line(text);
+    std::istringstream line = next_line();
+    if (!in) throw fail(i + 2, fmt::format("expected {} views, found {}", count, i));
     Eigen::Matrix<double, 7, 1> v;
     for (double& value : v)
       if (!(line >> value)) throw fail(i + 2, "expected a view as `x y z qx qy qz qw`");
+    if (!(line >> std::ws).eof()) throw fail(i + 2, "more than a view's seven numbers `x y z qx qy qz qw`");
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (!v.allFinite() || std::abs(q.norm() - 1.0) > 1e-3)
       throw fail(i + 2, "the view's quaternion (qx qy qz qw) must be finite and of length 1");
     views.push_back(make_pose(v.head<3>(), q));
   }
+  if (!(in >> std::ws).eof()) throw fail(count + 2, fmt::format("more than the {} views that the first line tells", count));
   return views;
 }
 

@@ -31,6 +31,7 @@ StepPicture step(const TriangleMesh& object, const samples::Map& map, const Vect
   picture.camera = PinholeCamera::from_field_of_view(640, 480, 1.0123);
   picture.candidates = samples::candidates();
   picture.scores = samples::scores(picture.candidates, viewer);
+  for (std::size_t i = 0; i < picture.scores.size(); ++i) picture.utilities.push_back(picture.scores[i] / 50e3 - 0.01);
   picture.visited = {36, 22};
   picture.path = {look_at(viewer, Vector3::Zero()), picture.candidates[36], picture.candidates[22]};
   for (std::size_t i = 0; i < picture.scores.size(); ++i) {

@@ -20,14 +20,17 @@ RENDER_TEST(mesh_solid, 960, 600, {
   scene.mesh().show(samples::torus());
   scene.frame();
 })
+
 RENDER_TEST(mesh_wire, 960, 600, {
   scene.mesh().show(samples::torus(), MeshStyle::wire);
   scene.frame();
 })
+
 RENDER_TEST(mesh_ghost, 960, 600, {
   scene.mesh().show(samples::torus(), MeshStyle::ghost);
   scene.frame();
 })
+
 RENDER_TEST(cloud, 960, 600, {
   scene.cloud().show(samples::cloud(viewer));
   scene.frame();

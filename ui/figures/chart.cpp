@@ -99,7 +99,8 @@ void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colo
   vtkNew<vtkTable> table;
   table->AddColumn(x);
   table->AddColumn(y);
-  auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(vtkChart::LINE));
+  // VTK takes a line through a single point for an error.
+  auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(series.x.size() > 1 ? vtkChart::LINE : vtkChart::POINTS));
   plot->SetInputData(table, 0, 1);
   set_pen(*plot->GetPen(), colour, 2);
   plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);

@@ -54,10 +54,12 @@ struct Text {
 struct Drop {
   std::filesystem::path file;
 };
+struct Expose {};  ///< the display needs the picture again
 
 }  // namespace input
 
-using InputEvent = std::variant<input::Move, input::Button, input::Wheel, input::KeyChange, input::Text, input::Drop>;
+using InputEvent =
+    std::variant<input::Move, input::Button, input::Wheel, input::KeyChange, input::Text, input::Drop, input::Expose>;
 
 /// Input that waits for the next frame. ImGui sees the state at the beginning of a frame only, so a press and a release
 /// in the same frame would be lost: a frame takes moves, then at most one of everything else.

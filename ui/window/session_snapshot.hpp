@@ -14,16 +14,16 @@
 
 namespace nextview {
 
-/// A session as the window sees it between two steps. Never changes once it is published. What a step does not change is
-/// shared with the snapshot before.
+/// A session as the window sees it between two steps. Never changes once it is published. What a step does not change
+/// is shared with the snapshot before.
 struct SessionSnapshot {
   std::uint64_t session = 0;  ///< counts the sessions that were loaded; 0: there is none yet
   std::uint64_t map = 0;      ///< counts the maps: different whenever voxels, cloud or records are
   std::string message;        ///< why the last command failed; empty if it did not
 
   Configuration configuration;
-  std::string object_name;                    ///< for people
-  std::shared_ptr<const TriangleMesh> mesh;   ///< null without a session; so are the next two
+  std::string object_name;                           ///< for people
+  std::shared_ptr<const TriangleMesh> mesh;          ///< null without a session; so are the next two
   std::shared_ptr<const std::vector<Voxel>> voxels;  ///< one a voxel of the grid
   std::shared_ptr<const PointCloud> cloud;           ///< all views so far
   VoxelGrid grid;
@@ -32,8 +32,8 @@ struct SessionSnapshot {
   std::vector<StepRecord> records;
   std::string gain_unit;
 
-  Pose next_view = Pose::Identity();          ///< T_world_camera
-  std::optional<std::size_t> next_candidate;  ///< none: the start view, or nothing is left
+  Pose next_view = Pose::Identity();                    ///< T_world_camera
+  std::optional<std::size_t> next_candidate;            ///< none: the start view, or nothing is left
   std::shared_ptr<const ScoreExplanation> explanation;  ///< of the next view's score; null if its gain has no rays
   std::string finished;                                 ///< why the scan is done; empty while it is not
 
@@ -51,6 +51,7 @@ struct WorkerProgress {
   bool playing = false;
   double fraction = 0.0;  ///< of the job, 0 to 1
   std::string what;
+  std::size_t waiting = 0;  ///< commands behind it
 
   bool operator==(const WorkerProgress&) const = default;
 };

@@ -61,7 +61,9 @@ std::shared_ptr<const SessionSnapshot> SessionWorker::snapshot() const {
 
 WorkerProgress SessionWorker::progress() const {
   const std::lock_guard lock(mutex_);
-  return progress_;
+  WorkerProgress progress = progress_;
+  progress.waiting = queue_.size();
+  return progress;
 }
 
 void SessionWorker::drop_all() {
@@ -118,7 +120,7 @@ void SessionWorker::run(std::stop_token stop) {
     }
     {
       const std::lock_guard lock(mutex_);
-      progress_ = {progress_.playing || !queue_.empty(), progress_.playing, 0.0, ""};
+      progress_ = {progress_.playing || !queue_.empty(), progress_.playing, 0.0, "", 0};
     }
     if (on_news_) on_news_();
   }

@@ -3,60 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "tests/unit/evaluation/slotted_plate.hpp"
+
 namespace nextview {
 namespace {
-
-constexpr double edge = 0.01;
-const Voxel free_voxel{0.12f, 0.37f, VoxelClass::free, true, 0};
-const Voxel occupied_voxel{0.97f, 0.13f, VoxelClass::occupied, true, 0};
-
-/// A plate, 30 x 30 x 3 cm, with a slot along y through it in z, 12 cm long; both computed from intervals, not from a
-/// mesh.
-struct Plate {
-  explicit Plate(double width, Vector3 slot_centre = {0.0037, 0.0021, 0.0}) {
-    slot = {Opening::Kind::slot, width, 0.12, 0.03, slot_centre, Vector3::UnitZ(), Vector3::UnitY()};
-    truth.grid.first = {-20, -20, -8};
-    truth.grid.size = {40, 40, 16};
-    const std::size_t voxels = truth.grid.voxel_count();
-    truth.touch.assign(voxels, 0);
-    truth.centre.assign(voxels, 0);
-    truth.surface_distance.assign(voxels, 255);
-    const Vector3 half_plate(0.1501, 0.1497, 0.015), half_slot(0.5 * width, 0.06, 1.0);
-    for (std::uint32_t i = 0; i < voxels; ++i) {
-      const Vector3 from_plate = truth.grid.centre(i).cwiseAbs(),
-                    from_slot = (truth.grid.centre(i) - slot_centre).cwiseAbs();
-      const auto within = [](const Vector3& p, const Vector3& half, double margin) {
-        return (p.array() < half.array() + margin).all();
-      };
-      const double h = 0.5 * edge;
-      truth.centre[i] = within(from_plate, half_plate, 0) && !within(from_slot, half_slot, 0);
-      const bool outside = !within(from_plate, half_plate, h) || within(from_slot, half_slot, -h);
-      const bool inside = within(from_plate, half_plate, -h) && !within(from_slot, half_slot, h);
-      truth.touch[i] = !outside && !inside;
-    }
-  }
-
-  /// What a perfect sensor would know: hidden voxels stay unmeasured.
-  std::vector<Voxel> perfect_map() const {
-    std::vector<Voxel> map(truth.grid.voxel_count());
-    for (std::size_t i = 0; i < map.size(); ++i)
-      if (!truth.hidden(i)) map[i] = truth.touch[i] ? occupied_voxel : free_voxel;
-    return map;
-  }
-  std::vector<Voxel> map_of(const Voxel& voxel) const { return std::vector<Voxel>(truth.grid.voxel_count(), voxel); }
-  OpeningScore score(const std::vector<Voxel>& map, TruthConvention convention = TruthConvention::touch) const {
-    return score_opening(slot, map, truth, convention);
-  }
-  Voxel& at(std::vector<Voxel>& map, const Vector3& point) const {
-    return map[truth.grid.index(truth.grid.cell_at(point))];
-  }
-
-  GroundTruth truth;
-  Opening slot;
-};
 
 TEST(Openings, APerfectMapIsOpenWhereItShouldBe) {
   for (const double width : {0.025, 0.03, 0.041}) {
@@ -97,6 +51,14 @@ TEST(Openings, ARowIsClosedOnlyAcrossItsWholeWidth) {
     for (double x = -0.045; x < 0.05; x += edge)
       if (r != 7 || std::abs(x - 0.005) > 1e-9) plate.at(map, {x, 0.0021 + (r - 4.5) * edge, 0.012}) = occupied_voxel;
   EXPECT_EQ(plate.score(map).open_rows, 8u);
+}
+
+TEST(Openings, ANarrowRowIsOpenAtItsRimToo) {
+  const Plate plate(0.012);  // from x = -2.3 mm to 9.7 mm
+  std::vector<Voxel> map = plate.map_of(occupied_voxel);
+  for (std::uint32_t i = 0; i < map.size(); ++i)
+    if (std::abs(plate.truth.grid.centre(i).x() + 0.005) < 1e-9) map[i] = free_voxel;
+  EXPECT_EQ(plate.score(map).row_openness(), 1.0);
 }
 
 TEST(Openings, LinesReachOneVoxelEdgeBeyondTheMouths) {
@@ -240,6 +202,26 @@ TEST(Openings, SurfaceRecallCountsOccupiedVoxels) {
   EXPECT_EQ(surface_recall(half, plate.truth, TruthConvention::touch, scored), 1.0);
   scored.assign(scored.size(), 0);
   EXPECT_FALSE(surface_recall(half, plate.truth, TruthConvention::touch, scored).has_value());
+}
+
+TEST(Openings, OfOurPartsShowInAMapThatEqualsTheTruth) {
+  for (const Part& part : {slotted_plate(), slotted_housing()}) {
+    const GroundTruth truth = ground_truth(part.mesh, region_of_interest(Vector3::Zero(), 1.28, edge));
+    for (const auto convention : {TruthConvention::touch, TruthConvention::centre}) {
+      std::vector<Voxel> map(truth.grid.voxel_count());
+      for (std::size_t i = 0; i < map.size(); ++i)
+        if (const VoxelTruth voxel = voxel_truth(truth, i, convention); voxel != VoxelTruth::hidden)
+          map[i] = voxel == VoxelTruth::occupied ? occupied_voxel : free_voxel;
+      for (const Opening& opening : part.openings) {
+        const OpeningScore score = score_opening(opening, map, truth, convention);
+        // The surface touches every voxel in an opening of one voxel's width.
+        const bool can_be_open = opening.width > 0.015 || convention == TruthConvention::centre;
+        EXPECT_EQ(score.row_openness(), can_be_open ? 1.0 : 0.0) << part.name << ' ' << opening.width;
+        EXPECT_EQ(score.recall(), can_be_open ? std::optional(1.0) : std::nullopt);
+        EXPECT_EQ(score.leaks(), 0.0);
+      }
+    }
+  }
 }
 
 TEST(Openings, BadInputIsRefused) {

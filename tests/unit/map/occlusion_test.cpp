@@ -42,7 +42,9 @@ struct Twin {
   void add(const OccupancyMap& map, const Scan& scan, double max_range, double distance) {
     for (const auto& p : scan.returns) {
       const Vector3 ray = p.cast<double>() - scan.origin;
-      if (ray.norm() > max_range) continue;
+      // Surfaces outside of the region are not in the map: nothing lies behind them.
+      const bool in_region = grid.contains(grid.cell_at(p.cast<double>()));
+      if (ray.norm() > max_range || !in_region) continue;
       const auto behind = voxels_behind(p.cast<double>(), ray.normalized(), distance);
       for (std::size_t k = 0; k < behind->size(); ++k) {
         const Eigen::Vector3i cell = (*behind)[k] - grid.first;
@@ -139,7 +141,7 @@ TEST(MarkOcclusions, LongDistancesDoNotWrapAround) {
     ASSERT_GE(int(v.occlusion_distance), last) << x;
     last = v.occlusion_distance;
   }
-  EXPECT_EQ(last, 255);
+  EXPECT_GT(last, 255);
 }
 
 }  // namespace

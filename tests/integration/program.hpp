@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace nextview {
+
+/// What a run of the program gave.
+struct Run {
+  int exit_code = -1;  ///< 128 + signal if it was killed
+  std::string out, err;
+};
+
+/// Runs `nextview` with these arguments (as a shell has them), without a display.
+Run nextview(const std::string& arguments);
+
+/// A folder of this test's own, empty, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,87 @@
+// The scan command as a user runs it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/file/atomic_file.hpp"
+#include "core/map/octree_file.hpp"
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A scan that takes a second or two: few pixels, coarse voxels.
+const std::string quick =
+    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --views.count 12 --evaluation.surface_samples 2000 ";
+
+std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
+
+TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
+  const TemporaryFolder folder;
+  const Run run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* file : {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json", "map.ot", "map.bt",
+                           "cloud.ply", "step_01.png", "step_02.png", "step_03.png"})
+    EXPECT_GT(fs::file_size(folder.path() / file), 0u) << file;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 12) << "something else was left behind";
+  const std::string steps = read_file(folder.path() / "steps.csv");
+  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row a view";
+  const std::string scores = read_file(folder.path() / "scores.csv");
+  EXPECT_EQ(std::count(scores.begin(), scores.end(), '\n'), 1 + 3 * 12) << "every candidate at every step";
+  EXPECT_NO_THROW(read_octree(folder.path() / "map.ot"));
+  EXPECT_NO_THROW(read_octree(folder.path() / "map.bt"));
+}
+
+TEST(Scan, SameConfigurationAndSeedGiveTheSameBytesOnAnyNumberOfThreads) {
+  const TemporaryFolder one, two;
+  ASSERT_EQ(nextview("--threads 1 scan " + housing() + quick + "--out " + one.path().string()).exit_code, 0);
+  const std::string repeat = "--threads 2 scan --config " + (one.path() / "config.toml").string() + " --out " + two.path().string();
+  ASSERT_EQ(nextview(repeat).exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(one.path())) {
+    const fs::path name = entry.path().filename();
+    if (name == "timings.csv") continue;  // the only one that may differ
+    EXPECT_TRUE(read_file(entry.path()) == read_file(two.path() / name)) << name << " differs";
+  }
+}
+
+TEST(Scan, AnotherSeedGivesAnotherCloud) {
+  const TemporaryFolder one, two;
+  const std::string plain = "scan " + housing() + quick + "--no-pictures --out ";
+  ASSERT_EQ(nextview(plain + one.path().string() + " --seed 1").exit_code, 0);
+  ASSERT_EQ(nextview(plain + two.path().string() + " --seed 2").exit_code, 0);
+  EXPECT_FALSE(read_file(one.path() / "cloud.ply") == read_file(two.path() / "cloud.ply"));
+}
+
+TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
+  const TemporaryFolder folder;
+  const Run run = nextview("scan " + housing() + quick + "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(Scan, EveryGainAndBaselineRuns) {
+  for (const char* gain : {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy", "proximity-count",
+                           "area-factor", "average-entropy", "combined", "random", "farthest", "fixed-order", "covering-order",
+                           "oracle"})
+    for (const char* semantics : {"published", "reference"}) {
+      const TemporaryFolder folder;
+      const Run run = nextview("scan " + housing() + quick + "--no-pictures --gain " + gain + " --semantics " + semantics + " --out " +
+                               folder.path().string());
+      EXPECT_EQ(run.exit_code, 0) << gain << ", " << semantics << ": " << run.err;
+    }
+}
+
+TEST(Help, EverySubcommandHasAnExample) {
+  for (const char* command : {"", "scan", "score", "window"}) {
+    const Run run = nextview(std::string(command) + " --help");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.out, HasSubstr("Example"));
+  }
+  EXPECT_THAT(nextview("--version").out, HasSubstr("nextview "));
+}
+
+}  // namespace
+}  // namespace nextview

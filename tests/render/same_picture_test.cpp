@@ -1,0 +1,89 @@
+#include "tests/render/render_test.hpp"
+#include "tests/render/samples.hpp"
+
+/// Ways to say the same must draw the same. These need no screenshots, and so none can be wrong.
+namespace nextview {
+namespace {
+
+const Vector3 viewer(0.5, -0.8, 0.4);
+
+void show_map(Scene& scene, VoxelColouring colouring) {
+  const auto map = samples::map(viewer);
+  scene.octree().show(map.grid, map.voxels, {}, colouring);
+}
+
+TEST(SamePicture, AHiddenLayerIsAsIfNeverShown) {
+  const Image never = draw_scene(320, 200, [](Scene& scene) {
+    scene.mesh().show(samples::torus());
+    scene.frame();
+  });
+  const Image hidden = draw_scene(320, 200, [](Scene& scene) {
+    scene.mesh().show(samples::torus());
+    scene.rays().show(samples::rays(look_at(viewer, Vector3::Zero())), {});
+    scene.region().show({Vector3::Constant(-0.5), Vector3::Constant(0.5)});
+    scene.rays().set_visible(false);
+    scene.region().set_visible(false);
+    scene.frame();
+  });
+  EXPECT_EQ(never, hidden);
+}
+
+TEST(SamePicture, ShowingAgainReplacesWhatWasShown) {
+  const Image once = draw_scene(320, 200, [](Scene& scene) {
+    show_map(scene, VoxelColouring::by_class);
+    scene.cloud().show({{0.0f, 0.0f, 0.1f}});
+    scene.frame();
+  });
+  const Image again = draw_scene(320, 200, [](Scene& scene) {
+    scene.cloud().show(samples::cloud(viewer));
+    show_map(scene, VoxelColouring::by_probability);
+    show_map(scene, VoxelColouring::by_class);
+    scene.cloud().show({{0.0f, 0.0f, 0.1f}});
+    scene.frame();
+  });
+  EXPECT_EQ(once, again);
+}
+
+TEST(SamePicture, ColouringAndStyleCanChangeLater) {
+  const Image at_once = draw_scene(320, 200, [](Scene& scene) {
+    show_map(scene, VoxelColouring::by_probability);
+    scene.mesh().show(samples::torus(), MeshStyle::ghost);
+    scene.frame();
+  });
+  const Image later = draw_scene(320, 200, [](Scene& scene) {
+    show_map(scene, VoxelColouring::by_class);
+    scene.octree().set_colouring(VoxelColouring::by_probability);
+    scene.mesh().show(samples::torus(), MeshStyle::wire);
+    scene.mesh().set_style(MeshStyle::ghost);
+    scene.frame();
+  });
+  EXPECT_EQ(at_once, later);
+}
+
+TEST(SamePicture, AnotherColouringIsAnotherPicture) {
+  const auto draw = [](VoxelColouring colouring) {
+    return draw_scene(320, 200, [=](Scene& scene) {
+      show_map(scene, colouring);
+      scene.frame();
+    });
+  };
+  EXPECT_NE(draw(VoxelColouring::by_class), draw(VoxelColouring::by_probability));
+}
+
+TEST(SamePicture, TheLayersRefuseWhatDoesNotFit) {
+  draw_scene(64, 64, [](Scene& scene) {
+    const auto candidates = samples::candidates();
+    const std::vector<double> too_few(3);
+    ViewsPicture picture;
+    picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
+    picture.candidates = candidates;
+    picture.scores = too_few;
+    EXPECT_THROW(scene.views().show(picture), std::invalid_argument);
+    picture.scores = {};
+    picture.chosen = candidates.size();
+    EXPECT_THROW(scene.views().show(picture), std::invalid_argument);
+  });
+}
+
+}  // namespace
+}  // namespace nextview

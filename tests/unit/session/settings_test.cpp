@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/session/configuration.hpp"
+
+namespace nextview {
+namespace {
+
+Setting find(Configuration& configuration, const std::string& key) {
+  for (Setting& s : settings(configuration))
+    if (s.key == key) return s;
+  throw std::logic_error("no setting " + key);
+}
+
+/// Another value than the one it has, as text.
+std::string another(const Setting& setting) {
+  struct Another {
+    std::string operator()(const bool* v) const { return *v ? "false" : "true"; }
+    std::string operator()(const int* v) const { return std::to_string(*v + 1); }
+    std::string operator()(const std::uint64_t* v) const { return std::to_string(*v + 1); }
+    std::string operator()(const double* v) const { return std::to_string(*v / 2 + 0.125); }
+    std::string operator()(const std::string*) const { return "another text"; }
+    std::string operator()(const Setting::Choice& c) const { return c.names[(c.get() + 1) % c.names.size()]; }
+  };
+  return std::visit(Another{}, setting.value);
+}
+
+TEST(Settings, KeysAreUniqueAndExplained) {
+  Configuration configuration;
+  std::set<std::string> keys;
+  for (const Setting& s : settings(configuration)) {
+    EXPECT_TRUE(keys.insert(s.key).second) << s.key;
+    EXPECT_FALSE(s.help.empty()) << s.key;
+    EXPECT_EQ(s.key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_."), std::string::npos) << s.key;
+  }
+  EXPECT_GT(keys.size(), 40u);
+}
+
+// Each one reaches the configuration, and no other setting with it.
+TEST(Settings, EachIsSetFromText) {
+  Configuration untouched;
+  const auto before = settings(untouched);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    Configuration configuration;
+    auto all = settings(configuration);
+    const std::string text = another(all[i]);
+    all[i].set(text);
+    const auto after = settings(configuration);
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      if (k != i)
+        EXPECT_EQ(after[k].text(), before[k].text()) << before[i].key << " changes " << before[k].key;
+      else
+        EXPECT_NE(after[k].text(), before[k].text()) << before[i].key << " = " << text;
+    }
+  }
+}
+
+TEST(Settings, TextIsReadBackExactly) {
+  Configuration a, b;
+  for (const double value : {0.1, 1.0 / 3.0, 1e-9, 12345.678901234567, 5e-324, 1.7976931348623157e308, -0.0}) {
+    find(a, "map.resolution").set(find(a, "map.resolution").text());
+    a.map.resolution = value;
+    find(b, "map.resolution").set(find(a, "map.resolution").text());
+    EXPECT_EQ(a.map.resolution, b.map.resolution);
+  }
+  find(a, "seed").set("18446744073709551615");
+  EXPECT_EQ(a.seed, ~std::uint64_t(0));
+}
+
+TEST(Settings, WrongTextsNameTheKeyAndChangeNothing) {
+  Configuration configuration;
+  const auto rejects = [&](const std::string& key, const std::string& text) {
+    Setting setting = find(configuration, key);
+    const std::string before = setting.text();
+    try {
+      setting.set(text);
+      ADD_FAILURE() << key << " = '" << text << "' was accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(setting.text(), before);
+  };
+  for (const char* bad : {"", " ", "x", "12x", "1.5", "1e3", "0x10", "99999999999999999999", "true", "--3"})
+    rejects("sensor.width", bad);
+  for (const char* bad : {"", "x", "1.5x", "1,5", "true", "1e999"}) rejects("map.resolution", bad);
+  for (const char* bad : {"", "1", "yes", "True", "truefalse"}) rejects("evaluation.enabled", bad);
+  for (const char* bad : {"", "-1", "1.0", "18446744073709551616"}) rejects("seed", bad);
+  for (const char* bad : {"", "spher", "SPHERE", "0"}) rejects("views.layout", bad);
+  rejects("planner.gain", "occlusion");
+}
+
+TEST(Settings, AChoiceSuggestsTheNearest) {
+  Configuration configuration;
+  try {
+    find(configuration, "planner.gain").set("oclusion-awar");
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("occlusion-aware"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Nearest, CountsInsertionsDeletionsAndReplacements) {
+  EXPECT_EQ(nearest("kitten", {"sitting", "mitten", "bitter"}), "mitten");
+  EXPECT_EQ(nearest("coverge", {"average", "coverage", "converge"}), "coverage");
+  EXPECT_EQ(nearest("", {"abc", "a", "ab"}), "a");
+  EXPECT_EQ(nearest("same", {"other", "same"}), "same");
+}
+
+TEST(Validate, TheDefaultsAreGood) { EXPECT_NO_THROW(Configuration().validate()); }
+
+// No number takes NaN, infinity or something far below 0, whichever setting it is.
+TEST(Validate, RejectsWhatIsNoUsableNumber) {
+  Configuration names;
+  for (const Setting& s : settings(names)) {
+    const bool is_double = std::holds_alternative<double*>(s.value), is_int = std::holds_alternative<int*>(s.value);
+    std::vector<std::string> bad;
+    if (is_double) bad = {"nan", "inf", "-inf", "-1e6", "1e300"};
+    if (is_int) bad = {"-1", "-2147483648"};
+    for (const std::string& text : bad) {
+      Configuration configuration;
+      configuration.views.layout = ViewLayout::rings;
+      configuration.cloud.down_sampling = true;
+      try {
+        find(configuration, s.key).set(text);
+        configuration.validate();
+        ADD_FAILURE() << s.key << " = " << text << " was accepted";
+      } catch (const std::invalid_argument& error) {
+        const std::string what = error.what(), field = s.key.substr(s.key.find('.') + 1);
+        EXPECT_NE(what.find(field), std::string::npos) << s.key << " = " << text << ": " << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos);
+      }
+    }
+  }
+}
+
+TEST(Validate, BaselinesThatKnowTheObjectNeedTheEvaluation) {
+  for (const std::string& gain : gain_names()) {
+    Configuration configuration;
+    configuration.planner.gain = gain;
+    EXPECT_NO_THROW(configuration.validate()) << gain;
+    configuration.evaluation.enabled = false;
+    if (gain == "oracle" || gain == "covering-order")
+      EXPECT_THROW(configuration.validate(), std::invalid_argument) << gain;
+    else
+      EXPECT_NO_THROW(configuration.validate()) << gain;
+  }
+}
+
+TEST(CombinedWeights, AreReadOrRefused) {
+  using Weights = std::vector<std::pair<std::string, double>>;
+  EXPECT_EQ(parse_combined_weights("average-entropy=2.5,rear-side-voxel=1"),
+            (Weights{{"average-entropy", 2.5}, {"rear-side-voxel", 1.0}}));
+  const Weights prerelease = parse_combined_weights("");
+  EXPECT_EQ(prerelease.size(), 2u);
+  for (const char* bad : {"average-entropy", "average-entropy=", "average-entropy=x", "average-entropy=1x", "=1", ",",
+                          "average-entropy=nan", "average-entropy=inf", "unknown=1", "combined=1", "random=1",
+                          "average-entropy=1,,rear-side-voxel=1", "average-entropy=1;rear-side-voxel=1"}) {
+    EXPECT_THROW(parse_combined_weights(bad), std::invalid_argument) << bad;
+    Configuration configuration;
+    configuration.planner.combined_weights = bad;
+    EXPECT_THROW(configuration.validate(), std::invalid_argument) << bad;
+  }
+}
+
+TEST(GainNames, AreThoseOfTheGainsTheCombinationAndTheBaselines) {
+  const auto names = gain_names();
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_GE(names.size(), 13u);
+  EXPECT_EQ(std::count_if(names.begin(), names.end(), is_baseline), 5);
+  EXPECT_FALSE(is_baseline("combined"));
+  EXPECT_FALSE(is_baseline("occlusion-aware"));
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,131 @@
+#include "ui/panels/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nextview {
+namespace {
+
+ImU32 series_colour(std::size_t index) { return to_imgui_u32(theme::series[index % theme::series.size()]); }
+
+/// What is drawn where: data coordinates and the pixels of the plot's area.
+struct Axes {
+  std::vector<double> x_ticks, y_ticks;
+  ImVec2 lower_left, upper_right;  ///< [px], y downwards
+
+  Axes(const ChartContent& content, ImVec2 from, ImVec2 to) : lower_left(from), upper_right(to) {
+    double x_high = 1.0, y_low = 0.0, y_high = content.y_high.value_or(0.0);
+    for (const ChartSeries& series : content.series) {
+      for (const double x : series.x) x_high = std::max(x_high, x);
+      for (const double y : series.y) y_low = std::min(y_low, y);
+      for (const double y : series.y) y_high = std::max(y_high, y);
+    }
+    x_ticks = round_ticks(0.0, x_high, 10, content.whole_x);
+    y_ticks = round_ticks(y_low, y_high, 4, false);
+  }
+
+  float x(double value) const {
+    const double share = (value - x_ticks.front()) / (x_ticks.back() - x_ticks.front());
+    return lower_left.x + float(share) * (upper_right.x - lower_left.x);
+  }
+  float y(double value) const {
+    const double share = (value - y_ticks.front()) / (y_ticks.back() - y_ticks.front());
+    return lower_left.y + float(share) * (upper_right.y - lower_left.y);
+  }
+  bool contains(ImVec2 p) const {
+    return p.x >= lower_left.x && p.x <= upper_right.x && p.y <= lower_left.y && p.y >= upper_right.y;
+  }
+};
+
+void draw_captions(const Style& style, const ChartContent& content, ImVec2 corner) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(theme::ink), content.title.c_str());
+  float x = corner.x;
+  const float y = corner.y + style.semi_bold->FontSize + style.px(4), size = style.small->FontSize;
+  for (std::size_t i = 0; i < content.series.size(); ++i) {
+    const char* name = content.series[i].name.c_str();
+    list.AddLine({x, y + size / 2}, {x + style.px(16), y + size / 2}, series_colour(i), style.px(2));
+    list.AddCircleFilled({x + style.px(8), y + size / 2}, style.px(3), series_colour(i));
+    list.AddText(style.small, size, {x + style.px(21), y}, to_imgui_u32(theme::soft_ink), name);
+    x += style.px(37) + style.small->CalcTextSizeA(size, FLT_MAX, 0, name).x;
+  }
+}
+
+void draw_grid(const Style& style, const ChartContent& content, const Axes& axes) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 grid = to_imgui_u32(theme::hairline), ink = to_imgui_u32(theme::soft_ink);
+  const float size = style.small->FontSize, gap = style.px(5);
+  const auto width = [&](const std::string& text) {
+    return style.small->CalcTextSizeA(size, FLT_MAX, 0, text.c_str()).x;
+  };
+  for (const double tick : axes.y_ticks) {
+    const std::string text = fmt::format("{:g}", std::abs(tick) < 1e-12 ? 0.0 : tick);
+    const float y = std::round(axes.y(tick));
+    list.AddLine({axes.lower_left.x, y}, {axes.upper_right.x, y}, grid);
+    list.AddText(style.small, size, {axes.lower_left.x - gap - width(text), y - size / 2}, ink, text.c_str());
+  }
+  for (const double tick : axes.x_ticks) {
+    const std::string text = fmt::format("{:g}", tick);
+    const float x = std::round(axes.x(tick));
+    list.AddLine({x, axes.lower_left.y}, {x, axes.upper_right.y}, grid);
+    list.AddText(style.small, size, {x - width(text) / 2, axes.lower_left.y + gap - style.px(2)}, ink, text.c_str());
+  }
+  list.AddLine(axes.lower_left, {axes.upper_right.x, axes.lower_left.y}, ink);
+  list.AddLine(axes.lower_left, {axes.lower_left.x, axes.upper_right.y}, ink);
+  list.AddText(style.small, size, {axes.upper_right.x + style.px(12), axes.lower_left.y + gap - style.px(2)}, ink,
+               content.x_label.c_str());
+}
+
+void draw_series(const Style& style, const ChartContent& content, const Axes& axes) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t s = 0; s < content.series.size(); ++s) {
+    const ChartSeries& series = content.series[s];
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      const ImVec2 point(axes.x(series.x[i]), axes.y(series.y[i]));
+      if (i > 0) {
+        list.AddLine({axes.x(series.x[i - 1]), axes.y(series.y[i - 1])}, point, series_colour(s), style.px(1.8f));
+      }
+      list.AddCircleFilled(point, style.px(2.6f), series_colour(s));
+    }
+  }
+}
+
+void draw_values_at(const Style& style, const ChartContent& content, const Axes& axes, ImVec2 pointer) {
+  const std::vector<double>& xs = content.series[0].x;
+  const auto nearest = std::min_element(xs.begin(), xs.end(), [&](double a, double b) {
+    return std::abs(axes.x(a) - pointer.x) < std::abs(axes.x(b) - pointer.x);
+  });
+  const auto index = static_cast<std::size_t>(nearest - xs.begin());
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float x = std::round(axes.x(*nearest));
+  list.AddLine({x, axes.lower_left.y}, {x, axes.upper_right.y}, to_imgui_u32(theme::soft_ink));
+  std::string text = fmt::format("{} {:g}", content.x_label, *nearest);
+  for (std::size_t s = 0; s < content.series.size(); ++s) {
+    const ChartSeries& series = content.series[s];
+    if (index >= series.y.size()) continue;
+    list.AddCircleFilled({x, axes.y(series.y[index])}, style.px(4.5f), series_colour(s));
+    text += fmt::format("\n{}: {:.4g} {}", series.name, series.y[index], content.y_unit);
+  }
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
+}  // namespace
+
+void draw_plot(const Style& style, const ChartContent& content, const Rectangle& r) {
+  draw_captions(style, content, {float(r.x), float(r.y)});
+  const float top = style.semi_bold->FontSize + style.small->FontSize + style.px(16);
+  const float left = style.px(34), right = style.px(48), bottom = style.small->FontSize + style.px(4);
+  const Axes axes(content, {float(r.x) + left, float(r.y + r.height) - bottom},
+                  {float(r.x + r.width) - right, float(r.y) + top});
+  draw_grid(style, content, axes);
+  draw_series(style, content, axes);
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  if (!content.series.empty() && ImGui::IsWindowHovered() && axes.contains(pointer)) {
+    draw_values_at(style, content, axes, pointer);
+  }
+}
+
+}  // namespace nextview

@@ -1,0 +1,52 @@
+#include "ui/panels/status_line.hpp"
+
+#include <fmt/format.h>
+
+namespace nextview {
+namespace {
+
+std::string last_step(const SessionSnapshot& s) {
+  if (!s.loaded()) return "";
+  if (s.records.empty()) return "Nothing measured yet";
+  const StepRecord& r = s.records.back();
+  const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
+  const std::string from = r.view < 0 ? "the start view" : fmt::format("candidate {}", r.view);
+  return fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats, {:.2f} s", r.step, from,
+                     r.overridden ? " (your choice)" : "", r.points, r.realised_gain, seconds);
+}
+
+std::string scanned(const SessionSnapshot& s) {
+  if (!s.loaded()) return "";
+  return fmt::format("{} · {} triangles · {} × {} × {} voxels of {:g} mm", s.object_name, s.mesh->triangles.size(),
+                     s.grid.size.x(), s.grid.size.y(), s.grid.size.z(), 1e3 * s.grid.resolution);
+}
+
+}  // namespace
+
+void draw_status_line(PanelContext& context, const Rectangle& rectangle) {
+  const Panel panel("Status", rectangle, ImGuiWindowFlags_NoScrollbar);
+  const Style& style = context.style;
+  const SessionSnapshot& s = context.snapshot;
+  ImGui::PushFont(style.small);
+  const float y = (float(rectangle.height) - ImGui::GetTextLineHeight()) / 2;
+  const std::string right = scanned(s);
+  const float right_x = float(rectangle.width) - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
+  ImGui::SetCursorPos({style.px(14), y});
+  if (s.message.empty()) {
+    ImGui::TextDisabled("%s", last_step(s).c_str());
+    ImGui::SetCursorPos({right_x, y});
+    ImGui::TextDisabled("%s", right.c_str());
+  } else {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    draw_icon(Icon::warning, {corner.x + style.px(7), corner.y + ImGui::GetTextLineHeight() / 2}, style.px(14),
+              to_imgui_u32(theme::chosen));
+    ImGui::SetCursorPos({style.px(36), y});
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(theme::chosen));
+    ImGui::TextUnformatted(s.message.c_str());
+    ImGui::PopStyleColor();
+    tooltip(s.message);
+  }
+  ImGui::PopFont();
+}
+
+}  // namespace nextview

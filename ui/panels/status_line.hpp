@@ -1,0 +1,9 @@
+#pragma once
+#include "ui/panels/panel.hpp"
+
+namespace nextview {
+
+/// What the last step did, or why the last command failed; at the right what is being scanned.
+void draw_status_line(PanelContext& context, const Rectangle& rectangle);
+
+}  // namespace nextview

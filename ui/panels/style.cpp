@@ -1,0 +1,101 @@
+#include "ui/panels/style.hpp"
+
+#include <utility>
+
+#include "ui/colour_map.hpp"
+#include "ui/text.hpp"
+
+namespace nextview {
+namespace {
+
+/// Line heights [px]: ImGui's measure of a font. Inter's letters are of size 14 and 12.5 then.
+constexpr float text_size = 17.0f, small_size = 15.0f;
+
+/// Latin, Greek, punctuation, superscripts, arrows, mathematical signs: what people and file names write.
+constexpr ImWchar characters[] = {0x20,   0x24F,  0x370,  0x3FF,  0x2010, 0x2044, 0x2070,
+                                  0x208E, 0x2190, 0x21FF, 0x2200, 0x22FF, 0};
+
+ImFont* add_font(TextWeight weight, float size) {
+  ImFontConfig config;
+  config.OversampleH = 2;
+  config.OversampleV = 1;
+  config.PixelSnapH = false;
+  return ImGui::GetIO().Fonts->AddFontFromFileTTF(font_file(weight).c_str(), size, &config, characters);
+}
+
+void set_colours(ImGuiStyle& style) {
+  const Colour accent = theme::series[0];
+  const Colour quiet = mix(theme::sky, theme::hairline, 0.35), hovered = mix(quiet, theme::soft_ink, 0.12),
+               pressed = mix(quiet, theme::soft_ink, 0.25);
+  const Colour selected = mix(accent, theme::paper, 0.84), selected_hovered = mix(accent, theme::paper, 0.90);
+  const std::pair<ImGuiCol, Colour> colours[] = {
+      {ImGuiCol_Text, theme::ink},
+      {ImGuiCol_TextDisabled, theme::soft_ink},
+      {ImGuiCol_WindowBg, theme::paper},
+      {ImGuiCol_PopupBg, theme::paper},
+      {ImGuiCol_Border, theme::hairline},
+      {ImGuiCol_FrameBg, theme::sky},
+      {ImGuiCol_FrameBgHovered, quiet},
+      {ImGuiCol_FrameBgActive, hovered},
+      {ImGuiCol_ScrollbarBg, theme::paper},
+      {ImGuiCol_ScrollbarGrab, theme::hairline},
+      {ImGuiCol_ScrollbarGrabHovered, hovered},
+      {ImGuiCol_ScrollbarGrabActive, theme::soft_ink},
+      {ImGuiCol_CheckMark, accent},
+      {ImGuiCol_Button, quiet},
+      {ImGuiCol_ButtonHovered, hovered},
+      {ImGuiCol_ButtonActive, pressed},
+      {ImGuiCol_Header, selected},
+      {ImGuiCol_HeaderHovered, selected_hovered},
+      {ImGuiCol_HeaderActive, selected},
+      {ImGuiCol_Separator, theme::hairline},
+      {ImGuiCol_PlotHistogram, accent},
+      {ImGuiCol_TableHeaderBg, theme::sky},
+      {ImGuiCol_TableBorderStrong, theme::hairline},
+      {ImGuiCol_TableBorderLight, theme::hairline},
+      {ImGuiCol_TextSelectedBg, mix(accent, theme::paper, 0.7)},
+      {ImGuiCol_TitleBg, theme::sky},
+      {ImGuiCol_TitleBgActive, theme::sky},
+  };
+  for (const auto& [which, colour] : colours) style.Colors[which] = to_imgui(colour);
+  style.Colors[ImGuiCol_TableRowBg] = style.Colors[ImGuiCol_TableRowBgAlt] = ImVec4(0, 0, 0, 0);
+  style.Colors[ImGuiCol_ModalWindowDimBg] = to_imgui(theme::ink, 0.25);
+}
+
+}  // namespace
+
+Style apply_style(float scale) {
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  ImGui::StyleColorsLight(&style);
+  set_colours(style);
+  style.WindowPadding = {14, 10};
+  style.FramePadding = {8, 4};
+  style.ItemSpacing = {8, 7};
+  style.ItemInnerSpacing = {7, 4};
+  style.CellPadding = {6, 3};
+  style.ScrollbarSize = 10;
+  style.WindowRounding = style.ChildRounding = 0;
+  style.FrameRounding = style.PopupRounding = 4;
+  style.ScrollbarRounding = 5;
+  style.WindowBorderSize = 0;
+  style.PopupBorderSize = 1;
+  style.DisabledAlpha = 0.45f;
+  style.ScaleAllSizes(scale);
+  Style result;
+  result.scale = scale;
+  result.regular = add_font(TextWeight::regular, text_size * scale);
+  result.semi_bold = add_font(TextWeight::semi_bold, text_size * scale);
+  result.small = add_font(TextWeight::regular, small_size * scale);
+  return result;
+}
+
+ImVec4 to_imgui(const Colour& colour, double opacity) {
+  return {float(colour[0]), float(colour[1]), float(colour[2]), float(opacity)};
+}
+
+ImU32 to_imgui_u32(const Colour& colour, double opacity) {
+  return ImGui::ColorConvertFloat4ToU32(to_imgui(colour, opacity));
+}
+
+}  // namespace nextview

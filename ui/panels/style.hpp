@@ -1,0 +1,25 @@
+#pragma once
+#include <imgui.h>
+
+#include "ui/theme.hpp"
+
+namespace nextview {
+
+/// The panels' fonts, and how many pixels a length of one has on this display.
+struct Style {
+  ImFont* regular = nullptr;
+  ImFont* semi_bold = nullptr;
+  ImFont* small = nullptr;
+  float scale = 1.0f;
+
+  float px(float length) const { return length * scale; }
+};
+
+/// Gives ImGui's current context the product's look. `scale` is the display's.
+/// @throws std::runtime_error naming the package to install if the font is not there.
+Style apply_style(float scale);
+
+ImVec4 to_imgui(const Colour& colour, double opacity = 1.0);
+ImU32 to_imgui_u32(const Colour& colour, double opacity = 1.0);
+
+}  // namespace nextview

@@ -1,0 +1,50 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "ui/surface/render_surface.hpp"
+#include "ui/window/input.hpp"
+#include "ui/window/scene_view.hpp"
+#include "ui/window/session_worker.hpp"
+
+namespace nextview {
+
+/// What a person copies and pastes.
+struct Clipboard {
+  std::function<std::string()> get;
+  std::function<void(const std::string&)> set;
+};
+
+/// Everything in the window: scene, curves and panels. It draws into any surface and knows nothing of where input comes
+/// from, so tests drive it without a display. There is one at a time.
+class Interface {
+ public:
+  /// `scale` is the display's. Surface and worker must live longer.
+  Interface(RenderSurface& surface, SessionWorker& worker, double scale = 1.0);
+  ~Interface();
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+
+  void set_clipboard(Clipboard clipboard);
+  void push(const InputEvent& event);
+  /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
+  double seconds_to_next_frame() const;
+  /// Draws a frame into the surface's back buffer, `seconds` after the last one. The scene is drawn anew only if it
+  /// changed.
+  void draw(double seconds);
+
+  bool wants_to_quit() const;
+  /// "Nextview - gearbox - view 3 of 20"
+  std::string title() const;
+  /// What is shown; tests look here for where things are.
+  const Layout& layout() const;
+  /// How often the scene was drawn.
+  std::size_t scene_drawings() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace nextview

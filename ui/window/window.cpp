@@ -1,0 +1,154 @@
+#include "ui/window/window.hpp"
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "ui/surface/window_surface.hpp"
+#include "ui/window/interface.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr int width = 1280, height = 800, least_width = 1024, least_height = 680;  // [screen coordinates]
+/// The longest wait while nothing happens [s]; news and input end it at once.
+constexpr double longest_wait = 60.0;
+
+std::optional<Key> key_of(int glfw_key) {
+  if (glfw_key >= GLFW_KEY_SPACE && glfw_key <= GLFW_KEY_Z) return static_cast<Key>(glfw_key);
+  switch (glfw_key) {
+    case GLFW_KEY_TAB:
+      return Key::tab;
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+      return Key::enter;
+    case GLFW_KEY_ESCAPE:
+      return Key::escape;
+    case GLFW_KEY_BACKSPACE:
+      return Key::backspace;
+    case GLFW_KEY_DELETE:
+      return Key::del;
+    case GLFW_KEY_LEFT:
+      return Key::left;
+    case GLFW_KEY_RIGHT:
+      return Key::right;
+    case GLFW_KEY_UP:
+      return Key::up;
+    case GLFW_KEY_DOWN:
+      return Key::down;
+    case GLFW_KEY_HOME:
+      return Key::home;
+    case GLFW_KEY_END:
+      return Key::end;
+    case GLFW_KEY_PAGE_UP:
+      return Key::page_up;
+    case GLFW_KEY_PAGE_DOWN:
+      return Key::page_down;
+    case GLFW_KEY_F1:
+      return Key::f1;
+    case GLFW_KEY_LEFT_CONTROL:
+    case GLFW_KEY_RIGHT_CONTROL:
+      return Key::control;
+    case GLFW_KEY_LEFT_SHIFT:
+    case GLFW_KEY_RIGHT_SHIFT:
+      return Key::shift;
+    case GLFW_KEY_LEFT_ALT:
+    case GLFW_KEY_RIGHT_ALT:
+      return Key::alt;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Framebuffer pixels a screen coordinate.
+double pixels_per_coordinate(GLFWwindow* window) {
+  int framebuffer = 0, screen = 0, ignored = 0;
+  glfwGetFramebufferSize(window, &framebuffer, &ignored);
+  glfwGetWindowSize(window, &screen, &ignored);
+  return screen > 0 ? double(framebuffer) / screen : 1.0;
+}
+
+Interface& interface_of(GLFWwindow* window) { return *static_cast<Interface*>(glfwGetWindowUserPointer(window)); }
+
+void on_move(GLFWwindow* window, double x, double y) {
+  const double scale = pixels_per_coordinate(window);
+  interface_of(window).push(input::Move{x * scale, y * scale});
+}
+
+void on_button(GLFWwindow* window, int button, int action, int) {
+  if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+  interface_of(window).push(input::Button{static_cast<PointerButton>(button), action == GLFW_PRESS});
+}
+
+void on_wheel(GLFWwindow* window, double, double steps) { interface_of(window).push(input::Wheel{steps}); }
+
+void on_key(GLFWwindow* window, int glfw_key, int, int action, int) {
+  const auto key = key_of(glfw_key);
+  if (key && action != GLFW_REPEAT) interface_of(window).push(input::KeyChange{*key, action == GLFW_PRESS});
+}
+
+void on_text(GLFWwindow* window, unsigned int character) { interface_of(window).push(input::Text{character}); }
+
+/// Parts of the window were covered, so the display has to be given them again.
+void on_refresh(GLFWwindow* window) { interface_of(window).push(input::Expose{}); }
+
+void on_drop(GLFWwindow* window, int count, const char** files) {
+  if (count > 0) interface_of(window).push(input::Drop{files[0]});
+}
+
+void listen(GLFWwindow* window, Interface& interface) {
+  glfwSetWindowUserPointer(window, &interface);
+  glfwSetCursorPosCallback(window, on_move);
+  glfwSetMouseButtonCallback(window, on_button);
+  glfwSetScrollCallback(window, on_wheel);
+  glfwSetKeyCallback(window, on_key);
+  glfwSetCharCallback(window, on_text);
+  glfwSetDropCallback(window, on_drop);
+  glfwSetWindowRefreshCallback(window, on_refresh);
+  interface.set_clipboard({[window] {
+                             const char* text = glfwGetClipboardString(window);
+                             return std::string(text ? text : "");
+                           },
+                           [window](const std::string& text) { glfwSetClipboardString(window, text.c_str()); }});
+}
+
+void run(WindowSurface& surface, Interface& interface) {
+  GLFWwindow* window = surface.handle();
+  std::string title;
+  double last = glfwGetTime();
+  const auto seconds_left = [&] { return interface.seconds_to_next_frame() - (glfwGetTime() - last); };
+  while (!glfwWindowShouldClose(window) && !interface.wants_to_quit()) {
+    if (const double seconds = seconds_left(); seconds > 0) {
+      glfwWaitEventsTimeout(std::min(seconds, longest_wait));
+    } else {
+      glfwPollEvents();
+    }
+    surface.follow_size();
+    if (seconds_left() > 0) continue;
+    const double now = glfwGetTime();
+    interface.draw(now - last);
+    last = now;
+    surface.present();
+    if (interface.title() != title) glfwSetWindowTitle(window, (title = interface.title()).c_str());
+  }
+}
+
+}  // namespace
+
+int run_window(const Configuration& configuration) {
+  WindowSurface surface("Nextview", width, height);
+  GLFWwindow* window = surface.handle();
+  glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSwapInterval(1);
+  float scale = 1.0f, ignored = 1.0f;
+  glfwGetWindowContentScale(window, &scale, &ignored);
+  SessionWorker worker([] { glfwPostEmptyEvent(); });
+  worker.post(command::Load{configuration});
+  Interface interface(surface, worker, scale);
+  listen(window, interface);
+  run(surface, interface);
+  return 0;
+}
+
+}  // namespace nextview
