@@ -35,18 +35,15 @@ OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& mode
   model.validate();
 }
 
-void OccupancyMap::refresh(std::uint32_t voxel) {
-  Voxel& v = voxels_[voxel];
-  const double p = probability(log_odds_[voxel]);
-  v.probability = static_cast<float>(p);
-  v.entropy = static_cast<float>(entropy(p));
-  v.voxel_class = model_.classify(p);
-  v.measured = true;
+/// A measured voxel with these log-odds.
+Voxel OccupancyMap::measured_voxel(float log_odds) const {
+  const double p = probability(log_odds);
+  return {static_cast<float>(p), static_cast<float>(entropy(p)), model_.classify(p), true};
 }
 
 void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
   log_odds_[voxel] = log_odds;
-  refresh(voxel);
+  voxels_[voxel] = measured_voxel(log_odds);
 }
 
 void OccupancyMap::insert(const Scan& scan, double max_range) {
@@ -90,6 +87,8 @@ void OccupancyMap::update_touched() {
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   constexpr std::size_t chunk = 8;  // eight touches are looked at as one word: most voxels are untouched
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096), [&](const auto& range) {
+    float last_log_odds = 0.0f;  // neighbours often have the same, and logarithms are dear
+    Voxel last_voxel = measured_voxel(last_log_odds);
     for (std::size_t c = range.begin(); c != range.end(); ++c) {
       const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
       if (last - first == chunk) {
@@ -100,7 +99,8 @@ void OccupancyMap::update_touched() {
       for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
         if (touched_[v] == untouched) continue;
         log_odds_[v] = std::clamp(log_odds_[v] + (touched_[v] == hit ? hit_update : miss_update), lowest, highest);
-        refresh(v);
+        if (log_odds_[v] != last_log_odds) last_voxel = measured_voxel(last_log_odds = log_odds_[v]);
+        voxels_[v] = last_voxel;
         touched_[v] = untouched;
       }
     }

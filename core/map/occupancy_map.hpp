@@ -38,7 +38,7 @@ class OccupancyMap {
   std::span<const float> log_odds() const { return log_odds_; }  ///< 0 where unmeasured
 
  private:
-  void refresh(std::uint32_t voxel);
+  Voxel measured_voxel(float log_odds) const;
   void update_touched();
 
   VoxelGrid grid_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nextview {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 constexpr double tie = 1e-9;
 
 std::string why_degenerate(const std::vector<double>& gains) {
+  if (!std::all_of(gains.begin(), gains.end(), [](double g) { return std::isfinite(g); }))
+    return "the gain of a candidate is not a finite number";
   if (gains.size() < 2) return "";
   const auto [least, most] = std::minmax_element(gains.begin(), gains.end());
   if (*most == 0.0 && *least == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";

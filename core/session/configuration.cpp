@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,13 +21,21 @@ namespace fs = std::filesystem;
 
 constexpr std::array baselines = {"random", "farthest", "fixed-order", "covering-order", "oracle"};
 
-/// A TOML value as a setting takes it. Whole numbers do for numbers.
-std::string value_text(const toml::node& node) {
+/// Files are small: toml++ takes a table apart by recursion, and a larger one could nest deeper than the stack.
+constexpr std::uintmax_t largest_file = 1 << 15;
+
+/// A TOML value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
+std::string value_text(const Setting& setting, const toml::node& node) {
+  const bool takes_text =
+      std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
+  if (takes_text != node.is_string())
+    throw std::invalid_argument(
+        fmt::format("{} takes {} quotes, as a single value", setting.key, takes_text ? "a text in" : "no"));
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-  throw std::invalid_argument("takes a single value");
+  throw std::invalid_argument(setting.key + " takes a single value");
 }
 
 class TomlReader {
@@ -45,8 +54,11 @@ class TomlReader {
       throw failure(error.source().begin.line, std::string(error.description()));
     }
     // The preset first: what else the file says of the sensor overrides it.
-    if (const auto preset = table.at_path("sensor.preset").value<std::string>(); preset && only_.empty())
-      apply_sensor_preset(configuration_, *preset);
+    if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty()) try {
+        apply_sensor_preset(configuration_, preset->get());
+      } catch (const std::runtime_error& error) {
+        throw failure(preset->source().begin.line, error.what());
+      }
     apply(table, "");
   }
 
@@ -54,8 +66,8 @@ class TomlReader {
   void apply(const toml::table& table, const std::string& prefix) {
     for (const auto& [name, node] : table) {
       const std::string key = prefix + std::string(name.str());
-      if (const auto* inner = node.as_table()) {
-        apply(*inner, key + ".");
+      if (const auto* section = node.as_table(); section && prefix.empty()) {
+        apply(*section, key + ".");
         continue;
       }
       const auto setting = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
@@ -65,7 +77,7 @@ class TomlReader {
       if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
         throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
       try {
-        setting->set(value_text(node));
+        setting->set(value_text(*setting, node));
       } catch (const std::invalid_argument& error) {
         throw failure(line, error.what());
       }
@@ -133,6 +145,7 @@ void Configuration::validate() const {
   in(map.resolution, 1e-4, 1.0, "map.resolution", " m");
   in(map.region_edge, 1e-3, 1000.0, "map.region_edge", " m");
   in(map.region_edge / map.resolution, 1.0, 512.0, "map.region_edge / map.resolution", " voxels");
+  in(views.radius, 0.01, 100.0, "views.radius", " m");  // of the start view, whatever the layout
   in(planner.ray_columns, 1, 2000, "planner.ray_columns", "");
   in(planner.ray_rows, 1, 2000, "planner.ray_rows", "");
   in(planner.ray_length, 1e-3, 1000.0, "planner.ray_length", " m");
@@ -145,13 +158,16 @@ void Configuration::validate() const {
   const auto names = gain_names();
   require(std::find(names.begin(), names.end(), planner.gain) != names.end(),
           fmt::format("there is no gain '{}'; did you mean '{}'?", planner.gain, nearest(planner.gain, names)));
-  require(planner.gain != "oracle" || evaluation.enabled, "planner.gain oracle needs evaluation.enabled");
+  const bool knows_object = planner.gain == "oracle" || planner.gain == "covering-order";
+  require(!knows_object || evaluation.enabled, fmt::format("planner.gain {} needs evaluation.enabled", planner.gain));
+  constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
+  require(seed <= largest, fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));
   parse_combined_weights(planner.combined_weights);
 }
 
 Configuration read_configuration(const fs::path& file, const Configuration& base) {
   Configuration configuration = base;
-  TomlReader(file, configuration).read(read_file(file, 1 << 20));
+  TomlReader(file, configuration).read(read_file(file, largest_file));
   return configuration;
 }
 
@@ -185,7 +201,7 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
         fmt::format("there is no sensor '{}'; there are {}, or give a file", preset, fmt::join(known, ", ")));
   }
   configuration.sensor = {};
-  TomlReader(file, configuration, "sensor.").read(read_file(file, 1 << 20));
+  TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));
   configuration.sensor_preset = preset;
 }
 

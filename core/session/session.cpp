@@ -125,7 +125,7 @@ bool Session::step(const Progress& progress, std::stop_token stop) {
   tell(0.5, "comparing with the object");
   evaluate(measurement, record);
   tell(0.7, "scoring the candidate views");
-  rank_candidates(record, stop);  // ray casting (M, v_i) for all candidates left
+  rank_candidates(record, {});  // ray casting (M, v_i) for all candidates left; a stop now would leave half a ranking
   next_ = record.ranking.best;    // p <- next best view
   overridden_ = false;
   clouds_.push_back(measurement.scan.returns);
@@ -250,7 +250,7 @@ void Session::override_next_view(std::size_t candidate) {
   if (!known || visited_[candidate] || robot_->unreachable(candidates_[candidate]))
     throw std::invalid_argument(fmt::format("candidate view {} is not available", candidate));
   if (records_.empty()) throw std::invalid_argument("the first view is the start view; step once before choosing another");
-  overridden_ = next_ != candidate;
+  overridden_ = records_.back().ranking.best != candidate;
   next_ = candidate;
 }
 

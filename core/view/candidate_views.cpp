@@ -77,7 +77,7 @@ void CandidateViewsConfig::validate() const {
     throw std::invalid_argument(fmt::format("candidate views: count must be from 1 to 10000, not {}", count));
   if (!(radius >= 0.01 && radius <= 100.0))
     throw std::invalid_argument(fmt::format("candidate views: radius must be from 0.01 to 100 m, not {}", radius));
-  if (rings < 1 || rings > count)
+  if (layout == ViewLayout::rings && (rings < 1 || rings > count))
     throw std::invalid_argument(fmt::format("candidate views: rings must be from 1 to the number of views, not {}", rings));
 }
 

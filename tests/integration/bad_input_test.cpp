@@ -24,7 +24,7 @@ class BadInput : public ::testing::Test {
 
   /// Runs `nextview ARGUMENTS` and expects a single line on standard error that holds `words`.
   void expect_error(const std::string& arguments, const std::vector<std::string>& words) {
-    const Run run = nextview(arguments);
+    const Result run = nextview(arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     for (const std::string& word : words) EXPECT_THAT(run.err, HasSubstr(word));
@@ -69,7 +69,7 @@ TEST_F(BadInput, Objects) {
 TEST_F(BadInput, AnObjectOfOneTriangleIsScanned) {
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const fs::path file = write("one.ply", ply_head + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  const Run run = nextview("scan " + file.string() + " --views 2 --no-pictures --sensor.width 80 --sensor.height 60 --out " + out());
+  const Result run = nextview("scan " + file.string() + " --views 2 --no-pictures --sensor.width 80 --sensor.height 60 --out " + out());
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 

@@ -25,7 +25,7 @@ TEST(Conformance, ScoresEqualTheReferenceCodes) {
   const std::filesystem::path folder = NEXTVIEW_SHARED_DIR "/conformance";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "NOT CHECKED: " << folder << " is missing";
   for (const std::string set : {"scans1", "scans6"}) {
-    const Run run = nextview("score --semantics reference --gain all --csv - --scene " + (folder / (set + ".txt")).string());
+    const Result run = nextview("score --semantics reference --gain all --csv - --scene " + (folder / (set + ".txt")).string());
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto ours = rows(run.out), expected = rows(read_file(folder / (set + ".expected.csv")));
     ASSERT_EQ(ours.size(), 49u);

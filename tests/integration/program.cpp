@@ -11,7 +11,7 @@
 
 namespace nextview {
 
-Run nextview(const std::string& arguments) {
+Result nextview(const std::string& arguments) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
   const std::string command = fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} >'{}' 2>'{}'", NEXTVIEW_PROGRAM, arguments, out, err);

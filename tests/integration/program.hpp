@@ -5,13 +5,13 @@
 namespace nextview {
 
 /// What a run of the program gave.
-struct Run {
+struct Result {
   int exit_code = -1;  ///< 128 + signal if it was killed
   std::string out, err;
 };
 
 /// Runs `nextview` with these arguments (as a shell has them), without a display.
-Run nextview(const std::string& arguments);
+Result nextview(const std::string& arguments);
 
 /// A folder of this test's own, empty, removed at the end.
 class TemporaryFolder {

@@ -22,7 +22,7 @@ std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_hous
 
 TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   const TemporaryFolder folder;
-  const Run run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
+  const Result run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* file : {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json", "map.ot", "map.bt",
                            "cloud.ply", "step_01.png", "step_02.png", "step_03.png"})
@@ -58,7 +58,7 @@ TEST(Scan, AnotherSeedGivesAnotherCloud) {
 
 TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
   const TemporaryFolder folder;
-  const Run run = nextview("scan " + housing() + quick + "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
+  const Result run = nextview("scan " + housing() + quick + "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
@@ -68,7 +68,7 @@ TEST(Scan, EveryGainAndBaselineRuns) {
                            "oracle"})
     for (const char* semantics : {"published", "reference"}) {
       const TemporaryFolder folder;
-      const Run run = nextview("scan " + housing() + quick + "--no-pictures --gain " + gain + " --semantics " + semantics + " --out " +
+      const Result run = nextview("scan " + housing() + quick + "--no-pictures --gain " + gain + " --semantics " + semantics + " --out " +
                                folder.path().string());
       EXPECT_EQ(run.exit_code, 0) << gain << ", " << semantics << ": " << run.err;
     }
@@ -76,7 +76,7 @@ TEST(Scan, EveryGainAndBaselineRuns) {
 
 TEST(Help, EverySubcommandHasAnExample) {
   for (const char* command : {"", "scan", "score", "window"}) {
-    const Run run = nextview(std::string(command) + " --help");
+    const Result run = nextview(std::string(command) + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("Example"));
   }

@@ -143,10 +143,10 @@ void CandidatesPanel::draw_table(PanelContext& context, CandidateFocus& focus, f
   const auto id = [](CandidateColumn column) { return static_cast<ImGuiID>(column); };
   const auto highest_first = ImGuiTableColumnFlags_WidthStretch | ImGuiTableColumnFlags_PreferSortDescending;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(44), id(CandidateColumn::view));
-  ImGui::TableSetupColumn(gain.c_str(), highest_first, 1.35f, id(CandidateColumn::gain));
+  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(46), id(CandidateColumn::view));
+  ImGui::TableSetupColumn(gain.c_str(), highest_first, 1.2f, id(CandidateColumn::gain));
   ImGui::TableSetupColumn("cost [m]", ImGuiTableColumnFlags_WidthStretch, 1.0f, id(CandidateColumn::cost));
-  ImGui::TableSetupColumn("utility", highest_first | ImGuiTableColumnFlags_DefaultSort, 1.1f,
+  ImGui::TableSetupColumn("utility", highest_first | ImGuiTableColumnFlags_DefaultSort, 1.05f,
                           id(CandidateColumn::utility));
   ImGui::TableHeadersRow();
   if (ImGuiTableSortSpecs* sort = ImGui::TableGetSortSpecs(); sort && sort->SpecsCount > 0) {

@@ -31,18 +31,24 @@ void draw_buttons(PanelContext& context) {
   tooltip(with_key("Start over", Action::reset));
 }
 
+std::string readiness(const SessionSnapshot& s) {
+  if (!s.loaded()) return "No object yet: choose one, or drop a file here";
+  if (s.records.empty()) return "Ready to take the start view";
+  return s.next_candidate ? fmt::format("Ready to take view {}", *s.next_candidate) : "No candidate is left";
+}
+
 /// Returns whether Cancel was pressed.
 bool draw_progress(PanelContext& context, float left, float right, float y) {
   const WorkerProgress& progress = context.progress;
   const Style& style = context.style;
   ImGui::SetCursorPos({left, y});
-  if (!progress.busy) {
+  if (!progress.busy || (progress.what.empty() && !progress.playing)) {  // some commands take no time worth a word
     const SessionSnapshot& s = context.snapshot;
     ImGui::AlignTextToFramePadding();
     if (!s.finished.empty()) {
       ImGui::TextUnformatted(fmt::format("Finished: {}", s.finished).c_str());
     } else {
-      ImGui::TextDisabled("%s", s.loaded() ? "Ready" : "No object yet: choose one, or drop a file here");
+      ImGui::TextDisabled("%s", readiness(s).c_str());
     }
     return false;
   }
@@ -117,7 +123,7 @@ bool draw_control_bar(PanelContext& context, const Rectangle& rectangle) {
   const float y = (float(rectangle.height) - ImGui::GetFrameHeight() - style.px(4)) / 2;
   ImGui::SetCursorPos({style.px(14), y});
   draw_buttons(context);
-  const float left = style.px(14 + 272 + 14);
+  const float left = style.px(14 + 268 + 16);
   const float right = draw_figures(context, float(rectangle.width) - style.px(16), y + style.px(2));
   return draw_progress(context, left, right, y + style.px(2));
 }

@@ -10,8 +10,8 @@ namespace {
 ChartContent entropy_content(const SessionSnapshot& s) {
   ChartContent content{"Entropy of the map [Mbit]", "view", "", "entropy", "Mbit", {}, {}, true};
   const double nothing_known = double(s.grid.voxel_count()) / 1e6;
-  ChartSeries unmeasured{"unmeasured voxels (Eq. 18)", {0}, {nothing_known}};
-  ChartSeries total{"all voxels, sum of H(p)", {0}, {nothing_known}};
+  ChartSeries unmeasured{"unmeasured (Eq. 18)", {0}, {nothing_known}};
+  ChartSeries total{"total, ΣH(p)", {0}, {nothing_known}};
   for (const StepRecord& r : s.records) {
     for (ChartSeries* series : {&unmeasured, &total}) series->x.push_back(r.step);
     unmeasured.y.push_back(r.entropy / 1e6);
@@ -29,7 +29,7 @@ ChartContent coverage_content(const SessionSnapshot& s) {
     return content;
   }
   content.title = fmt::format("Surface within {:g} mm of a point [%]", 1e3 * evaluation.d_reg);
-  ChartSeries visible{"of the visible surface", {0}, {0}}, all{"of all the surface", {0}, {0}};
+  ChartSeries visible{"of visible surface", {0}, {0}}, all{"of all surface", {0}, {0}};
   for (const StepRecord& r : s.records) {
     for (ChartSeries* series : {&visible, &all}) series->x.push_back(r.step);
     visible.y.push_back(100 * r.coverage_visible);

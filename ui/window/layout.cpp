@@ -7,7 +7,7 @@ namespace nextview {
 namespace {
 
 // [px] on a display that does not scale
-constexpr double bar_height = 56, status_height = 30, left_width = 272, right_width = 328, session_height = 306;
+constexpr double bar_height = 56, status_height = 30, left_width = 268, right_width = 336, session_height = 306;
 constexpr double curves_height = 218;
 /// Panels are this far apart: a hairline, in the colour behind them.
 constexpr double gap = 1;

@@ -16,6 +16,9 @@ namespace {
 /// Points drawn at most: more do not show, and a software renderer feels each.
 constexpr std::size_t most_points = 150'000;
 
+/// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
+constexpr std::size_t rays_shown = 60;
+
 PointCloud thinned(const PointCloud& cloud) {
   const std::size_t stride = cloud.size() / most_points + 1;
   PointCloud result;
@@ -106,7 +109,8 @@ void SceneView::show_views(const SessionSnapshot& snapshot) {
 void SceneView::show_rays(const SessionSnapshot& snapshot) {
   std::vector<RaySegment> segments;
   if (snapshot.explanation && snapshot.finished.empty()) {
-    segments = ray_segments(*snapshot.explanation, snapshot.next_view.translation(), snapshot.grid.resolution);
+    segments =
+        ray_segments(*snapshot.explanation, snapshot.next_view.translation(), snapshot.grid.resolution, rays_shown);
   }
   scene_.rays().show(segments, {"contribution of a ray", snapshot.gain_unit});
 }

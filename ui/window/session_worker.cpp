@@ -89,6 +89,7 @@ void SessionWorker::post(SessionCommand command) {
       std::erase_if(queue_, [](const auto& waiting) { return std::holds_alternative<command::Play>(waiting); });
     } else {
       queue_.push_back(std::move(command));
+      progress_.busy = true;
     }
   }
   wake_.notify_all();

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstdio>
@@ -94,6 +95,14 @@ void expect_explanations_to_sum(const ReferenceMap& map, const Pose& view, const
   }
 }
 
+void expect_the_same_on_one_thread(const ReferenceMap& map, std::span<const Pose> views, const RayBundle& bundle,
+                                   std::span<const Gain* const> gains, const ScoreOptions& options,
+                                   std::span<const ViewScore> scores) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+  const auto again = score_views(map, views.first(8), bundle, gains, options);
+  for (std::size_t v = 0; v < again.size(); ++v) EXPECT_EQ(again[v].gains, scores[v].gains);
+}
+
 class Conformance : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -125,6 +134,7 @@ TEST_P(Conformance, EveryGainOfEveryViewIsThatOfTheReferenceCode) {
           << name << " of view " << v << ": " << found << " instead of " << wanted;
       if (wanted != 0) worst = std::max(worst, std::abs(found / wanted - 1));
     }
+  expect_the_same_on_one_thread(*map, scene.views, bundle_of(scene), expected.gains, options, scores);
   expect_explanations_to_sum(*map, scene.views[20], bundle_of(scene));
   RecordProperty("largest_relative_difference", std::to_string(worst));
 }

@@ -20,9 +20,13 @@ class ConfigurationFile : public testing::Test {
   }
   ~ConfigurationFile() override { std::filesystem::remove_all(folder_); }
 
-  Configuration read(const std::string& text, const Configuration& base = {}) const {
+  Configuration read(const std::string& text, const Configuration& base) const {
     std::ofstream(file(), std::ios::binary) << text;
     return read_configuration(file(), base);
+  }
+  Configuration read(const std::string& text) const {
+    const Configuration defaults;
+    return read(text, defaults);
   }
   /// Why the text is refused: one line that names the file. Empty if it is read.
   std::string reason(const std::string& text) const {
@@ -44,6 +48,16 @@ std::vector<std::string> texts(const Configuration& configuration) {
   std::vector<std::string> result;
   for (const Setting& s : settings(copy)) result.push_back(s.key + " = " + s.text());
   return result;
+}
+
+std::vector<std::string> default_texts() {
+  const Configuration defaults;
+  return texts(defaults);
+}
+
+std::string default_toml() {
+  const Configuration defaults;
+  return to_toml(defaults);
 }
 
 TEST_F(ConfigurationFile, RoundTrip) {
@@ -81,10 +95,10 @@ TEST_F(ConfigurationFile, EverySettingIsReadFromAFile) {
     const bool is_text =
         std::holds_alternative<std::string*>(s.value) || std::holds_alternative<Setting::Choice>(s.value);
     const std::vector<std::string> found = texts(read(s.key + " = " + (is_text ? "'" + value + "'" : value) + "\n"));
-    std::vector<std::string> expected = texts({});
+    std::vector<std::string> expected = default_texts();
     std::replace(expected.begin(), expected.end(), s.key + " = " + s.text(), s.key + " = " + value);
     EXPECT_EQ(found, expected) << s.key;
-    EXPECT_NE(found, texts({})) << s.key;
+    EXPECT_NE(found, default_texts()) << s.key;
   }
 }
 
@@ -163,7 +177,7 @@ TEST_F(ConfigurationFile, HostileFilesAreRefused) {
 }
 
 TEST_F(ConfigurationFile, FlippedBytesAreReadOrRefused) {
-  const std::string good = to_toml({});
+  const std::string good = default_toml();
   std::mt19937 random(1);
   for (int n = 0; n < 400; ++n) {
     std::string bad = good;
@@ -195,7 +209,7 @@ TEST_F(ConfigurationFile, PresetsThenOverrides) {
 TEST_F(ConfigurationFile, ThePapersPresetIsTheDefault) {
   Configuration paper;
   apply_sensor_preset(paper, "paper");
-  EXPECT_EQ(texts(paper), texts({}));
+  EXPECT_EQ(texts(paper), default_texts());
   for (const char* name : {"paper", "narrow", "wide"}) {
     Configuration configuration;
     apply_sensor_preset(configuration, name);

@@ -61,13 +61,15 @@ TEST(Settings, EachIsSetFromText) {
 TEST(Settings, TextIsReadBackExactly) {
   Configuration a, b;
   for (const double value : {0.1, 1.0 / 3.0, 1e-9, 12345.678901234567, 5e-324, 1.7976931348623157e308, -0.0}) {
-    find(a, "map.resolution").set(find(a, "map.resolution").text());
     a.map.resolution = value;
     find(b, "map.resolution").set(find(a, "map.resolution").text());
     EXPECT_EQ(a.map.resolution, b.map.resolution);
   }
-  find(a, "seed").set("18446744073709551615");
-  EXPECT_EQ(a.seed, ~std::uint64_t(0));
+  Configuration c;
+  find(c, "seed").set("9223372036854775807");
+  EXPECT_NO_THROW(c.validate());
+  find(c, "seed").set("18446744073709551615");  // TOML could not hold it
+  EXPECT_THROW(c.validate(), std::invalid_argument);
 }
 
 TEST(Settings, WrongTextsNameTheKeyAndChangeNothing) {
@@ -133,6 +135,18 @@ TEST(Validate, RejectsWhatIsNoUsableNumber) {
         EXPECT_EQ(what.find('\n'), std::string::npos);
       }
     }
+  }
+}
+
+// With views from a file the radius is that of the start view alone.
+TEST(Validate, TheStartViewNeedsARadiusWhateverTheLayout) {
+  Configuration configuration;
+  configuration.views.layout = ViewLayout::file;
+  configuration.views.file = "views.txt";
+  EXPECT_NO_THROW(configuration.validate());
+  for (const double bad : {0.0, -1.0, std::nan("")}) {
+    configuration.views.radius = bad;
+    EXPECT_THROW(configuration.validate(), std::invalid_argument) << bad;
   }
 }
 

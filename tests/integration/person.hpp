@@ -1,0 +1,64 @@
+#pragma once
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "ui/surface/offscreen_surface.hpp"
+#include "ui/window/interface.hpp"
+
+namespace nextview {
+
+/// Somebody in front of the window, who needs no display: input goes in, pictures come out. Time is what the frames
+/// say.
+class Person {
+ public:
+  explicit Person(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
+      : surface_(width, height), interface_(surface_, worker_, scale) {
+    worker_.post(command::Load{configuration});
+    wait();
+  }
+
+  /// Looks at frames until nothing new comes and the session worker is idle.
+  void wait() {
+    constexpr auto pause = std::chrono::milliseconds(2);
+    constexpr double frame = 1.0 / 60;  // [s]
+    while (interface_.seconds_to_next_frame() == 0.0 || worker_.progress().busy) {
+      if (interface_.seconds_to_next_frame() > 0.0) {
+        std::this_thread::sleep_for(pause);
+      } else {
+        interface_.draw(frame);
+      }
+    }
+  }
+
+  void move(double x, double y) { interface_.push(input::Move{x, y}); }
+  void press(PointerButton button = PointerButton::left) { interface_.push(input::Button{button, true}); }
+  void release(PointerButton button = PointerButton::left) { interface_.push(input::Button{button, false}); }
+  /// Everything arrives before the next frame, as from a fast hand.
+  void click(double x, double y) {
+    move(x, y);
+    press();
+    release();
+  }
+  void type(Key key) {
+    interface_.push(input::KeyChange{key, true});
+    interface_.push(input::KeyChange{key, false});
+  }
+  void drop(const std::filesystem::path& file) { interface_.push(input::Drop{file}); }
+
+  Image look() { return surface_.read_back(); }
+  const SessionSnapshot& session() {
+    seen_ = worker_.snapshot();
+    return *seen_;
+  }
+  Interface& window() { return interface_; }
+  SessionWorker& worker() { return worker_; }
+
+ private:
+  OffscreenSurface surface_;
+  SessionWorker worker_;
+  Interface interface_;
+  std::shared_ptr<const SessionSnapshot> seen_;
+};
+
+}  // namespace nextview

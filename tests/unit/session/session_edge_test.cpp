@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/session/small_scan.hpp"
+
+namespace nextview {
+namespace {
+
+template <class Error>
+std::string reason(const Configuration& configuration) {
+  try {
+    const Session session(configuration);
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+}
+
+TEST(SessionEdge, AViewWithoutReturnsIsAView) {
+  Configuration c = small_scan();
+  c.sensor.max_range = 0.3;  // the object begins farther away
+  Session session(c);
+  finish(session);
+  ASSERT_EQ(session.records().size(), 4u);
+  for (const StepRecord& r : session.records()) {
+    EXPECT_EQ(r.returns, 0u);
+    EXPECT_EQ(r.passes, 80u * 60u);
+    EXPECT_EQ(r.coverage, 0.0);
+  }
+  for (const Voxel& v : session.map().voxels()) EXPECT_LE(v.probability, 0.5f);
+}
+
+TEST(SessionEdge, AViewOfInvalidPixelsAloneSaysNothing) {
+  Configuration c = small_scan();
+  c.sensor.dropout = 1.0;
+  c.termination.views = 2;
+  if (!reason<std::invalid_argument>(c).empty()) c.sensor.dropout = 0.999999;  // a limit below 1 is fine too
+  Session session(c);
+  finish(session);
+  for (const StepRecord& r : session.records()) {
+    EXPECT_LE(r.returns + r.passes, 2u);
+    EXPECT_LE(r.new_voxels, 100u);
+  }
+}
+
+TEST(SessionEdge, OneCandidateAndOnePixel) {
+  Configuration c = small_scan();
+  c.views.count = 1;
+  c.sensor.width = c.sensor.height = 1;
+  c.planner.ray_columns = c.planner.ray_rows = 1;
+  Session session(c);
+  finish(session);
+  EXPECT_EQ(session.records().size(), 2u);
+}
+
+TEST(SessionEdge, AnObjectLargerThanTheRegionIsAnErrorWithAdvice) {
+  Configuration c = small_scan();
+  c.map.region_edge = 0.4;
+  const std::string why = reason<std::invalid_argument>(c);
+  EXPECT_NE(why.find("map.region_edge"), std::string::npos) << why;
+  EXPECT_NE(why.find("object.longest_side"), std::string::npos) << why;
+}
+
+TEST(SessionEdge, WithoutEvaluationNothingIsKnownOfTheObject) {
+  Configuration with = small_scan(), without = small_scan();
+  without.evaluation.enabled = false;
+  Session a(with), b(without);
+  EXPECT_TRUE(a.known_object());
+  EXPECT_FALSE(b.known_object());
+  finish(a);
+  finish(b);
+  EXPECT_TRUE(same_map(a.map(), b.map()));  // looking at the truth changes nothing
+  EXPECT_EQ(a.clouds(), b.clouds());
+  for (const StepRecord& r : b.records()) EXPECT_EQ(r.coverage, 0.0);
+}
+
+TEST(SessionEdge, BadSettingsAndFilesAreErrors) {
+  Configuration bad_range = small_scan(), no_file = small_scan(), no_views = small_scan();
+  bad_range.sensor.max_range = -1;
+  no_file.object.file = "/nonexistent/thing.ply";
+  no_views.views.layout = ViewLayout::file;
+  no_views.views.file = "/nonexistent/views.txt";
+  EXPECT_NE(reason<std::invalid_argument>(bad_range).find("max_range"), std::string::npos);
+  EXPECT_NE(reason<std::runtime_error>(no_file).find("/nonexistent/thing.ply"), std::string::npos);
+  EXPECT_NE(reason<std::runtime_error>(no_views).find("/nonexistent/views.txt"), std::string::npos);
+  for (const char* gain : {"oracle", "covering-order"}) {
+    Configuration blind = small_scan();
+    blind.planner.gain = gain;
+    blind.evaluation.enabled = false;
+    EXPECT_NE(reason<std::invalid_argument>(blind).find("evaluation.enabled"), std::string::npos) << gain;
+  }
+}
+
+TEST(SessionEdge, PreparingCanBeStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(Session(small_scan(), {}, stop.get_token()), std::runtime_error);
+}
+
+TEST(SessionEdge, TheObjectIsScaledOrKept) {
+  Configuration scaled = small_scan(), kept = small_scan();
+  scaled.object.longest_side = 0.25;
+  kept.object.longest_side = 0.0;
+  EXPECT_NEAR(Session(scaled).mesh()->bounding_box().sizes().maxCoeff(), 0.25, 1e-6);
+  EXPECT_NEAR(Session(kept).mesh()->bounding_box().sizes().maxCoeff(), 0.5, 1e-6);
+}
+
+// The map of an ideal scan of a box: free in front, occupied where the box is, nothing measured inside.
+TEST(SessionEdge, TheMapShowsTheObject) {
+  Configuration c = small_scan();
+  c.object.file = std::string(NEXTVIEW_SOURCE_DIR) + "/assets/objects/sphere.ply";
+  c.sensor.range_noise = 0.0;
+  c.sensor.width = 160, c.sensor.height = 120;
+  c.views.count = 20, c.termination.views = 14;
+  Session session(c);
+  finish(session);
+  const VoxelGrid& grid = session.map().grid();
+  std::size_t occupied = 0, surface = 0;
+  for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
+    const double distance = grid.centre(v).norm();  // the sphere's radius is 0.25 m
+    const Voxel& voxel = session.map().voxels()[v];
+    if (distance > 0.25 + 0.04 && voxel.measured) {
+      EXPECT_LT(voxel.probability, 0.5) << distance;
+    }
+    if (distance < 0.25 - 0.04) {
+      EXPECT_FALSE(voxel.measured) << distance;
+    }
+    if (std::abs(distance - 0.25) < 0.01) ++surface, occupied += voxel.probability > 0.5;
+  }
+  EXPECT_GT(double(occupied), 0.95 * double(surface));
+}
+
+}  // namespace
+}  // namespace nextview
