@@ -33,13 +33,13 @@ void Painter::text(double x, double y, const std::string& text, int size, const 
                             : align == TextAlign::centre ? VTK_TEXT_CENTERED
                                                          : VTK_TEXT_RIGHT);
   property.SetVerticalJustificationToBottom();
-  context_.DrawString(float(std::round(x)), float(std::round(y)), text);
+  context_.DrawString(float(std::round(x)), float(std::round(y)), text.c_str());
 }
 
 double Painter::text_width(const std::string& text, int size, TextWeight weight) {
   set_text(*context_.GetTextProp(), size, theme::ink, weight);
   float bounds[4];
-  context_.ComputeStringBounds(text, bounds);
+  context_.ComputeStringBounds(text.c_str(), bounds);
   return bounds[2];
 }
 

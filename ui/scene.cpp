@@ -117,7 +117,7 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
     return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
   };
   const FrameMargins centred{20 / width, 20 / width, 44 / height, (overlay.caption.empty() ? 24 : 46) / height};
-  const Vector3 middle = framed(centred);
+  Vector3 middle = framed(centred);
   if (overlay.legends.empty()) return middle;
   FrameMargins beside = centred, beneath = centred;
   beside.right = std::min((usual_legend_width + 36) / width, 0.5);

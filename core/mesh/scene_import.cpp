@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,7 +52,9 @@ std::size_t bytes_of(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-void silence() {
+/// It prints nothing, leaves no core file, and ends at the latest with the process that started it.
+void restrain() {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nothing = ::open("/dev/null", O_WRONLY);
   ::dup2(nothing, STDOUT_FILENO);
   ::dup2(nothing, STDERR_FILENO);
@@ -62,7 +65,7 @@ void silence() {
 }
 
 [[noreturn]] void read_and_send(const std::filesystem::path& file, int pipe) {
-  silence();
+  restrain();
   try {
     const ImportedTriangles read = read_scene(file);
     const Header header = {0, read.vertices.size(), read.triangles.size()};

@@ -230,7 +230,7 @@ TEST(Window, ControlQQuits) {
 
 TEST(Window, PanelsNeverOverlap) {
   for (const auto& [width, height, scale] :
-       {std::tuple{1024, 680, 1.0}, {1280, 800, 1.0}, {2560, 1600, 2.0}, {3840, 2160, 1.5}}) {
+       {std::tuple{1200, 720, 1.0}, {1280, 800, 1.0}, {2560, 1600, 2.0}, {3840, 2160, 1.5}}) {
     const Layout l(width, height, scale);
     const std::vector<Rectangle> all{l.control_bar, l.session, l.layers, l.candidates, l.scene, l.curves, l.status};
     for (std::size_t i = 0; i < all.size(); ++i) {

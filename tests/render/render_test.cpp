@@ -48,7 +48,7 @@ Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill)
   scene.attach(surface);
   fill(scene);
   surface.render();
-  const Image image = surface.read_back();
+  Image image = surface.read_back();
   EXPECT_EQ(surface.gl_error(), 0u) << "OpenGL reported an error";
   return image;
 }

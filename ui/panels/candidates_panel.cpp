@@ -31,8 +31,10 @@ void number_cell(const PanelContext& context, const std::string& text, double va
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
   const double share = largest > 0 ? std::clamp(std::abs(value) / largest, 0.0, 1.0) : 0.0;
   const Colour fill = mix(colour, theme::paper, value < 0 ? 0.86 : 0.7);
-  ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y}, {corner.x + float(share) * width, corner.y + height},
-                                            to_imgui_u32(fill), context.style.px(2));
+  if (share > 0)
+    ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y},
+                                              {corner.x + float(share) * width, corner.y + height}, to_imgui_u32(fill),
+                                              context.style.px(2));
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
 }
@@ -44,6 +46,10 @@ int step_of(const SessionSnapshot& snapshot, std::size_t candidate) {
   return 0;
 }
 
+bool is_proposed(const SessionSnapshot& s, std::size_t candidate) {
+  return s.finished.empty() && s.proposal() == candidate;
+}
+
 void draw_numbers(const PanelContext& context, std::size_t candidate, const Largest& largest) {
   const SessionSnapshot& s = context.snapshot;
   const Candidate& c = s.records.back().candidates[candidate];
@@ -53,7 +59,7 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
     ImGui::TextUnformatted(step > 0 ? fmt::format("visited, view {}", step).c_str() : "not reachable");
     return;
   }
-  const Colour colour = s.proposal() == candidate ? theme::chosen : theme::series[0];
+  const Colour colour = is_proposed(s, candidate) ? theme::chosen : theme::series[0];
   number_cell(context, readable(c.gain), c.gain, largest.gain, colour);
   ImGui::TableNextColumn();
   number_cell(context, fmt::format("{:.2f}", c.cost), c.cost, largest.cost, theme::visited);
@@ -67,7 +73,7 @@ void draw_row(const PanelContext& context, std::size_t candidate, const Largest&
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(!available                          ? theme::soft_ink
-                                                : s.proposal() == candidate || next ? theme::chosen
+                                                : is_proposed(s, candidate) || next ? theme::chosen
                                                                                     : theme::ink));
   const std::string name = fmt::format("{}##{}", candidate, candidate);
   if (ImGui::Selectable(name.c_str(), focus.selected == candidate, ImGuiSelectableFlags_SpanAllColumns)) {

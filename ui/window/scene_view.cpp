@@ -14,7 +14,7 @@ namespace nextview {
 namespace {
 
 /// Points drawn at most: more do not show, and a software renderer feels each.
-constexpr std::size_t most_points = 150'000;
+constexpr std::size_t most_points = 50'000;
 
 /// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
 constexpr std::size_t rays_shown = 60;

@@ -11,7 +11,7 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 1280, height = 800, least_width = 1024, least_height = 680;  // [screen coordinates]
+constexpr int width = 1280, height = 800, least_width = 1200, least_height = 720;  // [screen coordinates]
 /// The longest wait while nothing happens [s]; news and input end it at once.
 constexpr double longest_wait = 60.0;
 

@@ -247,6 +247,8 @@ TEST(DepthCamera, dropoutTakesItsShareAndLeavesTheRestAlone) {
   const DepthImage whole = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
   config.dropout = 0.3;
   const DepthImage image = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
+  const DepthImage ideal = DepthCamera(config).sense_ideal(scene, T_world_camera);
+  double squares = 0.0, left = 0.0;           // of the noise of what is left
   std::array<double, 2> pixels{}, dropped{};  // hits, misses
   for (std::size_t i = 0; i < whole.range.size(); ++i) {
     if (std::isnan(whole.range[i])) continue;
@@ -254,11 +256,15 @@ TEST(DepthCamera, dropoutTakesItsShareAndLeavesTheRestAlone) {
     ++pixels[kind];
     dropped[kind] += std::isnan(image.range[i]);
     ASSERT_TRUE(std::isnan(image.range[i]) || image.range[i] == whole.range[i]);
+    if (!DepthImage::is_range(image.range[i])) continue;
+    squares += std::pow((image.range[i] - ideal.range[i]) / config.range_noise, 2), ++left;
   }
   for (int kind = 0; kind < 2; ++kind) {
     EXPECT_GT(pixels[kind], 3'000);
     EXPECT_NEAR(dropped[kind] / pixels[kind], 0.3, 4.0 * std::sqrt(0.3 * 0.7 / pixels[kind])) << kind;
   }
+  // Who is dropped has nothing to do with the noise.
+  EXPECT_NEAR(squares / left, 1.0, 4.0 * std::sqrt(2.0 / left));
   config.dropout = 1.0;
   for (const float r : DepthCamera(config).sense(scene, T_world_camera, 9, 2).range) ASSERT_TRUE(std::isnan(r));
 }
