@@ -18,7 +18,9 @@ namespace {
 
 /// Whether this command draws into memory: it is settled before anything else, as the program then starts itself again.
 bool draws_headless(const std::vector<std::string_view>& arguments) {
-  const auto has = [&](std::string_view word) { return std::find(arguments.begin(), arguments.end(), word) != arguments.end(); };
+  const auto has = [&](std::string_view word) {
+    return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
+  };
   return has("scan") && !has("--no-pictures") && !has("--help") && !has("-h");
 }
 
@@ -32,7 +34,8 @@ int run(int argc, char** argv) {
 
   std::unique_ptr<tbb::global_control> limit;
   const auto limit_threads = [&](int threads) {
-    if (threads > 0) limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+    if (threads > 0)
+      limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
   };
   program.add_option_function<int>("--threads", limit_threads, "threads to use; 0: all. Results never depend on it")
       ->check(CLI::Range(0, 1024));
@@ -64,8 +67,8 @@ int main(int argc, char** argv) {
     // `nextview FILE --gain …` and a bare `nextview` mean the window.
     static char window[] = "window";
     const std::string_view first = argc > 1 ? argv[1] : "";
-    const bool names_command = first == "scan" || first == "score" || first == "window" || first == "--help" || first == "-h" ||
-                               first == "--version" || first == "--threads";
+    const bool names_command = first == "scan" || first == "score" || first == "window" || first == "--help" ||
+                               first == "-h" || first == "--version" || first == "--threads";
     if (!names_command) arguments.insert(arguments.begin() + 1, window);
     if (draws_headless({arguments.begin() + 1, arguments.end()})) ensure_headless(argc, argv);
     return run(static_cast<int>(arguments.size()), arguments.data());

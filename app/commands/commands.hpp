@@ -3,7 +3,8 @@
 
 namespace nextview {
 
-/// A subcommand registers its options with the program and the function that runs it; the function returns the exit code.
+/// A subcommand registers its options with the program and the function that runs it; the function returns the exit
+/// code.
 void add_scan_command(CLI::App& program);
 void add_score_command(CLI::App& program);
 

@@ -12,9 +12,12 @@ struct ShortName {
   const char* key;
 };
 constexpr std::array short_names = {
-    ShortName{"--gain", "planner.gain"},   ShortName{"--views", "termination.views"},
-    ShortName{"--seed", "seed"},           ShortName{"--semantics", "planner.semantics"},
-    ShortName{"--sensor", "sensor.preset"}, ShortName{"--resolution", "map.resolution"},
+    ShortName{"--gain", "planner.gain"},
+    ShortName{"--views", "termination.views"},
+    ShortName{"--seed", "seed"},
+    ShortName{"--semantics", "planner.semantics"},
+    ShortName{"--sensor", "sensor.preset"},
+    ShortName{"--resolution", "map.resolution"},
 };
 
 std::string describe(const Setting& setting) {
@@ -29,7 +32,8 @@ std::string describe(const Setting& setting) {
 }  // namespace
 
 void ConfigurationOptions::add_to(CLI::App& app) {
-  app.add_option("OBJECT", object_, "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …");
+  app.add_option("OBJECT", object_,
+                 "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …");
   app.add_option("--config", file_, "configuration file (TOML); options override it")->type_name("FILE");
   static Configuration defaults;
   for (const Setting& setting : settings(defaults)) {
@@ -51,7 +55,8 @@ void ConfigurationOptions::add_to(CLI::App& app) {
 Configuration ConfigurationOptions::configuration() const {
   Configuration configuration;
   if (!file_.empty()) configuration = read_configuration(file_);
-  if (const auto preset = given_.find("sensor.preset"); preset != given_.end()) apply_sensor_preset(configuration, preset->second);
+  if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
+    apply_sensor_preset(configuration, preset->second);
   auto list = settings(configuration);
   for (Setting& setting : list)
     if (const auto given = given_.find(setting.key); given != given_.end()) setting.set(given->second);

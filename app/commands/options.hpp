@@ -11,7 +11,8 @@ namespace nextview {
 /// What the command line says of a configuration: a file, and settings by their keys, which override it.
 class ConfigurationOptions {
  public:
-  /// Adds OBJECT, --config, an option for every setting (`--sensor.range_noise 0.001`), and the short names of the common ones.
+  /// Adds OBJECT, --config, an option for every setting (`--sensor.range_noise 0.001`), and the short names of the
+  /// common ones.
   void add_to(CLI::App& app);
   /// @throws std::runtime_error, std::invalid_argument with one line for people.
   Configuration configuration() const;

@@ -60,11 +60,12 @@ void print_head(const Session& session) {
   const std::string unit = gain_unit(c.planner.gain);
   fmt::print("{}: {}\n", session.object_file().filename().string(), topology(*session.mesh()).summary());
   fmt::print("{} candidate views, ranked by {}{} ({} semantics)\n\n", session.candidates().size(), c.planner.gain,
-             unit.empty() ? "" : fmt::format(" [{}]", unit), c.planner.semantics == Semantics::published ? "published" : "reference");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "returns", "new",
-             "coverage", "entropy", "log loss", "seconds");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "voxels", "% visible",
-             "kbit", "nats*", "");
+             unit.empty() ? "" : fmt::format(" [{}]", unit),
+             c.planner.semantics == Semantics::published ? "published" : "reference");
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved",
+             "returns", "new", "coverage", "entropy", "log loss", "seconds");
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "voxels",
+             "% visible", "kbit", "nats*", "");
 }
 
 void print_step(const StepRecord& r) {
@@ -80,17 +81,20 @@ void print_step(const StepRecord& r) {
 void print_files(const Session& session, const std::filesystem::path& out, bool pictures) {
   fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
   if (session.known_object() && !session.records().empty())
-    fmt::print("* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; of all the\n"
-               "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
-               1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
-               100.0 * session.records().back().coverage_paper);
+    fmt::print(
+        "* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; "
+        "of all the\n"
+        "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
+        1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
+        100.0 * session.records().back().coverage_paper);
   fmt::print("\n{}/\n", out.string());
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
-  fmt::print("  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
-             "  cloud.ply       the cleaned point cloud\n"
-             "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
-             "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
-             out.string());
+  fmt::print(
+      "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
+      "  cloud.ply       the cleaned point cloud\n"
+      "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
+      "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
+      out.string());
 }
 
 int run(const ScanArguments& arguments) {
@@ -124,8 +128,10 @@ void add_scan_command(CLI::App& program) {
   arguments->options.add_to(*app);
   app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
-  app->footer("Examples:\n  nextview scan --out out\n  nextview scan bunny.ply --gain rear-side-entropy --views 10 --seed 7 --out bunny\n"
-              "  nextview scan --config out/config.toml --sensor.range_noise 0.005 --out noisy");
+  app->footer(
+      "Examples:\n  nextview scan --out out\n  nextview scan bunny.ply --gain rear-side-entropy --views 10 --seed 7 "
+      "--out bunny\n"
+      "  nextview scan --config out/config.toml --sensor.range_noise 0.005 --out noisy");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
 }
 

@@ -23,7 +23,8 @@ std::vector<std::string> wanted_gains(const std::string& gain) {
     if (!is_baseline(name)) known.push_back(name);
   if (gain == "all") return known;
   if (std::find(known.begin(), known.end(), gain) == known.end())
-    throw std::invalid_argument(fmt::format("there is no gain '{}' to score a scene by; did you mean '{}'?", gain, nearest(gain, known)));
+    throw std::invalid_argument(
+        fmt::format("there is no gain '{}' to score a scene by; did you mean '{}'?", gain, nearest(gain, known)));
   return {gain};
 }
 
@@ -46,9 +47,11 @@ void print_ranking(const SceneScores& scores) {
     const Ranking ranking = rank(candidates, {1.0, 0.0});
     std::vector<std::size_t> order(candidates.size());
     for (std::size_t v = 0; v < order.size(); ++v) order[v] = v;
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return candidates[a].gain > candidates[b].gain; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return candidates[a].gain > candidates[b].gain; });
     fmt::print("{:<18}", scores.gains[g]);
-    for (std::size_t i = 0; i < std::min(shown, order.size()); ++i) fmt::print("  {:>3}: {:<10.6g}", order[i], candidates[order[i]].gain);
+    for (std::size_t i = 0; i < std::min(shown, order.size()); ++i)
+      fmt::print("  {:>3}: {:<10.6g}", order[i], candidates[order[i]].gain);
     fmt::print("{}\n", ranking.degenerate.empty() ? "" : "  (no ranking: " + ranking.degenerate + ")");
   }
 }
@@ -61,7 +64,8 @@ int run(const ScoreArguments& arguments) {
   const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", arguments.scene, text); };
   SceneScores scores;
   try {
-    scores = score_scene(scene, arguments.semantics == "reference" ? Semantics::reference : Semantics::published, gains, warn);
+    scores = score_scene(scene, arguments.semantics == "reference" ? Semantics::reference : Semantics::published, gains,
+                         warn);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", arguments.scene, error.what()));
   }
@@ -79,10 +83,15 @@ int run(const ScoreArguments& arguments) {
 void add_score_command(CLI::App& program) {
   auto arguments = std::make_shared<ScoreArguments>();
   CLI::App* app = program.add_subcommand("score", "Rank the candidate views of a scene of recorded scans");
-  app->add_option("--scene", arguments->scene, "scene file: lines `param`, `scan` with its points, `view`")->required()->type_name("FILE");
-  app->add_option("--semantics", arguments->semantics, "published, or what the reference code computes")->capture_default_str();
+  app->add_option("--scene", arguments->scene, "scene file: lines `param`, `scan` with its points, `view`")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--semantics", arguments->semantics, "published, or what the reference code computes")
+      ->capture_default_str();
   app->add_option("--gain", arguments->gain, "a gain, 'combined', or 'all'")->capture_default_str();
-  app->add_option("--csv", arguments->csv, "write a row a view with raw values; - for standard output; else a summary is printed")->type_name("FILE");
+  app->add_option("--csv", arguments->csv,
+                  "write a row a view with raw values; - for standard output; else a summary is printed")
+      ->type_name("FILE");
   app->footer("Example:\n  nextview score --scene scans1.txt --semantics reference --gain all --csv scores.csv");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
 }

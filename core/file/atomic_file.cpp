@@ -66,7 +66,8 @@ std::string read_file(const std::filesystem::path& file, std::uintmax_t largest)
   while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
     content.append(part.data(), static_cast<std::size_t>(in.gcount()));
     if (content.size() > largest)
-      throw std::runtime_error(fmt::format("{}: has more than the {} bytes that are read at most", file.string(), largest));
+      throw std::runtime_error(
+          fmt::format("{}: has more than the {} bytes that are read at most", file.string(), largest));
   }
   if (in.bad()) throw cannot("read", file, errno);
   return content;

@@ -6,8 +6,8 @@
 
 namespace nextview {
 
-/// A file that appears whole or not at all: written beside its final place, then renamed over it by commit(). Without commit() nothing
-/// is left behind.
+/// A file that appears whole or not at all: written beside its final place, then renamed over it by commit(). Without
+/// commit() nothing is left behind.
 class AtomicFile {
  public:
   /// @throws std::runtime_error naming the file if its folder cannot be written to.
@@ -27,7 +27,8 @@ class AtomicFile {
 
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// The whole file. @throws std::runtime_error naming the file and the reason: missing, a folder, unreadable, larger than `largest` [bytes].
+/// The whole file. @throws std::runtime_error naming the file and the reason: missing, a folder, unreadable, larger
+/// than `largest` [bytes].
 std::string read_file(const std::filesystem::path& file, std::uintmax_t largest = 1u << 30);
 
 }  // namespace nextview

@@ -121,8 +121,12 @@ struct AverageEntropy {
 };
 
 template <class G>
-constexpr Gain make(std::string_view name, std::string_view unit, std::string_view summary, bool needs_occlusion = false) {
-  return {name, unit, summary, needs_occlusion,
+constexpr Gain make(std::string_view name, std::string_view unit, std::string_view summary,
+                    bool needs_occlusion = false) {
+  return {name,
+          unit,
+          summary,
+          needs_occlusion,
           [](const Ray& ray, GainSums& sums) {
             G::ray(ray, sums, [&sums](std::size_t, int k, double amount) { sums.sum[k] += amount; });
           },
@@ -133,7 +137,8 @@ constexpr Gain make(std::string_view name, std::string_view unit, std::string_vi
 }
 
 constexpr std::array all_gains = {
-    make<OcclusionAware>("occlusion-aware", "nats", "entropy along each ray, weighted by how likely the ray gets there"),
+    make<OcclusionAware>("occlusion-aware", "nats",
+                         "entropy along each ray, weighted by how likely the ray gets there"),
     make<UnobservedVoxel>("unobserved-voxel", "nats", "the same, over unknown voxels only"),
     make<RearSideVoxel>("rear-side-voxel", "voxels", "occupied voxels met from behind: right after an unknown one"),
     make<RearSideEntropy>("rear-side-entropy", "nats", "entropy of the unknown stretch in front of an occupied end"),

@@ -11,13 +11,14 @@ namespace nextview {
 
 /// One ray as a gain sees it.
 struct Ray {
-  std::span<const RayVoxel> voxels;   ///< v_0 ... v_N
+  std::span<const RayVoxel> voxels;    ///< v_0 ... v_N
   std::span<const double> visibility;  ///< pi_0 ... pi_N: how likely the ray gets that far
   Semantics semantics = Semantics::published;
-  double occlusion_reach = 60.0;       ///< d_max of proximity count [voxels]
+  double occlusion_reach = 60.0;  ///< d_max of proximity count [voxels]
 };
 
-/// What a gain adds up over the rays of one view: up to three sums, and what the reference's area factor carries from ray to ray.
+/// What a gain adds up over the rays of one view: up to three sums, and what the reference's area factor carries from
+/// ray to ray.
 struct GainSums {
   std::array<double, 3> sum{};
   bool node_seen = false;
@@ -29,7 +30,8 @@ struct GainValue {
   std::array<double, 3> worth{};
 };
 
-/// A volumetric information (the table of SCIENCE's section on gains): a short function over the visited voxels of a ray.
+/// A volumetric information (the table of SCIENCE's section on gains): a short function over the visited voxels of a
+/// ray.
 struct Gain {
   std::string_view name;     ///< as on the command line and in the head of a column, e.g. "occlusion-aware"
   std::string_view unit;     ///< "nats", "voxels", or "" if it has none
@@ -40,11 +42,14 @@ struct Gain {
   void (*add_ray)(const Ray& ray, GainSums& sums);
   /// The value of a view whose rays have been added.
   GainValue (*value)(const GainSums& sums);
-  /// What each voxel of a ray contributes to the view's value, given what its sums are worth. `sums` is as add_ray has it.
-  void (*explain_ray)(const Ray& ray, GainSums& sums, const std::array<double, 3>& worth, std::span<double> contribution);
+  /// What each voxel of a ray contributes to the view's value, given what its sums are worth. `sums` is as add_ray has
+  /// it.
+  void (*explain_ray)(const Ray& ray, GainSums& sums, const std::array<double, 3>& worth,
+                      std::span<double> contribution);
 };
 
-/// Every gain that looks at single views, in the order of the columns of `nextview score`. 'combined' is made of these; see combine().
+/// Every gain that looks at single views, in the order of the columns of `nextview score`. 'combined' is made of these;
+/// see combine().
 std::span<const Gain> gains();
 
 /// @throws std::invalid_argument naming the known gains.
@@ -56,12 +61,14 @@ struct WeightedGain {
   double weight;
 };
 
-/// 'Pre-release, unconfirmed': 30 average entropy + 1 rear side entropy, from an early version of the authors' code. The published
-/// weights are not available.
+/// 'Pre-release, unconfirmed': 30 average entropy + 1 rear side entropy, from an early version of the authors' code.
+/// The published weights are not available.
 std::span<const WeightedGain> prerelease_weights();
 
-/// The combined gain (Isler et al. 2016) of each view. published: sum_k w_k gain_k(v) / sum_v gain_k, a gain that is 0 everywhere adding 0;
-/// reference: sum_k w_k gain_k(v), normalised by its total over the views. `values[k][v]` belongs to weights[k].
-std::vector<double> combine(std::span<const double> weights, std::span<const std::vector<double>> values, Semantics semantics);
+/// The combined gain (Isler et al. 2016) of each view. published: sum_k w_k gain_k(v) / sum_v gain_k, a gain that is 0
+/// everywhere adding 0; reference: sum_k w_k gain_k(v), normalised by its total over the views. `values[k][v]` belongs
+/// to weights[k].
+std::vector<double> combine(std::span<const double> weights, std::span<const std::vector<double>> values,
+                            Semantics semantics);
 
 }  // namespace nextview

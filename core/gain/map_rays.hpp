@@ -6,8 +6,8 @@
 
 namespace nextview {
 
-/// Rays through a dense map, clipped to its region of interest (published semantics). The map, or whatever else made the voxels,
-/// must outlive it.
+/// Rays through a dense map, clipped to its region of interest (published semantics). The map, or whatever else made
+/// the voxels, must outlive it.
 class MapRays : public RayCaster {
  public:
   MapRays(const VoxelGrid& grid, std::span<const Voxel> voxels, double occupancy_threshold, double max_range);
@@ -24,15 +24,15 @@ class MapRays : public RayCaster {
 class ReferenceMap : public RayCaster {
  public:
   struct Parameters {
-    double resolution = 0.01;             ///< [m]
+    double resolution = 0.01;  ///< [m]
     InverseSensorModel model;
-    double unknown_prior = 0.5;           ///< probability of what has not been measured
+    double unknown_prior = 0.5;  ///< probability of what has not been measured
     bool use_bounding_box = true;
-    Vector3 lower = Vector3::Zero();      ///< bounding box [m, world]; points outside are dropped
+    Vector3 lower = Vector3::Zero();  ///< bounding box [m, world]; points outside are dropped
     Vector3 upper = Vector3::Zero();
-    double max_sensor_range = 1.5;        ///< [m]; negative: no limit
-    double occlusion_distance = 0.3;      ///< [m]
-    double max_ray_depth = 1.5;           ///< [m]
+    double max_sensor_range = 1.5;    ///< [m]; negative: no limit
+    double occlusion_distance = 0.3;  ///< [m]
+    double max_ray_depth = 1.5;       ///< [m]
   };
 
   explicit ReferenceMap(const Parameters& parameters);

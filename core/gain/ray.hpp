@@ -8,8 +8,9 @@
 
 namespace nextview {
 
-/// Two readings of the literature, selectable everywhere. `published`: visibility is the product of (1 - p), rays are clipped to the region
-/// of interest. `reference`: what the code of Isler et al. 2016 and Delmerico et al. 2018 computes (visibility is the product of p).
+/// Two readings of the literature, selectable everywhere. `published`: visibility is the product of (1 - p), rays are
+/// clipped to the region of interest. `reference`: what the code of Isler et al. 2016 and Delmerico et al. 2018
+/// computes (visibility is the product of p).
 enum class Semantics { published, reference };
 
 /// A voxel on a ray as a gain sees it.
@@ -18,7 +19,8 @@ struct RayVoxel : Voxel {
   std::array<std::int16_t, 3> lattice{};  ///< voxel n spans [n, n+1) * resolution along each axis
 };
 
-/// Tells which voxels a ray visits: v_0 ... v_N, up to the first measured voxel with p >= the occupancy threshold, or to the maximum range.
+/// Tells which voxels a ray visits: v_0 ... v_N, up to the first measured voxel with p >= the occupancy threshold, or
+/// to the maximum range.
 class RayCaster {
  public:
   virtual ~RayCaster() = default;
@@ -32,9 +34,10 @@ struct RayBundle {
 
   /// `columns` x `rows` rays through the middles of equal cells of the whole image.
   static RayBundle regular(const PinholeCamera& camera, int columns = 38, int rows = 25);
-  /// The bundle of the reference code: pixel x from `lowest` to `highest` share of the width inclusive, one every `spacing` pixels,
-  /// truncated to whole pixels; y likewise.
-  static RayBundle reference(const PinholeCamera& camera, Eigen::Vector2d lowest, Eigen::Vector2d highest, Eigen::Vector2d spacing);
+  /// The bundle of the reference code: pixel x from `lowest` to `highest` share of the width inclusive, one every
+  /// `spacing` pixels, truncated to whole pixels; y likewise.
+  static RayBundle reference(const PinholeCamera& camera, Eigen::Vector2d lowest, Eigen::Vector2d highest,
+                             Eigen::Vector2d spacing);
 };
 
 }  // namespace nextview

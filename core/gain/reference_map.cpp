@@ -1,5 +1,5 @@
-#include <octomap/OccupancyOcTreeBase.h>
 #include <octomap/OcTreeNode.h>
+#include <octomap/OccupancyOcTreeBase.h>
 
 #include "core/gain/map_rays.hpp"
 
@@ -11,7 +11,8 @@ using octomap::KeySet;
 using octomap::OcTreeKey;
 using octomap::point3d;
 
-/// Pruning and expansion copy the value only: the other fields of the node that is left, or made, start anew, as measured.
+/// Pruning and expansion copy the value only: the other fields of the node that is left, or made, start anew, as
+/// measured.
 class Node : public octomap::OcTreeNode {
  public:
   bool unmeasured = false;     ///< made by an occlusion traversal, and no measurement has landed here since

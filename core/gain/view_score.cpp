@@ -20,7 +20,8 @@ void visibility_along(std::span<const RayVoxel> voxels, Semantics semantics, std
 
 /// Casts the rays of one view, in order, and hands each to `use(ray, direction in the world)`.
 template <class Use>
-void for_each_ray(const RayCaster& caster, const Pose& view, const RayBundle& bundle, const ScoreOptions& options, Use use) {
+void for_each_ray(const RayCaster& caster, const Pose& view, const RayBundle& bundle, const ScoreOptions& options,
+                  Use use) {
   std::vector<RayVoxel> visited;
   std::vector<double> visibility;
   const Vector3 origin = view.translation();
@@ -35,7 +36,8 @@ void for_each_ray(const RayCaster& caster, const Pose& view, const RayBundle& bu
 }  // namespace
 
 std::vector<ViewScore> score_views(const RayCaster& caster, std::span<const Pose> views, const RayBundle& bundle,
-                                   std::span<const Gain* const> gains, const ScoreOptions& options, std::stop_token stop) {
+                                   std::span<const Gain* const> gains, const ScoreOptions& options,
+                                   std::stop_token stop) {
   std::vector<ViewScore> scores(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;

@@ -27,7 +27,8 @@ std::vector<ViewScore> score_views(const RayCaster& caster, std::span<const Pose
                                    std::span<const Gain* const> gains, const ScoreOptions& options = {},
                                    std::stop_token stop = {});
 
-/// A score taken apart: per ray the voxels, their probability, visibility and contribution. The contributions of all rays sum to `value`.
+/// A score taken apart: per ray the voxels, their probability, visibility and contribution. The contributions of all
+/// rays sum to `value`.
 struct ScoreExplanation {
   struct Voxel {
     std::array<std::int16_t, 3> lattice{};

@@ -6,8 +6,8 @@
 
 namespace nextview {
 
-/// An allocator that asks for huge pages: rays jump through a map of many megabytes, and with small pages most of their time goes into
-/// looking up addresses.
+/// An allocator that asks for huge pages: rays jump through a map of many megabytes, and with small pages most of their
+/// time goes into looking up addresses.
 template <class T>
 struct HugePages {
   using value_type = T;

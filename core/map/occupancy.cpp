@@ -1,8 +1,8 @@
+#include "core/map/occupancy.hpp"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "core/map/occupancy.hpp"
 
 namespace nextview {
 

@@ -31,7 +31,11 @@ Eigen::Vector3f shortened(const Eigen::Vector3f& origin, const Eigen::Vector3f& 
 }  // namespace
 
 OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model)
-    : grid_(grid), model_(model), log_odds_(grid.voxel_count()), voxels_(grid.voxel_count()), touched_(grid.voxel_count()) {
+    : grid_(grid),
+      model_(model),
+      log_odds_(grid.voxel_count()),
+      voxels_(grid.voxel_count()),
+      touched_(grid.voxel_count()) {
   model.validate();
 }
 
@@ -86,32 +90,34 @@ void OccupancyMap::update_touched() {
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   constexpr std::size_t chunk = 8;  // eight touches are looked at as one word: most voxels are untouched
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096), [&](const auto& range) {
-    float last_log_odds = 0.0f;  // neighbours often have the same, and logarithms are dear
-    Voxel last_voxel = measured_voxel(last_log_odds);
-    for (std::size_t c = range.begin(); c != range.end(); ++c) {
-      const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
-      if (last - first == chunk) {
-        std::uint64_t word;
-        std::memcpy(&word, &touched_[first], chunk);
-        if (word == 0) continue;
-      }
-      for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
-        if (touched_[v] == untouched) continue;
-        log_odds_[v] = std::clamp(log_odds_[v] + (touched_[v] == hit ? hit_update : miss_update), lowest, highest);
-        if (log_odds_[v] != last_log_odds) last_voxel = measured_voxel(last_log_odds = log_odds_[v]);
-        voxels_[v] = last_voxel;
-        touched_[v] = untouched;
-      }
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096), [&](const auto& range) {
+        float last_log_odds = 0.0f;  // neighbours often have the same, and logarithms are dear
+        Voxel last_voxel = measured_voxel(last_log_odds);
+        for (std::size_t c = range.begin(); c != range.end(); ++c) {
+          const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
+          if (last - first == chunk) {
+            std::uint64_t word;
+            std::memcpy(&word, &touched_[first], chunk);
+            if (word == 0) continue;
+          }
+          for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
+            if (touched_[v] == untouched) continue;
+            log_odds_[v] = std::clamp(log_odds_[v] + (touched_[v] == hit ? hit_update : miss_update), lowest, highest);
+            if (log_odds_[v] != last_log_odds) last_voxel = measured_voxel(last_log_odds = log_odds_[v]);
+            voxels_[v] = last_voxel;
+            touched_[v] = untouched;
+          }
+        }
+      });
 }
 
 void OccupancyMap::register_local(const OccupancyMap& local) {
-  const bool same_grid = local.grid_.first == grid_.first && local.grid_.size == grid_.size &&
-                         local.grid_.resolution == grid_.resolution;
+  const bool same_grid =
+      local.grid_.first == grid_.first && local.grid_.size == grid_.size && local.grid_.resolution == grid_.resolution;
   if (!same_grid || !(local.model_ == model_))
-    throw std::invalid_argument("occupancy map: a local map must have the grid and the model of the map it is registered into");
+    throw std::invalid_argument(
+        "occupancy map: a local map must have the grid and the model of the map it is registered into");
   // One scan's log-odds tell hits from passes; they may be clamped already, so they are not what is added.
   for (std::size_t v = 0; v < voxels_.size(); ++v)
     touched_[v] = !local.voxels_[v].measured ? untouched : local.log_odds_[v] > 0.0f ? hit : passed;

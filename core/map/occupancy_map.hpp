@@ -11,7 +11,8 @@
 namespace nextview {
 
 /// The conventional occupancy map inside a region of interest: every voxel has log-odds of its own (two independence
-/// assumptions). A dense mirror of OctoMap's tree: same values to the bit, 20 times faster. Files are OctoMap's own (octree_file.hpp).
+/// assumptions). A dense mirror of OctoMap's tree: same values to the bit, 20 times faster. Files are OctoMap's own
+/// (octree_file.hpp).
 class OccupancyMap {
  public:
   /// @throws std::invalid_argument if the model is not valid.
@@ -21,12 +22,14 @@ class OccupancyMap {
   /// insertPointCloud). Rays longer than `max_range` [m] carve up to it and end nowhere; passes carve only.
   void insert(const Scan& scan, double max_range);
 
-  /// Adds a local map, made of one scan, to this one: the paper's registration of local octrees. Gives the same map as inserting the scan.
+  /// Adds a local map, made of one scan, to this one: the paper's registration of local octrees. Gives the same map as
+  /// inserting the scan.
   /// @throws std::invalid_argument if grid or sensor model differ.
   void register_local(const OccupancyMap& local);
 
-  /// From each return a traversal runs `distance` [m] farther along its ray; voxels it meets unmeasured learn how far behind a
-  /// surface they are: the smallest number of steps wins. Proximity count and area factor need it, nothing else does.
+  /// From each return a traversal runs `distance` [m] farther along its ray; voxels it meets unmeasured learn how far
+  /// behind a surface they are: the smallest number of steps wins. Proximity count and area factor need it, nothing
+  /// else does.
   void mark_occlusions(const Scan& scan, double max_range, double distance);
 
   /// Sets one voxel, measured, as loading does.

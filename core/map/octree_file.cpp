@@ -39,7 +39,8 @@ octomap::OcTree to_octree(const OccupancyMap& map) {
   return tree;
 }
 
-/// Walks the bytes of a tree without building it. OctoMap's own reader trusts them: a truncated file sends it into the woods.
+/// Walks the bytes of a tree without building it. OctoMap's own reader trusts them: a truncated file sends it into the
+/// woods.
 class TreeBytes {
  public:
   TreeBytes(std::string_view bytes, bool binary) : bytes_(bytes), binary_(binary) {}
@@ -65,7 +66,8 @@ class TreeBytes {
   /// .bt: two bits a child, in two bytes; 3 says that the child's own two bytes follow.
   bool binary_node(int depth) {
     if (depth == tree_depth || bytes_.size() - at_ < 2) return false;
-    const unsigned children = static_cast<unsigned char>(bytes_[at_]) | static_cast<unsigned char>(bytes_[at_ + 1]) << 8;
+    const unsigned children = static_cast<unsigned char>(bytes_[at_]) | static_cast<unsigned char>(bytes_[at_ + 1])
+                                                                            << 8;
     at_ += 2;
     if (children == 0 && depth > 0) return false;
     for (int c = 0; c < 8; ++c)
@@ -163,8 +165,8 @@ OccupancyMap read_octree(const std::filesystem::path& file, const InverseSensorM
   VoxelGrid grid{tree->getResolution(), lowest, highest - lowest};
   constexpr std::size_t most = std::size_t{1} << 28;
   if (grid.voxel_count() > most)
-    throw std::runtime_error(fmt::format("{}: the octree spans {} voxels; at most {} are held", file.string(),
-                                         grid.voxel_count(), most));
+    throw std::runtime_error(
+        fmt::format("{}: the octree spans {} voxels; at most {} are held", file.string(), grid.voxel_count(), most));
   OccupancyMap map(grid, model);
   for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {
     const auto [first, count] = extent(leaf);

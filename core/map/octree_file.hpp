@@ -10,9 +10,10 @@ namespace nextview {
 /// @throws std::runtime_error naming the file and the reason.
 void write_octree(const OccupancyMap& map, const std::filesystem::path& file);
 
-/// Reads .ot or .bt. The grid is the smallest box that holds the tree's leaves. The model's hit, miss and clamps are taken as given:
-/// the formats do not keep them.
-/// @throws std::runtime_error naming the file and the reason: missing, not an octree, truncated, too large to hold densely.
+/// Reads .ot or .bt. The grid is the smallest box that holds the tree's leaves. The model's hit, miss and clamps are
+/// taken as given: the formats do not keep them.
+/// @throws std::runtime_error naming the file and the reason: missing, not an octree, truncated, too large to hold
+/// densely.
 OccupancyMap read_octree(const std::filesystem::path& file, const InverseSensorModel& model = {});
 
 }  // namespace nextview

@@ -9,7 +9,7 @@ namespace nextview {
 
 /// Steps from voxel to voxel along a straight line (Amanatides and Woo 1987).
 struct VoxelWalk {
-  int x, y, z;              ///< current voxel
+  int x, y, z;  ///< current voxel
   int step_x, step_y, step_z;
   double next_x, next_y, next_z;  ///< distance along the line at which the next face is met, per axis
   double delta_x, delta_y, delta_z;
@@ -30,8 +30,10 @@ struct VoxelWalk {
   double exit() const { return std::min(std::min(next_x, next_y), next_z); }
 };
 
-/// One axis of a walk that starts at `position` in cell `cell`: its step, first face and spacing. Cells count from the lattice's origin.
-inline void set_axis(double position, double direction, int cell, double resolution, int& step, double& next, double& delta) {
+/// One axis of a walk that starts at `position` in cell `cell`: its step, first face and spacing. Cells count from the
+/// lattice's origin.
+inline void set_axis(double position, double direction, int cell, double resolution, int& step, double& next,
+                     double& delta) {
   if (direction == 0.0) {
     step = 0;
     next = delta = std::numeric_limits<double>::max();
@@ -44,8 +46,9 @@ inline void set_axis(double position, double direction, int cell, double resolut
   delta = resolution / std::abs(direction);
 }
 
-/// Visits the voxels from the one of `origin` to the one before `end`'s, in order, with the rounding of OctoMap's computeRayKeys, so that
-/// a dense map equals a tree. `visit(x, y, z)` gets grid coordinates, which may lie outside of the grid; false ends the walk.
+/// Visits the voxels from the one of `origin` to the one before `end`'s, in order, with the rounding of OctoMap's
+/// computeRayKeys, so that a dense map equals a tree. `visit(x, y, z)` gets grid coordinates, which may lie outside of
+/// the grid; false ends the walk.
 template <class Visit>
 void walk_segment(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end, Visit visit) {
   const Eigen::Vector3i from = grid.cell_at(origin.cast<double>());
@@ -71,8 +74,8 @@ void walk_segment(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
   }
 }
 
-/// Visits the voxels of the grid that the ray passes through between its origin and `max_range` [m], in order; `direction` is of unit
-/// length. `visit(x, y, z)` gets grid coordinates inside the grid; false ends the walk.
+/// Visits the voxels of the grid that the ray passes through between its origin and `max_range` [m], in order;
+/// `direction` is of unit length. `visit(x, y, z)` gets grid coordinates inside the grid; false ends the walk.
 template <class Visit>
 void walk_ray(const VoxelGrid& grid, const Vector3& origin, const Vector3& direction, double max_range, Visit visit) {
   const Vector3 lower = grid.lower(), upper = grid.upper();
@@ -93,7 +96,8 @@ void walk_ray(const VoxelGrid& grid, const Vector3& origin, const Vector3& direc
   }
   if (enter >= leave) return;
 
-  Eigen::Vector3i cell = grid.cell_at(origin + enter * direction).cwiseMax(0).cwiseMin(grid.size - Eigen::Vector3i::Ones());
+  Eigen::Vector3i cell =
+      grid.cell_at(origin + enter * direction).cwiseMax(0).cwiseMin(grid.size - Eigen::Vector3i::Ones());
   if (entry_axis >= 0) cell[entry_axis] = direction[entry_axis] > 0.0 ? 0 : grid.size[entry_axis] - 1;
   const Eigen::Vector3i lattice = cell + grid.first;
   VoxelWalk w{cell.x(), cell.y(), cell.z(), 0, 0, 0, 0, 0, 0, 0, 0, 0};

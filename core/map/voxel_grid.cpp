@@ -10,14 +10,15 @@ namespace nextview {
 VoxelGrid region_of_interest(const Vector3& centre, double edge, double resolution) {
   const double voxels = std::ceil(edge / resolution - 1e-6);
   if (!(voxels >= 1.0 && voxels <= 1024.0))
-    throw std::invalid_argument(fmt::format(
-        "region of interest: an edge of {} m at a resolution of {} m makes {} voxels along each side; it must be from 1 to 1024",
-        edge, resolution, voxels));
+    throw std::invalid_argument(
+        fmt::format("region of interest: an edge of {} m at a resolution of {} m makes {} voxels along each side; it "
+                    "must be from 1 to 1024",
+                    edge, resolution, voxels));
   const Vector3 first = (centre / resolution - Vector3::Constant(0.5 * voxels)).array().round();
   if (!(first.array().abs() + voxels <= 32768.0).all())  // an octree's 16 bits an axis
     throw std::invalid_argument(
-        fmt::format("region of interest: its centre ({}, {}, {}) m must lie within {} m of the world's origin", centre.x(),
-                    centre.y(), centre.z(), 32768.0 * resolution));
+        fmt::format("region of interest: its centre ({}, {}, {}) m must lie within {} m of the world's origin",
+                    centre.x(), centre.y(), centre.z(), 32768.0 * resolution));
   VoxelGrid grid;
   grid.resolution = resolution;
   grid.size.setConstant(static_cast<int>(voxels));

@@ -7,12 +7,12 @@
 
 namespace nextview {
 
-/// A box of voxels on OctoMap's lattice: voxel faces lie at whole multiples of the resolution, voxel n spans [n, n+1) * resolution.
-/// Voxels are numbered x fastest, then y, then z.
+/// A box of voxels on OctoMap's lattice: voxel faces lie at whole multiples of the resolution, voxel n spans [n, n+1) *
+/// resolution. Voxels are numbered x fastest, then y, then z.
 struct VoxelGrid {
-  double resolution = 0.01;                             ///< voxel edge [m]
-  Eigen::Vector3i first = Eigen::Vector3i::Zero();      ///< lattice coordinates of the lowest voxel
-  Eigen::Vector3i size = Eigen::Vector3i::Zero();       ///< voxels along each axis
+  double resolution = 0.01;                         ///< voxel edge [m]
+  Eigen::Vector3i first = Eigen::Vector3i::Zero();  ///< lattice coordinates of the lowest voxel
+  Eigen::Vector3i size = Eigen::Vector3i::Zero();   ///< voxels along each axis
 
   std::size_t voxel_count() const { return std::size_t(size.x()) * size.y() * size.z(); }
   bool contains(const Eigen::Vector3i& cell) const {
@@ -37,7 +37,8 @@ struct VoxelGrid {
   }
 };
 
-/// The region of interest: a cube of `edge` [m] around `centre`, snapped to the lattice (edge to the next whole number of voxels).
+/// The region of interest: a cube of `edge` [m] around `centre`, snapped to the lattice (edge to the next whole number
+/// of voxels).
 /// @throws std::invalid_argument if it has no voxels, or more than 2^31 of them.
 VoxelGrid region_of_interest(const Vector3& centre, double edge, double resolution);
 

@@ -5,7 +5,8 @@
 
 namespace nextview {
 
-/// `count` points spread over the surface in proportion to area (stratified along the cumulated area), the same for the same seed.
+/// `count` points spread over the surface in proportion to area (stratified along the cumulated area), the same for the
+/// same seed.
 struct SurfaceSamples {
   std::vector<Eigen::Vector3f> points;   ///< [m, world]
   std::vector<std::uint32_t> triangles;  ///< the triangle of each point

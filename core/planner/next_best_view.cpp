@@ -19,7 +19,8 @@ std::string why_degenerate(const std::vector<double>& gains) {
   if (*most == 0.0 && *least == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
   if (*most - *least <= tie * std::abs(*most))
     return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", *most);
-  const auto ties = std::count_if(gains.begin(), gains.end(), [&](double g) { return *most - g <= tie * std::abs(*most); });
+  const auto ties =
+      std::count_if(gains.begin(), gains.end(), [&](double g) { return *most - g <= tie * std::abs(*most); });
   if (ties * 2 > static_cast<std::ptrdiff_t>(gains.size()))
     return fmt::format("{} of {} candidates tie at the largest gain, {:.6g}", ties, gains.size(), *most);
   return "";

@@ -21,12 +21,13 @@ struct UtilityWeights {
 
 /// A ranking and whether it says anything.
 struct Ranking {
-  std::optional<std::size_t> best;  ///< Eq. 14; nothing if no candidate is available. Ties go to the first in list order
-  std::string degenerate;           ///< why the gains do not tell the candidates apart; empty if they do
+  std::optional<std::size_t>
+      best;                ///< Eq. 14; nothing if no candidate is available. Ties go to the first in list order
+  std::string degenerate;  ///< why the gains do not tell the candidates apart; empty if they do
 };
 
-/// Sets the utility of the available candidates, U = w_g G / sum G - w_c C / sum C (Eq. 13; a term whose sum is 0 is 0), and finds the
-/// next best view.
+/// Sets the utility of the available candidates, U = w_g G / sum G - w_c C / sum C (Eq. 13; a term whose sum is 0 is
+/// 0), and finds the next best view.
 Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights);
 
 }  // namespace nextview

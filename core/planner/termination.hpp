@@ -18,9 +18,9 @@ struct TerminationConfig {
 /// How far a scan has come, as the criteria see it.
 struct ScanProgress {
   int views = 0;
-  double coverage = 0.0;       ///< of visible surface
-  double best_gain = 0.0;      ///< of the candidates left
-  double first_gain = 0.0;     ///< best gain after the first view
+  double coverage = 0.0;    ///< of visible surface
+  double best_gain = 0.0;   ///< of the candidates left
+  double first_gain = 0.0;  ///< best gain after the first view
   double new_voxel_share = 1.0;
   double entropy_drop_share = 1.0;
   bool candidates_left = true;

@@ -4,8 +4,8 @@
 
 namespace nextview {
 
-/// Random numbers that depend on a key and a counter alone (Philox 4x32-10, Salmon et al. 2011), never on who drew before:
-/// draw per pixel, per voxel or per sweep and the result is the same on any number of threads.
+/// Random numbers that depend on a key and a counter alone (Philox 4x32-10, Salmon et al. 2011), never on who drew
+/// before: draw per pixel, per voxel or per sweep and the result is the same on any number of threads.
 class CounterRandom {
  public:
   /// `stream` separates uses of one seed (sensor noise, random planner, …); `index` is for example the view number.

@@ -11,14 +11,14 @@
 namespace nextview {
 
 struct DepthCameraConfig {
-  int width = 640;                        ///< [px]
-  int height = 480;                       ///< [px]
-  double field_of_view = 58.0;            ///< horizontal [deg]
-  double min_range = 0.2;                 ///< nearer surfaces give invalid pixels [m]
-  double max_range = 1.5;                 ///< farther surfaces are beyond range [m]
-  double range_noise = 0.002;             ///< standard deviation along the ray [m]
-  double dropout = 0.0;                   ///< share of pixels that return nothing, at random
-  double grazing_limit = 85.0;            ///< surfaces met at more than this from their normal give invalid pixels [deg]
+  int width = 640;              ///< [px]
+  int height = 480;             ///< [px]
+  double field_of_view = 58.0;  ///< horizontal [deg]
+  double min_range = 0.2;       ///< nearer surfaces give invalid pixels [m]
+  double max_range = 1.5;       ///< farther surfaces are beyond range [m]
+  double range_noise = 0.002;   ///< standard deviation along the ray [m]
+  double dropout = 0.0;         ///< share of pixels that return nothing, at random
+  double grazing_limit = 85.0;  ///< surfaces met at more than this from their normal give invalid pixels [deg]
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;
@@ -34,12 +34,13 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   struct Hit {
-    float range = DepthImage::beyond_range;        ///< [m]; beyond_range if nothing was met
-    float cosine = 1.0f;                           ///< |cos| between the ray and the surface normal
+    float range = DepthImage::beyond_range;  ///< [m]; beyond_range if nothing was met
+    float cosine = 1.0f;                     ///< |cos| between the ray and the surface normal
     std::uint32_t triangle = 0xffffffffu;
   };
   /// First surface along each unit direction, from one origin, within `max_range` [m]. Surfaces have two sides.
-  void cast(const Vector3& origin, std::span<const Eigen::Vector3f> directions, float max_range, std::span<Hit> hits) const;
+  void cast(const Vector3& origin, std::span<const Eigen::Vector3f> directions, float max_range,
+            std::span<Hit> hits) const;
 
  private:
   struct Impl;
@@ -56,7 +57,8 @@ class DepthCamera {
   const PinholeCamera& camera() const { return camera_; }
 
   /// What the camera sees from T_world_camera. `view_index` and `seed` choose the noise; each pixel draws its own.
-  DepthImage sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed, std::uint32_t view_index) const;
+  DepthImage sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed,
+                   std::uint32_t view_index) const;
   /// The same without noise, dropout and grazing limit: what a perfect camera would see. For scoring.
   DepthImage sense_ideal(const RayScene& scene, const Pose& T_world_camera) const;
 

@@ -8,7 +8,8 @@
 namespace nextview {
 
 /// One range a pixel, along the pixel's ray (not along z) [m], row by row. A pixel is one of three things:
-/// a range; *beyond range*, nothing was met within the maximum range (it says the way is free); or *invalid*, which says nothing.
+/// a range; *beyond range*, nothing was met within the maximum range (it says the way is free); or *invalid*, which
+/// says nothing.
 struct DepthImage {
   PinholeCamera camera;
   std::vector<float> range;  ///< width * height values

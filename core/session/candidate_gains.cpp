@@ -33,7 +33,8 @@ double baseline_gain(const PlanningState& state, const std::string& name, std::s
                      std::span<const std::size_t> covering_order) {
   const auto count = static_cast<double>(state.candidates.size());
   if (name == "random")
-    return CounterRandom(state.configuration.seed, random_stream::random_planner, static_cast<std::uint32_t>(state.taken.size()))
+    return CounterRandom(state.configuration.seed, random_stream::random_planner,
+                         static_cast<std::uint32_t>(state.taken.size()))
         .uniform(candidate)[0];
   if (name == "farthest") return distance_to_nearest(state.candidates[candidate], state.taken);
   if (name == "fixed-order") return count - static_cast<double>(candidate);
@@ -44,7 +45,8 @@ double baseline_gain(const PlanningState& state, const std::string& name, std::s
 
 }  // namespace
 
-std::vector<double> candidate_gains(const PlanningState& state, std::span<const std::size_t> available, std::stop_token stop) {
+std::vector<double> candidate_gains(const PlanningState& state, std::span<const std::size_t> available,
+                                    std::stop_token stop) {
   const PlannerConfig& planner = state.configuration.planner;
   if (is_baseline(planner.gain)) {
     if (!state.known_object && (planner.gain == "oracle" || planner.gain == "covering-order"))

@@ -70,7 +70,8 @@ class TomlReader {
         apply(*section, key + ".");
         continue;
       }
-      const auto setting = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+      const auto setting =
+          std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
       const auto line = node.source().begin.line;
       if (setting == settings_.end())
         throw failure(line, fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys_)));
@@ -138,7 +139,8 @@ void Configuration::validate() const {
   termination.validate();
   map.model.validate();
   const auto in = [](double value, double low, double high, const char* key, const char* unit) {
-    require(value >= low && value <= high, fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
+    require(value >= low && value <= high,
+            fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
   };
   require(object.longest_side == 0.0 || (object.longest_side >= 1e-3 && object.longest_side <= 100.0),
           fmt::format("object.longest_side must be 0 or from 0.001 to 100 m, not {}", object.longest_side));
@@ -161,7 +163,8 @@ void Configuration::validate() const {
   const bool knows_object = planner.gain == "oracle" || planner.gain == "covering-order";
   require(!knows_object || evaluation.enabled, fmt::format("planner.gain {} needs evaluation.enabled", planner.gain));
   constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
-  require(seed <= largest, fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));
+  require(seed <= largest,
+          fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));
   parse_combined_weights(planner.combined_weights);
 }
 
@@ -224,7 +227,8 @@ fs::path resolve_object(const std::string& name) {
     const fs::path file = assets_folder() / "objects" / (name + ending);
     if (fs::exists(file)) return file;
   }
-  throw std::runtime_error(fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
+  throw std::runtime_error(
+      fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
 }
 
 }  // namespace nextview

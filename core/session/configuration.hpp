@@ -34,8 +34,8 @@ struct PlannerConfig {
   std::string gain = "occlusion-aware";  ///< one of gain_names()
   Semantics semantics = Semantics::published;
   UtilityWeights weights;
-  std::string combined_weights;   ///< `gain=weight,gain=weight`; empty: the pre-release weights
-  int ray_columns = 38;           ///< rays that score a view
+  std::string combined_weights;  ///< `gain=weight,gain=weight`; empty: the pre-release weights
+  int ray_columns = 38;          ///< rays that score a view
   int ray_rows = 25;
   double ray_length = 1.5;        ///< [m]
   double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
@@ -43,8 +43,8 @@ struct PlannerConfig {
 };
 
 struct EvaluationConfig {
-  bool enabled = true;             ///< compare with the mesh after each view
-  double d_reg = 0.005;            ///< registration distance of surface coverage [m]; the paper's 0.0005 is always reported too
+  bool enabled = true;   ///< compare with the mesh after each view
+  double d_reg = 0.005;  ///< registration distance of surface coverage [m]; the paper's 0.0005 is always reported too
   int surface_samples = 50'000;
 };
 
@@ -67,7 +67,8 @@ struct Configuration {
 
 /// Every name that `planner.gain` takes: the gains, the combination, and the baselines.
 std::vector<std::string> gain_names();
-/// 'random', 'farthest', 'fixed-order', 'covering-order' and 'oracle' rank views by other means than volumetric information.
+/// 'random', 'farthest', 'fixed-order', 'covering-order' and 'oracle' rank views by other means than volumetric
+/// information.
 bool is_baseline(const std::string& gain);
 
 /// `average-entropy=30,rear-side-entropy=1`. @throws std::invalid_argument
@@ -93,7 +94,8 @@ struct Setting {
 /// The settings of `configuration`, which must outlive them.
 std::vector<Setting> settings(Configuration& configuration);
 
-/// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the nearest known one.
+/// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the
+/// nearest known one.
 /// @throws std::runtime_error "file:line: reason".
 Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration());
 std::string to_toml(const Configuration& configuration);
@@ -105,7 +107,8 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
 std::filesystem::path assets_folder();
 /// The gearbox housing of Debian's occt-misc, or, where that is not installed, the slotted housing of assets/objects.
 std::filesystem::path default_object();
-/// What `object.file` means: a path; else a name in assets/objects, with or without .ply; "bunny" and "gearbox"; empty: the default.
+/// What `object.file` means: a path; else a name in assets/objects, with or without .ply; "bunny" and "gearbox"; empty:
+/// the default.
 /// @throws std::runtime_error if it is none of these.
 std::filesystem::path resolve_object(const std::string& name);
 

@@ -25,8 +25,8 @@ std::vector<Eigen::Vector3f> sample_normals(const TriangleMesh& mesh, const Surf
 }  // namespace
 
 KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera,
-                         std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
-                         std::uint64_t seed, const Progress& progress, std::stop_token stop)
+                         std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples,
+                         double d_reg, std::uint64_t seed, const Progress& progress, std::stop_token stop)
     : scene_(scene),
       camera_(camera),
       samples_(sample_surface(mesh, surface_samples, seed)),
@@ -39,8 +39,8 @@ KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const 
   if (stop.stop_requested()) throw std::runtime_error("stopped");
 }
 
-std::vector<std::vector<std::uint32_t>> KnownObject::see_from(std::span<const Pose> candidates, const Progress& progress,
-                                                              std::stop_token stop) const {
+std::vector<std::vector<std::uint32_t>> KnownObject::see_from(std::span<const Pose> candidates,
+                                                              const Progress& progress, std::stop_token stop) const {
   std::vector<std::vector<std::uint32_t>> seen_from(candidates.size());
   std::atomic<std::size_t> done = 0;
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t v) {
@@ -73,7 +73,8 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera)
     const Vector3 in_camera = T_camera_world * samples_.points[s].cast<double>();
     if (range < config.min_range || range > config.max_range || in_camera.z() <= 0.0) continue;
     const Eigen::Vector2d pixel = camera_.camera().project(in_camera);
-    if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > config.width - 0.5 || pixel.y() > config.height - 0.5) continue;
+    if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > config.width - 0.5 || pixel.y() > config.height - 0.5)
+      continue;
     const Eigen::Vector3f direction = to_sample / range;
     if (std::abs(direction.dot(normals_[s])) < least_cosine) continue;
     in_image.push_back(s);
@@ -97,7 +98,8 @@ void KnownObject::add_view(const Pose& T_world_camera, const PointCloud& points)
 
 std::size_t KnownObject::new_samples(std::size_t candidate) const {
   const auto& samples = seen_from_[candidate];
-  return static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [&](std::uint32_t s) { return !seen_[s]; }));
+  return static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(), [&](std::uint32_t s) { return !seen_[s]; }));
 }
 
 std::vector<std::size_t> KnownObject::covering_order(std::uint64_t seed) const {
@@ -105,7 +107,8 @@ std::vector<std::size_t> KnownObject::covering_order(std::uint64_t seed) const {
   std::iota(others.begin(), others.end(), std::size_t{0});
   std::vector<std::uint8_t> covered(samples_.points.size());
   const auto adds = [&](std::size_t view) {
-    return std::count_if(seen_from_[view].begin(), seen_from_[view].end(), [&](std::uint32_t s) { return !covered[s]; });
+    return std::count_if(seen_from_[view].begin(), seen_from_[view].end(),
+                         [&](std::uint32_t s) { return !covered[s]; });
   };
   while (!others.empty()) {
     const auto best = std::max_element(others.begin(), others.end(), [&](auto a, auto b) { return adds(a) < adds(b); });

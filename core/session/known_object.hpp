@@ -16,18 +16,20 @@ namespace nextview {
 /// Told how far a job has come, from 0 to 1, and what it is doing. Called from the thread that does the job.
 using Progress = std::function<void(double fraction, std::string_view what)>;
 
-/// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it (oracle, covering order).
+/// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it
+/// (oracle, covering order).
 class KnownObject {
  public:
   /// The paper's registration distance [m], reported beside the chosen one.
   static constexpr double paper_d_reg = 0.0005;
 
   /// @throws std::runtime_error if stopped.
-  KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera, std::span<const Pose> candidates,
-              const VoxelGrid& grid, std::size_t surface_samples, double d_reg, std::uint64_t seed, const Progress& progress,
-              std::stop_token stop);
+  KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera,
+              std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
+              std::uint64_t seed, const Progress& progress, std::stop_token stop);
 
-  /// Surface samples that a perfect camera sees from a pose: in its image and ranges, not too slanted, nothing in between.
+  /// Surface samples that a perfect camera sees from a pose: in its image and ranges, not too slanted, nothing in
+  /// between.
   std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera) const;
 
   /// A view was taken from here and gave these points.

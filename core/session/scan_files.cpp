@@ -18,17 +18,19 @@ std::string steps_csv(const Session& session) {
   const std::string unit = gain_unit(session.configuration().planner.gain);
   const auto d_reg = session.configuration().evaluation.d_reg;
   std::string csv = fmt::format(
-      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],returns,points,passes,new_voxels,"
-      "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss[nats],brier,"
+      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],returns,points,"
+      "passes,new_voxels,"
+      "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
+      "nats],brier,"
       "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate\n",
       unit, 1e3 * d_reg, 1e3 * d_reg);
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.view,
-                       int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance, r.motion.rotation, path, r.returns,
-                       r.points, r.passes, r.new_voxels, r.entropy, r.total_entropy, r.coverage, r.coverage_visible,
-                       r.coverage_paper, r.quality.divergence, r.quality.log_loss, r.quality.brier,
+                       int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance, r.motion.rotation,
+                       path, r.returns, r.points, r.passes, r.new_voxels, r.entropy, r.total_entropy, r.coverage,
+                       r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss, r.quality.brier,
                        r.quality_near_surface.log_loss, r.quality_near_surface.brier,
                        r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()));
   }
@@ -36,7 +38,8 @@ std::string steps_csv(const Session& session) {
 }
 
 std::string scores_csv(const Session& session) {
-  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility\n", gain_unit(session.configuration().planner.gain));
+  std::string csv =
+      fmt::format("step,view,available,gain[{}],cost[m],utility\n", gain_unit(session.configuration().planner.gain));
   for (const StepRecord& r : session.records())
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
       const Candidate& c = r.candidates[v];
@@ -58,8 +61,8 @@ std::string views_csv(const Session& session) {
 std::string timings_csv(const Session& session) {
   std::string csv = "step,sense[s],clean[s],insert[s],score[s],evaluate[s]\n";
   for (const StepRecord& r : session.records())
-    csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", r.step, r.seconds.sense, r.seconds.clean, r.seconds.insert,
-                       r.seconds.score, r.seconds.evaluate);
+    csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", r.step, r.seconds.sense, r.seconds.clean,
+                       r.seconds.insert, r.seconds.score, r.seconds.evaluate);
   return csv;
 }
 

@@ -24,7 +24,8 @@ class Parameters {
   }
   double positive(const std::string& name, double otherwise) {
     const double value = (*this)(name, otherwise);
-    if (!(value > 0.0)) throw std::invalid_argument(fmt::format("parameter {} must be greater than 0, not {}", name, value));
+    if (!(value > 0.0))
+      throw std::invalid_argument(fmt::format("parameter {} must be greater than 0, not {}", name, value));
     return value;
   }
   std::vector<std::string> not_asked_for() const {
@@ -51,8 +52,10 @@ ReferenceMap::Parameters map_parameters(Parameters& p) {
   m.model.occupied_above = p("p_unknown_upper_bound", m.model.occupied_above);
   m.unknown_prior = p("p_unknown_prior", m.unknown_prior);
   m.use_bounding_box = p("use_bounding_box", 1.0) != 0.0;
-  m.lower = {p("bbox_min_x_m", p("bbox_min_x", -0.64)), p("bbox_min_y_m", p("bbox_min_y", -0.64)), p("bbox_min_z_m", p("bbox_min_z", -0.64))};
-  m.upper = {p("bbox_max_x_m", p("bbox_max_x", 0.64)), p("bbox_max_y_m", p("bbox_max_y", 0.64)), p("bbox_max_z_m", p("bbox_max_z", 0.64))};
+  m.lower = {p("bbox_min_x_m", p("bbox_min_x", -0.64)), p("bbox_min_y_m", p("bbox_min_y", -0.64)),
+             p("bbox_min_z_m", p("bbox_min_z", -0.64))};
+  m.upper = {p("bbox_max_x_m", p("bbox_max_x", 0.64)), p("bbox_max_y_m", p("bbox_max_y", 0.64)),
+             p("bbox_max_z_m", p("bbox_max_z", 0.64))};
   if ((m.lower.array() >= m.upper.array()).any())
     throw std::invalid_argument("the bounding box (bbox_min_*, bbox_max_*) is empty");
   m.max_sensor_range = p("max_sensor_range_m", m.max_sensor_range);
@@ -65,7 +68,8 @@ RayBundle bundle(Parameters& p) {
   PinholeCamera camera;
   const auto pixels = [&](const char* name, double otherwise) {
     const double value = p.positive(name, otherwise);
-    if (value > 20'000.0) throw std::invalid_argument(fmt::format("parameter {} must be at most 20000, not {}", name, value));
+    if (value > 20'000.0)
+      throw std::invalid_argument(fmt::format("parameter {} must be at most 20000, not {}", name, value));
     return static_cast<int>(value);
   };
   camera.width = pixels("img_width_px", 752);
@@ -74,7 +78,8 @@ RayBundle bundle(Parameters& p) {
   camera.fy = p.positive("fy", 448.1);
   camera.cx = p("cx", 376.5);
   camera.cy = p("cy", 240.5);
-  const Eigen::Vector2d spacing(1.0 / p.positive("raycasting_resolution_x", 0.1), 1.0 / p.positive("raycasting_resolution_y", 0.1));
+  const Eigen::Vector2d spacing(1.0 / p.positive("raycasting_resolution_x", 0.1),
+                                1.0 / p.positive("raycasting_resolution_y", 0.1));
   const auto share = [&](const char* name, double otherwise) { return std::clamp(p(name, otherwise), 0.0, 1.0); };
   return RayBundle::reference(camera, {share("min_x_perc", 0.25), share("min_y_perc", 0.25)},
                               {share("max_x_perc", 0.75), share("max_y_perc", 0.75)}, spacing.cwiseMax(0.1));
@@ -109,7 +114,8 @@ SceneRays build(const RecordedScene& scene, const ReferenceMap::Parameters& p, S
   grid.first = (p.lower / p.resolution).array().floor().matrix().cast<int>();
   grid.size = (p.upper / p.resolution).array().ceil().matrix().cast<int>() - grid.first;
   if (grid.voxel_count() > (std::size_t{1} << 28))
-    throw std::invalid_argument(fmt::format("the bounding box holds {} voxels; at most {} are held", grid.voxel_count(), 1 << 28));
+    throw std::invalid_argument(
+        fmt::format("the bounding box holds {} voxels; at most {} are held", grid.voxel_count(), 1 << 28));
   rays.map = std::make_unique<OccupancyMap>(grid, p.model);
   for (const RecordedScan& recorded : scene.scans) {
     const Scan scan = to_scan(recorded);
@@ -149,7 +155,8 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
       weights.push_back(w.weight);
     }
   const SceneRays built = build(scene, p, semantics);
-  scores.views = score_views(*built.caster, scene.views, rays, all, {semantics, 2.0 * p.occlusion_distance / p.resolution});
+  scores.views =
+      score_views(*built.caster, scene.views, rays, all, {semantics, 2.0 * p.occlusion_distance / p.resolution});
   if (!combined) return scores;
 
   std::vector<std::vector<double>> values(weights.size());

@@ -15,8 +15,8 @@ struct SceneScores {
   std::vector<ViewScore> views;    ///< in the scene's order; raw values
 };
 
-/// `names`: of gains, or 'combined' (pre-release weights). Parameters that the scene leaves out have the reference code's defaults;
-/// `warn` hears of those that have no meaning here.
+/// `names`: of gains, or 'combined' (pre-release weights). Parameters that the scene leaves out have the reference
+/// code's defaults; `warn` hears of those that have no meaning here.
 /// @throws std::invalid_argument for a gain or parameter that makes no sense, or a scene without views.
 SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::span<const std::string> names,
                         const std::function<void(const std::string&)>& warn = {});

@@ -16,7 +16,8 @@ namespace {
 Pose start_view(const Configuration& c) {
   const double azimuth = c.planner.start_azimuth * std::numbers::pi / 180.0;
   const double elevation = c.planner.start_elevation * std::numbers::pi / 180.0;
-  const Vector3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  const Vector3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                          std::sin(elevation));
   return look_at(c.views.radius * direction, Vector3::Zero());
 }
 
@@ -75,7 +76,8 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       candidates_(candidate_views(configuration_.views, Vector3::Zero())),
       start_view_(nextview::start_view(configuration_)),
       map_(region(configuration_), configuration_.map.model),
-      map_rays_(map_.grid(), map_.voxels(), configuration_.map.model.occupancy_threshold, configuration_.planner.ray_length),
+      map_rays_(map_.grid(), map_.voxels(), configuration_.map.model.occupancy_threshold,
+                configuration_.planner.ray_length),
       reference_map_(reference_map(configuration_)),
       bundle_(scoring_rays(configuration_, camera_.camera())),
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
@@ -83,14 +85,14 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       visited_voxels_(map_.grid().voxel_count()) {
   const Vector3 size = mesh_->bounding_box().sizes();
   if (size.maxCoeff() > configuration_.map.region_edge)
-    throw std::invalid_argument(
-        fmt::format("{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
-                    "object.longest_side or enlarge map.region_edge",
-                    object_file_.string(), size.maxCoeff(), configuration_.map.region_edge));
+    throw std::invalid_argument(fmt::format(
+        "{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
+        "object.longest_side or enlarge map.region_edge",
+        object_file_.string(), size.maxCoeff(), configuration_.map.region_edge));
   const EvaluationConfig& e = configuration_.evaluation;
   if (e.enabled)
-    known_object_ = std::make_unique<KnownObject>(*mesh_, scene_, camera_, candidates_, map_.grid(), e.surface_samples, e.d_reg,
-                                                  configuration_.seed, progress, stop);
+    known_object_ = std::make_unique<KnownObject>(*mesh_, scene_, camera_, candidates_, map_.grid(), e.surface_samples,
+                                                  e.d_reg, configuration_.seed, progress, stop);
 }
 
 /// One turn of Algorithm 2.
@@ -112,21 +114,21 @@ bool Session::step(const Progress& progress, std::stop_token stop) {
 
   tell(0.0, "taking the view");
   const Pose came_from = robot_->pose();
-  robot_->move_to(record.T_world_camera);                                        // robot manipulation to view p
+  robot_->move_to(record.T_world_camera);                                  // robot manipulation to view p
   const Measurement measurement = measure(record.T_world_camera, record);  // z <- take scan measurement
   if (stop.stop_requested()) {
     robot_->move_to(came_from);
     return false;
   }
   tell(0.4, "updating the map");
-  update_map(measurement, record);  // M <- update octree map M by measurement z
+  update_map(measurement, record);     // M <- update octree map M by measurement z
   if (next_) visited_[*next_] = true;  // delete v_i
   taken_.push_back(record.T_world_camera);
   tell(0.5, "comparing with the object");
   evaluate(measurement, record);
   tell(0.7, "scoring the candidate views");
   rank_candidates(record, {});  // ray casting (M, v_i) for all candidates left; a stop now would leave half a ranking
-  next_ = record.ranking.best;    // p <- next best view
+  next_ = record.ranking.best;  // p <- next best view
   overridden_ = false;
   clouds_.push_back(measurement.scan.returns);
   records_.push_back(std::move(record));
@@ -171,14 +173,16 @@ void Session::update_map(const Measurement& measurement, StepRecord& record) {
       map_.insert(measurement.scan, max_range);
     }
     if (needs_occlusion(configuration_))
-      map_.mark_occlusions(measurement.scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
+      map_.mark_occlusions(measurement.scan, max_range,
+                           0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
     if (reference_map_) reference_map_->insert(measurement.scan.origin, measurement.scan.returns);
   }
   Stopwatch watch(record.seconds.evaluate);
   record.new_voxels = measured_voxels(map_) - measured_before;
   record.entropy = unmeasured_entropy(map_.voxels());
   record.total_entropy = total_entropy(map_.voxels());
-  record.realised_gain = (entropy_before - record.total_entropy) * std::numbers::ln2;  // Eq. 12: other voxels keep theirs
+  record.realised_gain =
+      (entropy_before - record.total_entropy) * std::numbers::ln2;  // Eq. 12: other voxels keep theirs
 }
 
 void Session::evaluate(const Measurement& measurement, StepRecord& record) {
@@ -240,8 +244,7 @@ std::string Session::termination() const {
   progress.best_gain = best_gain(last);
   progress.first_gain = best_gain(records_.front());
   progress.new_voxel_share = double(last.new_voxels) / double(map_.voxels().size());
-  if (records_.size() > 1)
-    progress.entropy_drop_share = 1.0 - last.entropy / records_[records_.size() - 2].entropy;
+  if (records_.size() > 1) progress.entropy_drop_share = 1.0 - last.entropy / records_[records_.size() - 2].entropy;
   return termination_reason(configuration_.termination, progress);
 }
 
@@ -249,7 +252,8 @@ void Session::override_next_view(std::size_t candidate) {
   const bool known = candidate < candidates_.size();
   if (!known || visited_[candidate] || robot_->unreachable(candidates_[candidate]))
     throw std::invalid_argument(fmt::format("candidate view {} is not available", candidate));
-  if (records_.empty()) throw std::invalid_argument("the first view is the start view; step once before choosing another");
+  if (records_.empty())
+    throw std::invalid_argument("the first view is the start view; step once before choosing another");
   overridden_ = records_.back().ranking.best != candidate;
   next_ = candidate;
 }

@@ -22,8 +22,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Takes the next view and ranks the candidates for the one after. Returns false, and changes nothing, if a stop is requested before
-  /// the measurement enters the map. @pre finished().empty()
+  /// Takes the next view and ranks the candidates for the one after. Returns false, and changes nothing, if a stop is
+  /// requested before the measurement enters the map. @pre finished().empty()
   bool step(const Progress& progress = {}, std::stop_token stop = {});
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
   void override_next_view(std::size_t candidate);
@@ -38,8 +38,8 @@ class Session {
   const OccupancyMap& map() const { return map_; }
   const std::vector<Pose>& candidates() const { return candidates_; }
   const std::vector<StepRecord>& records() const { return records_; }
-  const std::vector<PointCloud>& clouds() const { return clouds_; }         ///< one a step, cleaned
-  const KnownObject* known_object() const { return known_object_.get(); }  ///< null without evaluation
+  const std::vector<PointCloud>& clouds() const { return clouds_; }                    ///< one a step, cleaned
+  const KnownObject* known_object() const { return known_object_.get(); }              ///< null without evaluation
   const std::vector<std::uint8_t>& visited_voxels() const { return visited_voxels_; }  ///< by noise-free rays
 
   /// The next view: a candidate; none before the first step, when it is the start view.

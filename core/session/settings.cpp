@@ -93,7 +93,8 @@ std::string Setting::text() const { return std::visit(Text{}, value); }
 void Setting::set(const std::string& new_text) {
   if (std::visit(Assign{new_text}, value)) return;
   std::string hint;
-  if (const auto* c = std::get_if<Choice>(&value)) hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));
+  if (const auto* c = std::get_if<Choice>(&value))
+    hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));
   throw std::invalid_argument(
       fmt::format("{} takes {}, not '{}'{}", key, std::visit(Expected{}, value), new_text, hint));
 }
@@ -113,7 +114,8 @@ std::vector<Setting> settings(Configuration& c) {
       {"sensor.max_range", "m", "farther surfaces are beyond range", &s.max_range},
       {"sensor.range_noise", "m", "standard deviation along the ray", &s.range_noise},
       {"sensor.dropout", "", "share of pixels that return nothing", &s.dropout},
-      {"sensor.grazing_limit", "deg", "surfaces met at more than this from their normal give invalid pixels", &s.grazing_limit},
+      {"sensor.grazing_limit", "deg", "surfaces met at more than this from their normal give invalid pixels",
+       &s.grazing_limit},
       {"cloud.outlier_removal", "", "statistical outlier removal", &c.cloud.outlier_removal},
       {"cloud.outlier_neighbours", "", "neighbours whose mean distance is looked at", &c.cloud.outlier_neighbours},
       {"cloud.outlier_deviations", "", "standard deviations beyond which a point goes", &c.cloud.outlier_deviations},
@@ -121,7 +123,8 @@ std::vector<Setting> settings(Configuration& c) {
       {"cloud.down_sampling_leaf", "m", "edge of its voxels", &c.cloud.down_sampling_leaf},
       {"map.resolution", "m", "voxel edge", &c.map.resolution},
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.map.region_edge},
-      {"map.insertion", "", "register a local octree, or insert directly: the same map", choice(c.map.insertion, {"local-octree", "direct"})},
+      {"map.insertion", "", "register a local octree, or insert directly: the same map",
+       choice(c.map.insertion, {"local-octree", "direct"})},
       {"map.hit", "", "inverse sensor model: P(occupied | a ray ended here)", &m.hit},
       {"map.miss", "", "inverse sensor model: P(occupied | a ray passed)", &m.miss},
       {"map.clamp_min", "", "lowest probability", &m.clamp_min},
@@ -129,16 +132,19 @@ std::vector<Setting> settings(Configuration& c) {
       {"map.occupancy_threshold", "", "from here on a measured voxel stops a ray", &m.occupancy_threshold},
       {"map.free_below", "", "class free", &m.free_below},
       {"map.occupied_above", "", "class occupied", &m.occupied_above},
-      {"views.layout", "", "how candidate views are laid out", choice(c.views.layout, {"hemisphere", "sphere", "rings", "fibonacci", "file"})},
+      {"views.layout", "", "how candidate views are laid out",
+       choice(c.views.layout, {"hemisphere", "sphere", "rings", "fibonacci", "file"})},
       {"views.count", "", "number of candidate views", &c.views.count},
       {"views.radius", "m", "their distance from the object's centre", &c.views.radius},
       {"views.rings", "", "number of rings (layout rings)", &c.views.rings},
       {"views.file", "", "views file (layout file): a count, then x y z qx qy qz qw a line", &c.views.file},
       {"planner.gain", "", "what ranks the candidate views", gain_choice(c.planner.gain)},
-      {"planner.semantics", "", "published, or what the reference code computes", choice(c.planner.semantics, {"published", "reference"})},
+      {"planner.semantics", "", "published, or what the reference code computes",
+       choice(c.planner.semantics, {"published", "reference"})},
       {"planner.gain_weight", "", "weight of the gain in the utility (Eq. 13)", &c.planner.weights.gain},
       {"planner.cost_weight", "", "weight of the distance in the utility (Eq. 13)", &c.planner.weights.cost},
-      {"planner.combined_weights", "", "gain=weight,…; empty: the pre-release weights, unconfirmed", &c.planner.combined_weights},
+      {"planner.combined_weights", "", "gain=weight,…; empty: the pre-release weights, unconfirmed",
+       &c.planner.combined_weights},
       {"planner.ray_columns", "", "rays that score a view, across", &c.planner.ray_columns},
       {"planner.ray_rows", "", "rays that score a view, down", &c.planner.ray_rows},
       {"planner.ray_length", "m", "how far they reach", &c.planner.ray_length},
@@ -147,8 +153,10 @@ std::vector<Setting> settings(Configuration& c) {
       {"termination.views", "", "stop after this many views", &c.termination.views},
       {"termination.coverage", "", "stop at this share of the visible surface; 0: off", &c.termination.coverage},
       {"termination.gain", "", "stop when the best gain falls to this share of the first; 0: off", &c.termination.gain},
-      {"termination.new_voxels", "", "stop when a view measures less than this share of the region anew; 0: off", &c.termination.new_voxels},
-      {"termination.entropy_slope", "", "stop when a view lowers the entropy by less than this share; 0: off", &c.termination.entropy_slope},
+      {"termination.new_voxels", "", "stop when a view measures less than this share of the region anew; 0: off",
+       &c.termination.new_voxels},
+      {"termination.entropy_slope", "", "stop when a view lowers the entropy by less than this share; 0: off",
+       &c.termination.entropy_slope},
       {"evaluation.enabled", "", "compare with the mesh after each view", &c.evaluation.enabled},
       {"evaluation.d_reg", "m", "registration distance of surface coverage", &c.evaluation.d_reg},
       {"evaluation.surface_samples", "", "points spread over the true surface", &c.evaluation.surface_samples},
@@ -170,9 +178,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
     }
     return row.back();
   };
-  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return distance(word, a) < distance(word, b);
-  });
+  return *std::min_element(known.begin(), known.end(),
+                           [&](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
 }
 
 }  // namespace nextview

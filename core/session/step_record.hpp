@@ -13,14 +13,15 @@ struct StageSeconds {
   double sense = 0.0, clean = 0.0, insert = 0.0, evaluate = 0.0, score = 0.0;
 };
 
-/// One turn of Algorithm 2: where the camera went, what it saw, how good the map is now, and how the candidates rank after it.
+/// One turn of Algorithm 2: where the camera went, what it saw, how good the map is now, and how the candidates rank
+/// after it.
 struct StepRecord {
-  int step = 0;           ///< from 1
-  int view = -1;          ///< index of the candidate that was taken; -1: a view that is none of them
+  int step = 0;             ///< from 1
+  int view = -1;            ///< index of the candidate that was taken; -1: a view that is none of them
   bool overridden = false;  ///< an operator chose it instead of the proposal
   Pose T_world_camera = Pose::Identity();
-  MotionCost motion;      ///< of getting here
-  double gain = 0.0;      ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view
+  MotionCost motion;  ///< of getting here
+  double gain = 0.0;  ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view
   double utility = 0.0;
   double realised_gain = 0.0;  ///< entropy that the map lost by this view [nats] (Eq. 12)
 
@@ -32,10 +33,10 @@ struct StepRecord {
   double entropy = 0.0;        ///< of the maximum-likelihood map (Eq. 18) [bits]
   double total_entropy = 0.0;  ///< sum of H(p) [bits]
   // With evaluation:
-  double coverage = 0.0;           ///< of all the surface, at d_reg (Eq. 17)
-  double coverage_visible = 0.0;   ///< of the surface that some candidate sees, at d_reg
-  double coverage_paper = 0.0;     ///< of all the surface, at the paper's 0.5 mm
-  MapQuality quality;              ///< over visited voxels, touch truth
+  double coverage = 0.0;            ///< of all the surface, at d_reg (Eq. 17)
+  double coverage_visible = 0.0;    ///< of the surface that some candidate sees, at d_reg
+  double coverage_paper = 0.0;      ///< of all the surface, at the paper's 0.5 mm
+  MapQuality quality;               ///< over visited voxels, touch truth
   MapQuality quality_near_surface;  ///< over visited voxels of the band, touch truth
 
   std::vector<Candidate> candidates;  ///< as ranked after this view

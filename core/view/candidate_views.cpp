@@ -78,7 +78,8 @@ void CandidateViewsConfig::validate() const {
   if (!(radius >= 0.01 && radius <= 100.0))
     throw std::invalid_argument(fmt::format("candidate views: radius must be from 0.01 to 100 m, not {}", radius));
   if (layout == ViewLayout::rings && (rings < 1 || rings > count))
-    throw std::invalid_argument(fmt::format("candidate views: rings must be from 1 to the number of views, not {}", rings));
+    throw std::invalid_argument(
+        fmt::format("candidate views: rings must be from 1 to the number of views, not {}", rings));
 }
 
 std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target) {

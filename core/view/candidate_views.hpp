@@ -17,10 +17,10 @@ enum class ViewLayout {
 
 struct CandidateViewsConfig {
   ViewLayout layout = ViewLayout::sphere;
-  int count = 48;        ///< number of views; ignored by `file`
-  double radius = 0.9;   ///< distance from the target [m]; ignored by `file`
-  int rings = 3;         ///< number of rings; `rings` only
-  std::string file;      ///< views file; `file` only
+  int count = 48;       ///< number of views; ignored by `file`
+  double radius = 0.9;  ///< distance from the target [m]; ignored by `file`
+  int rings = 3;        ///< number of rings; `rings` only
+  std::string file;     ///< views file; `file` only
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;

@@ -5,8 +5,8 @@ namespace nextview {
 
 /// A pinhole camera without distortion. Pixel (u, v) has its centre at (u, v): u right in [0, width), v down.
 struct PinholeCamera {
-  int width = 640;   ///< [px]
-  int height = 480;  ///< [px]
+  int width = 640;                                ///< [px]
+  int height = 480;                               ///< [px]
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< [px]
 
   /// Square pixels, principal point in the image centre, `horizontal_field_of_view` [rad].

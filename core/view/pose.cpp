@@ -57,7 +57,8 @@ std::vector<Pose> read_views(const std::filesystem::path& file) {
       throw fail(i + 2, "the view's quaternion (qx qy qz qw) must be finite and of length 1");
     views.push_back(make_pose(v.head<3>(), q));
   }
-  if (!(in >> std::ws).eof()) throw fail(count + 2, fmt::format("more than the {} views that the first line tells", count));
+  if (!(in >> std::ws).eof())
+    throw fail(count + 2, fmt::format("more than the {} views that the first line tells", count));
   return views;
 }
 

@@ -1,5 +1,5 @@
-// A whole planning step (sense at 640 x 480, insert, score 48 candidates at 950 rays each by one gain), and the same step composed of
-// OctoMap's own calls, in one run; then each stage alone with its rays and voxel steps a second.
+// A whole planning step (sense at 640 x 480, insert, score 48 candidates at 950 rays each by one gain), and the same
+// step composed of OctoMap's own calls, in one run; then each stage alone with its rays and voxel steps a second.
 //   build/release/planning_step_benchmark                          both, on all threads
 //   build/release/planning_step_benchmark --benchmark_filter=Step  the two whole steps only
 #include <benchmark/benchmark.h>
@@ -117,8 +117,8 @@ void Stage_Insert(benchmark::State& state) {
   Setup& s = setup();
   const Scan scan = s.sense(20);
   for (auto _ : state) s.map.insert(scan, max_range);
-  state.counters["rays/s"] =
-      benchmark::Counter(double(scan.returns.size() + scan.passes.size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["rays/s"] = benchmark::Counter(double(scan.returns.size() + scan.passes.size()),
+                                                benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void Stage_Score(benchmark::State& state) {
@@ -151,8 +151,10 @@ class RatioReporter : public benchmark::ConsoleReporter {
   void print_ratio() const {
     const auto ours = median_.find("Step_Nextview"), octomap = median_.find("Step_OctoMap");
     if (ours == median_.end() || octomap == median_.end()) return;
-    fmt::print("\nA planning step is {:.1f} times faster than composed of OctoMap's calls ({:.1f} ms against {:.1f} ms, medians).\n",
-               octomap->second / ours->second, ours->second, octomap->second);
+    fmt::print(
+        "\nA planning step is {:.1f} times faster than composed of OctoMap's calls ({:.1f} ms against {:.1f} ms, "
+        "medians).\n",
+        octomap->second / ours->second, ours->second, octomap->second);
   }
 
  private:

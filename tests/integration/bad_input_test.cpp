@@ -42,7 +42,8 @@ class BadInput : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-const char* const ply_head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+const char* const ply_head =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST_F(BadInput, Objects) {
   expect_error("scan " + (folder_.path() / "missing.ply").string() + " --no-pictures --out " + out(), {"missing.ply"});
@@ -55,9 +56,10 @@ TEST_F(BadInput, Objects) {
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   expect_bad_object("nan.ply", ply_head + faces + "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n");
   expect_bad_object("truncated.ply", ply_head + faces + "0 0 0\n1 0 0\n");
-  expect_bad_object("claims.ply",
-                    "ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\n"
-                    "property float z\nend_header\n1234");
+  expect_bad_object(
+      "claims.ply",
+      "ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n1234");
   std::string stl(84, '\0');
   stl[80] = stl[81] = stl[82] = stl[83] = '\x7F';
   expect_bad_object("claims.stl", stl);
@@ -69,7 +71,8 @@ TEST_F(BadInput, Objects) {
 TEST_F(BadInput, AnObjectOfOneTriangleIsScanned) {
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const fs::path file = write("one.ply", ply_head + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  const Result run = nextview("scan " + file.string() + " --views 2 --no-pictures --sensor.width 80 --sensor.height 60 --out " + out());
+  const Result run = nextview("scan " + file.string() +
+                              " --views 2 --no-pictures --sensor.width 80 --sensor.height 60 --out " + out());
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
@@ -95,7 +98,8 @@ TEST_F(BadInput, Options) {
 
 TEST_F(BadInput, ConfigurationFiles) {
   const auto with = [&](const std::string& name, const std::string& content, const std::vector<std::string>& words) {
-    expect_error("scan " + box() + " --no-pictures --out " + out() + " --config " + write(name, content).string(), words);
+    expect_error("scan " + box() + " --no-pictures --out " + out() + " --config " + write(name, content).string(),
+                 words);
   };
   with("unknown.toml", "[sensor]\nrange_nose = 0.1\n", {"unknown.toml:2", "range_nose", "sensor.range_noise"});
   with("syntax.toml", "[sensor\n", {"syntax.toml"});

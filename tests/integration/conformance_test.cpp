@@ -25,7 +25,8 @@ TEST(Conformance, ScoresEqualTheReferenceCodes) {
   const std::filesystem::path folder = NEXTVIEW_SHARED_DIR "/conformance";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "NOT CHECKED: " << folder << " is missing";
   for (const std::string set : {"scans1", "scans6"}) {
-    const Result run = nextview("score --semantics reference --gain all --csv - --scene " + (folder / (set + ".txt")).string());
+    const Result run =
+        nextview("score --semantics reference --gain all --csv - --scene " + (folder / (set + ".txt")).string());
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto ours = rows(run.out), expected = rows(read_file(folder / (set + ".expected.csv")));
     ASSERT_EQ(ours.size(), 49u);
@@ -33,7 +34,8 @@ TEST(Conformance, ScoresEqualTheReferenceCodes) {
     for (std::size_t view = 1; view < expected.size(); ++view)
       for (std::size_t gain = 1; gain <= 7; ++gain) {
         const double value = std::stod(ours[view][gain]), reference = std::stod(expected[view][gain]);
-        EXPECT_NEAR(value, reference, 1e-3 * std::abs(reference) + 1e-13) << set << ", view " << view - 1 << ", " << ours[0][gain];
+        EXPECT_NEAR(value, reference, 1e-3 * std::abs(reference) + 1e-13)
+            << set << ", view " << view - 1 << ", " << ours[0][gain];
       }
   }
 }

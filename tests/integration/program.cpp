@@ -14,7 +14,8 @@ namespace nextview {
 Result nextview(const std::string& arguments) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
-  const std::string command = fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} >'{}' 2>'{}'", NEXTVIEW_PROGRAM, arguments, out, err);
+  const std::string command =
+      fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} >'{}' 2>'{}'", NEXTVIEW_PROGRAM, arguments, out, err);
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(out), read_file(err)};
 }

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 /// A scan that takes a second or two: few pixels, coarse voxels.
 const std::string quick =
-    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --views.count 12 --evaluation.surface_samples 2000 ";
+    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --views.count 12 "
+    "--evaluation.surface_samples 2000 ";
 
 std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
 
@@ -24,10 +25,11 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   const TemporaryFolder folder;
   const Result run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* file : {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json", "map.ot", "map.bt",
-                           "cloud.ply", "step_01.png", "step_02.png", "step_03.png"})
+  for (const char* file : {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json",
+                           "map.ot", "map.bt", "cloud.ply", "step_01.png", "step_02.png", "step_03.png"})
     EXPECT_GT(fs::file_size(folder.path() / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 12) << "something else was left behind";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 12)
+      << "something else was left behind";
   const std::string steps = read_file(folder.path() / "steps.csv");
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row a view";
   const std::string scores = read_file(folder.path() / "scores.csv");
@@ -39,7 +41,8 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
 TEST(Scan, SameConfigurationAndSeedGiveTheSameBytesOnAnyNumberOfThreads) {
   const TemporaryFolder one, two;
   ASSERT_EQ(nextview("--threads 1 scan " + housing() + quick + "--out " + one.path().string()).exit_code, 0);
-  const std::string repeat = "--threads 2 scan --config " + (one.path() / "config.toml").string() + " --out " + two.path().string();
+  const std::string repeat =
+      "--threads 2 scan --config " + (one.path() / "config.toml").string() + " --out " + two.path().string();
   ASSERT_EQ(nextview(repeat).exit_code, 0);
   for (const auto& entry : fs::directory_iterator(one.path())) {
     const fs::path name = entry.path().filename();
@@ -58,18 +61,19 @@ TEST(Scan, AnotherSeedGivesAnotherCloud) {
 
 TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
   const TemporaryFolder folder;
-  const Result run = nextview("scan " + housing() + quick + "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
+  const Result run =
+      nextview("scan " + housing() + quick + "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
 TEST(Scan, EveryGainAndBaselineRuns) {
-  for (const char* gain : {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy", "proximity-count",
-                           "area-factor", "average-entropy", "combined", "random", "farthest", "fixed-order", "covering-order",
-                           "oracle"})
+  for (const char* gain :
+       {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy", "proximity-count", "area-factor",
+        "average-entropy", "combined", "random", "farthest", "fixed-order", "covering-order", "oracle"})
     for (const char* semantics : {"published", "reference"}) {
       const TemporaryFolder folder;
-      const Result run = nextview("scan " + housing() + quick + "--no-pictures --gain " + gain + " --semantics " + semantics + " --out " +
-                               folder.path().string());
+      const Result run = nextview("scan " + housing() + quick + "--no-pictures --gain " + gain + " --semantics " +
+                                  semantics + " --out " + folder.path().string());
       EXPECT_EQ(run.exit_code, 0) << gain << ", " << semantics << ": " << run.err;
     }
 }

@@ -104,12 +104,11 @@ std::vector<double> scores(const std::vector<Pose>& candidates, const Vector3& v
 std::vector<RaySegment> rays(const Pose& pose) {
   const auto camera = PinholeCamera::from_field_of_view(640, 480, 58.0 * std::numbers::pi / 180);
   std::vector<RaySegment> result;
-  for (double u = 176; u < 480; u += 32) {
-    for (double v = 96; v < 400; v += 32) {
+  for (int u = 176; u < 480; u += 32) {
+    for (int v = 96; v < 400; v += 32) {
       const Vector3 direction = pose.linear() * camera.direction(u, v);
-      double t = 0.5;
-      for (; t < 1.2; t += 0.02) {
-        const Vector3 from = pose.translation() + t * direction;
+      for (int piece = 25; piece < 60; ++piece) {
+        const Vector3 from = pose.translation() + 0.02 * piece * direction;
         const double d = distance(from);
         if (d < 0) break;
         result.push_back({from, from + 0.02 * direction, 0.69 * std::exp(-d / 0.05)});

@@ -24,7 +24,8 @@ PointCloud thinned(const std::vector<PointCloud>& clouds) {
 
 }  // namespace
 
-std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution, std::size_t count) {
+std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution,
+                                     std::size_t count) {
   std::vector<RaySegment> segments;
   // A stride that shares no factor with common row lengths, so that the rays kept do not line up in columns.
   std::size_t stride = explanation.rays.size() / std::max<std::size_t>(count, 1) + 1;
@@ -56,7 +57,10 @@ StepPicture step_picture(const Session& session) {
   picture.candidates = session.candidates();
   picture.chosen = session.next_candidate();
   picture.ranking_note = last.ranking.degenerate;
-  for (std::size_t v = 0; v < last.candidates.size(); ++v) picture.scores.push_back(last.candidates[v].gain);
+  for (const Candidate& c : last.candidates) {
+    picture.scores.push_back(c.gain);
+    picture.utilities.push_back(c.utility);
+  }
   for (const StepRecord& r : session.records()) {
     picture.path.push_back(r.T_world_camera);
     if (r.view >= 0) picture.visited.push_back(static_cast<std::size_t>(r.view));
