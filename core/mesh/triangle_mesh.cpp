@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/mesh/weld.hpp"
 
@@ -13,7 +14,9 @@ namespace {
 struct EdgeUse {
   std::uint32_t lower, upper;
   bool downwards;  ///< the triangle runs from `upper` to `lower`
-  auto operator<=>(const EdgeUse&) const = default;
+  bool operator<(const EdgeUse& other) const {
+    return std::tie(lower, upper, downwards) < std::tie(other.lower, other.upper, other.downwards);
+  }
   bool same_edge(const EdgeUse& other) const { return lower == other.lower && upper == other.upper; }
 };
 

@@ -57,9 +57,9 @@ StepPicture step_picture(const Session& session) {
   picture.candidates = session.candidates();
   picture.chosen = session.next_candidate();
   picture.ranking_note = last.ranking.degenerate;
-  for (const Candidate& c : last.candidates) {
-    picture.scores.push_back(c.gain);
-    picture.utilities.push_back(c.utility);
+  for (const Candidate& candidate : last.candidates) {
+    picture.scores.push_back(candidate.gain);
+    picture.utilities.push_back(candidate.utility);
   }
   for (const StepRecord& r : session.records()) {
     picture.path.push_back(r.T_world_camera);

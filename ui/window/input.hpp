@@ -65,7 +65,7 @@ using InputEvent =
 /// in the same frame would be lost: a frame takes moves, then at most one of everything else.
 class InputQueue {
  public:
-  void push(const InputEvent& event) { waiting_.push_back(event); }
+  void push(InputEvent event);
   bool empty() const { return waiting_.empty(); }
   /// What the next frame may see, in order.
   std::vector<InputEvent> take_frame();

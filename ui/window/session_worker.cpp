@@ -62,6 +62,7 @@ std::shared_ptr<const SessionSnapshot> SessionWorker::snapshot() const {
 WorkerProgress SessionWorker::progress() const {
   const std::lock_guard lock(mutex_);
   WorkerProgress progress = progress_;
+  progress.busy = running_ || progress_.playing || !queue_.empty();
   progress.waiting = queue_.size();
   return progress;
 }
@@ -89,7 +90,6 @@ void SessionWorker::post(SessionCommand command) {
       std::erase_if(queue_, [](const auto& waiting) { return std::holds_alternative<command::Play>(waiting); });
     } else {
       queue_.push_back(std::move(command));
-      progress_.busy = true;
     }
   }
   wake_.notify_all();
@@ -101,7 +101,7 @@ std::optional<SessionCommand> SessionWorker::next_command(std::stop_token stop) 
   wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
   if (stop.stop_requested()) return std::nullopt;
   job_ = std::stop_source();
-  progress_.busy = true;
+  running_ = true;
   if (queue_.empty()) return command::Step{};
   SessionCommand command = std::move(queue_.front());
   queue_.pop_front();
@@ -121,7 +121,9 @@ void SessionWorker::run(std::stop_token stop) {
     }
     {
       const std::lock_guard lock(mutex_);
-      progress_ = {progress_.playing || !queue_.empty(), progress_.playing, 0.0, "", 0};
+      running_ = false;
+      progress_.fraction = 0.0;
+      progress_.what.clear();
     }
     if (on_news_) on_news_();
   }

@@ -50,7 +50,8 @@ class SessionWorker {
   std::condition_variable_any wake_;
   std::deque<SessionCommand> queue_;
   std::stop_source job_;
-  WorkerProgress progress_;
+  bool running_ = false;     ///< a command is being executed
+  WorkerProgress progress_;  ///< but for what progress() works out
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 
   std::jthread thread_;  ///< the last member: it ends before the others do
