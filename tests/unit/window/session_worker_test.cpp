@@ -27,8 +27,8 @@ Configuration small_scan() {
 /// Steps of this one take a moment longer than it takes to cancel them.
 Configuration slow_scan() {
   Configuration c = small_scan();
-  c.sensor.width = 1600;
-  c.sensor.height = 1200;
+  c.sensor.width = 800;
+  c.sensor.height = 600;
   return c;
 }
 
