@@ -25,10 +25,10 @@ class Background {
     kill(pid_, SIGTERM);
     pclose(pipe_);
   }
-  /// The next line that it prints; "0" if it ended instead.
+  /// The next line that it prints; empty if it ended instead.
   std::string line() {
     std::array<char, 256> text{};
-    if (!std::fgets(text.data(), text.size(), pipe_)) return "0";
+    if (!std::fgets(text.data(), text.size(), pipe_)) return "";
     text[std::strcspn(text.data(), "\n")] = '\0';
     return text.data();
   }
@@ -65,7 +65,7 @@ TEST(Display, TheWindowStepsToTwentyViewsByClicks) {
   {
     Background server(fmt::format("Xvfb -displayfd 1 -screen 0 1280x800x24 -fbdir {} -nolisten tcp 2>/dev/null", name));
     const std::string display = ":" + server.line();
-    ASSERT_NE(display, ":0") << "Xvfb does not start; install xvfb";
+    ASSERT_NE(display, ":") << "Xvfb does not start; install xvfb";
     const Background program(fmt::format("env DISPLAY={} '{}' 2>/dev/null", display, NEXTVIEW_PROGRAM));
     const auto xdotool = [&](const std::string& words) {
       return std::system(fmt::format("DISPLAY={} timeout 60 xdotool {} >/dev/null 2>&1", display, words).c_str()) == 0;
