@@ -15,14 +15,15 @@ std::string why_degenerate(const std::vector<double>& gains) {
   if (!std::all_of(gains.begin(), gains.end(), [](double g) { return std::isfinite(g); }))
     return "the gain of a candidate is not a finite number";
   if (gains.size() < 2) return "";
-  const auto [least, most] = std::minmax_element(gains.begin(), gains.end());
-  if (*most == 0.0 && *least == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
-  if (*most - *least <= tie * std::abs(*most))
-    return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", *most);
+  const double least = *std::min_element(gains.begin(), gains.end());
+  const double most = *std::max_element(gains.begin(), gains.end());
+  if (most == 0.0 && least == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
+  if (most - least <= tie * std::abs(most))
+    return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", most);
   const auto ties =
-      std::count_if(gains.begin(), gains.end(), [&](double g) { return *most - g <= tie * std::abs(*most); });
+      std::count_if(gains.begin(), gains.end(), [&](double g) { return most - g <= tie * std::abs(most); });
   if (ties * 2 > static_cast<std::ptrdiff_t>(gains.size()))
-    return fmt::format("{} of {} candidates tie at the largest gain, {:.6g}", ties, gains.size(), *most);
+    return fmt::format("{} of {} candidates tie at the largest gain, {:.6g}", ties, gains.size(), most);
   return "";
 }
 
