@@ -40,9 +40,19 @@ class Parameters {
   std::vector<std::string> known_;
 };
 
+/// OctoMap numbers voxels with 16 bits an axis, the origin in the middle.
+void require_in_octree(const Vector3& point, double resolution, std::string_view what) {
+  const double reach = 32768.0 * resolution;
+  if ((point.array().abs() < reach).all()) return;
+  throw std::invalid_argument(
+      fmt::format("{} reaches beyond {} m, all that an octree of resolution {} m can hold", what, reach, resolution));
+}
+
 ReferenceMap::Parameters map_parameters(Parameters& p) {
   ReferenceMap::Parameters m;
   m.resolution = p.positive("resolution_m", m.resolution);
+  if (m.resolution < 1e-4 || m.resolution > 1.0)
+    throw std::invalid_argument(fmt::format("parameter resolution_m must be from 0.0001 to 1, not {}", m.resolution));
   m.model.hit = p("hit_probability", m.model.hit);
   m.model.miss = p("miss_probability", m.model.miss);
   m.model.clamp_min = p("clamping_threshold_min", m.model.clamp_min);
@@ -58,6 +68,10 @@ ReferenceMap::Parameters map_parameters(Parameters& p) {
              p("bbox_max_z_m", p("bbox_max_z", 0.64))};
   if ((m.lower.array() >= m.upper.array()).any())
     throw std::invalid_argument("the bounding box (bbox_min_*, bbox_max_*) is empty");
+  if (m.use_bounding_box) {
+    require_in_octree(m.lower, m.resolution, "the bounding box");
+    require_in_octree(m.upper, m.resolution, "the bounding box");
+  }
   m.max_sensor_range = p("max_sensor_range_m", m.max_sensor_range);
   m.occlusion_distance = p.positive("occlusion_update_dist_m", m.occlusion_distance);
   m.max_ray_depth = p.positive("max_ray_depth_m", m.max_ray_depth);
@@ -154,6 +168,9 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
       all.push_back(&gain(w.name));
       weights.push_back(w.weight);
     }
+  for (const RecordedScan& scan : scene.scans)
+    require_in_octree(scan.T_world_camera.translation(), p.resolution, "the position of a scan");
+  for (const Pose& view : scene.views) require_in_octree(view.translation(), p.resolution, "the position of a view");
   const SceneRays built = build(scene, p, semantics);
   scores.views =
       score_views(*built.caster, scene.views, rays, all, {semantics, 2.0 * p.occlusion_distance / p.resolution});

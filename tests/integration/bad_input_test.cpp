@@ -126,8 +126,15 @@ TEST_F(BadInput, Scenes) {
   with("claims.txt", "scan 0 0 0 0 0 0 1 2000000000\n1 2 3\n");
   with("nan.txt", "scan 0 0 0 0 0 0 1 1\nnan 2 3\nview 0 0 0 0 0 0 1\n");
   with("quaternion.txt", "scan 0 0 0 0 0 0 7 1\n1 2 3\nview 0 0 0 0 0 0 1\n");
-  with("resolution.txt", "param resolution_m 0\nview 0 0 0 0 0 0 1\n");
-  with("fine.txt", "param resolution_m 1e-9\nview 0 0 0 0 0 0 1\n");
+  const std::string scan = "scan 0 0 0 0 0 0 1 1\n0 0 1\nview 0 0 0 0 0 0 1\n";
+  with("resolution.txt", "param resolution_m 0\n" + scan);
+  with("fine.txt", "param resolution_m 1e-9\n" + scan);
+  with("far.txt", "param bbox_max_x 1e300\n" + scan);
+  with("far_scan.txt", "scan 1e9 0 0 0 0 0 1 1\n0 0 1\nview 0 0 0 0 0 0 1\n");
+  for (const char* file : {"resolution.txt", "fine.txt"})
+    expect_error("score --semantics reference --scene " + (folder_.path() / file).string(), {file, "resolution_m"});
+  for (const char* file : {"far.txt", "far_scan.txt"})
+    expect_error("score --semantics reference --scene " + (folder_.path() / file).string(), {file, "octree"});
   with("no_views.txt", "scan 0 0 0 0 0 0 1 1\n0 0 1\n");
   expect_error("score --scene " + (folder_.path() / "none.txt").string(), {"none.txt"});
   expect_error("score", {"--scene"});

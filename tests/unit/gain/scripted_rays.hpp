@@ -40,21 +40,17 @@ inline RayVoxel unmeasured(int occlusion_distance = 0) {
   return v;
 }
 
-/// A voxel of any kind that a map may have.
+/// A voxel of any kind that a map may have; some were behind a surface before they were measured.
 inline RayVoxel random_voxel(std::mt19937& random) {
-  switch (random() % 6) {
-    case 0:
-      return voxel(0.85 + 0.01 * double(random() % 12), true);
-    case 1:
-    case 2:
-      return voxel(0.12 + 0.006 * double(random() % 12), true);
-    case 3:
-      return voxel(0.21 + 0.05 * double(random() % 12), true);
-    case 4:
-      return unmeasured(1 + int(random() % 59));
-    default:
-      return unmeasured();
-  }
+  const int kind = int(random() % 6);
+  if (kind == 0) return unmeasured();
+  if (kind == 1) return unmeasured(1 + int(random() % 59));
+  const double p = kind == 2   ? 0.85 + 0.01 * double(random() % 12)
+                   : kind == 3 ? 0.21 + 0.05 * double(random() % 12)
+                               : 0.12 + 0.006 * double(random() % 12);
+  RayVoxel measured = voxel(p, true);
+  if (random() % 4 == 0) measured.occlusion_distance = std::uint16_t(1 + random() % 59);
+  return measured;
 }
 
 }  // namespace nextview
