@@ -89,11 +89,10 @@ double scale_for(const Eigen::AlignedBox3d& box, double longest_side) {
 }
 
 /// Moves and scales in double precision, then joins vertices at the same place; only those in use remain.
-TriangleMesh centred(const ImportedTriangles& imported, const Eigen::AlignedBox3d& box, double scale) {
+TriangleMesh centred(const ImportedTriangles& imported, const MeshPlacement& placement) {
   std::vector<Eigen::Vector3f> scaled;
   scaled.reserve(imported.vertices.size());
-  for (const Eigen::Vector3d& vertex : imported.vertices)
-    scaled.push_back(((vertex - box.center()) * scale).cast<float>());
+  for (const Eigen::Vector3d& vertex : imported.vertices) scaled.push_back(placement(vertex).cast<float>());
   const std::vector<std::uint32_t> place = weld(scaled);
 
   constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
@@ -114,7 +113,7 @@ TriangleMesh centred(const ImportedTriangles& imported, const Eigen::AlignedBox3
   return mesh;
 }
 
-TriangleMesh load(const std::filesystem::path& file, double longest_side) {
+PlacedMesh load(const std::filesystem::path& file, double longest_side) {
   ImportedTriangles imported = import_scene(file);
   check_coordinates(imported);
   if (imported.triangles.empty())
@@ -122,12 +121,17 @@ TriangleMesh load(const std::filesystem::path& file, double longest_side) {
   std::erase_if(imported.triangles, [&](const auto& triangle) { return !has_area(imported, triangle); });
   if (imported.triangles.empty()) throw std::runtime_error("has only degenerate triangles, none with an area");
   const Eigen::AlignedBox3d box = box_of_triangles(imported);
-  return centred(imported, box, scale_for(box, longest_side));
+  const MeshPlacement placement{box.center(), scale_for(box, longest_side)};
+  return {centred(imported, placement), placement};
 }
 
 }  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options) {
+  return load_placed_mesh(file, options).mesh;
+}
+
+PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOptions& options) {
   if (!(options.longest_side >= 0.0 && options.longest_side <= largest_own_size))
     throw std::invalid_argument(
         fmt::format("longest_side must lie between 0 (the file's own size) and {} m", largest_own_size));

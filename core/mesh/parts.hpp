@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "core/mesh/mesh_file.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 
 namespace nextview {
@@ -40,6 +42,14 @@ Part box_part();
 
 /// The openings as JSON text: unit, frame, and for each opening the fields of Opening.
 std::string openings_json(const Part& part);
+/// Reads what openings_json wrote; the frame stays that of the mesh file beside it.
+/// @throws std::runtime_error with one line that names the file, the opening's number from 0 and the reason: missing,
+/// no
+///         JSON, truncated, another unit than m, a field missing or of the wrong type, a length not over 0, a number
+///         beyond 1000, directions not of unit length or not at right angles.
+std::vector<Opening> read_openings(const std::filesystem::path& file);
+/// The opening where load_placed_mesh put its mesh.
+Opening placed(const Opening& opening, const MeshPlacement& placement);
 /// The mesh as a binary little-endian PLY.
 std::string ply_bytes(const TriangleMesh& mesh);
 

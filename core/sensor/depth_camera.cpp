@@ -69,6 +69,7 @@ void DepthCameraConfig::validate() const {
   require(min_range, 0.0, max_range, "min_range", " m (max_range)");
   require(range_noise, 0.0, 1.0, "range_noise", " m");
   require(dropout, 0.0, 1.0, "dropout", "");
+  require(outliers, 0.0, 1.0, "outliers", "");
   require(grazing_limit, 0.0, 90.0, "grazing_limit", " deg");
 }
 
@@ -88,9 +89,15 @@ DepthImage DepthCamera::sense(const RayScene& scene, const Pose& T_world_camera,
                               std::uint32_t view_index) const {
   const CounterRandom noise(seed, random_stream::range_noise, view_index);
   const CounterRandom dropout(seed, random_stream::dropout, view_index);
+  const CounterRandom outliers(seed, random_stream::outliers, view_index);
   const double grazing_cosine = std::cos(config_.grazing_limit * degree);
   const auto to_range = [&](std::size_t pixel, const RayScene::Hit& hit) {
     if (config_.dropout > 0.0 && dropout.uniform(pixel)[0] < config_.dropout) return DepthImage::invalid;
+    if (config_.outliers > 0.0) {
+      const std::array<double, 4> draw = outliers.uniform(pixel);
+      if (draw[0] < config_.outliers)
+        return static_cast<float>(config_.min_range + draw[1] * (config_.max_range - config_.min_range));
+    }
     if (DepthImage::is_beyond_range(hit.range)) return DepthImage::beyond_range;
     const auto range = static_cast<float>(hit.range + config_.range_noise * noise.normal(pixel)[0]);
     if (range > config_.max_range) return DepthImage::beyond_range;

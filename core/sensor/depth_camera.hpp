@@ -18,6 +18,8 @@ struct DepthCameraConfig {
   double max_range = 1.5;       ///< farther surfaces are beyond range [m]
   double range_noise = 0.002;   ///< standard deviation along the ray [m]
   double dropout = 0.0;         ///< share of pixels that return nothing, at random
+  /// Share of the other pixels that return a range drawn evenly between min_range and max_range, whatever they look at.
+  double outliers = 0.0;
   double grazing_limit = 85.0;  ///< surfaces met at more than this from their normal give invalid pixels [deg]
 
   /// @throws std::invalid_argument naming the field and its bounds.
@@ -47,7 +49,7 @@ class RayScene {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A simulated depth camera: Gaussian noise along the ray, dropout, range limits, grazing-incidence limit.
+/// A simulated depth camera: Gaussian noise along the ray, dropout, outliers, range limits, grazing-incidence limit.
 class DepthCamera {
  public:
   /// @throws std::invalid_argument if the configuration is not valid.
@@ -59,7 +61,7 @@ class DepthCamera {
   /// What the camera sees from T_world_camera. `view_index` and `seed` choose the noise; each pixel draws its own.
   DepthImage sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed,
                    std::uint32_t view_index) const;
-  /// The same without noise, dropout and grazing limit: what a perfect camera would see. For scoring.
+  /// The same without noise, dropout, outliers and grazing limit: what a perfect camera would see. For scoring.
   DepthImage sense_ideal(const RayScene& scene, const Pose& T_world_camera) const;
 
  private:

@@ -114,6 +114,7 @@ std::vector<Setting> settings(Configuration& c) {
       {"sensor.max_range", "m", "farther surfaces are beyond range", &s.max_range},
       {"sensor.range_noise", "m", "standard deviation along the ray", &s.range_noise},
       {"sensor.dropout", "", "share of pixels that return nothing", &s.dropout},
+      {"sensor.outliers", "", "share of the other pixels whose range is any within the limits", &s.outliers},
       {"sensor.grazing_limit", "deg", "surfaces met at more than this from their normal give invalid pixels",
        &s.grazing_limit},
       {"cloud.outlier_removal", "", "statistical outlier removal", &c.cloud.outlier_removal},

@@ -31,6 +31,9 @@ TEST(DepthCamera, settingsOutsideTheirBoundsAreNamed) {
       {"range_noise", [](auto& c) { c.range_noise = -0.1; }},
       {"range_noise", [&](auto& c) { c.range_noise = nan; }},
       {"dropout", [](auto& c) { c.dropout = 1.1; }},
+      {"outliers", [](auto& c) { c.outliers = -0.1; }},
+      {"outliers", [](auto& c) { c.outliers = 1.1; }},
+      {"outliers", [&](auto& c) { c.outliers = nan; }},
       {"grazing_limit", [](auto& c) { c.grazing_limit = 91; }}};
   for (const auto& [field, change] : wrong) {
     DepthCameraConfig config;
@@ -89,6 +92,7 @@ TEST(DepthCamera, theSameBytesOnAnyNumberOfThreads) {
   DepthCameraConfig config;
   config.width = 320, config.height = 240;
   config.dropout = 0.1;
+  config.outliers = 0.1;
   const TriangleMesh mesh = slotted_housing().mesh;
   const Pose T_world_camera = look_at({0.4, -0.5, 0.5}, Vector3::Zero());
   std::vector<DepthImage> images;

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "core/mesh/parts.hpp"
 #include "core/sensor/depth_camera.hpp"
@@ -116,6 +118,81 @@ TEST(DepthNoise, dropoutTakesItsShareAndLeavesTheRestAlone) {
   EXPECT_NEAR(squares / left, 1.0, 4.0 * std::sqrt(2.0 / left));
   config.dropout = 1.0;
   for (const float r : DepthCamera(config).sense(scene, T_world_camera, 9, 2).range) ASSERT_TRUE(std::isnan(r));
+}
+
+/// Kolmogorov and Smirnov's distance between numbers and an even spread from `lowest` to `highest`.
+double distance_to_uniform(std::vector<float> values, double lowest, double highest) {
+  std::sort(values.begin(), values.end());
+  const double n = static_cast<double>(values.size());
+  double distance = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double expected = (values[i] - lowest) / (highest - lowest), below_it = static_cast<double>(i) / n;
+    distance = std::max({distance, std::abs(expected - below_it), std::abs(expected - below_it - 1.0 / n)});
+  }
+  return distance;
+}
+
+TEST(DepthNoise, outliersReplaceTheirShareOfEveryKindOfPixelAndLeaveTheRestAlone) {
+  DepthCameraConfig config;
+  config.width = 640, config.height = 480, config.grazing_limit = 60.0;  // so that many pixels are invalid
+  config.min_range = 0.3, config.max_range = 1.3;
+  const RayScene scene(sphere_part().mesh);
+  const Pose T_world_camera = look_at({0.7, 0, 0}, Vector3::Zero());
+  const DepthImage without = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
+  config.outliers = 0.2;
+  const DepthImage image = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
+  std::array<double, 3> pixels{};              // ranges, beyond range, invalid
+  std::array<std::vector<float>, 3> outliers;  // what they became
+  for (std::size_t i = 0; i < image.range.size(); ++i) {
+    const float before = without.range[i], after = image.range[i];
+    const int kind = std::isnan(before) ? 2 : DepthImage::is_beyond_range(before);
+    ++pixels[kind];
+    if (std::memcmp(&before, &after, sizeof(float)) == 0) continue;
+    ASSERT_GE(after, 0.3f);
+    ASSERT_LE(after, 1.3f);
+    outliers[kind].push_back(after);
+  }
+  for (int kind = 0; kind < 3; ++kind) {
+    ASSERT_GT(pixels[kind], 10'000) << kind;
+    const auto found = static_cast<double>(outliers[kind].size());
+    EXPECT_NEAR(found / pixels[kind], 0.2, 4.0 * std::sqrt(0.2 * 0.8 / pixels[kind])) << kind;
+    EXPECT_LT(distance_to_uniform(outliers[kind], 0.3, 1.3), 2.2 / std::sqrt(found)) << kind;
+  }
+}
+
+TEST(DepthNoise, seedAndViewChooseTheOutliers) {
+  DepthCameraConfig config;
+  config.width = 100, config.height = 100, config.outliers = 0.5;
+  const DepthCamera camera(config);
+  const RayScene nothing(plane({0, 0, 9}, {0, 0, 1}));
+  const auto ranges = [&](std::uint64_t seed, std::uint32_t view) {
+    return camera.sense(nothing, Pose::Identity(), seed, view).range;
+  };
+  const std::vector<float> first = ranges(1, 0);
+  EXPECT_EQ(first, ranges(1, 0));
+  for (const std::vector<float>& other : {ranges(2, 0), ranges(1, 1)}) {
+    double both = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      both += DepthImage::is_range(first[i]) && DepthImage::is_range(other[i]);
+      ASSERT_TRUE(first[i] != other[i] || DepthImage::is_beyond_range(first[i]));
+    }
+    EXPECT_NEAR(both / 1e4, 0.25, 4.0 * std::sqrt(0.25 * 0.75 / 1e4));
+  }
+}
+
+TEST(DepthNoise, aPixelThatDropsOutIsNoOutlier) {
+  DepthCameraConfig config;
+  config.width = 320, config.height = 240, config.dropout = 0.3;
+  const RayScene scene(sphere_part().mesh);
+  const Pose T_world_camera = look_at({0.9, 0, 0}, Vector3::Zero());
+  config.grazing_limit = 90.0;  // only dropout makes pixels invalid
+  const DepthImage dropped = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
+  config.outliers = 1.0;
+  const DepthImage image = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
+  for (std::size_t i = 0; i < image.range.size(); ++i) {
+    ASSERT_EQ(std::isnan(image.range[i]), std::isnan(dropped.range[i]));
+    ASSERT_FALSE(DepthImage::is_beyond_range(image.range[i]));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,151 @@
+#include "core/evaluation/baseline_maps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/map/occupancy_map.hpp"
+#include "core/map/traversal.hpp"
+
+namespace nextview {
+namespace {
+
+// Of the hit ratio.
+constexpr double pseudo_hits = 0.05, pseudo_rays = 0.1;
+
+// Of the Beta-binomial.
+constexpr double prior_occupied = 0.05;
+constexpr double false_hit = 0.001;              ///< probability that a ray ends in a free voxel
+constexpr double stop_alpha = 1, stop_beta = 2;  ///< of the share of rays that an occupied voxel stops
+
+/// In single precision, as OctoMap and OccupancyMap::insert have it.
+double distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const Eigen::Vector3f d = b - a;
+  return std::sqrt(static_cast<double>(d.x() * d.x() + d.y() * d.y() + d.z() * d.z()));
+}
+
+/// The point at `max_range` on the way from origin to point, with the same rounding.
+Eigen::Vector3f shortened(const Eigen::Vector3f& origin, const Eigen::Vector3f& point, double max_range) {
+  const Eigen::Vector3f direction = (point - origin) / static_cast<float>(distance(origin, point));
+  return origin + direction * static_cast<float>(max_range);
+}
+
+enum class Touch : bool { pass, hit };
+
+/// Calls `visit(voxel, touch)` for each voxel that a ray passes or ends in, ray after ray, along each in order.
+template <class Visit>
+void visit_rays(const VoxelGrid& grid, const Scan& scan, double max_range, Visit visit) {
+  const Eigen::Vector3f origin = scan.origin.cast<float>();
+  const auto carve = [&](const Eigen::Vector3f& end) {
+    bool inside = false;
+    walk_segment(grid, origin, end, [&](int x, int y, int z) {
+      if (!grid.contains({x, y, z})) return !inside;  // the region is convex: a ray that left it is done
+      inside = true;
+      visit(grid.index({x, y, z}), Touch::pass);
+      return true;
+    });
+  };
+  for (const auto* ends : {&scan.returns, &scan.passes})
+    for (const Eigen::Vector3f& point : *ends) {
+      const bool in_range = distance(origin, point) <= max_range;
+      carve(in_range ? point : shortened(origin, point, max_range));
+      const Eigen::Vector3i cell = grid.cell_at(point.cast<double>());
+      if (ends == &scan.returns && in_range && grid.contains(cell)) visit(grid.index(cell), Touch::hit);
+    }
+}
+
+double log_beta(double a, double b) { return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b); }
+
+}  // namespace
+
+double hit_ratio(const RayCounts& counts) {
+  const double hits = counts.hits, rays = hits + counts.passes;
+  return (hits + pseudo_hits) / (rays + pseudo_rays);
+}
+
+double beta_binomial(const RayCounts& counts) {
+  const double hits = counts.hits, passes = counts.passes;
+  // Integrated over the share q that it stops: q^hits (1-q)^passes Beta(q; alpha, beta).
+  const double log_if_occupied = log_beta(stop_alpha + hits, stop_beta + passes) - log_beta(stop_alpha, stop_beta);
+  const double log_if_free = hits * std::log(false_hit) + passes * std::log1p(-false_hit);
+  return probability(log_odds(prior_occupied) + log_if_occupied - log_if_free);
+}
+
+BaselineMaps::BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, double max_range,
+                           const InverseSensorModel& model)
+    : grid_(grid), scans_(scans), max_range_(max_range), model_(model), counts_(grid.voxel_count()) {
+  model.validate();
+  if (!(max_range > 0.0))
+    throw std::invalid_argument(fmt::format("baseline maps: max_range must be over 0 m, not {}", max_range));
+  count_rays();
+}
+
+void BaselineMaps::count_rays() {
+  constexpr std::uint8_t passed = 1, hit = 2;
+  std::vector<std::uint8_t> touched(counts_.size());  // by the rays of one scan
+  for (const Scan& scan : scans_) {
+    visit_rays(grid_, scan, max_range_, [&](std::uint32_t voxel, Touch touch) {
+      ++(touch == Touch::hit ? counts_[voxel].hits : counts_[voxel].passes);
+      touched[voxel] |= touch == Touch::hit ? hit : passed;
+    });
+    for (std::size_t v = 0; v < touched.size(); ++v) {
+      counts_[v].scan_hits += (touched[v] & hit) != 0;
+      counts_[v].scan_passes += touched[v] == passed;
+      touched[v] = 0;
+    }
+  }
+}
+
+std::vector<Voxel> BaselineMaps::make(BaselineMap map) const {
+  switch (map) {
+    case BaselineMap::octomap:
+      return octomap();
+    case BaselineMap::per_ray:
+      return per_ray();
+    case BaselineMap::no_clamps:
+      return no_clamps();
+    case BaselineMap::hit_ratio:
+      return visited_voxels([&](std::size_t v) { return hit_ratio(counts_[v]); });
+    case BaselineMap::beta_binomial:
+      return visited_voxels([&](std::size_t v) { return beta_binomial(counts_[v]); });
+  }
+  throw std::invalid_argument(fmt::format("baseline maps: there is no map {}", static_cast<int>(map)));
+}
+
+template <class Probability>
+std::vector<Voxel> BaselineMaps::visited_voxels(Probability p_of) const {
+  std::vector<Voxel> voxels(counts_.size());
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    if (!counts_[v].any()) continue;
+    const double p = p_of(v);
+    voxels[v] = {static_cast<float>(p), static_cast<float>(entropy(p)), model_.classify(p), true};
+  }
+  return voxels;
+}
+
+std::vector<Voxel> BaselineMaps::octomap() const {
+  OccupancyMap map(grid_, model_);
+  for (const Scan& scan : scans_) map.insert(scan, max_range_);
+  return {map.voxels().begin(), map.voxels().end()};
+}
+
+std::vector<Voxel> BaselineMaps::per_ray() const {
+  const double hit = log_odds(model_.hit), miss = log_odds(model_.miss);
+  const double lowest = log_odds(model_.clamp_min), highest = log_odds(model_.clamp_max);
+  std::vector<double> sums(counts_.size());
+  for (const Scan& scan : scans_)
+    visit_rays(grid_, scan, max_range_, [&](std::uint32_t voxel, Touch touch) {
+      sums[voxel] = std::clamp(sums[voxel] + (touch == Touch::hit ? hit : miss), lowest, highest);
+    });
+  return visited_voxels([&](std::size_t v) { return probability(sums[v]); });
+}
+
+std::vector<Voxel> BaselineMaps::no_clamps() const {
+  const double hit = log_odds(model_.hit), miss = log_odds(model_.miss);
+  return visited_voxels(
+      [&](std::size_t v) { return probability(counts_[v].scan_hits * hit + counts_[v].scan_passes * miss); });
+}
+
+}  // namespace nextview
