@@ -75,9 +75,12 @@ void walk_segment(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
 }
 
 /// Visits the voxels of the grid that the ray passes through between its origin and `max_range` [m], in order;
-/// `direction` is of unit length. `visit(x, y, z)` gets grid coordinates inside the grid; false ends the walk.
+/// `direction` is of unit length. `visit(x, y, z, enter, exit)` gets grid coordinates inside the grid and the distances
+/// from the origin [m] at which the ray enters and leaves the voxel (its whole chord, also where it holds the origin's
+/// limit or `max_range`; never less than 0); false ends the walk.
 template <class Visit>
-void walk_ray(const VoxelGrid& grid, const Vector3& origin, const Vector3& direction, double max_range, Visit visit) {
+void walk_ray_segments(const VoxelGrid& grid, const Vector3& origin, const Vector3& direction, double max_range,
+                       Visit visit) {
   const Vector3 lower = grid.lower(), upper = grid.upper();
   double enter = 0.0, leave = max_range;
   int entry_axis = -1;
@@ -106,11 +109,20 @@ void walk_ray(const VoxelGrid& grid, const Vector3& origin, const Vector3& direc
   set_axis(origin.z(), direction.z(), lattice.z(), grid.resolution, w.step_z, w.next_z, w.delta_z);
   // The grid's far side is met by counting voxels, not by distance: no rounding cuts the last one short.
   const unsigned nx = grid.size.x(), ny = grid.size.y(), nz = grid.size.z();
-  while (visit(w.x, w.y, w.z)) {
-    if (w.exit() >= max_range) return;
+  while (true) {
+    const double exit = w.exit();
+    if (!visit(w.x, w.y, w.z, enter, exit) || exit >= max_range) return;
+    enter = exit;
     w.advance();
     if (unsigned(w.x) >= nx || unsigned(w.y) >= ny || unsigned(w.z) >= nz) return;
   }
+}
+
+/// The same where distances do not matter: `visit(x, y, z)`.
+template <class Visit>
+void walk_ray(const VoxelGrid& grid, const Vector3& origin, const Vector3& direction, double max_range, Visit visit) {
+  walk_ray_segments(grid, origin, direction, max_range,
+                    [&](int x, int y, int z, double, double) { return visit(x, y, z); });
 }
 
 }  // namespace nextview

@@ -1,0 +1,282 @@
+#include "core/gibbs/chain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/gibbs/first_hit_state.hpp"
+#include "core/gibbs/survival_state.hpp"
+#include "core/random/counter_random.hpp"
+
+namespace nextview {
+namespace {
+
+/// Conditional probabilities below this are not told apart in the mean.
+constexpr double negligible_in_mean = 1e-6;
+/// OctoMap's terms, which Algorithm 1 puts in the place of the conditional (our reading).
+constexpr double algorithm1_occupied = 0.7, algorithm1_free = 0.4;
+
+/// What a sweep draws its numbers for.
+enum class Draw : std::uint32_t { levels, looks, swaps, plaquettes };
+
+/// The sampler over the rays' state of a family of sensor models.
+template <class State>
+class StateChain final : public Chain {
+ public:
+  StateChain(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites, int index)
+      : lists_(lists), config_(config), sites_(sites), index_(index), state_(lists, config.model) {
+    const int occupied_levels = state_.levels() - 1;
+    log_prior_odds_ = std::log(config.prior / occupied_levels / (1.0 - config.prior));
+    stride_ = {1u, std::uint32_t(lists.grid().size.x()), std::uint32_t(lists.grid().size.x() * lists.grid().size.y())};
+  }
+
+  void start(std::vector<std::uint8_t> map) override { state_.reset(std::move(map)); }
+  std::span<const std::uint8_t> map() const override { return state_.map(); }
+  std::size_t bytes() const override { return state_.bytes() + 3 * sizeof(float) * state_.map().size(); }
+
+  std::size_t sweep(PosteriorSums* mean) override {
+    ++sweep_;
+    changed_ = 0;
+    update_levels(mean);
+    if (config_.sampler == Sampler::exact) {
+      for (int pass = 0; pass < config_.swaps; ++pass) swap_neighbours(pass);
+      for (int pass = 0; pass < config_.plaquettes; ++pass) redraw_plaquettes(pass);
+    }
+    return changed_;
+  }
+
+  void add_reach(PosteriorSums& mean, float enough) const override {
+    state_.add_reach(mean.reach, enough);
+    ++mean.reach_samples;
+  }
+
+  double log_posterior() const override {
+    const auto map = state_.map();
+    const auto occupied = map.size() - static_cast<std::size_t>(std::count(map.begin(), map.end(), 0));
+    return state_.log_likelihood() + log_prior_odds_ * static_cast<double>(occupied);
+  }
+
+ private:
+  CounterRandom random(Draw what, int pass = 0) const {
+    return CounterRandom(config_.seed,
+                         random_stream::gibbs + static_cast<std::uint32_t>(index_) * 64 +
+                             static_cast<std::uint32_t>(what) * 16 + static_cast<std::uint32_t>(pass),
+                         sweep_);
+  }
+
+  /// One systematic scan of single-voxel updates, in the order of the voxels.
+  void update_levels(PosteriorSums* mean) {
+    const bool front_too = mean && mean->near_sweeps++ % 8 == 0;
+    if (front_too) ++mean->front_sweeps;
+    // Algorithm 1 may occupy any voxel.
+    if (front_too || config_.sampler == Sampler::algorithm1)
+      update_all(mean, front_too);
+    else
+      update_unsettled(mean);
+  }
+
+  void update_all(PosteriorSums* mean, bool front_too) {
+    const CounterRandom draws = random(Draw::levels);
+    const auto& near = sites_.near_voxels;
+    const auto& front = sites_.front_voxels;
+    for (std::size_t n = 0, f = 0; n < near.size() || f < front.size();) {
+      const bool is_near = f == front.size() || (n < near.size() && near[n] < front[f]);
+      const std::uint32_t voxel = is_near ? near[n++] : front[f++];
+      update(voxel, draws.uniform(voxel)[0], is_near || front_too ? mean : nullptr);
+    }
+  }
+
+  /// The same with far less work. A voxel in front of ranges can only get less likely to be occupied than the prior has
+  /// it. So while it is free, the uniform number alone says 'still free' with the prior's probability, whatever the
+  /// rays say: the gaps between those that need a look are drawn instead (geometric).
+  void update_unsettled(PosteriorSums* mean) {
+    const CounterRandom draws = random(Draw::levels);
+    const auto& near = sites_.near_voxels;
+    const std::vector<std::uint32_t> occupied = occupied_front_voxels();
+    draw_looks();
+    constexpr std::uint32_t none = 0xffffffffu;
+    const auto at = [](const std::vector<std::uint32_t>& list, std::size_t k) {
+      return k < list.size() ? list[k] : none;
+    };
+    for (std::size_t n = 0, o = 0, l = 0;;) {
+      const std::uint32_t next_near = at(near, n), next_occupied = at(occupied, o);
+      const std::uint32_t next_look = l < looks_.size() ? looks_[l].voxel : none;
+      const std::uint32_t voxel = std::min({next_near, next_occupied, next_look});
+      if (voxel == none) return;
+      if (l + 8 < looks_.size()) lists_.prefetch_front(looks_[l + 8].voxel);
+      if (voxel == next_near || voxel == next_occupied)
+        update(voxel, draws.uniform(voxel)[0], voxel == next_near ? mean : nullptr);
+      else
+        update(voxel, looks_[l].u, nullptr);
+      n += voxel == next_near;
+      o += voxel == next_occupied;
+      l += voxel == next_look;
+    }
+  }
+
+  /// The front voxels whose uniform number leaves open what they become, with that number.
+  void draw_looks() {
+    const CounterRandom draws = random(Draw::looks);
+    const double log_settled = std::log1p(-config_.prior);
+    const std::size_t count = sites_.front_voxels.size();
+    looks_.clear();
+    std::size_t next = 0;
+    for (std::uint64_t k = 0;; ++k) {
+      const auto u = draws.uniform(k);
+      for (int half = 0; half < 4; half += 2) {
+        next += static_cast<std::size_t>(std::min(std::log(u[half]) / log_settled, 4e9));
+        if (next >= count) return;
+        looks_.push_back({sites_.front_voxels[next++], 1.0 - config_.prior * u[half + 1]});
+      }
+    }
+  }
+
+  std::vector<std::uint32_t> occupied_front_voxels() const {
+    std::vector<std::uint32_t> occupied;
+    const auto map = state_.map();
+    for (std::size_t begin = 0; begin < map.size(); begin += 64) {
+      const auto part = map.subspan(begin, std::min<std::size_t>(64, map.size() - begin));
+      if (std::all_of(part.begin(), part.end(), [](std::uint8_t level) { return level == 0; })) continue;
+      for (std::size_t k = 0; k < part.size(); ++k)
+        if (part[k] && sites_.kind[begin + k] == Sites::front)
+          occupied.push_back(static_cast<std::uint32_t>(begin + k));
+    }
+    return occupied;
+  }
+
+  /// Draws the level of a voxel from its full conditional (Eqs. 8-9), given the uniform number.
+  void update(std::uint32_t voxel, double u, PosteriorSums* mean) {
+    // Level 0 is drawn if the weights of the others, relative to its own, come to no more than this.
+    const double limit = (1.0 - u) / u;
+    const bool exact = config_.sampler == Sampler::exact;
+    std::array<double, 3> weights;
+    const auto used = std::span(weights).first(state_.levels() - 1);
+    std::fill(used.begin(), used.end(), log_prior_odds_);
+    const bool settled = state_.conditional(voxel, exact && !mean ? limit : negligible_in_mean, used);
+    if (settled && exact && !mean) {
+      set(voxel, 0);
+      return;
+    }
+    const double largest = std::max(0.0, *std::max_element(used.begin(), used.end()));
+    double occupied = 0.0;
+    for (double& w : used) occupied += w = std::exp(w - largest);
+    const double free = std::exp(-largest);
+    double p_occupied = occupied / (free + occupied);
+    if (!exact) p_occupied = p_occupied > 0.5 ? algorithm1_occupied : algorithm1_free;
+
+    if (mean) {
+      mean->occupied[voxel] += static_cast<float>(p_occupied);
+      mean->upper[voxel] += static_cast<float>(occupied > 0.0 ? p_occupied * used.back() / occupied : 0.0);
+    }
+    set(voxel, level_at((u - (1.0 - p_occupied)) / p_occupied * occupied, used));
+  }
+
+  /// The level whose stretch of the weights holds `at`; 0 below all of them.
+  static std::uint8_t level_at(double at, std::span<const double> weights) {
+    if (!(at > 0.0)) return 0;
+    std::uint8_t level = 1;
+    for (; level < weights.size() && at > weights[level - 1]; ++level) at -= weights[level - 1];
+    return level;
+  }
+
+  double set(std::uint32_t voxel, std::uint8_t level) {
+    if (state_.map()[voxel] == level) return 0.0;
+    ++changed_;
+    return state_.set(voxel, level);
+  }
+
+  /// The voxel after this one along an axis, if it is one that moves may touch.
+  bool neighbour(std::uint32_t voxel, int axis, std::uint32_t& next) const {
+    if (lists_.grid().cell(voxel)[axis] + 1 >= lists_.grid().size[axis]) return false;
+    next = voxel + stride_[axis];
+    return sites_.kind[next] == Sites::near;
+  }
+
+  /// Neighbours exchange their levels (Metropolis; the pair does not depend on the map, so the proposal is symmetric,
+  /// and the prior does not change). A surface slides along the rays this way without first vanishing.
+  void swap_neighbours(int pass) {
+    const CounterRandom draws = random(Draw::swaps, pass);
+    for (const std::uint32_t a : sites_.near_voxels) {
+      std::uint32_t b;
+      const auto u = draws.uniform(a);
+      if (!neighbour(a, static_cast<int>(3.0 * u[0]), b)) continue;
+      const std::uint8_t level_a = state_.map()[a], level_b = state_.map()[b];
+      if (level_a == level_b) continue;
+      const double change = state_.set(a, level_b) + state_.set(b, level_a);
+      if (std::log(u[1]) <= change) {
+        changed_ += 2;
+        continue;
+      }
+      state_.set(b, level_b);
+      state_.set(a, level_a);
+    }
+  }
+
+  /// Four voxels in a square exchange their levels: drawn from all arrangements, each with its exact probability.
+  void redraw_plaquettes(int pass) {
+    const CounterRandom draws = random(Draw::plaquettes, pass);
+    for (const std::uint32_t corner : sites_.near_voxels) {
+      const auto u = draws.uniform(corner);
+      const int axis = static_cast<int>(3.0 * u[0]);
+      std::array<std::uint32_t, 4> voxels{corner};
+      if (!neighbour(corner, axis, voxels[1]) || !neighbour(corner, (axis + 1) % 3, voxels[2]) ||
+          !neighbour(voxels[1], (axis + 1) % 3, voxels[3]))
+        continue;
+      redraw(voxels, u[1]);
+    }
+  }
+
+  void redraw(const std::array<std::uint32_t, 4>& voxels, double u) {
+    std::array<std::uint8_t, 4> levels, before;
+    for (int k = 0; k < 4; ++k) levels[k] = before[k] = state_.map()[voxels[k]];
+    std::sort(levels.begin(), levels.end());
+    if (levels.front() == levels.back()) return;
+    const auto arrange = [&](const std::array<std::uint8_t, 4>& to) {
+      double change = 0.0;
+      for (int k = 0; k < 4; ++k) change += state_.set(voxels[k], to[k]);
+      return change;
+    };
+    std::array<std::array<std::uint8_t, 4>, 24> arrangements;
+    std::array<double, 24> log_weights;
+    int count = 0;
+    double log_likelihood = 0.0;
+    do {
+      log_likelihood += arrange(levels);
+      arrangements[count] = levels;
+      log_weights[count++] = log_likelihood;
+    } while (std::next_permutation(levels.begin(), levels.end()));
+    const double largest = *std::max_element(log_weights.begin(), log_weights.begin() + count);
+    double total = 0.0;
+    for (int k = 0; k < count; ++k) total += log_weights[k] = std::exp(log_weights[k] - largest);
+    int chosen = 0;
+    for (double at = u * total; chosen < count - 1 && at > log_weights[chosen]; ++chosen) at -= log_weights[chosen];
+    arrange(arrangements[chosen]);
+    for (int k = 0; k < 4; ++k) changed_ += before[k] != arrangements[chosen][k];
+  }
+
+  struct Look {
+    std::uint32_t voxel;
+    double u;
+  };
+
+  const RayLists& lists_;
+  const PosteriorSamplerConfig& config_;
+  const Sites& sites_;
+  int index_;
+  std::uint32_t sweep_ = 0;
+  std::size_t changed_ = 0;
+  double log_prior_odds_;
+  std::array<std::uint32_t, 3> stride_;
+  State state_;
+  std::vector<Look> looks_;  ///< scratch of update_unsettled
+};
+
+}  // namespace
+
+std::unique_ptr<Chain> make_chain(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites,
+                                  int index) {
+  if (config.model.is_first_hit()) return std::make_unique<StateChain<FirstHitState>>(lists, config, sites, index);
+  return std::make_unique<StateChain<SurvivalState>>(lists, config, sites, index);
+}
+
+}  // namespace nextview

@@ -1,0 +1,48 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/gibbs/chain.hpp"
+
+namespace nextview {
+
+/// The chains of one run, what they add up for the mean, and their traces.
+class ChainEnsemble {
+ public:
+  /// All arguments must outlive it.
+  ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites,
+                SamplerDiagnostics& diagnostics);
+
+  void start(int chain, std::vector<std::uint8_t> levels) { chains_[chain]->start(std::move(levels)); }
+  std::span<const std::uint8_t> map(int chain) const { return chains_[chain]->map(); }
+
+  /// Starts a new mean, over the next `sweeps` sweeps: what was before becomes burn-in.
+  void begin_mean(int sweeps);
+  /// Sweeps of all chains side by side, a thread a chain.
+  void sweep(int count, bool into_mean);
+  /// Fills in the diagnostics of the mean.
+  void diagnose();
+
+  bool informed(std::size_t voxel) const;
+  /// Mean over the chains of PosteriorSums::occupied or ::upper. @pre the voxel is a site
+  float mean(std::size_t voxel, std::vector<float> PosteriorSums::*which) const;
+
+ private:
+  float chain_mean(const PosteriorSums& sums, std::size_t voxel, std::vector<float> PosteriorSums::*which) const;
+  void sweep_into_mean(int chain);
+  std::vector<float> near_means() const;
+  void note_divergence(const std::vector<float>& before);
+  void diagnose_voxels();
+  void count_voxels();
+
+  const PosteriorSamplerConfig& config_;
+  const Sites& sites_;
+  SamplerDiagnostics& diagnostics_;
+  std::vector<std::unique_ptr<Chain>> chains_;
+  std::vector<PosteriorSums> sums_;
+  std::vector<std::uint32_t> traced_;                     ///< a sample of the voxels near a return
+  std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
+  int window_ = 1;                                        ///< sweeps of the mean
+};
+
+}  // namespace nextview

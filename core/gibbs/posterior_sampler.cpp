@@ -1,0 +1,190 @@
+#include "core/gibbs/posterior_sampler.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/gibbs/chain_ensemble.hpp"
+#include "core/random/counter_random.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr int first_window = 40;  ///< sweeps of the first mean that is tried
+constexpr int sweeps_between_reports = 4;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The voxels that the chains update, from what rays observe and, in mode `occupied`, from the start map.
+Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map) {
+  Sites sites;
+  const auto voxels = static_cast<std::uint32_t>(lists.grid().voxel_count());
+  sites.kind.assign(voxels, Sites::none);
+  for (std::uint32_t v = 0; v < voxels; ++v) {
+    if (!lists.observed(v)) continue;
+    if (config.updated == UpdatedVoxels::occupied && (start_map.empty() || start_map[v] < 0.5f)) continue;
+    sites.kind[v] = lists.is_near(v) ? Sites::near : Sites::front;
+    (lists.is_near(v) ? sites.near_voxels : sites.front_voxels).push_back(v);
+  }
+  return sites;
+}
+
+std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSamplerConfig& config,
+                                       std::span<const float> start_map, int chain) {
+  const auto upper = static_cast<std::uint8_t>(config.model.levels() - 1);
+  std::vector<std::uint8_t> levels(lists.grid().voxel_count(), 0);
+  const CounterRandom random(config.seed, random_stream::gibbs + static_cast<std::uint32_t>(chain) * 64 + 63);
+  for (std::uint32_t v = 0; v < levels.size(); ++v) {
+    if (!lists.observed(v)) continue;
+    const bool occupied = config.start == StartMap::occupied ||
+                          (config.start == StartMap::octree && !start_map.empty() && start_map[v] >= 0.5f);
+    if (occupied) levels[v] = upper;
+    if (config.start == StartMap::random)
+      levels[v] = static_cast<std::uint8_t>(random.uniform(v)[0] * config.model.levels());
+  }
+  return levels;
+}
+
+/// Joins what is dense, as seen from the middle of the grid.
+RangeMeasurements joined(const VoxelGrid& grid, const RangeMeasurements& measurements, double spacing) {
+  const Vector3 centre = 0.5 * (grid.lower() + grid.upper());
+  double distance = 0.0;
+  for (const Vector3& origin : measurements.origins) distance += (origin - centre).norm();
+  distance = std::max(distance / std::max<double>(1.0, double(measurements.origins.size())), grid.resolution);
+  return join_rays(measurements, spacing * grid.resolution / distance, grid.resolution);
+}
+
+/// Sweeps until stopped, stationary, or all sweeps are made.
+class Schedule {
+ public:
+  Schedule(ChainEnsemble& chains, const PosteriorSamplerConfig& config, SamplerDiagnostics& diagnostics,
+           const SamplerProgress& progress, std::stop_token stop)
+      : chains_(chains), config_(config), diagnostics_(diagnostics), progress_(progress), stop_(stop) {}
+
+  void run(bool warm) {
+    // A mean needs four sweeps for R-hat's halves.
+    const int burn_in = std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - 4));
+    sweep(burn_in, false);
+    for (int window = config_.until_stationary ? first_window : config_.sweeps;; window *= 2) {
+      window = std::max(4, std::min(window, config_.sweeps - diagnostics_.sweeps));
+      chains_.begin_mean(window);
+      sweep(window, true);
+      chains_.diagnose();
+      if (diagnostics_.stationary && config_.until_stationary) return;
+      if (stop_.stop_requested() || diagnostics_.sweeps + 4 > config_.sweeps) return;
+    }
+  }
+
+ private:
+  void sweep(int count, bool into_mean) {
+    for (int done = 0; done < count; done += sweeps_between_reports) {
+      if (stop_.stop_requested() && (!into_mean || done >= 4)) return;
+      if (progress_) progress_(double(diagnostics_.sweeps) / config_.sweeps, "refining the map");
+      chains_.sweep(std::min(sweeps_between_reports, count - done), into_mean);
+    }
+  }
+
+  ChainEnsemble& chains_;
+  const PosteriorSamplerConfig& config_;
+  SamplerDiagnostics& diagnostics_;
+  const SamplerProgress& progress_;
+  std::stop_token stop_;
+};
+
+std::string warning(const SamplerDiagnostics& d, bool stopped) {
+  if (stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
+  if (d.joined_rays == 0) return "no ray enters the region: nothing is informed";
+  if (d.stationary) return "";
+  return fmt::format(
+      "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {} voxels "
+      "differ between chains (at most {}); more sweeps may help",
+      d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, d.informed_voxels / 10000);
+}
+
+}  // namespace
+
+void PosteriorSamplerConfig::validate() const {
+  model.validate();
+  const auto within = [](const char* field, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      throw std::invalid_argument(fmt::format("gibbs.{} must be from {} to {}, not {}", field, low, high, value));
+  };
+  if (!(prior > 0.0 && prior < 1.0))
+    throw std::invalid_argument(fmt::format("gibbs.prior must be between 0 and 1, not {}", prior));
+  within("swaps", swaps, 0, 15);
+  within("plaquettes", plaquettes, 0, 15);
+  within("chains", chains, 1, 64);
+  within("sweeps", sweeps, 4, 1'000'000);
+  within("burn_in", burn_in, 0, 1'000'000);
+  within("ray_spacing", ray_spacing, 0, 100);
+}
+
+std::vector<Voxel> GibbsPosterior::voxels(const InverseSensorModel& classes) const {
+  std::vector<Voxel> voxels(occupied.size());
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    voxels[v].probability = occupied[v];
+    voxels[v].entropy = static_cast<float>(entropy(occupied[v]));
+    voxels[v].voxel_class = classes.classify(occupied[v]);
+    voxels[v].measured = informed[v];
+  }
+  return voxels;
+}
+
+GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
+                                const PosteriorSamplerConfig& config, std::span<const float> start_map,
+                                std::span<const std::vector<std::uint8_t>> warm, const SamplerProgress& progress,
+                                std::stop_token stop) {
+  config.validate();
+  const std::size_t voxels = grid.voxel_count();
+  if (!start_map.empty() && start_map.size() != voxels)
+    throw std::invalid_argument("gibbs: the start map is of another grid");
+  GibbsPosterior posterior{grid,
+                           std::vector<float>(voxels, 0.5f),
+                           std::vector<float>(voxels, 0.5f),
+                           std::vector<std::uint8_t>(voxels, 0),
+                           {},
+                           {}};
+  SamplerDiagnostics& d = posterior.diagnostics;
+  const Stopwatch building;
+  if (progress) progress(0.0, "listing the rays of each voxel");
+  const RayLists lists(grid, joined(grid, measurements, config.ray_spacing), config.model);
+  const Sites sites = find_sites(lists, config, start_map);
+  d.measured_rays = measurements.rays.size();
+  d.joined_rays = lists.rays();
+  d.observed_voxels = sites.count();
+  d.incidences = lists.incidences();
+  d.list_bytes = lists.bytes();
+  d.build_seconds = building.seconds();
+
+  const Stopwatch sampling;
+  ChainEnsemble chains(lists, config, sites, d);
+  for (int c = 0; c < config.chains; ++c) {
+    const bool is_warm = std::size_t(c) < warm.size() && warm[c].size() == voxels;
+    chains.start(c, is_warm ? warm[c] : start_levels(lists, config, start_map, c));
+  }
+  Schedule(chains, config, d, progress, stop).run(!warm.empty());
+  for (std::size_t v = 0; v < voxels; ++v) {
+    posterior.informed[v] = chains.informed(v);
+    if (!posterior.informed[v]) continue;
+    const bool updated = sites.kind[v] != Sites::none;  // otherwise it keeps what it has
+    posterior.occupied[v] = updated             ? chains.mean(v, &PosteriorSums::occupied)
+                            : start_map.empty() ? 0.0f
+                                                : start_map[v];
+    posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
+  }
+  for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
+  d.sample_seconds = sampling.seconds();
+  d.warning = warning(d, stop.stop_requested());
+  return posterior;
+}
+
+}  // namespace nextview

@@ -1,0 +1,68 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/gibbs/forward_sensor_model.hpp"
+#include "core/gibbs/sampler_diagnostics.hpp"
+#include "core/map/occupancy.hpp"
+
+namespace nextview {
+
+enum class Sampler {
+  exact,      ///< draws from the full conditional
+  algorithm1  ///< as printed: the conditional is replaced by 0.7 or 0.4, whichever side of 0.5 it is on
+};
+enum class UpdatedVoxels { occupied_and_free, occupied };
+enum class StartMap { octree, free, occupied, random };
+
+/// What the Gibbs sampler does (Algorithm 1 and beyond).
+struct PosteriorSamplerConfig {
+  ForwardSensorModel model;
+  double prior = 0.1;  ///< of a voxel being at any level but free; the levels share it evenly
+  Sampler sampler = Sampler::exact;
+  UpdatedVoxels updated = UpdatedVoxels::occupied_and_free;
+  StartMap start = StartMap::octree;
+  int swaps = 1;                 ///< passes of neighbour swaps a sweep
+  int plaquettes = 1;            ///< passes of 2 x 2 plaquettes a sweep
+  int chains = 2;                ///< independent of each other
+  int sweeps = 400;              ///< at most, a chain
+  int burn_in = 10;              ///< sweeps before the first attempt at a mean
+  bool until_stationary = true;  ///< stop once stationary; otherwise all sweeps, burn-in left out, are the mean
+  double ray_spacing = 0.6;      ///< rays this near each other at the region's centre are joined [voxel edges]; 0: none
+  std::uint64_t seed = 1;
+
+  /// @throws std::invalid_argument naming the field and its bounds.
+  void validate() const;
+};
+
+/// The posterior of every voxel of a grid, and how it came about.
+struct GibbsPosterior {
+  VoxelGrid grid;
+  std::vector<float> occupied;         ///< P(level > 0 | z): a surface touches the voxel. 0.5 where not informed
+  std::vector<float> upper;            ///< P(uppermost level | z): its centre is solid. 0.5 where not informed
+  std::vector<std::uint8_t> informed;  ///< 1: on posterior average at least half a measured ray reaches it
+  std::vector<std::vector<std::uint8_t>> states;  ///< the last map of each chain, to start from again
+  SamplerDiagnostics diagnostics;
+
+  /// The posterior as gains, pictures and scores see a map: measured means informed.
+  std::vector<Voxel> voxels(const InverseSensorModel& classes) const;
+};
+
+using SamplerProgress = std::function<void(double fraction, std::string_view what)>;
+
+/// Draws from p(m | z). `start_map`: probabilities that StartMap::octree starts from (occupied where p >= 0.5), and
+/// that UpdatedVoxels::occupied updates; empty: all free. `warm`: states of an earlier posterior, which take the place
+/// of the start and of the burn-in. The same bytes on any number of threads; a requested stop ends the sweeps early and
+/// the diagnostics say so.
+/// @throws std::invalid_argument for a configuration out of bounds, or rays that would not fit into memory.
+GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
+                                const PosteriorSamplerConfig& config, std::span<const float> start_map = {},
+                                std::span<const std::vector<std::uint8_t>> warm = {},
+                                const SamplerProgress& progress = {}, std::stop_token stop = {});
+
+}  // namespace nextview

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+
+namespace nextview {
+
+/// One ray of a depth camera and what it found.
+struct RangeMeasurement {
+  Eigen::Vector3f end = Eigen::Vector3f::Zero();  ///< where it met a surface, or was given up [m, world]
+  std::uint32_t origin = 0;                       ///< of RangeMeasurements::origins
+  std::uint16_t weight = 1;                       ///< how many measured rays it stands for
+  bool beyond_range = false;                      ///< nothing up to the maximum range
+};
+
+/// The rays of one or more scans (z_n, x_n of Eqs. 3-8).
+struct RangeMeasurements {
+  double max_range = 1.5;  ///< z_max [m]
+  std::vector<Vector3> origins;
+  std::vector<RangeMeasurement> rays;
+
+  /// Adds the rays of a scan. Returns farther than the maximum range are taken for beyond range. Points on the origin
+  /// have no direction and are left out.
+  void add(const Scan& scan);
+
+  Vector3 direction(const RangeMeasurement& ray) const {
+    return (ray.end.cast<double>() - origins[ray.origin]).normalized();
+  }
+  double range(const RangeMeasurement& ray) const {
+    return ray.beyond_range ? max_range : (ray.end.cast<double>() - origins[ray.origin]).norm();
+  }
+};
+
+/// Joins rays of one origin that see the same: that lie in one cell of a grid of directions, `spacing` [rad] wide, and
+/// whose ranges are at most `spread` [m] apart (beyond range joins with beyond range). The joined ray has the mean end
+/// and the sum of the weights; its likelihood counts that often. Dense images come down to what the voxels can tell
+/// apart, at the cost of what differs within a cell. No spacing, no change.
+RangeMeasurements join_rays(const RangeMeasurements& measurements, double spacing, double spread);
+
+}  // namespace nextview

@@ -1,0 +1,194 @@
+#include "core/gibbs/ray_lists.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/map/traversal.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double longest_chord = std::numbers::sqrt3;
+constexpr std::size_t most_rays = std::size_t{1} << 22;  // what FrontEntry can number
+constexpr std::size_t most_voxels = std::size_t{1} << 27;
+constexpr std::size_t most_bytes = std::size_t{8} << 30;
+constexpr std::size_t slot_bytes = sizeof(RayLists::Slot) + sizeof(RayLists::NearEntry);
+
+std::uint32_t chord_code(double chord) {
+  return std::min(static_cast<std::uint32_t>(chord * ((RayLists::chord_codes - 1) / longest_chord) + 0.5),
+                  RayLists::chord_codes - 1);
+}
+
+}  // namespace
+
+/// A part of the rays, counted and filled in by one thread. The parts depend on the grid alone, so that the lists do
+/// not depend on the number of threads.
+struct RayLists::Block {
+  std::uint32_t first_ray = 0, last_ray = 0;
+  std::vector<std::uint32_t> front, near;  ///< per voxel: how many entries; later: where the next one goes
+};
+
+double RayLists::chord(std::uint32_t code) { return code * longest_chord / (chord_codes - 1); }
+
+RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model)
+    : grid_(grid), measurements_(measurements), model_(model) {
+  model_.validate();
+  if (grid_.voxel_count() > most_voxels)
+    throw std::invalid_argument(fmt::format("gibbs: {} voxels are more than the {} it can hold; use a coarser map",
+                                            grid_.voxel_count(), most_voxels));
+  sort_rays();
+  slots_begin_.assign(rays() + 1, 0);
+  std::vector<Block> blocks(grid_.voxel_count() > (1u << 24) ? 1 : 4);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    blocks[b].first_ray = static_cast<std::uint32_t>(rays() * b / blocks.size());
+    blocks[b].last_ray = static_cast<std::uint32_t>(rays() * (b + 1) / blocks.size());
+  }
+  tbb::parallel_for_each(blocks, [this](Block& block) { count(block); });
+  lay_out(blocks);
+  tbb::parallel_for_each(blocks, [this](Block& block) { fill(block); });
+}
+
+std::size_t RayLists::bytes() const {
+  return front_.size() * sizeof(FrontEntry) + near_.size() * slot_bytes +
+         rays() * (sizeof(RangeMeasurement) + 2 + 4 + 4) + grid_.voxel_count() * 8;
+}
+
+void RayLists::sort_rays() {
+  auto& rays = measurements_.rays;
+  std::erase_if(rays, [&](const RangeMeasurement& ray) {
+    bool enters = false;
+    walk_ray(grid_, measurements_.origins[ray.origin], measurements_.direction(ray), measurements_.range(ray),
+             [&](int, int, int) { return !(enters = true); });
+    return !enters;
+  });
+  if (rays.size() > most_rays)
+    throw std::invalid_argument(
+        fmt::format("gibbs: {} rays are more than the {} it can hold; join them with a larger gibbs.ray_spacing",
+                    rays.size(), most_rays));
+  std::stable_sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  for (std::uint32_t n = 0; n < rays.size(); ++n) {
+    if (n == 0 || rays[n].weight != rays[n - 1].weight) weight_runs_.push_back({n, rays[n].weight});
+    weight_.push_back(rays[n].weight);
+    open_value_.push_back(open_value_of(rays[n]));
+  }
+}
+
+/// Calls on_front(voxel, chord code) and on_near(segment) along a ray.
+template <class Front, class Near>
+void RayLists::walk(std::uint32_t ray, Front on_front, Near on_near) const {
+  const RangeMeasurement& m = measurements_.rays[ray];
+  const double z = measurements_.range(m);
+  const double end = m.beyond_range ? z : z + 4.0 * model_.sigma;
+  // A voxel's centre may be half a diagonal nearer or farther than where the ray leaves the voxel.
+  const double slack = model_.voxel_range == VoxelRange::centre ? 0.5 * longest_chord * grid_.resolution : 0.0;
+  const double near = model_.is_first_hit() ? 0.0 : m.beyond_range ? 2.0 * z : z - 4.0 * model_.sigma - slack;
+  const double per_edge = 1.0 / grid_.resolution;
+  walk_ray_segments(grid_, measurements_.origins[m.origin], measurements_.direction(m), end,
+                    [&](int x, int y, int z_cell, double enter, double exit) {
+                      if (m.beyond_range) exit = std::min(exit, end);
+                      const std::uint32_t voxel = grid_.index({x, y, z_cell});
+                      if (exit < near)
+                        on_front(voxel, chord_code((exit - enter) * per_edge));
+                      else
+                        on_near(RaySegment{voxel, enter, exit});
+                      return true;
+                    });
+}
+
+void RayLists::count(Block& block) {
+  block.front.assign(grid_.voxel_count(), 0);
+  block.near.assign(grid_.voxel_count(), 0);
+  for (std::uint32_t ray = block.first_ray; ray < block.last_ray; ++ray) {
+    std::uint32_t slots = 0;
+    walk(
+        ray, [&](std::uint32_t voxel, std::uint32_t) { ++block.front[voxel]; },
+        [&](const RaySegment& segment) {
+          ++block.near[segment.voxel];
+          ++slots;
+        });
+    slots_begin_[ray + 1] = slots;
+  }
+}
+
+void RayLists::lay_out(std::vector<Block>& blocks) {
+  std::size_t front = 0, near = 0;
+  const std::size_t voxels = grid_.voxel_count();
+  front_begin_.resize(voxels + 1);
+  near_begin_.resize(voxels + 1);
+  const auto place = [](std::size_t& next, std::uint32_t& count) {
+    const std::uint32_t begin = static_cast<std::uint32_t>(next);
+    next += count;
+    count = begin;
+  };
+  for (std::size_t v = 0; v < voxels; ++v) {
+    front_begin_[v] = static_cast<std::uint32_t>(front);
+    near_begin_[v] = static_cast<std::uint32_t>(near);
+    for (Block& block : blocks) {
+      place(front, block.front[v]);
+      place(near, block.near[v]);
+    }
+  }
+  const std::size_t bytes = front * sizeof(FrontEntry) + near * slot_bytes;
+  if (bytes > most_bytes || std::max(front, near) >= 0xffffffffu)
+    throw std::invalid_argument(fmt::format(
+        "gibbs: the lists of {} rays would take {:.1f} GiB, more than the {} GiB allowed; join rays with a larger "
+        "gibbs.ray_spacing, or use a coarser map",
+        rays(), static_cast<double>(bytes) / (1 << 30), most_bytes >> 30));
+  front_begin_[voxels] = static_cast<std::uint32_t>(front);
+  near_begin_[voxels] = static_cast<std::uint32_t>(near);
+  front_.resize(front);
+  near_.resize(near);
+  for (std::size_t ray = 0; ray < rays(); ++ray) slots_begin_[ray + 1] += slots_begin_[ray];
+  slots_.resize(near);
+}
+
+void RayLists::fill(Block& block) {
+  for (std::uint32_t ray = block.first_ray; ray < block.last_ray; ++ray) {
+    std::uint32_t slot = slots_begin_[ray];
+    walk(
+        ray,
+        [&](std::uint32_t voxel, std::uint32_t code) { front_[block.front[voxel]++] = FrontEntry{ray << 10 | code}; },
+        [&](const RaySegment& segment) {
+          near_[block.near[segment.voxel]++] = {ray, slot};
+          slots_[slot] = {segment.voxel, chord_code((segment.exit - segment.enter) / grid_.resolution),
+                          slot_value_of(measurements_.rays[ray], segment)};
+          ++slot;
+        });
+  }
+}
+
+float RayLists::open_value_of(const RangeMeasurement& ray) const {
+  if (model_.is_first_hit())
+    return static_cast<float>(first_hit_log_likelihood(grid_, model_, measurements_.origins[ray.origin],
+                                                       measurements_.direction(ray), nullptr, measurements_.range(ray),
+                                                       measurements_.max_range));
+  if (!ray.beyond_range) return 0.0f;
+  return static_cast<float>((1.0 - model_.random_weight - model_.max_weight) / model_.max_weight);
+}
+
+float RayLists::slot_value_of(const RangeMeasurement& ray, const RaySegment& segment) const {
+  const Vector3& origin = measurements_.origins[ray.origin];
+  const double z = measurements_.range(ray);
+  if (model_.is_first_hit())
+    return static_cast<float>(first_hit_log_likelihood(grid_, model_, origin, measurements_.direction(ray), &segment, z,
+                                                       measurements_.max_range));
+  const double random_density = model_.random_weight / measurements_.max_range;
+  return static_cast<float>(model_.hit_weight() * hit_density(grid_, model_, origin, segment, z) / random_density);
+}
+
+void RayLists::cast_front(std::uint32_t ray, std::vector<FrontVoxel>& voxels) const {
+  voxels.clear();
+  walk(
+      ray,
+      [&](std::uint32_t voxel, std::uint32_t code) {
+        voxels.push_back({voxel, code});
+      },
+      [](const RaySegment&) {});
+}
+
+}  // namespace nextview

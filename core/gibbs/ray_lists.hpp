@@ -1,0 +1,109 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/gibbs/forward_sensor_model.hpp"
+#include "core/map/huge_pages.hpp"
+
+namespace nextview {
+
+/// Which rays pass through which voxels, both ways round: what the sampler walks instead of casting rays again.
+///
+/// A ray's voxels are in front of its range (they can only block it) or near it (it may have ended there). Only the
+/// near ones are listed by ray; each has a *slot*. In first-hit models every voxel has a say, so all count as near.
+///
+/// Costs 4 bytes a pair of ray and front voxel, 20 bytes a slot, 34 bytes a ray, 8 bytes a voxel of the grid.
+class RayLists {
+ public:
+  /// A voxel in front of a ray's range. The chord is rounded to sqrt(3) / 1023 voxel edges.
+  struct FrontEntry {
+    std::uint32_t bits;
+    std::uint32_t ray() const { return bits >> 10; }
+    std::uint32_t chord() const { return bits & 1023u; }
+  };
+  struct NearEntry {
+    std::uint32_t ray, slot;
+  };
+  /// A voxel near a ray's range.
+  struct Slot {
+    std::uint32_t voxel;
+    std::uint32_t chord;  ///< code
+    /// beam, attenuation: density of the measured range if the ray ended here, over that of a random range.
+    /// paper, cone: log p(z | f = this voxel).
+    float value;
+  };
+  /// Rays from `first` on have this weight, until the next run.
+  struct WeightRun {
+    std::uint32_t first;
+    std::uint16_t weight;
+  };
+  static constexpr std::uint32_t chord_codes = 1024;
+  static double chord(std::uint32_t code);  ///< [voxel edges]
+
+  /// The lists hold the rays that enter the grid, the heaviest first.
+  /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists).
+  RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model);
+
+  const VoxelGrid& grid() const { return grid_; }
+  std::size_t rays() const { return measurements_.rays.size(); }
+  std::size_t incidences() const { return front_.size() + near_.size(); }
+  std::size_t bytes() const;
+
+  std::span<const FrontEntry> front(std::uint32_t voxel) const {
+    return {front_.data() + front_begin_[voxel], front_.data() + front_begin_[voxel + 1]};
+  }
+  std::span<const NearEntry> near(std::uint32_t voxel) const {
+    return {near_.data() + near_begin_[voxel], near_.data() + near_begin_[voxel + 1]};
+  }
+  /// Asks the memory for what front() will show of a voxel.
+  void prefetch_front(std::uint32_t voxel) const { __builtin_prefetch(front_.data() + front_begin_[voxel]); }
+  bool observed(std::uint32_t voxel) const {
+    return front_begin_[voxel] < front_begin_[voxel + 1] || near_begin_[voxel] < near_begin_[voxel + 1];
+  }
+  bool is_near(std::uint32_t voxel) const { return near_begin_[voxel] < near_begin_[voxel + 1]; }
+
+  std::uint32_t slots_begin(std::uint32_t ray) const { return slots_begin_[ray]; }
+  std::uint32_t slots_end(std::uint32_t ray) const { return slots_begin_[ray + 1]; }
+  std::span<const Slot> slots(std::uint32_t ray) const {
+    return {slots_.data() + slots_begin_[ray], slots_.data() + slots_begin_[ray + 1]};
+  }
+  const Slot& slot(std::uint32_t slot) const { return slots_[slot]; }
+  /// What is left when nothing on the ray is occupied. beam, attenuation: by how much 'beyond range' is then likelier
+  /// than otherwise, less 1; 0 for returns. paper, cone: log p(z | nothing).
+  float open_value(std::uint32_t ray) const { return open_value_[ray]; }
+  std::uint16_t weight(std::uint32_t ray) const { return weight_[ray]; }
+  std::span<const WeightRun> weight_runs() const { return weight_runs_; }
+
+  /// A voxel in front of a ray, and its chord's code.
+  struct FrontVoxel {
+    std::uint32_t voxel, chord;
+  };
+  /// The voxels in front of a ray, in order: cast anew, since they are listed by voxel only.
+  void cast_front(std::uint32_t ray, std::vector<FrontVoxel>& voxels) const;
+
+ private:
+  struct Block;
+  template <class Front, class Near>
+  void walk(std::uint32_t ray, Front on_front, Near on_near) const;
+  void sort_rays();
+  void count(Block& block);
+  void lay_out(std::vector<Block>& blocks);
+  void fill(Block& block);
+  float open_value_of(const RangeMeasurement& ray) const;
+  float slot_value_of(const RangeMeasurement& ray, const RaySegment& segment) const;
+
+  VoxelGrid grid_;
+  RangeMeasurements measurements_;  ///< those that enter the grid, the heaviest first
+  ForwardSensorModel model_;
+  std::vector<std::uint16_t> weight_;
+  std::vector<WeightRun> weight_runs_;
+  std::vector<float> open_value_;
+  std::vector<std::uint32_t> slots_begin_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> front_begin_, near_begin_;
+  std::vector<FrontEntry, HugePages<FrontEntry>> front_;
+  std::vector<NearEntry, HugePages<NearEntry>> near_;
+};
+
+}  // namespace nextview

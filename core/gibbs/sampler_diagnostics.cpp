@@ -1,0 +1,103 @@
+#include "core/gibbs/sampler_diagnostics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace nextview {
+namespace {
+
+double mean(std::span<const double> x) {
+  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+
+/// Sum of squared deviations from the mean.
+double deviations(std::span<const double> x) {
+  const double m = mean(x);
+  double sum = 0.0;
+  for (const double v : x) sum += (v - m) * (v - m);
+  return sum;
+}
+
+/// Within-chain variance W and the pooled estimate of the variance (Gelman et al. 2013, 11.4).
+struct Variances {
+  double within = 0.0, pooled = 0.0;
+};
+
+Variances variances(std::span<const std::span<const double>> chains) {
+  const double n = static_cast<double>(chains.front().size()), m = static_cast<double>(chains.size());
+  Variances v;
+  std::vector<double> means;
+  for (const auto chain : chains) {
+    v.within += deviations(chain) / (n - 1.0) / m;
+    means.push_back(mean(chain));
+  }
+  const double between_over_n = chains.size() > 1 ? deviations(means) / (m - 1.0) : 0.0;
+  v.pooled = (n - 1.0) / n * v.within + between_over_n;
+  return v;
+}
+
+/// Mean over the chains of the autocovariance at a lag.
+double autocovariance(std::span<const std::span<const double>> chains, std::size_t lag) {
+  double sum = 0.0;
+  for (const auto chain : chains) {
+    const double m = mean(chain);
+    double c = 0.0;
+    for (std::size_t i = 0; i + lag < chain.size(); ++i) c += (chain[i] - m) * (chain[i + lag] - m);
+    sum += c / static_cast<double>(chain.size());
+  }
+  return sum / static_cast<double>(chains.size());
+}
+
+}  // namespace
+
+double split_r_hat(std::span<const std::span<const double>> chains) {
+  std::vector<std::span<const double>> halves;
+  for (const auto chain : chains) {
+    const std::size_t half = chain.size() / 2;
+    halves.push_back(chain.first(half));
+    halves.push_back(chain.last(half));
+  }
+  const Variances v = variances(halves);
+  if (v.pooled == 0.0) return 1.0;
+  return v.within == 0.0 ? std::numeric_limits<double>::infinity() : std::sqrt(v.pooled / v.within);
+}
+
+double effective_sample_size(std::span<const std::span<const double>> chains) {
+  const std::size_t n = chains.front().size();
+  const double total = static_cast<double>(n * chains.size());
+  const Variances v = variances(chains);
+  if (v.pooled == 0.0) return total;
+  const auto correlation = [&](std::size_t lag) {
+    const double unbiased = static_cast<double>(n) / static_cast<double>(n - 1);
+    return 1.0 - (v.within - autocovariance(chains, lag) * unbiased) / v.pooled;
+  };
+  // Sums of pairs of lags are positive and fall; noise breaks that, and the sum ends there.
+  double time = -1.0, previous = std::numeric_limits<double>::infinity();
+  for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
+    const double pair = std::min(previous, correlation(lag) + correlation(lag + 1));
+    if (pair <= 0.0) break;
+    time += 2.0 * pair;
+    previous = pair;
+  }
+  return std::min(total, total / std::max(time, 1.0 / total));
+}
+
+double geweke_z(std::span<const double> chain) {
+  const auto head = chain.first(std::max<std::size_t>(2, chain.size() / 10)), tail = chain.last(chain.size() / 2);
+  const auto variance_of_mean = [](std::span<const double> x) {
+    const std::span<const double> one[] = {x};
+    return deviations(x) / static_cast<double>(x.size() - 1) / effective_sample_size(one);
+  };
+  const double difference = mean(head) - mean(tail);
+  // The head is short: what it varies by is better known from the tail.
+  const double of_tail = variance_of_mean(tail);
+  const double time = static_cast<double>(tail.size()) * of_tail;  // variance of a mean times its length
+  const double variance = of_tail + std::max(variance_of_mean(head), time / static_cast<double>(head.size()));
+  if (variance == 0.0)
+    return difference == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), difference);
+  return difference / std::sqrt(variance);
+}
+
+}  // namespace nextview

@@ -1,0 +1,236 @@
+#include "core/gibbs/survival_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gibbs/log_product.hpp"
+
+namespace nextview {
+namespace {
+
+double power(double base, unsigned exponent) {
+  double result = 1.0;
+  for (; exponent; exponent >>= 1, base *= base)
+    if (exponent & 1) result *= base;
+  return result;
+}
+
+/// How heavy rays are, asked in ascending order of rays.
+class WeightCursor {
+ public:
+  explicit WeightCursor(std::span<const RayLists::WeightRun> runs) : runs_(runs) { step(0); }
+  std::uint16_t weight(std::uint32_t ray) {
+    while (ray >= end_) step(run_ + 1);
+    return weight_;
+  }
+  std::uint32_t end() const { return end_; }  ///< the first ray of another weight
+
+ private:
+  void step(std::size_t run) {
+    run_ = run;
+    weight_ = run < runs_.size() ? runs_[run].weight : 1;
+    end_ = run + 1 < runs_.size() ? runs_[run + 1].first : 0xffffffffu;
+  }
+
+  std::span<const RayLists::WeightRun> runs_;
+  std::size_t run_ = 0;
+  std::uint32_t end_ = 0;
+  std::uint16_t weight_ = 1;
+};
+
+}  // namespace
+
+SurvivalState::SurvivalState(const RayLists& lists, const ForwardSensorModel& model)
+    : lists_(lists), levels_(model.levels()) {
+  for (int level = 0; level < levels_; ++level)
+    for (std::uint32_t code = 0; code < RayLists::chord_codes; ++code) {
+      const double passing = model.transmission(level, RayLists::chord(code));
+      depth_[level][code] =
+          passing > 0.0 ? static_cast<std::int32_t>(std::lround(-std::log(passing) * depth_unit)) : opaque;
+      passing_[level][code] = SurvivalState::passing(depth_[level][code]);
+    }
+  reset(std::vector<std::uint8_t>(lists.grid().voxel_count(), 0));
+}
+
+std::size_t SurvivalState::bytes() const {
+  return map_.size() + hot_.size() * sizeof(Hot) + cold_.size() * sizeof(Cold);
+}
+
+float SurvivalState::passing(std::int32_t depth) {
+  return depth == 0 ? 1.0f : depth >= opaque ? 0.0f : std::exp(-static_cast<float>(depth) / depth_unit);
+}
+
+void SurvivalState::reset(std::vector<std::uint8_t> map) {
+  map_ = std::move(map);
+  cold_.assign(lists_.rays(), {});
+  hot_.resize(lists_.rays());
+  for (std::uint32_t voxel = 0; voxel < map_.size(); ++voxel)
+    if (const std::uint8_t level = map_[voxel])
+      for (const RayLists::FrontEntry entry : lists_.front(voxel))
+        cold_[entry.ray()].depth += depth_[level][entry.chord()];
+  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
+    cold_[ray].near_sum = near_sum(ray);
+    hot_[ray] = hot(cold_[ray].near_sum * passing(cold_[ray].depth));
+  }
+}
+
+/// S of a ray, from scratch.
+float SurvivalState::near_sum(std::uint32_t ray) const {
+  float pass = 1.0f, sum = lists_.open_value(ray);  // 0 for a return
+  for (const RayLists::Slot& slot : lists_.slots(ray))
+    if (const std::uint8_t level = map_[slot.voxel]) {
+      const float passed = pass * passing_[level][slot.chord];
+      sum += (pass - passed) * slot.value;
+      pass = passed;
+    }
+  return sum;
+}
+
+double SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
+  const std::uint8_t old = map_[voxel];
+  if (old == level) return 0.0;
+  map_[voxel] = level;
+  LogProduct change;
+  const auto refresh = [&](std::uint32_t ray) {
+    const Hot now = hot(cold_[ray].near_sum * passing(cold_[ray].depth));
+    change.multiply((1.0 + now.s) / (1.0 + hot_[ray].s), lists_.weight(ray));
+    hot_[ray] = now;
+  };
+  for (const RayLists::NearEntry entry : lists_.near(voxel)) {
+    cold_[entry.ray].near_sum = near_sum(entry.ray);
+    refresh(entry.ray);
+  }
+  for (const RayLists::FrontEntry entry : lists_.front(voxel)) {
+    cold_[entry.ray()].depth += depth_[level][entry.chord()] - depth_[old][entry.chord()];
+    refresh(entry.ray());
+  }
+  return change.sum();
+}
+
+bool SurvivalState::conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {
+  if (lists_.is_near(voxel)) near_terms(voxel, log_weights);
+  switch (levels_) {
+    case 2:
+      return front_terms<2>(voxel, negligible, log_weights);
+    case 3:
+      return front_terms<3>(voxel, negligible, log_weights);
+    default:
+      return front_terms<4>(voxel, negligible, log_weights);
+  }
+}
+
+void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weights) const {
+  std::array<LogProduct, most_levels> products;
+  for (const RayLists::NearEntry entry : lists_.near(voxel)) {
+    const float pass_front = passing(cold_[entry.ray].depth);
+    if (pass_front == 0.0f) continue;
+    // before: what ends in front of the voxel; after: what ends behind it, were it free
+    float pass = 1.0f, before = 0.0f, after = 0.0f, reaching = 1.0f;
+    const RayLists::Slot& own = lists_.slot(entry.slot);
+    for (const RayLists::Slot& slot : lists_.slots(entry.ray)) {
+      if (&slot == &own) {
+        reaching = pass;
+        before = after;
+        after = 0.0f;
+      } else if (const std::uint8_t level = map_[slot.voxel]) {
+        const float passed = pass * passing_[level][slot.chord];
+        after += (pass - passed) * slot.value;
+        pass = passed;
+      }
+    }
+    const float here = reaching * own.value;
+    const float if_free = 1.0f + pass_front * (before + after);
+    const std::uint16_t weight = lists_.weight(entry.ray);
+    for (int q = 1; q < levels_; ++q) {
+      const float passed = passing_[q][own.chord];
+      const float s = pass_front * (before + (1.0f - passed) * here + passed * after);
+      products[q].multiply((1.0f + s) / if_free, weight);
+    }
+  }
+  for (int q = 1; q < levels_; ++q) log_weights[q - 1] += products[q].sum();
+}
+
+/// The ray's state if a voxel in front of it were free.
+SurvivalState::Hot SurvivalState::without(RayLists::FrontEntry entry, std::uint8_t level) const {
+  const Cold& ray = cold_[entry.ray()];
+  return hot(ray.near_sum * passing(ray.depth - depth_[level][entry.chord()]));
+}
+
+template <int Levels>
+bool SurvivalState::front_terms(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {
+  const auto entries = lists_.front(voxel);
+  const std::uint8_t level = map_[voxel];
+  // All factors are at most 1: a voxel in front can only block. As numbers while these are of a size for it; else logs.
+  const bool as_logs = *std::max_element(log_weights.begin(), log_weights.end()) > 600.0;
+  std::array<double, Levels> weights{};
+  for (int q = 1; q < Levels; ++q) weights[q] = as_logs ? 0.0 : std::exp(log_weights[q - 1]);
+  WeightCursor cursor(lists_.weight_runs());
+  bool sure = false;
+  std::size_t part = 1;  // one ray often settles it; if not, look at more before asking again
+  for (std::size_t k = 0; k < entries.size() && !sure; part = std::min<std::size_t>(2 * part, 8)) {
+    const std::uint16_t heaviness = cursor.weight(entries[k].ray());
+    std::array<double, Levels> products;
+    products.fill(1.0);
+    for (const std::size_t end = std::min(k + part, entries.size()); k < end && entries[k].ray() < cursor.end(); ++k) {
+      const RayLists::FrontEntry entry = entries[k];
+      const Hot ray = level == 0 ? hot_[entry.ray()] : without(entry, level);
+      for (int q = 1; q < Levels; ++q) products[q] *= (1.0f + ray.s * passing_[q][entry.chord()]) * ray.inverse;
+    }
+    double sum = 0.0;
+    for (int q = 1; q < Levels; ++q) {
+      if (as_logs)
+        log_weights[q - 1] += heaviness * std::log(products[q]);
+      else
+        weights[q] *= heaviness == 1 ? products[q] : power(products[q], heaviness);
+      sum += weights[q];
+    }
+    sure = !as_logs && sum < negligible;
+  }
+  if (!as_logs)
+    for (int q = 1; q < Levels; ++q) log_weights[q - 1] = std::log(weights[q]);
+  return sure;
+}
+
+double SurvivalState::log_likelihood() const {
+  LogProduct product;
+  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) product.multiply(1.0 + hot_[ray].s, lists_.weight(ray));
+  return product.sum();
+}
+
+void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {
+  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
+    float pass = static_cast<float>(lists_.weight(ray)) * passing(cold_[ray].depth);
+    for (const RayLists::Slot& slot : lists_.slots(ray)) {
+      reach[slot.voxel] += pass;
+      pass *= passing_[map_[slot.voxel]][slot.chord];
+    }
+  }
+  // What passes all of a ray's front reaches each voxel there: where that is enough already, which is nearly
+  // everywhere, no ray needs to be cast. Elsewhere, unblocked rays count as they are, and blocked ones are cast.
+  std::vector<std::uint8_t> wanted(lists_.rays(), 0);
+  for (std::uint32_t voxel = 0; voxel < map_.size(); ++voxel) {
+    const auto entries = lists_.front(voxel);
+    float unblocked = 0.0f, least = 0.0f;
+    for (std::size_t k = 0; k < entries.size() && reach[voxel] + least < enough; ++k) {
+      const Cold& ray = cold_[entries[k].ray()];
+      least += static_cast<float>(lists_.weight(entries[k].ray())) * passing(ray.depth);
+      if (ray.depth == 0) unblocked += lists_.weight(entries[k].ray());
+    }
+    const bool settled = reach[voxel] + least >= enough;
+    reach[voxel] += settled ? least : unblocked;
+    if (settled) continue;
+    for (const RayLists::FrontEntry entry : entries) wanted[entry.ray()] |= cold_[entry.ray()].depth > 0;
+  }
+  std::vector<RayLists::FrontVoxel> voxels;
+  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
+    if (!wanted[ray]) continue;
+    lists_.cast_front(ray, voxels);
+    float pass = lists_.weight(ray);
+    for (const auto& [voxel, chord] : voxels) {
+      reach[voxel] += pass;
+      pass *= passing_[map_[voxel]][chord];
+    }
+  }
+}
+
+}  // namespace nextview

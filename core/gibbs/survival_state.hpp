@@ -1,0 +1,66 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/gibbs/ray_lists.hpp"
+
+namespace nextview {
+
+/// What a chain knows of its rays in the models `beam` and `attenuation`, kept up to date as voxels change.
+///
+/// In both, p(z | m) = floor (1 + s): s = T S, T the share of the ray that passes the voxels in front, S the sum over
+/// the near voxels j of T_j (1 - e_j) g_j (T_j: what passes the near voxels before j; e_j = exp(-kappa_j L_j): what
+/// passes j; g_j: density of the range there over the floor's). Beyond range, S is a constant and all voxels are in
+/// front. Optical depth is kept in fixed point: exact whatever the order, so nothing drifts.
+class SurvivalState {
+ public:
+  SurvivalState(const RayLists& lists, const ForwardSensorModel& model);
+
+  int levels() const { return levels_; }
+  std::span<const std::uint8_t> map() const { return map_; }  ///< level of each voxel
+  void reset(std::vector<std::uint8_t> map);
+  std::size_t bytes() const;
+
+  /// Changes one voxel. Returns by how much that changes log p(z | m).
+  double set(std::uint32_t voxel, std::uint8_t level);
+
+  /// Adds log p(z | m with q) - log p(z | m with 0) to log_weights[q - 1] for each level q >= 1 (Eqs. 6-8); they hold
+  /// the log prior odds before. Exact, except that the sum stops once the weights together are sure to be below
+  /// `negligible`: then they are upper bounds that are too, and it returns true.
+  bool conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const;
+
+  double log_likelihood() const;
+
+  /// Adds to `reach` of each voxel how many measured rays get there; those that have reached `enough` may get less.
+  void add_reach(std::vector<float>& reach, float enough) const;
+
+ private:
+  struct Hot {
+    float s, inverse;  ///< s, and 1 / (1 + s)
+  };
+  struct Cold {
+    float near_sum = 0.0f;   ///< S
+    std::int32_t depth = 0;  ///< optical depth of the voxels in front, in units of 1 / depth_unit
+  };
+  static constexpr int most_levels = 4;
+  static constexpr int depth_unit = 4096;
+  static constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
+
+  static float passing(std::int32_t depth);
+  static Hot hot(float s) { return {s, 1.0f / (1.0f + s)}; }
+  float near_sum(std::uint32_t ray) const;
+  void near_terms(std::uint32_t voxel, std::span<double> log_weights) const;
+  template <int Levels>
+  bool front_terms(std::uint32_t voxel, double negligible, std::span<double> log_weights) const;
+  Hot without(RayLists::FrontEntry entry, std::uint8_t level) const;
+
+  const RayLists& lists_;
+  int levels_;
+  std::array<std::array<std::int32_t, RayLists::chord_codes>, most_levels> depth_{};  ///< of a level along a chord
+  std::array<std::array<float, RayLists::chord_codes>, most_levels> passing_{};       ///< exp(-depth)
+  std::vector<std::uint8_t> map_;
+  std::vector<Hot> hot_;
+  std::vector<Cold> cold_;
+};
+
+}  // namespace nextview
