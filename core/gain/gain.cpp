@@ -120,6 +120,15 @@ struct AverageEntropy {
   }
 };
 
+/// Eqs. 10-11, on the Gibbs map: every voxel counts in full, as the ray ends where the posterior says 'occupied'.
+struct Gibbs {
+  template <class Add>
+  static void ray(const Ray& ray, GainSums&, Add add) {
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i) add(i, 0, ray.voxels[i].entropy);
+  }
+  static constexpr auto value = plain_sum;
+};
+
 template <class G>
 constexpr Gain make(std::string_view name, std::string_view unit, std::string_view summary,
                     bool needs_occlusion = false) {
@@ -145,6 +154,7 @@ constexpr std::array all_gains = {
     make<ProximityCount>("proximity-count", "voxels", "unmeasured voxels behind a surface, the nearer the more", true),
     make<AreaFactor>("area-factor", "", "nearness of the shares of occupied and occluded ends to 0.2 and 0.8", true),
     make<AverageEntropy>("average-entropy", "nats", "mean entropy of the voxels on rays that end on the object"),
+    make<Gibbs>("gibbs", "nats", "entropy of the Gibbs map along each ray, up to its first occupied voxel"),
 };
 
 constexpr std::array<WeightedGain, 2> prerelease = {{{"average-entropy", 30.0}, {"rear-side-entropy", 1.0}}};

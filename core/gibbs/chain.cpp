@@ -149,7 +149,7 @@ class StateChain final : public Chain {
     // Level 0 is drawn if the weights of the others, relative to its own, come to no more than this.
     const double limit = (1.0 - u) / u;
     const bool exact = config_.sampler == Sampler::exact;
-    std::array<double, 3> weights;
+    std::array<double, ForwardSensorModel::most_attenuations> weights;
     const auto used = std::span(weights).first(state_.levels() - 1);
     std::fill(used.begin(), used.end(), log_prior_odds_);
     const bool settled = state_.conditional(voxel, exact && !mean ? limit : negligible_in_mean, used);

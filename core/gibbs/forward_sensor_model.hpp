@@ -34,6 +34,8 @@ struct RaySegment {
 /// A forward sensor model with its parameters. Voxels have levels: 0 is free; `paper`, `cone` and `beam` know one level
 /// more, occupied; `attenuation` one for each of its strengths.
 struct ForwardSensorModel {
+  static constexpr int most_attenuations = 5;
+
   ForwardModel kind = ForwardModel::attenuation;
   VoxelRange voxel_range = VoxelRange::segment;
   double sigma = 0.002;          ///< of the range [m]
@@ -41,7 +43,7 @@ struct ForwardSensorModel {
   double random_weight = 0.05;   ///< beam, attenuation: share of ranges that come from anywhere
   double max_weight = 0.05;      ///< ... of rays that miss a surface they should have met
   double eta_hit = 1.0;          ///< paper: the weight inside the exponent of Eq. 1
-  std::vector<double> attenuations = {0.3, 2.0};  ///< attenuation: kappa of each level, ascending [1 / voxel edge]
+  std::vector<double> attenuations = {0.05, 0.2};  ///< attenuation: kappa of each level, ascending [1 / voxel edge]
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;

@@ -54,15 +54,6 @@ std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSam
   return levels;
 }
 
-/// Joins what is dense, as seen from the middle of the grid.
-RangeMeasurements joined(const VoxelGrid& grid, const RangeMeasurements& measurements, double spacing) {
-  const Vector3 centre = 0.5 * (grid.lower() + grid.upper());
-  double distance = 0.0;
-  for (const Vector3& origin : measurements.origins) distance += (origin - centre).norm();
-  distance = std::max(distance / std::max<double>(1.0, double(measurements.origins.size())), grid.resolution);
-  return join_rays(measurements, spacing * grid.resolution / distance, grid.resolution);
-}
-
 /// Sweeps until stopped, stationary, or all sweeps are made.
 class Schedule {
  public:
@@ -156,7 +147,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch building;
   if (progress) progress(0.0, "listing the rays of each voxel");
-  const RayLists lists(grid, joined(grid, measurements, config.ray_spacing), config.model);
+  const RayLists lists(grid, join_rays(measurements, grid, config.ray_spacing), config.model);
   const Sites sites = find_sites(lists, config, start_map);
   d.measured_rays = measurements.rays.size();
   d.joined_rays = lists.rays();

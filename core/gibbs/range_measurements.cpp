@@ -1,5 +1,7 @@
 #include "core/gibbs/range_measurements.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -60,6 +62,43 @@ RangeMeasurement joined(const RangeMeasurements& from, std::span<const CellRay> 
   return ray;
 }
 
+/// The rays of one origin, joined.
+std::vector<RangeMeasurement> join_origin(const RangeMeasurements& measurements, std::span<const std::uint32_t> numbers,
+                                          double spacing, double spread) {
+  Vector3 mean = Vector3::Zero();
+  for (const std::uint32_t n : numbers) mean += measurements.direction(measurements.rays[n]);
+  const DirectionCells cells(mean, spacing);
+  std::vector<CellRay> rays;
+  for (const std::uint32_t n : numbers) {
+    const RangeMeasurement& ray = measurements.rays[n];
+    const float range =
+        ray.beyond_range ? std::numeric_limits<float>::infinity() : static_cast<float>(measurements.range(ray));
+    rays.push_back({cells(measurements.direction(ray)), range, n});
+  }
+  std::sort(rays.begin(), rays.end());
+  std::vector<RangeMeasurement> result;
+  for (std::size_t first = 0, last; first < rays.size(); first = last) {
+    const float limit = rays[first].range + static_cast<float>(spread);  // infinite beyond range
+    last = first + 1;
+    while (last < rays.size() && rays[last].cell == rays[first].cell && rays[last].range <= limit) ++last;
+    result.push_back(joined(measurements, std::span(rays).subspan(first, last - first)));
+  }
+  return result;
+}
+
+RangeMeasurements join_each_origin(const RangeMeasurements& measurements, const std::vector<double>& spacings,
+                                   double spread) {
+  if (std::all_of(spacings.begin(), spacings.end(), [](double s) { return s <= 0.0; })) return measurements;
+  std::vector<std::vector<std::uint32_t>> of_origin(measurements.origins.size());
+  for (std::uint32_t n = 0; n < measurements.rays.size(); ++n) of_origin[measurements.rays[n].origin].push_back(n);
+  std::vector<std::vector<RangeMeasurement>> joined(of_origin.size());
+  tbb::parallel_for(std::size_t{0}, of_origin.size(),
+                    [&](std::size_t k) { joined[k] = join_origin(measurements, of_origin[k], spacings[k], spread); });
+  RangeMeasurements result{measurements.max_range, measurements.origins, {}};
+  for (const auto& rays : joined) result.rays.insert(result.rays.end(), rays.begin(), rays.end());
+  return result;
+}
+
 }  // namespace
 
 void RangeMeasurements::add(const Scan& scan) {
@@ -74,30 +113,25 @@ void RangeMeasurements::add(const Scan& scan) {
   for (const Eigen::Vector3f& end : scan.passes) append(end, true);
 }
 
+void RangeMeasurements::append(const RangeMeasurements& other) {
+  const auto first = static_cast<std::uint32_t>(origins.size());
+  origins.insert(origins.end(), other.origins.begin(), other.origins.end());
+  for (RangeMeasurement ray : other.rays) {
+    ray.origin += first;
+    rays.push_back(ray);
+  }
+}
+
 RangeMeasurements join_rays(const RangeMeasurements& measurements, double spacing, double spread) {
-  if (spacing <= 0.0) return measurements;
-  RangeMeasurements result{measurements.max_range, measurements.origins, {}};
-  std::vector<Vector3> mean(measurements.origins.size(), Vector3::Zero());
-  for (const RangeMeasurement& ray : measurements.rays) mean[ray.origin] += measurements.direction(ray);
-  std::vector<std::vector<CellRay>> of_origin(measurements.origins.size());
-  std::vector<DirectionCells> cells;
-  for (const Vector3& m : mean) cells.emplace_back(m, spacing);
-  for (std::uint32_t n = 0; n < measurements.rays.size(); ++n) {
-    const RangeMeasurement& ray = measurements.rays[n];
-    const float range =
-        ray.beyond_range ? std::numeric_limits<float>::infinity() : static_cast<float>(measurements.range(ray));
-    of_origin[ray.origin].push_back({cells[ray.origin](measurements.direction(ray)), range, n});
-  }
-  for (auto& rays : of_origin) {
-    std::sort(rays.begin(), rays.end());
-    for (std::size_t first = 0, last; first < rays.size(); first = last) {
-      const float limit = rays[first].range + static_cast<float>(spread);  // infinite beyond range
-      last = first + 1;
-      while (last < rays.size() && rays[last].cell == rays[first].cell && rays[last].range <= limit) ++last;
-      result.rays.push_back(joined(measurements, std::span(rays).subspan(first, last - first)));
-    }
-  }
-  return result;
+  return join_each_origin(measurements, std::vector<double>(measurements.origins.size(), spacing), spread);
+}
+
+RangeMeasurements join_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing) {
+  const Vector3 centre = 0.5 * (grid.lower() + grid.upper());
+  std::vector<double> spacings;
+  for (const Vector3& origin : measurements.origins)
+    spacings.push_back(spacing * grid.resolution / std::max((origin - centre).norm(), grid.resolution));
+  return join_each_origin(measurements, spacings, grid.resolution);
 }
 
 }  // namespace nextview

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/map/voxel_grid.hpp"
 
 namespace nextview {
 
@@ -24,6 +25,8 @@ struct RangeMeasurements {
   /// Adds the rays of a scan. Returns farther than the maximum range are taken for beyond range. Points on the origin
   /// have no direction and are left out.
   void add(const Scan& scan);
+  /// Adds the rays of other measurements of the same maximum range.
+  void append(const RangeMeasurements& other);
 
   Vector3 direction(const RangeMeasurement& ray) const {
     return (ray.end.cast<double>() - origins[ray.origin]).normalized();
@@ -38,5 +41,8 @@ struct RangeMeasurements {
 /// and the sum of the weights; its likelihood counts that often. Dense images come down to what the voxels can tell
 /// apart, at the cost of what differs within a cell. No spacing, no change.
 RangeMeasurements join_rays(const RangeMeasurements& measurements, double spacing, double spread);
+
+/// The same for a map: cells are `spacing` voxel edges wide at the grid's centre, ranges at most a voxel edge apart.
+RangeMeasurements join_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing);
 
 }  // namespace nextview

@@ -38,7 +38,7 @@ struct SamplerDiagnostics {
   double effective_samples = 0.0;        ///< of the log-posterior
   double trend = 0.0;                    ///< largest |Geweke z| of the log-posterior of any chain
   double voxel_r_hat = 0.0;              ///< 95th percentile over a sample of undecided voxels
-  double voxel_effective_samples = 0.0;  ///< median over the same voxels
+  double voxel_effective_samples = 0.0;  ///< 5th percentile over the same voxels
   std::size_t disagreeing_voxels = 0;    ///< informed ones whose mean differs by over 0.5 between two chains
   bool stationary = false;
   std::string warning;  ///< for people; empty if there is nothing to warn of

@@ -114,8 +114,12 @@ bool SurvivalState::conditional(std::uint32_t voxel, double negligible, std::spa
       return front_terms<2>(voxel, negligible, log_weights);
     case 3:
       return front_terms<3>(voxel, negligible, log_weights);
-    default:
+    case 4:
       return front_terms<4>(voxel, negligible, log_weights);
+    case 5:
+      return front_terms<5>(voxel, negligible, log_weights);
+    default:
+      return front_terms<6>(voxel, negligible, log_weights);
   }
 }
 

@@ -42,7 +42,7 @@ class SurvivalState {
     float near_sum = 0.0f;   ///< S
     std::int32_t depth = 0;  ///< optical depth of the voxels in front, in units of 1 / depth_unit
   };
-  static constexpr int most_levels = 4;
+  static constexpr int most_levels = 1 + ForwardSensorModel::most_attenuations;
   static constexpr int depth_unit = 4096;
   static constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
 

@@ -132,12 +132,19 @@ std::vector<std::pair<std::string, double>> parse_combined_weights(const std::st
   return weights;
 }
 
+bool needs_refinement(const Configuration& c) { return c.planner.gain == "gibbs"; }
+
+PosteriorSamplerConfig posterior_sampler_config(const Configuration& c) {
+  return posterior_sampler_config(c.gibbs, c.sensor.range_noise, ray_pitch(c.sensor), c.map.resolution, c.seed);
+}
+
 void Configuration::validate() const {
   sensor.validate();
   cloud.validate();
   views.validate();
   termination.validate();
   map.model.validate();
+  gibbs.validate();
   const auto in = [](double value, double low, double high, const char* key, const char* unit) {
     require(value >= low && value <= high,
             fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
@@ -162,6 +169,8 @@ void Configuration::validate() const {
           fmt::format("there is no gain '{}'; did you mean '{}'?", planner.gain, nearest(planner.gain, names)));
   const bool knows_object = planner.gain == "oracle" || planner.gain == "covering-order";
   require(!knows_object || evaluation.enabled, fmt::format("planner.gain {} needs evaluation.enabled", planner.gain));
+  require(!needs_refinement(*this) || planner.semantics == Semantics::published,
+          "planner.gain gibbs has published semantics only: the reference code knows no Gibbs map");
   constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
   require(seed <= largest,
           fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));

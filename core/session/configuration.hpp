@@ -12,6 +12,7 @@
 #include "core/planner/next_best_view.hpp"
 #include "core/planner/termination.hpp"
 #include "core/sensor/depth_camera.hpp"
+#include "core/session/gibbs_config.hpp"
 #include "core/view/candidate_views.hpp"
 
 namespace nextview {
@@ -56,6 +57,7 @@ struct Configuration {
   DepthCameraConfig sensor;
   CloudConfig cloud;
   MapConfig map;
+  GibbsConfig gibbs;
   CandidateViewsConfig views;
   PlannerConfig planner;
   TerminationConfig termination;
@@ -70,6 +72,10 @@ std::vector<std::string> gain_names();
 /// 'random', 'farthest', 'fixed-order', 'covering-order' and 'oracle' rank views by other means than volumetric
 /// information.
 bool is_baseline(const std::string& gain);
+/// Whether `planner.gain` looks at the Gibbs map, which is then refined after each view.
+bool needs_refinement(const Configuration& configuration);
+/// The sampler's configuration for this camera and map.
+PosteriorSamplerConfig posterior_sampler_config(const Configuration& configuration);
 
 /// `average-entropy=30,rear-side-entropy=1`. @throws std::invalid_argument
 std::vector<std::pair<std::string, double>> parse_combined_weights(const std::string& text);

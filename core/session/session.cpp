@@ -9,44 +9,11 @@
 #include "core/evaluation/entropy.hpp"
 #include "core/map/traversal.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "core/planner/rank_correlation.hpp"
+#include "core/session/session_parts.hpp"
 
 namespace nextview {
 namespace {
-
-Pose start_view(const Configuration& c) {
-  const double azimuth = c.planner.start_azimuth * std::numbers::pi / 180.0;
-  const double elevation = c.planner.start_elevation * std::numbers::pi / 180.0;
-  const Vector3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                          std::sin(elevation));
-  return look_at(c.views.radius * direction, Vector3::Zero());
-}
-
-VoxelGrid region(const Configuration& c) {
-  return region_of_interest(Vector3::Zero(), c.map.region_edge, c.map.resolution);  // load_mesh centres the object
-}
-
-RayBundle scoring_rays(const Configuration& c, const PinholeCamera& camera) {
-  if (c.planner.semantics == Semantics::reference)
-    return RayBundle::reference(camera, {0.25, 0.25}, {0.75, 0.75}, {10.0, 10.0});
-  return RayBundle::regular(camera, c.planner.ray_columns, c.planner.ray_rows);
-}
-
-std::unique_ptr<ReferenceMap> reference_map(const Configuration& c) {
-  if (c.planner.semantics != Semantics::reference) return nullptr;
-  ReferenceMap::Parameters p;
-  p.resolution = c.map.resolution;
-  p.model = c.map.model;
-  p.lower = region(c).lower();
-  p.upper = region(c).upper();
-  p.max_sensor_range = c.sensor.max_range;
-  p.max_ray_depth = c.planner.ray_length;
-  return std::make_unique<ReferenceMap>(p);
-}
-
-Configuration validated(Configuration c) {
-  c.validate();
-  return c;
-}
 
 /// Adds the seconds until its end to a stage.
 class Stopwatch {
@@ -74,11 +41,12 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       scene_(*mesh_),
       camera_(configuration_.sensor),
       candidates_(candidate_views(configuration_.views, Vector3::Zero())),
-      start_view_(nextview::start_view(configuration_)),
-      map_(region(configuration_), configuration_.map.model),
-      map_rays_(map_.grid(), map_.voxels(), configuration_.map.model.occupancy_threshold,
-                configuration_.planner.ray_length),
-      reference_map_(reference_map(configuration_)),
+      start_view_(configured_start_view(configuration_)),
+      map_(configured_region(configuration_), configuration_.map.model),
+      refinement_(make_refinement(configuration_)),
+      map_rays_(configured_rays(configuration_, map_.grid(), map_.voxels())),
+      planning_rays_(configured_rays(configuration_, map_.grid(), planning_voxels())),
+      reference_map_(make_reference_map(configuration_)),
       bundle_(scoring_rays(configuration_, camera_.camera())),
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
       visited_(candidates_.size()),
@@ -124,7 +92,8 @@ bool Session::step(const Progress& progress, std::stop_token stop) {
   update_map(measurement, record);     // M <- update octree map M by measurement z
   if (next_) visited_[*next_] = true;  // delete v_i
   taken_.push_back(record.T_world_camera);
-  tell(0.5, "comparing with the object");
+  refine_map(measurement, record, progress);
+  tell(0.6, "comparing with the object");
   evaluate(measurement, record);
   tell(0.7, "scoring the candidate views");
   rank_candidates(record, {});  // ray casting (M, v_i) for all candidates left; a stop now would leave half a ranking
@@ -162,7 +131,6 @@ Session::Measurement Session::measure(const Pose& T_world_camera, StepRecord& re
 void Session::update_map(const Measurement& measurement, StepRecord& record) {
   const double max_range = configuration_.sensor.max_range;
   const std::size_t measured_before = measured_voxels(map_);
-  const double entropy_before = records_.empty() ? total_entropy(map_.voxels()) : records_.back().total_entropy;
   {
     Stopwatch watch(record.seconds.insert);
     if (configuration_.map.insertion == Insertion::local_octree) {
@@ -180,7 +148,24 @@ void Session::update_map(const Measurement& measurement, StepRecord& record) {
   Stopwatch watch(record.seconds.evaluate);
   record.new_voxels = measured_voxels(map_) - measured_before;
   record.entropy = unmeasured_entropy(map_.voxels());
-  record.total_entropy = total_entropy(map_.voxels());
+}
+
+void Session::refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress) {
+  const double entropy_before = records_.empty() ? total_entropy(planning_voxels()) : records_.back().total_entropy;
+  if (refinement_) {
+    Stopwatch watch(record.seconds.refine);
+    refinement_->add(measurement.scan);
+    const auto tell = [&](double fraction, std::string_view what) {
+      if (progress) progress(0.5 + 0.1 * fraction, what);
+    };
+    refinement_->refine(probabilities(map_.voxels()), configuration_.gibbs.view_sweeps, tell, {});
+    record.refinement.emplace();
+    record.refinement->diagnostics = refinement_->posterior().diagnostics;
+    for (std::size_t v = 0; v < map_.voxels().size(); ++v)
+      record.refinement->changed_class += map_.voxels()[v].voxel_class != refinement_->voxels()[v].voxel_class;
+  }
+  Stopwatch watch(record.seconds.evaluate);
+  record.total_entropy = total_entropy(planning_voxels());
   record.realised_gain =
       (entropy_before - record.total_entropy) * std::numbers::ln2;  // Eq. 12: other voxels keep theirs
 }
@@ -208,6 +193,9 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record) {
   const GroundTruth& truth = known_object_->truth();
   record.quality = map_quality(p, truth, TruthConvention::touch, ScoredSet::visited, visited_voxels_);
   record.quality_near_surface = map_quality(p, truth, TruthConvention::touch, ScoredSet::visited_band, visited_voxels_);
+  if (record.refinement)
+    record.refinement->quality_near_surface = map_quality(
+        probabilities(refinement_->voxels()), truth, TruthConvention::touch, ScoredSet::visited_band, visited_voxels_);
 }
 
 void Session::rank_candidates(StepRecord& record, std::stop_token stop) {
@@ -227,6 +215,23 @@ void Session::rank_candidates(StepRecord& record, std::stop_token stop) {
   UtilityWeights weights = configuration_.planner.weights;
   if (is_baseline(configuration_.planner.gain)) weights = {1.0, 0.0};
   record.ranking = rank(record.candidates, weights);
+  if (record.refinement) compare_rankings(record, available);
+}
+
+/// What the same gain would have made of the conventional map.
+void Session::compare_rankings(StepRecord& record, std::span<const std::size_t> available) const {
+  const PlanningState state{configuration_, map_rays_, bundle_, known_object_.get(), candidates_, taken_};
+  const auto gains = candidate_gains(state, available, {});
+  auto candidates = record.candidates;
+  std::vector<double> refined;
+  RefinementRecord& refinement = *record.refinement;
+  refinement.conventional_gains.assign(candidates.size(), 0.0);
+  for (std::size_t i = 0; i < available.size(); ++i) {
+    refined.push_back(candidates[available[i]].gain);
+    candidates[available[i]].gain = refinement.conventional_gains[available[i]] = gains[i];
+  }
+  refinement.rank_correlation = rank_correlation(refined, gains);
+  refinement.conventional_best = rank(candidates, configuration_.planner.weights).best;
 }
 
 std::string Session::termination() const {
@@ -260,7 +265,7 @@ void Session::override_next_view(std::size_t candidate) {
 
 const RayCaster& Session::caster() const {
   if (reference_map_) return *reference_map_;
-  return map_rays_;
+  return planning_rays_;
 }
 
 std::optional<ScoreExplanation> Session::explain(std::size_t candidate) const {

@@ -9,6 +9,7 @@
 #include "core/session/candidate_gains.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/known_object.hpp"
+#include "core/session/map_refinement.hpp"
 #include "core/session/step_record.hpp"
 
 namespace nextview {
@@ -36,6 +37,9 @@ class Session {
   std::shared_ptr<const TriangleMesh> mesh() const { return mesh_; }
   const DepthCamera& camera() const { return camera_; }
   const OccupancyMap& map() const { return map_; }
+  const MapRefinement* refinement() const { return refinement_.get(); }  ///< null unless the gain needs it
+  /// The map that views are planned on: the Gibbs map if there is one.
+  std::span<const Voxel> planning_voxels() const { return refinement_ ? refinement_->voxels() : map_.voxels(); }
   const std::vector<Pose>& candidates() const { return candidates_; }
   const std::vector<StepRecord>& records() const { return records_; }
   const std::vector<PointCloud>& clouds() const { return clouds_; }                    ///< one a step, cleaned
@@ -55,8 +59,10 @@ class Session {
   };
   Measurement measure(const Pose& T_world_camera, StepRecord& record) const;
   void update_map(const Measurement& measurement, StepRecord& record);
+  void refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress);
   void evaluate(const Measurement& measurement, StepRecord& record);
   void rank_candidates(StepRecord& record, std::stop_token stop);
+  void compare_rankings(StepRecord& record, std::span<const std::size_t> available) const;
   std::string termination() const;
   const RayCaster& caster() const;
 
@@ -69,7 +75,8 @@ class Session {
   Pose start_view_;
 
   OccupancyMap map_;
-  MapRays map_rays_;
+  std::unique_ptr<MapRefinement> refinement_;
+  MapRays map_rays_, planning_rays_;
   std::unique_ptr<ReferenceMap> reference_map_;  ///< reference semantics only
   RayBundle bundle_;
   std::unique_ptr<Robot> robot_;

@@ -1,8 +1,10 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/evaluation/map_quality.hpp"
+#include "core/gibbs/sampler_diagnostics.hpp"
 #include "core/planner/next_best_view.hpp"
 #include "core/robot/robot.hpp"
 
@@ -10,7 +12,17 @@ namespace nextview {
 
 /// Seconds of each stage of a step.
 struct StageSeconds {
-  double sense = 0.0, clean = 0.0, insert = 0.0, evaluate = 0.0, score = 0.0;
+  double sense = 0.0, clean = 0.0, insert = 0.0, refine = 0.0, evaluate = 0.0, score = 0.0;
+};
+
+/// What refining the map did (gain gibbs only).
+struct RefinementRecord {
+  SamplerDiagnostics diagnostics;
+  std::size_t changed_class = 0;                 ///< voxels whose class differs from the conventional map's
+  std::vector<double> conventional_gains;        ///< of each candidate: the same gain on the conventional map
+  std::optional<std::size_t> conventional_best;  ///< the candidate that it would have chosen
+  double rank_correlation = 0.0;                 ///< Spearman's, of both maps' gains over the available candidates
+  MapQuality quality_near_surface;               ///< with evaluation; as StepRecord::quality_near_surface
 };
 
 /// One turn of Algorithm 2: where the camera went, what it saw, how good the map is now, and how the candidates rank
@@ -38,6 +50,8 @@ struct StepRecord {
   double coverage_paper = 0.0;      ///< of all the surface, at the paper's 0.5 mm
   MapQuality quality;               ///< over visited voxels, touch truth
   MapQuality quality_near_surface;  ///< over visited voxels of the band, touch truth
+
+  std::optional<RefinementRecord> refinement;  ///< total_entropy, realised_gain and gains are then the Gibbs map's
 
   std::vector<Candidate> candidates;  ///< as ranked after this view
   Ranking ranking;

@@ -1,0 +1,41 @@
+#pragma once
+#include <functional>
+#include <stop_token>
+#include <string_view>
+
+#include "core/gibbs/posterior_sampler.hpp"
+#include "core/map/occupancy_map.hpp"
+
+namespace nextview {
+
+/// The Gibbs map of a scan that is under way: it grows view by view, and each refinement starts from the last one's
+/// maps.
+class MapRefinement {
+ public:
+  MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes,
+                double max_range);
+
+  /// Adds a view's rays, joined at once: only what the voxels can tell apart is kept.
+  void add(const Scan& scan);
+  /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps; `conventional` is where the first
+  /// refinement may start.
+  void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
+
+  /// One a voxel of the grid; the span stays valid. Unmeasured before the first refinement.
+  std::span<const Voxel> voxels() const { return voxels_; }
+  const GibbsPosterior& posterior() const { return posterior_; }
+
+ private:
+  PosteriorSamplerConfig config_;
+  InverseSensorModel classes_;
+  std::size_t measured_rays_ = 0;
+  RangeMeasurements measurements_;
+  GibbsPosterior posterior_;
+  std::vector<Voxel> voxels_;
+};
+
+/// The posterior as an occupancy map, to be saved as an octree: log-odds where informed, unmeasured elsewhere. Kept off
+/// 0 and 1 by 1e-6.
+OccupancyMap to_occupancy_map(const GibbsPosterior& posterior, const InverseSensorModel& classes);
+
+}  // namespace nextview

@@ -1,0 +1,26 @@
+#pragma once
+#include <memory>
+
+#include "core/gain/map_rays.hpp"
+#include "core/session/configuration.hpp"
+#include "core/session/map_refinement.hpp"
+
+namespace nextview {
+
+// What a configuration says that a session is made of.
+
+/// @throws std::invalid_argument naming the field and its bounds.
+Configuration validated(Configuration configuration);
+
+Pose configured_start_view(const Configuration& configuration);
+VoxelGrid configured_region(const Configuration& configuration);
+/// The rays that score a view.
+RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& camera);
+/// Rays through a map; the voxels must outlive them.
+MapRays configured_rays(const Configuration& configuration, const VoxelGrid& grid, std::span<const Voxel> voxels);
+/// Null unless the semantics are the reference's.
+std::unique_ptr<ReferenceMap> make_reference_map(const Configuration& configuration);
+/// Null unless the gain needs the Gibbs map.
+std::unique_ptr<MapRefinement> make_refinement(const Configuration& configuration);
+
+}  // namespace nextview
