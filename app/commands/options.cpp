@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace nextview {
 namespace {
@@ -29,14 +31,26 @@ std::string describe(const Setting& setting) {
   return value.empty() ? text : fmt::format("{} (default {})", text, value);
 }
 
+/// A file, or the name of one that comes with the program.
+std::filesystem::path find_configuration(const std::string& name) {
+  const auto named = assets_folder() / "configurations" / (name + ".toml");
+  return !std::filesystem::exists(name) && std::filesystem::exists(named) ? named : std::filesystem::path(name);
+}
+
 }  // namespace
 
 void ConfigurationOptions::add_to(CLI::App& app) {
   app.add_option("OBJECT", object_,
                  "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …");
-  app.add_option("--config", file_, "configuration file (TOML); options override it")->type_name("FILE");
+  add_settings_to(app, {""});
+}
+
+void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes) {
+  app.add_option("--config", file_, "configuration file (TOML), or paper; options override it")->type_name("FILE");
   static Configuration defaults;
   for (const Setting& setting : settings(defaults)) {
+    const auto begins = [&](const std::string& prefix) { return setting.key.starts_with(prefix); };
+    if (std::none_of(prefixes.begin(), prefixes.end(), begins)) continue;
     std::string names = "--" + setting.key;
     std::string group = "Settings";
     for (const auto& [name, key] : short_names)
@@ -54,15 +68,19 @@ void ConfigurationOptions::add_to(CLI::App& app) {
 
 Configuration ConfigurationOptions::configuration() const {
   Configuration configuration;
-  if (!file_.empty()) configuration = read_configuration(file_);
+  apply_to(configuration);
+  if (!object_.empty()) configuration.object.file = object_;
+  configuration.validate();
+  return configuration;
+}
+
+void ConfigurationOptions::apply_to(Configuration& configuration) const {
+  if (!file_.empty()) configuration = read_configuration(find_configuration(file_), configuration);
   if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
     apply_sensor_preset(configuration, preset->second);
   auto list = settings(configuration);
   for (Setting& setting : list)
     if (const auto given = given_.find(setting.key); given != given_.end()) setting.set(given->second);
-  if (!object_.empty()) configuration.object.file = object_;
-  configuration.validate();
-  return configuration;
 }
 
 }  // namespace nextview

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/session/configuration.hpp"
 
@@ -14,8 +15,13 @@ class ConfigurationOptions {
   /// Adds OBJECT, --config, an option for every setting (`--sensor.range_noise 0.001`), and the short names of the
   /// common ones.
   void add_to(CLI::App& app);
+  /// Adds --config and an option for each setting whose key begins with one of the prefixes.
+  void add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes);
+
   /// @throws std::runtime_error, std::invalid_argument with one line for people.
   Configuration configuration() const;
+  /// Sets what was given over a configuration that came from elsewhere.
+  void apply_to(Configuration& configuration) const;
 
  private:
   std::string file_;

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
+#include "app/commands/progress.hpp"
 #include "core/session/scan_files.hpp"
 #include "ui/figures/session_figure.hpp"
 
@@ -19,40 +16,6 @@ struct ScanArguments {
   ConfigurationOptions options;
   std::string out = "out";
   bool no_pictures = false;
-};
-
-std::atomic<bool> interrupted = false;
-
-/// Turns Ctrl+C into a requested stop, so that what has been scanned is still written.
-class StopOnInterrupt {
- public:
-  StopOnInterrupt() : previous_(std::signal(SIGINT, [](int) { interrupted = true; })) {
-    watcher_ = std::jthread([this](std::stop_token done) {
-      while (!done.stop_requested() && !interrupted) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      if (interrupted) source_.request_stop();
-    });
-  }
-  ~StopOnInterrupt() { std::signal(SIGINT, previous_); }
-  std::stop_token token() const { return source_.get_token(); }
-
- private:
-  void (*previous_)(int);
-  std::stop_source source_;
-  std::jthread watcher_;
-};
-
-/// A line on a terminal that tells what is going on; nothing where errors go to a file.
-class ProgressLine {
- public:
-  void operator()(double fraction, std::string_view what) const {
-    if (visible_) fmt::print(stderr, "\r\033[K{:3.0f} %  {}", 100.0 * fraction, what);
-  }
-  void clear() const {
-    if (visible_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool visible_ = ::isatty(STDERR_FILENO);
 };
 
 void print_head(const Session& session) {
@@ -73,7 +36,13 @@ void print_step(const StepRecord& r) {
   fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
              r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.returns, r.new_voxels,
              100.0 * r.coverage_visible, r.entropy / 1e3, r.quality_near_surface.log_loss,
-             s.sense + s.clean + s.insert + s.evaluate + s.score);
+             s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
+  if (r.refinement) {
+    const auto view = [](const auto& v) { return v ? fmt::format("{}", *v) : std::string("none"); };
+    fmt::print("       refined: log loss {:.3f}; next view {} ({} without refinement), ranks correlate {:.2f}\n",
+               r.refinement->quality_near_surface.log_loss, view(r.ranking.best), view(r.refinement->conventional_best),
+               r.refinement->rank_correlation);
+  }
   if (!r.ranking.degenerate.empty()) fmt::print("       ! no ranking: {}\n", r.ranking.degenerate);
   std::fflush(stdout);
 }
@@ -91,9 +60,10 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
       "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
-      "  cloud.ply       the cleaned point cloud\n"
+      "{}  cloud.ply       the cleaned point cloud\n"
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
       "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
+      session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
       out.string());
 }
 

@@ -10,6 +10,7 @@
 #include "core/cloud/ply_header.hpp"
 #include "core/cloud/point_cloud.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/gzip_file.hpp"
 
 namespace nextview {
 namespace {
@@ -137,7 +138,7 @@ void write_ply(const PointCloud& cloud, const std::filesystem::path& file) {
 }
 
 PointCloud read_ply(const std::filesystem::path& file) {
-  const std::string data = read_file(file, largest_file);
+  const std::string data = file.extension() == ".gz" ? read_gzip_file(file) : read_file(file, largest_file);
   try {
     return VertexReader(data).read();
   } catch (const std::runtime_error& error) {

@@ -42,7 +42,8 @@ PointCloud clean(const PointCloud& returns, const CloudConfig& config);
 /// @throws std::runtime_error naming the file and the reason.
 void write_ply(const PointCloud& cloud, const std::filesystem::path& file);
 
-/// The vertices of an ASCII or binary PLY file; other elements and properties are passed over.
+/// The vertices of an ASCII or binary PLY file; other elements and properties are passed over. A file whose name ends
+/// in .gz is decompressed first.
 /// @throws std::runtime_error with one line that names the file and the reason: missing, not PLY, truncated, claims
 ///         more than the file holds, no x y z, not finite.
 PointCloud read_ply(const std::filesystem::path& file);

@@ -17,8 +17,8 @@ constexpr double pseudo_hits = 0.05, pseudo_rays = 0.1;
 
 // Of the Beta-binomial.
 constexpr double prior_occupied = 0.05;
-constexpr double false_hit = 0.001;              ///< probability that a ray ends in a free voxel
-constexpr double stop_alpha = 1, stop_beta = 2;  ///< of the share of rays that an occupied voxel stops
+constexpr double stop_alpha = 1, stop_beta = 2;      ///< of the share of rays that an occupied voxel stops
+constexpr double false_alpha = 1, false_beta = 999;  ///< of the share of rays that a free voxel stops (false hits)
 
 /// In single precision, as OctoMap and OccupancyMap::insert have it.
 double distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
@@ -67,9 +67,12 @@ double hit_ratio(const RayCounts& counts) {
 
 double beta_binomial(const RayCounts& counts) {
   const double hits = counts.hits, passes = counts.passes;
-  // Integrated over the share q that it stops: q^hits (1-q)^passes Beta(q; alpha, beta).
-  const double log_if_occupied = log_beta(stop_alpha + hits, stop_beta + passes) - log_beta(stop_alpha, stop_beta);
-  const double log_if_free = hits * std::log(false_hit) + passes * std::log1p(-false_hit);
+  // Integrated over the share q of rays that the voxel stops: q^hits (1-q)^passes Beta(q; alpha, beta).
+  const auto log_likelihood = [&](double alpha, double beta) {
+    return log_beta(alpha + hits, beta + passes) - log_beta(alpha, beta);
+  };
+  const double log_if_occupied = log_likelihood(stop_alpha, stop_beta);
+  const double log_if_free = log_likelihood(false_alpha, false_beta);
   return probability(log_odds(prior_occupied) + log_if_occupied - log_if_free);
 }
 

@@ -45,10 +45,9 @@ struct RayCounts {
 /// hits / (hits + passes), with 0.05 hits in 0.1 rays more than there are: 0.5 where there are none.
 double hit_ratio(const RayCounts& counts);
 
-/// P(occupied | hits, passes) of a voxel that is either free and stops each ray with probability 0.001 (a false hit),
-/// or occupied and stops each with a probability of its own, which is Beta(1, 2) a priori. Occupied a priori: 0.05. Its
-/// limit: from about 11,700 passes without a hit on, a share below 0.001 fits better than a free voxel does, and the
-/// voxel comes out occupied. Voxels near a dense camera see so many.
+/// P(occupied | hits, passes) of a voxel that stops each ray with a probability of its own: a priori Beta(1, 999) if it
+/// is free (false hits, 0.001 in the mean), Beta(1, 2) if it is occupied. Occupied a priori: 0.05. Passes without a hit
+/// always speak for free; where rays are many, a voxel is called occupied if more than about 0.9 % of them end in it.
 double beta_binomial(const RayCounts& counts);
 
 /// Makes the baseline maps of one set of scans. The rays are counted once, for all of them.

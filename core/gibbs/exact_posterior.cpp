@@ -10,11 +10,11 @@ namespace {
 
 /// Adds, for one map, how many measured rays reach each voxel, times the map's share.
 void add_reach(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
-               const std::vector<std::vector<RaySegment>>& segments, const std::vector<std::uint8_t>& map, double share,
+               const std::vector<std::vector<VoxelSegment>>& segments, const std::vector<std::uint8_t>& map, double share,
                std::vector<double>& reach) {
   for (std::size_t n = 0; n < segments.size(); ++n) {
     double survival = share * measurements.rays[n].weight;
-    for (const RaySegment& s : segments[n]) {
+    for (const VoxelSegment& s : segments[n]) {
       reach[s.voxel] += survival;
       survival *= model.transmission(map[s.voxel], (s.exit - s.enter) / grid.resolution);
     }
@@ -42,7 +42,7 @@ ExactPosterior exact_posterior(const VoxelGrid& grid, const RangeMeasurements& m
     throw std::invalid_argument(fmt::format("{} voxels of {} levels make {}^{} maps; at most 2^20 are enumerated",
                                             voxels, model.levels(), model.levels(), voxels));
 
-  std::vector<std::vector<RaySegment>> segments;
+  std::vector<std::vector<VoxelSegment>> segments;
   for (const RangeMeasurement& ray : measurements.rays)
     segments.push_back(ray_segments(grid, measurements, ray, model));
   const double log_free = std::log1p(-prior), log_level = std::log(prior / (model.levels() - 1));

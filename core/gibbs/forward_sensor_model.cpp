@@ -66,10 +66,10 @@ double ForwardSensorModel::transmission(int level, double chord) const {
   return std::exp(-attenuations[level - 1] * chord);
 }
 
-std::vector<RaySegment> ray_segments(const VoxelGrid& grid, const RangeMeasurements& measurements,
+std::vector<VoxelSegment> ray_segments(const VoxelGrid& grid, const RangeMeasurements& measurements,
                                      const RangeMeasurement& ray, const ForwardSensorModel& model) {
   const double end = ray.beyond_range ? measurements.max_range : measurements.range(ray) + 4.0 * model.sigma;
-  std::vector<RaySegment> segments;
+  std::vector<VoxelSegment> segments;
   walk_ray_segments(grid, measurements.origins[ray.origin], measurements.direction(ray), end,
                     [&](int x, int y, int z, double enter, double exit) {
                       segments.push_back({grid.index({x, y, z}), enter, ray.beyond_range ? std::min(exit, end) : exit});
@@ -79,7 +79,7 @@ std::vector<RaySegment> ray_segments(const VoxelGrid& grid, const RangeMeasureme
 }
 
 double hit_density(const VoxelGrid& grid, const ForwardSensorModel& model, const Vector3& origin,
-                   const RaySegment& segment, double z) {
+                   const VoxelSegment& segment, double z) {
   if (model.voxel_range == VoxelRange::centre)
     return normal_density(z - (grid.centre(segment.voxel) - origin).norm(), model.sigma);
   // A ray that only grazes a voxel has the density of its point.
@@ -89,7 +89,7 @@ double hit_density(const VoxelGrid& grid, const ForwardSensorModel& model, const
 }
 
 double first_hit_log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const Vector3& origin,
-                                const Vector3& direction, const RaySegment* segment, double z, double max_range) {
+                                const Vector3& direction, const VoxelSegment* segment, double z, double max_range) {
   // A segment's range is its middle: Eqs. 1 and 2 are not densities to take the mean of.
   const double range = !segment                                  ? max_range
                        : model.voxel_range == VoxelRange::centre ? (grid.centre(segment->voxel) - origin).norm()
@@ -112,12 +112,12 @@ double log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, co
   const auto segments = ray_segments(grid, measurements, ray, model);
   if (model.is_first_hit()) {
     const auto first =
-        std::find_if(segments.begin(), segments.end(), [&](const RaySegment& s) { return levels[s.voxel] > 0; });
+        std::find_if(segments.begin(), segments.end(), [&](const VoxelSegment& s) { return levels[s.voxel] > 0; });
     return first_hit_log_likelihood(grid, model, origin, measurements.direction(ray),
                                     first == segments.end() ? nullptr : &*first, z, measurements.max_range);
   }
   double survival = 1.0, density = 0.0;
-  for (const RaySegment& s : segments) {
+  for (const VoxelSegment& s : segments) {
     const double passing = model.transmission(levels[s.voxel], (s.exit - s.enter) / grid.resolution);
     if (!ray.beyond_range && passing < 1.0)
       density += survival * (1.0 - passing) * hit_density(grid, model, origin, s, z);

@@ -26,7 +26,7 @@ constexpr std::string_view name(ForwardModel model) {
 enum class VoxelRange { segment, centre };
 
 /// A voxel on the ray of a measurement.
-struct RaySegment {
+struct VoxelSegment {
   std::uint32_t voxel = 0;
   double enter = 0.0, exit = 0.0;  ///< distances from the camera [m]
 };
@@ -57,17 +57,17 @@ struct ForwardSensorModel {
 };
 
 /// The voxels that a measurement depends on, in order: up to 4 sigma behind its range, or to the maximum range.
-std::vector<RaySegment> ray_segments(const VoxelGrid& grid, const RangeMeasurements& measurements,
+std::vector<VoxelSegment> ray_segments(const VoxelGrid& grid, const RangeMeasurements& measurements,
                                      const RangeMeasurement& ray, const ForwardSensorModel& model);
 
 /// Density of a range `z` [m] given that the ray ended in this voxel [1/m] (beam, attenuation).
 double hit_density(const VoxelGrid& grid, const ForwardSensorModel& model, const Vector3& origin,
-                   const RaySegment& segment, double z);
+                   const VoxelSegment& segment, double z);
 
 /// log p(z | f) of a first-hit model (paper, cone), f being the voxel; without a voxel, nothing is occupied on the ray.
 /// `z` [m]; for a ray beyond range it is z_max (our reading, the paper is silent).
 double first_hit_log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const Vector3& origin,
-                                const Vector3& direction, const RaySegment* segment, double z, double max_range);
+                                const Vector3& direction, const VoxelSegment* segment, double z, double max_range);
 
 /// log p(z | m): the definition, term by term, for one measured ray (its weight not counted). `levels` has one entry a
 /// voxel of the grid. The sampler gets the same numbers from state that it keeps.

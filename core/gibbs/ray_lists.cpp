@@ -95,7 +95,7 @@ void RayLists::walk(std::uint32_t ray, Front on_front, Near on_near) const {
                       if (exit < near)
                         on_front(voxel, chord_code((exit - enter) * per_edge));
                       else
-                        on_near(RaySegment{voxel, enter, exit});
+                        on_near(VoxelSegment{voxel, enter, exit});
                       return true;
                     });
 }
@@ -107,7 +107,7 @@ void RayLists::count(Block& block) {
     std::uint32_t slots = 0;
     walk(
         ray, [&](std::uint32_t voxel, std::uint32_t) { ++block.front[voxel]; },
-        [&](const RaySegment& segment) {
+        [&](const VoxelSegment& segment) {
           ++block.near[segment.voxel];
           ++slots;
         });
@@ -153,7 +153,7 @@ void RayLists::fill(Block& block) {
     walk(
         ray,
         [&](std::uint32_t voxel, std::uint32_t code) { front_[block.front[voxel]++] = FrontEntry{ray << 10 | code}; },
-        [&](const RaySegment& segment) {
+        [&](const VoxelSegment& segment) {
           near_[block.near[segment.voxel]++] = {ray, slot};
           slots_[slot] = {segment.voxel, chord_code((segment.exit - segment.enter) / grid_.resolution),
                           slot_value_of(measurements_.rays[ray], segment)};
@@ -171,7 +171,7 @@ float RayLists::open_value_of(const RangeMeasurement& ray) const {
   return static_cast<float>((1.0 - model_.random_weight - model_.max_weight) / model_.max_weight);
 }
 
-float RayLists::slot_value_of(const RangeMeasurement& ray, const RaySegment& segment) const {
+float RayLists::slot_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const {
   const Vector3& origin = measurements_.origins[ray.origin];
   const double z = measurements_.range(ray);
   if (model_.is_first_hit())
@@ -188,7 +188,7 @@ void RayLists::cast_front(std::uint32_t ray, std::vector<FrontVoxel>& voxels) co
       [&](std::uint32_t voxel, std::uint32_t code) {
         voxels.push_back({voxel, code});
       },
-      [](const RaySegment&) {});
+      [](const VoxelSegment&) {});
 }
 
 }  // namespace nextview

@@ -91,7 +91,7 @@ class RayLists {
   void lay_out(std::vector<Block>& blocks);
   void fill(Block& block);
   float open_value_of(const RangeMeasurement& ray) const;
-  float slot_value_of(const RangeMeasurement& ray, const RaySegment& segment) const;
+  float slot_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
 
   VoxelGrid grid_;
   RangeMeasurements measurements_;  ///< those that enter the grid, the heaviest first

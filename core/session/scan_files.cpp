@@ -38,13 +38,32 @@ std::string steps_csv(const Session& session) {
 }
 
 std::string scores_csv(const Session& session) {
+  const bool refined = session.refinement() != nullptr;
   std::string csv =
-      fmt::format("step,view,available,gain[{}],cost[m],utility\n", gain_unit(session.configuration().planner.gain));
+      fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", gain_unit(session.configuration().planner.gain),
+                  refined ? ",gain_on_conventional_map[nats]" : "");
   for (const StepRecord& r : session.records())
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
       const Candidate& c = r.candidates[v];
-      csv += fmt::format("{},{},{},{},{},{}\n", r.step, v, int(c.available), c.gain, c.cost, c.utility);
+      csv += fmt::format("{},{},{},{},{},{}", r.step, v, int(c.available), c.gain, c.cost, c.utility);
+      csv += refined ? fmt::format(",{}\n", r.refinement->conventional_gains[v]) : "\n";
     }
+  return csv;
+}
+
+/// What each refinement of the map did; gain gibbs only.
+std::string refinement_csv(const Session& session) {
+  std::string csv =
+      "step,joined_rays,informed_voxels,changed_class,sweeps,r_hat,trend_z,disagreeing_voxels,stationary,"
+      "conventional_next_view,rank_correlation,log_loss_near_surface[nats],brier_near_surface\n";
+  for (const StepRecord& r : session.records()) {
+    const RefinementRecord& n = *r.refinement;
+    const SamplerDiagnostics& d = n.diagnostics;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, d.joined_rays, d.informed_voxels,
+                       n.changed_class, d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, int(d.stationary),
+                       n.conventional_best ? fmt::format("{}", *n.conventional_best) : "", n.rank_correlation,
+                       n.quality_near_surface.log_loss, n.quality_near_surface.brier);
+  }
   return csv;
 }
 
@@ -59,10 +78,10 @@ std::string views_csv(const Session& session) {
 }
 
 std::string timings_csv(const Session& session) {
-  std::string csv = "step,sense[s],clean[s],insert[s],score[s],evaluate[s]\n";
+  std::string csv = "step,sense[s],clean[s],insert[s],refine[s],score[s],evaluate[s]\n";
   for (const StepRecord& r : session.records())
-    csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", r.step, r.seconds.sense, r.seconds.clean,
-                       r.seconds.insert, r.seconds.score, r.seconds.evaluate);
+    csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", r.step, r.seconds.sense, r.seconds.clean,
+                       r.seconds.insert, r.seconds.refine, r.seconds.score, r.seconds.evaluate);
   return csv;
 }
 
@@ -143,6 +162,9 @@ void write_scan(const Session& session, const std::filesystem::path& folder) {
   write_octree(session.map(), folder / "map.ot");
   write_octree(session.map(), folder / "map.bt");
   write_ply(cloud, folder / "cloud.ply");
+  if (!session.refinement()) return;
+  write_file(folder / "refinement.csv", refinement_csv(session));
+  write_octree(to_occupancy_map(session.refinement()->posterior(), session.map().model()), folder / "posterior.ot");
 }
 
 }  // namespace nextview

@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "core/evaluation/entropy.hpp"
-#include "core/map/traversal.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/planner/rank_correlation.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/visited_voxels.hpp"
 
 namespace nextview {
 namespace {
@@ -174,17 +174,7 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record) {
   if (!known_object_) return;
   Stopwatch watch(record.seconds.evaluate);
   const Scan ideal = back_project(measurement.ideal_image, record.T_world_camera, configuration_.sensor.max_range);
-  const Eigen::Vector3f origin = ideal.origin.cast<float>();
-  for (const PointCloud* ends : {&ideal.returns, &ideal.passes})
-    for (const Eigen::Vector3f& end : *ends) {
-      const auto mark = [&](int x, int y, int z) {
-        if (map_.grid().contains({x, y, z})) visited_voxels_[map_.grid().index({x, y, z})] = 1;
-        return true;
-      };
-      walk_segment(map_.grid(), origin, end, mark);
-      const Eigen::Vector3i last = map_.grid().cell_at(end.cast<double>());
-      mark(last.x(), last.y(), last.z());
-    }
+  mark_visited(map_.grid(), ideal, visited_voxels_);
   known_object_->add_view(record.T_world_camera, measurement.scan.returns);
   record.coverage = known_object_->coverage().of_all();
   record.coverage_visible = known_object_->coverage().of_visible();

@@ -7,15 +7,16 @@
 namespace nextview {
 namespace {
 
-/// The posterior by summing the likelihood over the share of rays that an occupied voxel stops (midpoints).
+/// The posterior by summing the likelihood over the share of rays that a voxel stops, free or occupied (midpoints).
 double integrated_posterior(int hits, int passes) {
   constexpr int steps = 2'000'000;
-  double occupied = 0.0;
+  double occupied = 0.0, free = 0.0;
   for (int i = 0; i < steps; ++i) {
-    const double q = (i + 0.5) / steps, density = 2.0 * (1.0 - q);  // Beta(1, 2)
-    occupied += std::exp(hits * std::log(q) + passes * std::log1p(-q)) * density / steps;
+    const double q = (i + 0.5) / steps, log_q = std::log(q), log_rest = std::log1p(-q);
+    const double likelihood = std::exp(hits * log_q + passes * log_rest);
+    occupied += likelihood * 2.0 * (1.0 - q);                 // Beta(1, 2)
+    free += likelihood * 999.0 * std::exp(998.0 * log_rest);  // Beta(1, 999)
   }
-  const double free = std::pow(0.001, hits) * std::pow(0.999, passes);
   return 0.05 * occupied / (0.05 * occupied + 0.95 * free);
 }
 
@@ -37,7 +38,7 @@ TEST(BetaBinomial, IsTheIntegralOverTheShare) {
     const RayCounts counts{std::uint32_t(hits), std::uint32_t(passes), 0, 0};
     EXPECT_NEAR(beta_binomial(counts), integrated_posterior(hits, passes), 1e-7) << hits << ' ' << passes;
   }
-  // 1 hit: 0.05 / 3 against 0.95 / 1000. By hand, E[q] = 1/3.
+  // 1 hit: 0.05 / 3 against 0.95 / 1000. By hand, E[q] is 1/3 and 1/1000.
   EXPECT_NEAR(beta_binomial({1, 0, 0, 0}), 0.05 / 3 / (0.05 / 3 + 0.95 / 1000), 1e-12);
 }
 
@@ -50,10 +51,25 @@ TEST(BetaBinomial, ManyRaysNeitherOverflowNorLeaveTheUnitInterval) {
     }
 }
 
-TEST(BetaBinomial, PassesWithoutAHitSayFreeUpToItsKnownLimit) {
-  EXPECT_LT(beta_binomial({0, 1'000, 0, 0}), 1e-3);
-  EXPECT_LT(beta_binomial({0, 11'000, 0, 0}), 0.5);
-  EXPECT_GT(beta_binomial({0, 12'000, 0, 0}), 0.5);
+// By hand: without a hit the likelihoods are 2 / (2 + passes) and 999 / (999 + passes). With a false-hit rate of
+// exactly 0.001, from about 11,700 passes on a lower share of hits would fit better, and be called occupied.
+TEST(BetaBinomial, PassesWithoutAHitSayFreeHoweverManyThereAre) {
+  double before = 0.05;
+  for (const std::uint32_t passes : {1u, 10u, 100u, 1'000u, 11'000u, 12'000u, 100'000u, 1'000'000u}) {
+    const double p = beta_binomial({0, passes, 0, 0}), n = passes;
+    const double odds = 0.05 / 0.95 * (2.0 / (2.0 + n)) * (999.0 + n) / 999.0;
+    EXPECT_NEAR(p / (odds / (1.0 + odds)), 1.0, 1e-7) << passes;
+    EXPECT_LT(p, before) << passes;
+    before = p;
+  }
+  EXPECT_NEAR(beta_binomial({0, 4'000'000'000, 0, 0}), 1.0535e-4, 1e-7);  // the limit, 2 / 999 of the prior's odds
+}
+
+TEST(BetaBinomial, WithManyRaysAShareOfHitsDecides) {
+  for (const std::uint32_t thousands : {1'000u, 1'000'000u}) {
+    EXPECT_LT(beta_binomial({8 * thousands, 992 * thousands, 0, 0}), 0.5) << thousands;
+    EXPECT_GT(beta_binomial({10 * thousands, 990 * thousands, 0, 0}), 0.5) << thousands;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <iostream>
@@ -60,7 +61,10 @@ TEST(RecordedScans, whatIsNoFileSaysWhy) {
   const TemporaryFolder folder;
   EXPECT_THAT(complaint(folder / "nowhere.txt"), HasSubstr("No such file"));
   std::filesystem::create_directory(folder / "folder");
-  EXPECT_THAT(complaint(folder / "folder"), HasSubstr("directory"));
+  EXPECT_THAT(complaint(folder / "folder"), HasSubstr("is a directory"));
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(complaint(folder / "pipe"), HasSubstr("is a pipe")) << "nobody writes to it: reading it would not end";
+  EXPECT_THAT(complaint("/dev/zero"), HasSubstr("device"));
   EXPECT_THAT(complaint(folder.write("empty.txt", "")), EndsWith("is empty"));
   EXPECT_THAT(complaint(folder.write("blank.txt", "\n \n")), HasSubstr("no scan"));
   EXPECT_THAT(complaint(folder.write("views.txt", "view 0 0 0 0 0 0 1\n")), HasSubstr("no scan"));

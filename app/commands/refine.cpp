@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
+#include "app/commands/progress.hpp"
+#include "core/cloud/range_scan_folder.hpp"
+#include "core/session/diagnostics_text.hpp"
+#include "core/session/refinement.hpp"
+#include "core/session/scan_files.hpp"
+#include "ui/figures/refinement_figure.hpp"
+#include "ui/figures/sensor_model_figure.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RefineArguments {
+  ConfigurationOptions options;
+  std::string input, out = "refined";
+  double resolution = 0.0, stand_off = default_stand_off;
+  bool no_pictures = false;
+};
+
+/// What there is to refine: a folder that `scan` wrote, a folder of range scans, or a scene file.
+RefinementJob find_job(const RefineArguments& arguments, const Progress& progress, std::stop_token stop) {
+  const fs::path input = arguments.input;
+  if (!fs::exists(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
+  if (fs::exists(input / "config.toml"))
+    return refinement_job(
+        input, [&](Configuration& c) { arguments.options.apply_to(c); }, progress, stop);
+  const RecordedScene scene = fs::is_directory(input)
+                                  ? read_range_scan_folder(input, arguments.stand_off, arguments.resolution)
+                                  : read_recorded_scene(input);
+  const Configuration configuration = arguments.options.configuration();
+  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
+  try {
+    RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
+    job.name = fs::absolute(input).lexically_normal().stem().string();
+    job.configuration = to_toml(configuration);
+    return job;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", input.string(), error.what()));
+  }
+}
+
+std::string percent(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f}", 100.0 * *share) : std::string("-");
+}
+
+/// The numbers before and after, for the terminal and the picture.
+std::vector<RefinementNumber> numbers(const Refinement& r) {
+  std::vector<RefinementNumber> rows;
+  const auto add = [&](const char* label, const std::string& before, const std::string& after, const char* unit) {
+    rows.push_back({label, before, after, unit});
+  };
+  if (r.scores_before) {
+    const MapScores &a = *r.scores_before, &b = *r.scores_after;
+    const auto number = [](double x) { return fmt::format("{:.3f}", x); };
+    add("log loss near the surface, touch", number(a.touch_band.log_loss), number(b.touch_band.log_loss), "nats");
+    add("log loss near the surface, centre", number(a.centre_band.log_loss), number(b.centre_band.log_loss), "nats");
+    add("log loss, all visited, touch", number(a.touch_visited.log_loss), number(b.touch_visited.log_loss), "nats");
+    add("D_KL, all visited, touch", fmt::format("{:.1f}", a.touch_visited.divergence / 1e3),
+        fmt::format("{:.1f}", b.touch_visited.divergence / 1e3), "knats");
+    add("surface recall", percent(a.surface_recall), percent(b.surface_recall), "%");
+    if (a.openings.rows > 0) {
+      add("open rows of slots and bores", percent(a.openings.row_openness()), percent(b.openings.row_openness()), "%");
+      add("rows open through solid walls", percent(a.openings.leaks()), percent(b.openings.leaks()), "%");
+    }
+  }
+  const auto count = [](std::span<const Voxel> voxels, auto which) {
+    return fmt::format("{}", std::count_if(voxels.begin(), voxels.end(), which));
+  };
+  const auto occupied = [](const Voxel& v) { return v.measured && v.probability >= 0.5f; };
+  const auto unsure = [](const Voxel& v) { return v.measured && v.voxel_class == VoxelClass::unknown; };
+  const auto measured = [](const Voxel& v) { return v.measured; };
+  add("voxels measured, informed", count(r.conventional.voxels(), measured), count(r.refined, measured), "");
+  add("of these occupied", count(r.conventional.voxels(), occupied), count(r.refined, occupied), "");
+  add("of these unknown", count(r.conventional.voxels(), unsure), count(r.refined, unsure), "");
+  return rows;
+}
+
+std::size_t best(const std::vector<double>& gains) {
+  return static_cast<std::size_t>(std::max_element(gains.begin(), gains.end()) - gains.begin());
+}
+
+void print(const RefinementJob& job, const Refinement& r) {
+  const SamplerDiagnostics& d = r.posterior.diagnostics;
+  fmt::print(
+      "{}: {} views, {} rays joined to {}, {} voxels informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
+      job.name, job.scans.size(), d.measured_rays, d.joined_rays, d.informed_voxels, d.build_seconds, d.sample_seconds);
+  fmt::print("model {}: {}\n\n", name(job.sampler.model.kind), diagnostics_line(d));
+  fmt::print("{:<36} {:>14} {:>14}\n", "", "conventional", "Gibbs");
+  for (const RefinementNumber& n : numbers(r))
+    fmt::print("{:<36} {:>14} {:>14} {}\n", n.label, n.before, n.after, n.unit);
+  if (!r.gains_after.empty())
+    fmt::print(
+        "\nThe view with the most entropy in sight: {} on the conventional map, {} on the Gibbs map; the ranks of "
+        "all {} correlate {:.2f}.\n",
+        best(r.gains_before), best(r.gains_after), r.gains_after.size(), r.rank_correlation);
+}
+
+void write_pictures(const RefinementJob& job, const Refinement& r, const fs::path& out) {
+  RefinementPicture picture;
+  picture.title = fmt::format("{} refined", job.name);
+  picture.remark = fmt::format("{} views, model {}", job.scans.size(), name(job.sampler.model.kind));
+  picture.caption = diagnostics_line(r.posterior.diagnostics);
+  picture.grid = job.grid;
+  picture.conventional = r.conventional.voxels();
+  picture.gibbs = r.refined;
+  picture.diagnostics = r.posterior.diagnostics;
+  if (job.truth) {
+    picture.object = job.truth->mesh.get();
+    picture.openings = job.truth->openings;
+    picture.numbers_note = "near: within 3 voxels of the surface; visited by noise-free rays";
+  }
+  picture.numbers = numbers(r);
+  write_png(draw_refinement_figure(picture), out / "refinement.png");
+  write_png(draw_sensor_model_figure({job.sampler.model, job.grid.resolution, 0.6 * job.max_range, job.max_range}),
+            out / "sensor_models.png");
+}
+
+int run(const RefineArguments& arguments) {
+  const fs::path out = arguments.out;
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
+  const RefinementJob job = find_job(arguments, progress, stop.token());
+  prepare_output_folder(out);
+  const Refinement refinement = refine(job, progress, stop.token());
+  progress.clear();
+  print(job, refinement);
+  write_refinement(job, refinement, out);
+  if (!arguments.no_pictures) write_pictures(job, refinement, out);
+  fmt::print("\n{}/\n", out.string());
+  if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");
+  fmt::print(
+      "  posterior.ot, posterior.bt, conventional.ot   the maps (OctoMap)\n"
+      "  metrics.json, scores.csv, trace.csv, timings.csv, config.toml   the numbers\n");
+  return stop.token().stop_requested() ? exit_stopped : 0;
+}
+
+}  // namespace
+
+void add_refine_command(CLI::App& program) {
+  auto arguments = std::make_shared<RefineArguments>();
+  CLI::App* app = program.add_subcommand(
+      "refine", "Refine the map of finished scans by Gibbs sampling: the posterior without independence assumptions");
+  app->add_option("INPUT", arguments->input,
+                  "folder that `scan` wrote, folder of range scans (Stanford's: .conf and .ply), or scene file")
+      ->required();
+  arguments->options.add_settings_to(*app, {"gibbs.", "seed"});
+  app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
+  app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
+  app->add_option("--voxel", arguments->resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--stand-off", arguments->stand_off,
+                  "range scans: the scanner's distance, which they do not tell [m]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app->footer(
+      "Examples:\n  nextview refine out --out refined\n  nextview refine out --gibbs.model beam --out beam\n"
+      "  nextview refine stanford_bunny --out bunny");
+  app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
+}
+
+}  // namespace nextview

@@ -1,0 +1,30 @@
+#pragma once
+#include "core/sensor/recorded_scans.hpp"
+
+namespace nextview {
+
+/// From the scanner to the nearest point of a scan, along the axis it looks along [m]. A guess: the range images do not
+/// tell it.
+inline constexpr double default_stand_off = 0.7;
+
+/// Reads the range scans of a folder as the Stanford 3D Scanning Repository has them: one file `*.conf` with a line
+/// `bmesh FILE.ply tx ty tz qx qy qz qw` a scan, and beside it each FILE.ply, or FILE.ply.gz. Other lines of the .conf
+/// and all but the vertices are passed over. A point goes to the world by p_world = R(q)^T p_scan + t [m].
+///
+/// The scanner sits on the +z side of a scan and looks along -z. Its camera is put at the mean x and y of the scan's
+/// points, `stand_off` [m] beyond their greatest z; rays from there run nearly along those of the scanner, not exactly.
+///
+/// Parameters of the scene, by the names that read_recorded_scene knows: `resolution_m`, as given, or if 0 a hundredth
+/// of the longest side of all points' bounding box, rounded to one significant digit; `bbox_min_x_m` to `bbox_max_z_m`,
+/// that box and a tenth of its longest side around it, snapped outwards to the resolution; `max_sensor_range_m`, 1 %
+/// beyond the farthest point; `max_ray_depth_m`, from a view to behind the box. Views: 48 on a sphere around the box's
+/// centre, its radius 1.8 times the box's longest side.
+/// @throws std::invalid_argument if `stand_off` is not from 0.01 to 100 m or `resolution` neither 0 nor from 0.0001 to
+///         1 m.
+/// @throws std::runtime_error with one line that names the folder or file and the reason: none or several .conf, a line
+///         that is wrong, missing or unreadable scans, scans without points, points that span less than 1 cm or over
+///         40 m (other units?).
+RecordedScene read_range_scan_folder(const std::filesystem::path& folder, double stand_off = default_stand_off,
+                                     double resolution = 0.0);
+
+}  // namespace nextview

@@ -1,0 +1,48 @@
+#include "core/file/gzip_file.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace nextview {
+namespace {
+
+/// Why zlib stopped, in words; empty if all is well.
+std::string failure(gzFile stream) {
+  int error = Z_OK;
+  gzerror(stream, &error);
+  if (error == Z_OK || error == Z_STREAM_END) return "";
+  if (error == Z_BUF_ERROR) return "it is truncated";
+  if (error == Z_DATA_ERROR) return "its compressed data are damaged";
+  if (error == Z_ERRNO) return std::strerror(errno);
+  return zError(error);
+}
+
+}  // namespace
+
+std::string read_gzip_file(const std::filesystem::path& file, std::uintmax_t largest) {
+  const auto cannot = [&](const std::string& why) {
+    return std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), why));
+  };
+  errno = 0;
+  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> stream(gzopen(file.c_str(), "rb"), gzclose_r);
+  if (!stream) throw cannot(errno ? std::strerror(errno) : "out of memory");
+  std::string content;
+  std::vector<char> part(1 << 17);
+  for (int got; (got = gzread(stream.get(), part.data(), static_cast<unsigned>(part.size()))) > 0;) {
+    if (static_cast<std::uintmax_t>(got) > largest - content.size())
+      throw cannot(fmt::format("it holds more than {} bytes, decompressed", largest));
+    content.append(part.data(), static_cast<std::size_t>(got));
+  }
+  // A file that is cut off ends like a whole one; only the error that is then set tells.
+  if (const std::string why = failure(stream.get()); !why.empty()) throw cannot(why);
+  if (gzdirect(stream.get())) throw cannot("it is not compressed with gzip");  // zlib passes other bytes through
+  return content;
+}
+
+}  // namespace nextview

@@ -1,0 +1,12 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace nextview {
+
+/// What a gzip file holds, decompressed. A few compressed bytes can hold gigabytes: `largest` bounds what comes out.
+/// @throws std::runtime_error naming the file and the reason: missing, a folder, not compressed with gzip, truncated,
+///         damaged, holds more than `largest` [bytes].
+std::string read_gzip_file(const std::filesystem::path& file, std::uintmax_t largest = 1u << 30);
+
+}  // namespace nextview

@@ -1,0 +1,74 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/evaluation/map_quality.hpp"
+#include "core/evaluation/openings.hpp"
+#include "core/session/configuration.hpp"
+#include "core/session/known_object.hpp"
+#include "core/session/map_refinement.hpp"
+#include "core/session/scene_parameters.hpp"
+
+namespace nextview {
+
+/// What is known of the object that was scanned, if it was a simulation.
+struct RefinementTruth {
+  std::shared_ptr<const TriangleMesh> mesh;
+  GroundTruth voxels;
+  std::vector<std::uint8_t> visited;  ///< by noise-free rays
+  std::vector<Opening> openings;      ///< of our own parts
+};
+
+/// Everything that refining the map of finished scans needs.
+struct RefinementJob {
+  std::string name;  ///< of the object or scene, for people
+  VoxelGrid grid;
+  InverseSensorModel model;
+  double max_range = 1.5;   ///< [m]
+  double ray_length = 1.5;  ///< of rays that score a view [m]
+  std::vector<Scan> scans;
+  std::vector<Pose> candidates;
+  RayBundle bundle;
+  PosteriorSamplerConfig sampler;
+  std::optional<RefinementTruth> truth;
+  std::string configuration;  ///< TOML, to be written beside the results
+};
+
+/// A folder that `scan` wrote: its views are taken again, with the same noise. Settings of `gibbs`, by key, override
+/// those that the folder's configuration has.
+/// @throws std::runtime_error naming the file and the reason.
+RefinementJob refinement_job(const std::filesystem::path& scan_folder,
+                             const std::function<void(Configuration&)>& override_settings,
+                             const Progress& progress = {}, std::stop_token stop = {});
+/// A recorded scene. Its sensor's noise is not known: a sigma of 0 means a quarter of a voxel edge.
+RefinementJob refinement_job(const RecordedScene& scene, const GibbsConfig& gibbs, std::uint64_t seed,
+                             const std::function<void(const std::string&)>& warn = {});
+
+/// A map's scores; nothing where there is no truth.
+struct MapScores {
+  MapQuality touch_band, centre_band;        ///< visited voxels near the surface
+  MapQuality touch_visited, centre_visited;  ///< all visited voxels
+  std::optional<double> surface_recall;      ///< touch truth
+  OpeningScore openings;                     ///< all of the part's; centre truth
+};
+
+/// The map before and after.
+struct Refinement {
+  OccupancyMap conventional;
+  GibbsPosterior posterior;
+  std::vector<Voxel> refined;                     ///< the posterior as gains see it
+  std::vector<double> gains_before, gains_after;  ///< the gain `gibbs` of each candidate on either map [nats]
+  double rank_correlation = 0.0;                  ///< Spearman's
+  std::optional<MapScores> scores_before, scores_after;
+};
+
+Refinement refine(const RefinementJob& job, const Progress& progress = {}, std::stop_token stop = {});
+std::optional<MapScores> score_map(std::span<const Voxel> voxels, const std::optional<RefinementTruth>& truth);
+
+/// Writes posterior.ot, posterior.bt and conventional.ot, scores.csv (each candidate before and after), trace.csv (each
+/// sweep of each chain), metrics.json (diagnostics, and scores where there is a truth), config.toml; timings.csv is the
+/// only one that differs between two runs. @throws std::runtime_error naming the file and the reason.
+void write_refinement(const RefinementJob& job, const Refinement& refinement, const std::filesystem::path& folder);
+
+}  // namespace nextview

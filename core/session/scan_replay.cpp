@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "core/file/atomic_file.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "core/mesh/parts.hpp"
+#include "core/session/refinement.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/session/visited_voxels.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The poses that views.csv says were taken. Candidates are looked up, as the text of a pose rounds.
+std::vector<Pose> views_taken(const fs::path& file, const Configuration& configuration) {
+  const auto candidates = candidate_views(configuration.views, Vector3::Zero());
+  std::istringstream text(read_file(file, std::uintmax_t{1} << 24));
+  std::string line;
+  std::getline(text, line);
+  std::vector<Pose> poses;
+  for (int number = 2; std::getline(text, line); ++number) {
+    for (char& c : line) c = c == ',' ? ' ' : c;
+    std::istringstream row(line);
+    int step = 0, view = 0;
+    Vector3 p;
+    Eigen::Quaterniond q;
+    row >> step >> view >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
+    const bool whole = !row.fail() && (row >> std::ws).eof();
+    if (!whole || view < -1 || view >= int(candidates.size()) || std::abs(q.norm() - 1.0) > 1e-6 || !p.allFinite())
+      throw std::runtime_error(fmt::format("{}:{}: not a view of this scan", file.string(), number));
+    if (view >= 0)
+      poses.push_back(candidates[view]);
+    else if (step == 1)
+      poses.push_back(configured_start_view(configuration));
+    else
+      poses.push_back(Eigen::Translation3d(p) * q.normalized());
+  }
+  if (poses.empty()) throw std::runtime_error(fmt::format("{}: holds no view", file.string()));
+  return poses;
+}
+
+/// The openings that stand beside a part of ours, moved as its mesh was.
+std::vector<Opening> known_openings(const fs::path& object, const MeshPlacement& placement) {
+  const fs::path file = fs::path(object).replace_extension(".json");
+  std::vector<Opening> openings;
+  if (fs::exists(file))
+    for (const Opening& opening : read_openings(file)) openings.push_back(placed(opening, placement));
+  return openings;
+}
+
+}  // namespace
+
+RefinementJob refinement_job(const fs::path& folder, const std::function<void(Configuration&)>& override_settings,
+                             const Progress& progress, std::stop_token stop) {
+  Configuration c = read_configuration(folder / "config.toml");
+  if (override_settings) override_settings(c);
+  c.validate();
+  const auto poses = views_taken(folder / "views.csv", c);
+  const fs::path object = resolve_object(c.object.file);
+  PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side});
+  const RayScene scene(mesh.mesh);
+  const DepthCamera camera(c.sensor);
+
+  RefinementJob job;
+  job.name = object.stem().string();
+  job.grid = configured_region(c);
+  job.model = c.map.model;
+  job.max_range = c.sensor.max_range;
+  job.ray_length = c.planner.ray_length;
+  job.candidates = candidate_views(c.views, Vector3::Zero());
+  job.bundle = scoring_rays(c, camera.camera());
+  job.sampler = posterior_sampler_config(c);
+  job.configuration = to_toml(c);
+  std::vector<std::uint8_t> visited(job.grid.voxel_count());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (stop.stop_requested()) throw std::runtime_error("stopped");
+    if (progress) progress(double(k) / double(poses.size()), "taking the views again");
+    Scan scan = back_project(camera.sense(scene, poses[k], c.seed, static_cast<std::uint32_t>(k + 1)), poses[k],
+                             c.sensor.max_range);
+    scan.returns = clean(scan.returns, c.cloud);
+    job.scans.push_back(std::move(scan));
+    mark_visited(job.grid, back_project(camera.sense_ideal(scene, poses[k]), poses[k], c.sensor.max_range), visited);
+  }
+  GroundTruth truth = ground_truth(mesh.mesh, job.grid);
+  job.truth = RefinementTruth{std::make_shared<TriangleMesh>(std::move(mesh.mesh)), std::move(truth),
+                              std::move(visited), known_openings(object, mesh.placement)};
+  return job;
+}
+
+}  // namespace nextview

@@ -1,0 +1,132 @@
+#include "core/session/scene_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+/// The scene's parameters by the names of the reference code, with its defaults.
+class Parameters {
+ public:
+  explicit Parameters(const std::map<std::string, double>& given) : given_(given) {}
+
+  double operator()(const std::string& name, double otherwise) {
+    known_.push_back(name);
+    const auto found = given_.find(name);
+    return found == given_.end() ? otherwise : found->second;
+  }
+  double positive(const std::string& name, double otherwise) {
+    const double value = (*this)(name, otherwise);
+    if (!(value > 0.0))
+      throw std::invalid_argument(fmt::format("parameter {} must be greater than 0, not {}", name, value));
+    return value;
+  }
+  std::vector<std::string> not_asked_for() const {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : given_)
+      if (std::find(known_.begin(), known_.end(), name) == known_.end()) names.push_back(name);
+    return names;
+  }
+
+ private:
+  const std::map<std::string, double>& given_;
+  std::vector<std::string> known_;
+};
+
+/// OctoMap numbers voxels with 16 bits an axis, the origin in the middle.
+void require_in_octree(const Vector3& point, double resolution, std::string_view what) {
+  const double reach = 32768.0 * resolution;
+  if ((point.array().abs() < reach).all()) return;
+  throw std::invalid_argument(
+      fmt::format("{} reaches beyond {} m, all that an octree of resolution {} m can hold", what, reach, resolution));
+}
+
+ReferenceMap::Parameters map_parameters(Parameters& p) {
+  ReferenceMap::Parameters m;
+  m.resolution = p.positive("resolution_m", m.resolution);
+  if (m.resolution < 1e-4 || m.resolution > 1.0)
+    throw std::invalid_argument(fmt::format("parameter resolution_m must be from 0.0001 to 1, not {}", m.resolution));
+  m.model.hit = p("hit_probability", m.model.hit);
+  m.model.miss = p("miss_probability", m.model.miss);
+  m.model.clamp_min = p("clamping_threshold_min", m.model.clamp_min);
+  m.model.clamp_max = p("clamping_threshold_max", m.model.clamp_max);
+  m.model.occupancy_threshold = p("occupancy_threshold", m.model.occupancy_threshold);
+  m.model.free_below = p("p_unknown_lower_bound", m.model.free_below);
+  m.model.occupied_above = p("p_unknown_upper_bound", m.model.occupied_above);
+  m.unknown_prior = p("p_unknown_prior", m.unknown_prior);
+  m.use_bounding_box = p("use_bounding_box", 1.0) != 0.0;
+  m.lower = {p("bbox_min_x_m", p("bbox_min_x", -0.64)), p("bbox_min_y_m", p("bbox_min_y", -0.64)),
+             p("bbox_min_z_m", p("bbox_min_z", -0.64))};
+  m.upper = {p("bbox_max_x_m", p("bbox_max_x", 0.64)), p("bbox_max_y_m", p("bbox_max_y", 0.64)),
+             p("bbox_max_z_m", p("bbox_max_z", 0.64))};
+  if ((m.lower.array() >= m.upper.array()).any())
+    throw std::invalid_argument("the bounding box (bbox_min_*, bbox_max_*) is empty");
+  if (m.use_bounding_box) {
+    require_in_octree(m.lower, m.resolution, "the bounding box");
+    require_in_octree(m.upper, m.resolution, "the bounding box");
+  }
+  m.max_sensor_range = p("max_sensor_range_m", m.max_sensor_range);
+  m.occlusion_distance = p.positive("occlusion_update_dist_m", m.occlusion_distance);
+  m.max_ray_depth = p.positive("max_ray_depth_m", m.max_ray_depth);
+  return m;
+}
+
+RayBundle bundle(Parameters& p) {
+  PinholeCamera camera;
+  const auto pixels = [&](const char* name, double otherwise) {
+    const double value = p.positive(name, otherwise);
+    if (value > 20'000.0)
+      throw std::invalid_argument(fmt::format("parameter {} must be at most 20000, not {}", name, value));
+    return static_cast<int>(value);
+  };
+  camera.width = pixels("img_width_px", 752);
+  camera.height = pixels("img_height_px", 480);
+  camera.fx = p.positive("fx", 448.1);
+  camera.fy = p.positive("fy", 448.1);
+  camera.cx = p("cx", 376.5);
+  camera.cy = p("cy", 240.5);
+  const Eigen::Vector2d spacing(1.0 / p.positive("raycasting_resolution_x", 0.1),
+                                1.0 / p.positive("raycasting_resolution_y", 0.1));
+  const auto share = [&](const char* name, double otherwise) { return std::clamp(p(name, otherwise), 0.0, 1.0); };
+  return RayBundle::reference(camera, {share("min_x_perc", 0.25), share("min_y_perc", 0.25)},
+                              {share("max_x_perc", 0.75), share("max_y_perc", 0.75)}, spacing.cwiseMax(0.1));
+}
+
+}  // namespace
+
+VoxelGrid SceneParameters::grid() const {
+  VoxelGrid grid;
+  grid.resolution = map.resolution;
+  grid.first = (map.lower / map.resolution).array().floor().matrix().cast<int>();
+  grid.size = (map.upper / map.resolution).array().ceil().matrix().cast<int>() - grid.first;
+  if (grid.voxel_count() > (std::size_t{1} << 28))
+    throw std::invalid_argument(
+        fmt::format("the bounding box holds {} voxels; at most {} are held", grid.voxel_count(), 1 << 28));
+  return grid;
+}
+
+SceneParameters scene_parameters(const RecordedScene& scene, const std::function<void(const std::string&)>& warn) {
+  Parameters parameters(scene.parameters);
+  SceneParameters result{map_parameters(parameters), bundle(parameters)};
+  result.map.model.validate();
+  parameters("voxels_in_void_ray", 100.0);  // the reference code has it, and never gets to use it
+  for (const std::string& name : parameters.not_asked_for())
+    if (warn) warn(fmt::format("parameter {} has no meaning here and is ignored", name));
+  for (const RecordedScan& scan : scene.scans)
+    require_in_octree(scan.T_world_camera.translation(), result.map.resolution, "the position of a scan");
+  for (const Pose& view : scene.views)
+    require_in_octree(view.translation(), result.map.resolution, "the position of a view");
+  return result;
+}
+
+Scan to_scan(const RecordedScan& recorded) {
+  Scan scan;
+  scan.origin = recorded.T_world_camera.translation();
+  for (const Vector3& p : recorded.points) scan.returns.push_back((recorded.T_world_camera * p).cast<float>());
+  return scan;
+}
+
+}  // namespace nextview
