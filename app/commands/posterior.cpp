@@ -20,7 +20,7 @@ struct PosteriorArguments {
   std::string toy, model = "attenuation", csv;
   double prior = 0.1;
   std::optional<double> sigma;  ///< [m]; the toy has its own
-  int sweeps = 20'000;
+  int sweeps = 50'000;
   std::uint64_t seed = 1;
 };
 

@@ -32,7 +32,9 @@ class StateChain final : public Chain {
 
   void start(std::vector<std::uint8_t> map) override { state_.reset(std::move(map)); }
   std::span<const std::uint8_t> map() const override { return state_.map(); }
-  std::size_t bytes() const override { return state_.bytes() + 3 * sizeof(float) * state_.map().size(); }
+  std::size_t bytes() const override {
+    return state_.bytes() + (2 * sizeof(double) + sizeof(float)) * state_.map().size();
+  }
 
   std::size_t sweep(PosteriorSums* mean) override {
     ++sweep_;
@@ -165,8 +167,8 @@ class StateChain final : public Chain {
     if (!exact) p_occupied = p_occupied > 0.5 ? algorithm1_occupied : algorithm1_free;
 
     if (mean) {
-      mean->occupied[voxel] += static_cast<float>(p_occupied);
-      mean->upper[voxel] += static_cast<float>(occupied > 0.0 ? p_occupied * used.back() / occupied : 0.0);
+      mean->occupied[voxel] += p_occupied;
+      mean->upper[voxel] += occupied > 0.0 ? p_occupied * used.back() / occupied : 0.0;
     }
     set(voxel, level_at((u - (1.0 - p_occupied)) / p_occupied * occupied, used));
   }

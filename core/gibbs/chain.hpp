@@ -4,27 +4,18 @@
 
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/gibbs/ray_lists.hpp"
+#include "core/gibbs/sites.hpp"
 
 namespace nextview {
 
 /// What a chain adds up for the posterior mean: Rao-Blackwellised, that is the conditional probabilities themselves and
 /// not the levels drawn from them.
 struct PosteriorSums {
-  std::vector<float> occupied, upper;  ///< sums of P(level > 0) and P(uppermost level), per voxel
-  std::vector<float> reach;            ///< measured rays that get there, see SurvivalState::add_reach
-  int near_sweeps = 0;                 ///< sweeps that voxels near a return have had
-  int front_sweeps = 0;                ///< ... and those in front only: every eighth, as they hardly change
+  std::vector<double> occupied, upper;  ///< sums of P(level > 0) and P(uppermost level), per voxel
+  std::vector<float> reach;             ///< measured rays that get there, see SurvivalState::add_reach
+  int near_sweeps = 0;                  ///< sweeps that voxels near a return have had
+  int front_sweeps = 0;                 ///< ... and those in front only: every eighth, as they hardly change
   int reach_samples = 0;
-};
-
-/// The voxels that a chain updates: those that a ray may have ended in, and those that it can only have passed. The
-/// latter are many, and nearly all of them stay free.
-struct Sites {
-  enum Kind : std::uint8_t { none, front, near };
-  std::vector<std::uint32_t> near_voxels, front_voxels;  ///< ascending
-  std::vector<Kind> kind;                                ///< per voxel of the grid
-
-  std::size_t count() const { return near_voxels.size() + front_voxels.size(); }
 };
 
 /// One Markov chain over maps. Every random number depends on the seed, the chain's index, the sweep and the voxel

@@ -8,7 +8,7 @@
 namespace nextview {
 namespace {
 
-constexpr int reach_samples = 4;  ///< a chain, over the sweeps of the mean
+constexpr std::size_t reach_incidences = 300'000'000;  ///< that a chain looks at for the reach of voxels, about
 constexpr std::size_t traced_voxels = 500;
 constexpr double largest_r_hat = 1.05;
 constexpr double largest_trend = 2.576;    ///< |z| at p = 0.01
@@ -44,10 +44,12 @@ ChainEnsemble::ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig
 void ChainEnsemble::begin_mean(int sweeps) {
   const std::size_t voxels = sites_.kind.size();
   window_ = sweeps;
+  const std::size_t affordable = reach_incidences / std::max<std::size_t>(1, diagnostics_.incidences);
+  reach_samples_ = static_cast<int>(std::clamp<std::size_t>(affordable, 2, std::min(sweeps, 1000)));
   diagnostics_.burn_in = diagnostics_.sweeps;
   diagnostics_.divergence.clear();
   for (int c = 0; c < config_.chains; ++c) {
-    sums_[c] = {std::vector<float>(voxels), std::vector<float>(voxels), std::vector<float>(voxels)};
+    sums_[c] = {std::vector<double>(voxels), std::vector<double>(voxels), std::vector<float>(voxels)};
     traces_[c].assign(traced_.size(), {});
   }
 }
@@ -74,8 +76,8 @@ void ChainEnsemble::sweep_into_mean(int c) {
     traces_[c][t].push_back(chains_[c]->map()[traced_[t]] > 0 ? 1.0 : 0.0);
   const int done = sums.near_sweeps;
   // What one chain alone finds reached often enough for all is settled.
-  if (done * reach_samples / window_ > (done - 1) * reach_samples / window_)
-    chains_[c]->add_reach(sums, 0.5f * static_cast<float>(reach_samples * config_.chains));
+  if (std::int64_t{done} * reach_samples_ / window_ > std::int64_t{done - 1} * reach_samples_ / window_)
+    chains_[c]->add_reach(sums, 0.5f * static_cast<float>(reach_samples_ * config_.chains));
 }
 
 void ChainEnsemble::diagnose() {
@@ -102,16 +104,16 @@ bool ChainEnsemble::informed(std::size_t voxel) const {
   return samples > 0 && reach > 0.0 && reach >= 0.5 * samples;
 }
 
-float ChainEnsemble::mean(std::size_t voxel, std::vector<float> PosteriorSums::*which) const {
+float ChainEnsemble::mean(std::size_t voxel, std::vector<double> PosteriorSums::*which) const {
   float sum = 0.0f;
   for (const PosteriorSums& s : sums_) sum += chain_mean(s, voxel, which);
   return sum / static_cast<float>(sums_.size());
 }
 
 float ChainEnsemble::chain_mean(const PosteriorSums& sums, std::size_t voxel,
-                                std::vector<float> PosteriorSums::*which) const {
+                                std::vector<double> PosteriorSums::*which) const {
   const int sweeps = sites_.kind[voxel] == Sites::near ? sums.near_sweeps : sums.front_sweeps;
-  return (sums.*which)[voxel] / static_cast<float>(std::max(1, sweeps));
+  return static_cast<float>((sums.*which)[voxel] / std::max(1, sweeps));
 }
 
 std::vector<float> ChainEnsemble::near_means() const {

@@ -25,10 +25,10 @@ class ChainEnsemble {
 
   bool informed(std::size_t voxel) const;
   /// Mean over the chains of PosteriorSums::occupied or ::upper. @pre the voxel is a site
-  float mean(std::size_t voxel, std::vector<float> PosteriorSums::*which) const;
+  float mean(std::size_t voxel, std::vector<double> PosteriorSums::*which) const;
 
  private:
-  float chain_mean(const PosteriorSums& sums, std::size_t voxel, std::vector<float> PosteriorSums::*which) const;
+  float chain_mean(const PosteriorSums& sums, std::size_t voxel, std::vector<double> PosteriorSums::*which) const;
   void sweep_into_mean(int chain);
   std::vector<float> near_means() const;
   void note_divergence(const std::vector<float>& before);
@@ -43,6 +43,7 @@ class ChainEnsemble {
   std::vector<std::uint32_t> traced_;                     ///< a sample of the voxels near a return
   std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
   int window_ = 1;                                        ///< sweeps of the mean
+  int reach_samples_ = 2;                                 ///< of each chain over the mean: fewer where they are dear
 };
 
 }  // namespace nextview

@@ -10,8 +10,8 @@ namespace {
 
 /// Adds, for one map, how many measured rays reach each voxel, times the map's share.
 void add_reach(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
-               const std::vector<std::vector<VoxelSegment>>& segments, const std::vector<std::uint8_t>& map, double share,
-               std::vector<double>& reach) {
+               const std::vector<std::vector<VoxelSegment>>& segments, const std::vector<std::uint8_t>& map,
+               double share, std::vector<double>& reach) {
   for (std::size_t n = 0; n < segments.size(); ++n) {
     double survival = share * measurements.rays[n].weight;
     for (const VoxelSegment& s : segments[n]) {
@@ -35,6 +35,7 @@ bool advance(std::vector<std::uint8_t>& map, int levels) {
 ExactPosterior exact_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
                                const ForwardSensorModel& model, double prior) {
   model.validate();
+  measurements.validate();
   if (!(prior > 0.0 && prior < 1.0))
     throw std::invalid_argument(fmt::format("gibbs: prior must be between 0 and 1, not {}", prior));
   const std::size_t voxels = grid.voxel_count();

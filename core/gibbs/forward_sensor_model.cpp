@@ -66,9 +66,13 @@ double ForwardSensorModel::transmission(int level, double chord) const {
   return std::exp(-attenuations[level - 1] * chord);
 }
 
+double list_end(const RangeMeasurements& measurements, const RangeMeasurement& ray, const ForwardSensorModel& model) {
+  return ray.beyond_range ? measurements.max_range : measurements.range(ray) + 4.0 * model.sigma;
+}
+
 std::vector<VoxelSegment> ray_segments(const VoxelGrid& grid, const RangeMeasurements& measurements,
-                                     const RangeMeasurement& ray, const ForwardSensorModel& model) {
-  const double end = ray.beyond_range ? measurements.max_range : measurements.range(ray) + 4.0 * model.sigma;
+                                       const RangeMeasurement& ray, const ForwardSensorModel& model) {
+  const double end = list_end(measurements, ray, model);
   std::vector<VoxelSegment> segments;
   walk_ray_segments(grid, measurements.origins[ray.origin], measurements.direction(ray), end,
                     [&](int x, int y, int z, double enter, double exit) {

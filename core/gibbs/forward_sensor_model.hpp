@@ -56,9 +56,12 @@ struct ForwardSensorModel {
   double transmission(int level, double chord) const;
 };
 
-/// The voxels that a measurement depends on, in order: up to 4 sigma behind its range, or to the maximum range.
+/// How far a measurement depends on voxels [m]: up to 4 sigma behind its range, or to the maximum range.
+double list_end(const RangeMeasurements& measurements, const RangeMeasurement& ray, const ForwardSensorModel& model);
+
+/// The voxels that a measurement depends on, in order.
 std::vector<VoxelSegment> ray_segments(const VoxelGrid& grid, const RangeMeasurements& measurements,
-                                     const RangeMeasurement& ray, const ForwardSensorModel& model);
+                                       const RangeMeasurement& ray, const ForwardSensorModel& model);
 
 /// Density of a range `z` [m] given that the ray ended in this voxel [1/m] (beam, attenuation).
 double hit_density(const VoxelGrid& grid, const ForwardSensorModel& model, const Vector3& origin,

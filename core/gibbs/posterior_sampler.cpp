@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 
 #include "core/gibbs/chain_ensemble.hpp"
-#include "core/random/counter_random.hpp"
 
 namespace nextview {
 namespace {
@@ -23,36 +21,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// The voxels that the chains update, from what rays observe and, in mode `occupied`, from the start map.
-Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map) {
-  Sites sites;
-  const auto voxels = static_cast<std::uint32_t>(lists.grid().voxel_count());
-  sites.kind.assign(voxels, Sites::none);
-  for (std::uint32_t v = 0; v < voxels; ++v) {
-    if (!lists.observed(v)) continue;
-    if (config.updated == UpdatedVoxels::occupied && (start_map.empty() || start_map[v] < 0.5f)) continue;
-    sites.kind[v] = lists.is_near(v) ? Sites::near : Sites::front;
-    (lists.is_near(v) ? sites.near_voxels : sites.front_voxels).push_back(v);
-  }
-  return sites;
-}
-
-std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSamplerConfig& config,
-                                       std::span<const float> start_map, int chain) {
-  const auto upper = static_cast<std::uint8_t>(config.model.levels() - 1);
-  std::vector<std::uint8_t> levels(lists.grid().voxel_count(), 0);
-  const CounterRandom random(config.seed, random_stream::gibbs + static_cast<std::uint32_t>(chain) * 64 + 63);
-  for (std::uint32_t v = 0; v < levels.size(); ++v) {
-    if (!lists.observed(v)) continue;
-    const bool occupied = config.start == StartMap::occupied ||
-                          (config.start == StartMap::octree && !start_map.empty() && start_map[v] >= 0.5f);
-    if (occupied) levels[v] = upper;
-    if (config.start == StartMap::random)
-      levels[v] = static_cast<std::uint8_t>(random.uniform(v)[0] * config.model.levels());
-  }
-  return levels;
-}
 
 /// Sweeps until stopped, stationary, or all sweeps are made.
 class Schedule {
@@ -135,7 +103,12 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
                                 std::span<const std::vector<std::uint8_t>> warm, const SamplerProgress& progress,
                                 std::stop_token stop) {
   config.validate();
+  measurements.validate();
+  RayLists::require_holdable(grid);
   const std::size_t voxels = grid.voxel_count();
+  for (const auto& state : warm)
+    if (state.size() != voxels || *std::max_element(state.begin(), state.end()) >= config.model.levels())
+      throw std::invalid_argument("gibbs: a warm start is of another grid or model");
   if (!start_map.empty() && start_map.size() != voxels)
     throw std::invalid_argument("gibbs: the start map is of another grid");
   GibbsPosterior posterior{grid,
@@ -159,8 +132,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   const Stopwatch sampling;
   ChainEnsemble chains(lists, config, sites, d);
   for (int c = 0; c < config.chains; ++c) {
-    const bool is_warm = std::size_t(c) < warm.size() && warm[c].size() == voxels;
-    chains.start(c, is_warm ? warm[c] : start_levels(lists, config, start_map, c));
+    chains.start(c, std::size_t(c) < warm.size() ? warm[c] : start_levels(lists, config, start_map, c));
   }
   Schedule(chains, config, d, progress, stop).run(!warm.empty());
   for (std::size_t v = 0; v < voxels; ++v) {

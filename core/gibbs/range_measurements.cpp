@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 namespace nextview {
@@ -58,7 +60,7 @@ RangeMeasurement joined(const RangeMeasurements& from, std::span<const CellRay> 
   }
   RangeMeasurement ray = from.rays[members.front().ray];
   ray.end = (end / weight).cast<float>();
-  ray.weight = static_cast<std::uint16_t>(std::min<std::uint32_t>(weight, std::numeric_limits<std::uint16_t>::max()));
+  ray.weight = weight;
   return ray;
 }
 
@@ -111,6 +113,21 @@ void RangeMeasurements::add(const Scan& scan) {
   };
   for (const Eigen::Vector3f& end : scan.returns) append(end, false);
   for (const Eigen::Vector3f& end : scan.passes) append(end, true);
+}
+
+void RangeMeasurements::validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("range measurements: ") + what);
+  };
+  const auto near = [](const Vector3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= 1e6; };
+  require(max_range > 0.0 && max_range <= 1e6, "the maximum range must be over 0 and at most 1e6 m");
+  for (const Vector3& origin : origins) require(near(origin), "a camera is not at a finite place within 1e6 m");
+  for (const RangeMeasurement& ray : rays) {
+    require(ray.origin < origins.size(), "a ray has a camera that does not exist");
+    require(near(ray.end.cast<double>()), "a ray does not end at a finite place within 1e6 m");
+    require(ray.weight > 0, "a ray stands for none");
+    require(ray.end.cast<double>() != origins[ray.origin], "a ray ends where it begins");
+  }
 }
 
 void RangeMeasurements::append(const RangeMeasurements& other) {

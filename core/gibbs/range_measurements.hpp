@@ -12,7 +12,7 @@ namespace nextview {
 struct RangeMeasurement {
   Eigen::Vector3f end = Eigen::Vector3f::Zero();  ///< where it met a surface, or was given up [m, world]
   std::uint32_t origin = 0;                       ///< of RangeMeasurements::origins
-  std::uint16_t weight = 1;                       ///< how many measured rays it stands for
+  std::uint32_t weight = 1;                       ///< how many measured rays it stands for
   bool beyond_range = false;                      ///< nothing up to the maximum range
 };
 
@@ -27,6 +27,9 @@ struct RangeMeasurements {
   void add(const Scan& scan);
   /// Adds the rays of other measurements of the same maximum range.
   void append(const RangeMeasurements& other);
+
+  /// @throws std::invalid_argument if something is not finite, farther than 1e6 m, or has no origin.
+  void validate() const;
 
   Vector3 direction(const RangeMeasurement& ray) const {
     return (ray.end.cast<double>() - origins[ray.origin]).normalized();

@@ -33,14 +33,18 @@ struct RayLists::Block {
   std::vector<std::uint32_t> front, near;  ///< per voxel: how many entries; later: where the next one goes
 };
 
+void RayLists::require_holdable(const VoxelGrid& grid) {
+  if (grid.voxel_count() > most_voxels)
+    throw std::invalid_argument(fmt::format("gibbs: {} voxels are more than the {} it can hold; use a coarser map",
+                                            grid.voxel_count(), most_voxels));
+}
+
 double RayLists::chord(std::uint32_t code) { return code * longest_chord / (chord_codes - 1); }
 
 RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model)
     : grid_(grid), measurements_(measurements), model_(model) {
   model_.validate();
-  if (grid_.voxel_count() > most_voxels)
-    throw std::invalid_argument(fmt::format("gibbs: {} voxels are more than the {} it can hold; use a coarser map",
-                                            grid_.voxel_count(), most_voxels));
+  require_holdable(grid_);
   sort_rays();
   slots_begin_.assign(rays() + 1, 0);
   std::vector<Block> blocks(grid_.voxel_count() > (1u << 24) ? 1 : 4);
@@ -55,15 +59,15 @@ RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements,
 
 std::size_t RayLists::bytes() const {
   return front_.size() * sizeof(FrontEntry) + near_.size() * slot_bytes +
-         rays() * (sizeof(RangeMeasurement) + 2 + 4 + 4) + grid_.voxel_count() * 8;
+         rays() * (sizeof(RangeMeasurement) + 4 + 4 + 4) + grid_.voxel_count() * 8;
 }
 
 void RayLists::sort_rays() {
   auto& rays = measurements_.rays;
   std::erase_if(rays, [&](const RangeMeasurement& ray) {
     bool enters = false;
-    walk_ray(grid_, measurements_.origins[ray.origin], measurements_.direction(ray), measurements_.range(ray),
-             [&](int, int, int) { return !(enters = true); });
+    walk_ray(grid_, measurements_.origins[ray.origin], measurements_.direction(ray),
+             list_end(measurements_, ray, model_), [&](int, int, int) { return !(enters = true); });
     return !enters;
   });
   if (rays.size() > most_rays)
@@ -83,7 +87,7 @@ template <class Front, class Near>
 void RayLists::walk(std::uint32_t ray, Front on_front, Near on_near) const {
   const RangeMeasurement& m = measurements_.rays[ray];
   const double z = measurements_.range(m);
-  const double end = m.beyond_range ? z : z + 4.0 * model_.sigma;
+  const double end = list_end(measurements_, m, model_);
   // A voxel's centre may be half a diagonal nearer or farther than where the ray leaves the voxel.
   const double slack = model_.voxel_range == VoxelRange::centre ? 0.5 * longest_chord * grid_.resolution : 0.0;
   const double near = model_.is_first_hit() ? 0.0 : m.beyond_range ? 2.0 * z : z - 4.0 * model_.sigma - slack;

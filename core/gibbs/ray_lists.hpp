@@ -13,7 +13,7 @@ namespace nextview {
 /// A ray's voxels are in front of its range (they can only block it) or near it (it may have ended there). Only the
 /// near ones are listed by ray; each has a *slot*. In first-hit models every voxel has a say, so all count as near.
 ///
-/// Costs 4 bytes a pair of ray and front voxel, 20 bytes a slot, 34 bytes a ray, 8 bytes a voxel of the grid.
+/// Costs 4 bytes a pair of ray and front voxel, 20 bytes a slot, 36 bytes a ray, 8 bytes a voxel of the grid.
 class RayLists {
  public:
   /// A voxel in front of a ray's range. The chord is rounded to sqrt(3) / 1023 voxel edges.
@@ -36,7 +36,7 @@ class RayLists {
   /// Rays from `first` on have this weight, until the next run.
   struct WeightRun {
     std::uint32_t first;
-    std::uint16_t weight;
+    std::uint32_t weight;
   };
   static constexpr std::uint32_t chord_codes = 1024;
   static double chord(std::uint32_t code);  ///< [voxel edges]
@@ -44,6 +44,9 @@ class RayLists {
   /// The lists hold the rays that enter the grid, the heaviest first.
   /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists).
   RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model);
+
+  /// @throws std::invalid_argument if the grid has too many voxels.
+  static void require_holdable(const VoxelGrid& grid);
 
   const VoxelGrid& grid() const { return grid_; }
   std::size_t rays() const { return measurements_.rays.size(); }
@@ -72,7 +75,7 @@ class RayLists {
   /// What is left when nothing on the ray is occupied. beam, attenuation: by how much 'beyond range' is then likelier
   /// than otherwise, less 1; 0 for returns. paper, cone: log p(z | nothing).
   float open_value(std::uint32_t ray) const { return open_value_[ray]; }
-  std::uint16_t weight(std::uint32_t ray) const { return weight_[ray]; }
+  std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }
   std::span<const WeightRun> weight_runs() const { return weight_runs_; }
 
   /// A voxel in front of a ray, and its chord's code.
@@ -96,7 +99,7 @@ class RayLists {
   VoxelGrid grid_;
   RangeMeasurements measurements_;  ///< those that enter the grid, the heaviest first
   ForwardSensorModel model_;
-  std::vector<std::uint16_t> weight_;
+  std::vector<std::uint32_t> weight_;
   std::vector<WeightRun> weight_runs_;
   std::vector<float> open_value_;
   std::vector<std::uint32_t> slots_begin_;

@@ -20,6 +20,11 @@ double deviations(std::span<const double> x) {
   return sum;
 }
 
+/// Rounding makes a constant's variance a little more than nothing.
+bool varies(std::span<const double> x) {
+  return std::ranges::any_of(x, [&](double v) { return v != x.front(); });
+}
+
 /// Within-chain variance W and the pooled estimate of the variance (Gelman et al. 2013, 11.4).
 struct Variances {
   double within = 0.0, pooled = 0.0;
@@ -30,10 +35,10 @@ Variances variances(std::span<const std::span<const double>> chains) {
   Variances v;
   std::vector<double> means;
   for (const auto chain : chains) {
-    v.within += deviations(chain) / (n - 1.0) / m;
-    means.push_back(mean(chain));
+    if (varies(chain)) v.within += deviations(chain) / (n - 1.0) / m;
+    means.push_back(varies(chain) ? mean(chain) : chain.front());
   }
-  const double between_over_n = chains.size() > 1 ? deviations(means) / (m - 1.0) : 0.0;
+  const double between_over_n = varies(means) ? deviations(means) / (m - 1.0) : 0.0;
   v.pooled = (n - 1.0) / n * v.within + between_over_n;
   return v;
 }
@@ -85,6 +90,7 @@ double effective_sample_size(std::span<const std::span<const double>> chains) {
 }
 
 double geweke_z(std::span<const double> chain) {
+  if (!varies(chain)) return 0.0;
   const auto head = chain.first(std::max<std::size_t>(2, chain.size() / 10)), tail = chain.last(chain.size() / 2);
   const auto variance_of_mean = [](std::span<const double> x) {
     const std::span<const double> one[] = {x};

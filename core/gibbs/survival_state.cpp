@@ -19,7 +19,7 @@ double power(double base, unsigned exponent) {
 class WeightCursor {
  public:
   explicit WeightCursor(std::span<const RayLists::WeightRun> runs) : runs_(runs) { step(0); }
-  std::uint16_t weight(std::uint32_t ray) {
+  std::uint32_t weight(std::uint32_t ray) {
     while (ray >= end_) step(run_ + 1);
     return weight_;
   }
@@ -35,7 +35,7 @@ class WeightCursor {
   std::span<const RayLists::WeightRun> runs_;
   std::size_t run_ = 0;
   std::uint32_t end_ = 0;
-  std::uint16_t weight_ = 1;
+  std::uint32_t weight_ = 1;
 };
 
 }  // namespace
@@ -144,7 +144,7 @@ void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weight
     }
     const float here = reaching * own.value;
     const float if_free = 1.0f + pass_front * (before + after);
-    const std::uint16_t weight = lists_.weight(entry.ray);
+    const std::uint32_t weight = lists_.weight(entry.ray);
     for (int q = 1; q < levels_; ++q) {
       const float passed = passing_[q][own.chord];
       const float s = pass_front * (before + (1.0f - passed) * here + passed * after);
@@ -172,7 +172,7 @@ bool SurvivalState::front_terms(std::uint32_t voxel, double negligible, std::spa
   bool sure = false;
   std::size_t part = 1;  // one ray often settles it; if not, look at more before asking again
   for (std::size_t k = 0; k < entries.size() && !sure; part = std::min<std::size_t>(2 * part, 8)) {
-    const std::uint16_t heaviness = cursor.weight(entries[k].ray());
+    const std::uint32_t heaviness = cursor.weight(entries[k].ray());
     std::array<double, Levels> products;
     products.fill(1.0);
     for (const std::size_t end = std::min(k + part, entries.size()); k < end && entries[k].ray() < cursor.end(); ++k) {
@@ -202,8 +202,9 @@ double SurvivalState::log_likelihood() const {
 }
 
 void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {
+  std::vector<float> behind_front(lists_.rays());  // of the measured rays that each ray stands for, how many get so far
   for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
-    float pass = static_cast<float>(lists_.weight(ray)) * passing(cold_[ray].depth);
+    float pass = behind_front[ray] = static_cast<float>(lists_.weight(ray)) * passing(cold_[ray].depth);
     for (const RayLists::Slot& slot : lists_.slots(ray)) {
       reach[slot.voxel] += pass;
       pass *= passing_[map_[slot.voxel]][slot.chord];
@@ -213,17 +214,19 @@ void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {
   // everywhere, no ray needs to be cast. Elsewhere, unblocked rays count as they are, and blocked ones are cast.
   std::vector<std::uint8_t> wanted(lists_.rays(), 0);
   for (std::uint32_t voxel = 0; voxel < map_.size(); ++voxel) {
+    if (reach[voxel] >= enough) continue;
     const auto entries = lists_.front(voxel);
-    float unblocked = 0.0f, least = 0.0f;
-    for (std::size_t k = 0; k < entries.size() && reach[voxel] + least < enough; ++k) {
-      const Cold& ray = cold_[entries[k].ray()];
-      least += static_cast<float>(lists_.weight(entries[k].ray())) * passing(ray.depth);
-      if (ray.depth == 0) unblocked += lists_.weight(entries[k].ray());
+    float least = reach[voxel];
+    for (std::size_t k = 0; k < entries.size() && least < enough; ++k) least += behind_front[entries[k].ray()];
+    if (least >= enough) {
+      reach[voxel] = least;
+      continue;
     }
-    const bool settled = reach[voxel] + least >= enough;
-    reach[voxel] += settled ? least : unblocked;
-    if (settled) continue;
-    for (const RayLists::FrontEntry entry : entries) wanted[entry.ray()] |= cold_[entry.ray()].depth > 0;
+    for (const RayLists::FrontEntry entry : entries) {
+      const bool blocked = cold_[entry.ray()].depth > 0;
+      if (!blocked) reach[voxel] += behind_front[entry.ray()];
+      wanted[entry.ray()] |= blocked;
+    }
   }
   std::vector<RayLists::FrontVoxel> voxels;
   for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {

@@ -75,9 +75,8 @@ GibbsToy grid() {
       }
   return {"grid",
           "a plane that cuts 3 x 2 x 2 voxels aslant, seen from the side and from above",
-          "Four rays cross voxel 7, two of them from above, but OctoMap updates a voxel once a scan: it stays unknown "
-          "at 0.40.\n"
-          "Together the rays say that it is free, as they do of 0. Behind the plane (2, 8) only the prior is left.",
+          "Two rays cross voxel 7, two cross 0. OctoMap counts a scan once, be it two rays or two thousand: both stay\n"
+          "unknown at 0.40, while the rays say that they are free. Behind the plane (2, 8) only the prior is left.",
           {edge, {0, 0, 0}, {3, 2, 2}},
           max_range,
           0.002,

@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/ray_lists.hpp"
+
+namespace nextview {
+
+/// The voxels that a chain updates: those that a ray may have ended in, and those that it can only have passed. The
+/// latter are many, and nearly all of them stay free.
+struct Sites {
+  enum Kind : std::uint8_t { none, front, near };
+  std::vector<std::uint32_t> near_voxels, front_voxels;  ///< ascending
+  std::vector<Kind> kind;                                ///< per voxel of the grid
+
+  std::size_t count() const { return near_voxels.size() + front_voxels.size(); }
+};
+
+/// All that rays observe; with UpdatedVoxels::occupied those of them where the start map has p >= 0.5.
+Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map);
+
+/// The map that a chain starts from (PosteriorSamplerConfig::start): voxels that no ray observes are free.
+std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSamplerConfig& config,
+                                       std::span<const float> start_map, int chain);
+
+}  // namespace nextview

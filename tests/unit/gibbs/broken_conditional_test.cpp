@@ -1,0 +1,135 @@
+// The bar of posterior_sampler_test.cpp can fail: a right sampler passes it, subtly wrong ones do not.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/gibbs/marginal_comparison.hpp"
+#include "tests/unit/gibbs/plain_model.hpp"
+#include "tests/unit/gibbs/random_toys.hpp"
+
+namespace nextview {
+namespace {
+
+using plain::Conditional;
+using plain::Levels;
+
+/// A toy with outliers, no-returns and rays that cross.
+struct Problem {
+  random_toys::Toy toy;
+  ForwardSensorModel model;
+  double prior = 0.2;
+
+  explicit Problem(ForwardModel kind) : toy(random_toys::make({"oblong", {4, 2, 1}, 2, 9, 0.7}, 12)) {
+    model.kind = kind;
+    model.sigma = toy.sigma;
+    model.angular_sigma = 0.3;
+    model.random_weight = 0.1;
+    model.attenuations = {0.3, 2.0};
+  }
+  plain::Posterior posterior() const { return {toy.grid, toy.measurements, model, prior}; }
+};
+
+/// Samples with this conditional in place of the right one and compares as the bar does.
+MarginalComparison sample(const Problem& right, const Conditional& conditional) {
+  const plain::Posterior posterior = right.posterior();
+  std::vector<Estimate> runs;
+  for (const plain::Marginals& run : plain::gibbs_sampler(posterior, conditional, 200'000, 8, 1))
+    runs.push_back(report(run));
+  return compare(plain::enumerate(posterior), runs);
+}
+
+class Conditionals : public ::testing::TestWithParam<ForwardModel> {
+ protected:
+  const Problem right{GetParam()};
+
+  void expect_caught(const Conditional& broken) const {
+    const MarginalComparison comparison = sample(right, broken);
+    EXPECT_FALSE(comparison.agrees());
+    EXPECT_GT(comparison.largest_difference, 4.0 * comparison.standard_error) << "by chance";
+    fmt::print("             caught by {:.3f}: {}\n", comparison.largest_difference, comparison.where);
+  }
+  void expect_caught(const Problem& wrong) const {
+    const plain::Posterior posterior = wrong.posterior();
+    expect_caught(plain::full_conditional(posterior));
+  }
+};
+
+TEST_P(Conditionals, theRightOnePasses) {
+  const plain::Posterior posterior = right.posterior();
+  const MarginalComparison comparison = sample(right, plain::full_conditional(posterior));
+  EXPECT_TRUE(comparison.agrees()) << comparison.where;
+  EXPECT_LT(comparison.standard_error, 0.0025);
+  fmt::print("             largest difference {:.4f}, standard error {:.4f}\n", comparison.largest_difference,
+             comparison.standard_error);
+}
+
+TEST_P(Conditionals, oneThatForgetsWhatBlocksARayIsCaught) {
+  const plain::Posterior posterior = right.posterior();
+  expect_caught([&](const Levels& map, std::uint32_t voxel) {
+    std::vector<double> weights;
+    for (int level = 0; level < posterior.levels(); ++level) {
+      double sum = posterior.log_prior(level);
+      for (const plain::Ray& ray : posterior.rays()) {
+        Levels seen = map;  // with nothing before the voxel
+        bool on_ray = false;
+        for (const plain::Step& step : ray.steps) {
+          if ((on_ray = step.voxel == voxel)) break;
+          seen[step.voxel] = 0;
+        }
+        seen[voxel] = static_cast<std::uint8_t>(level);
+        if (on_ray) sum += ray.weight * posterior.log_likelihood(ray, seen);
+      }
+      weights.push_back(std::exp(sum));
+    }
+    return weights;
+  });
+}
+
+TEST_P(Conditionals, oneWithoutTheFloorIsCaught) {
+  if (right.model.is_first_hit()) GTEST_SKIP() << "has no floor";
+  Problem wrong = right;
+  wrong.model.random_weight = 1e-9;
+  expect_caught(wrong);
+}
+
+TEST_P(Conditionals, oneThatCountsThePriorTwiceIsCaught) {
+  const plain::Posterior posterior = right.posterior();
+  const Conditional once = plain::full_conditional(posterior);
+  expect_caught([&](const Levels& map, std::uint32_t voxel) {
+    std::vector<double> weights = once(map, voxel);
+    for (int level = 0; level < posterior.levels(); ++level) weights[level] *= std::exp(posterior.log_prior(level));
+    return weights;
+  });
+}
+
+TEST_P(Conditionals, oneThatForgetsARayIsCaught) {
+  Problem wrong = right;
+  wrong.toy.measurements.rays.erase(wrong.toy.measurements.rays.begin() + 8);
+  expect_caught(wrong);
+}
+
+TEST_P(Conditionals, oneThatIgnoresNoReturnsIsCaught) {
+  Problem wrong = right;
+  EXPECT_GT(std::erase_if(wrong.toy.measurements.rays, [](const auto& ray) { return ray.beyond_range; }), 0u);
+  expect_caught(wrong);
+}
+
+TEST_P(Conditionals, oneThatTakesTheUpperLevelForOccupiedIsCaught) {
+  if (right.posterior().levels() == 2) GTEST_SKIP() << "has one level";
+  const plain::Posterior posterior = right.posterior();
+  const Conditional full = plain::full_conditional(posterior);
+  expect_caught([&](const Levels& map, std::uint32_t voxel) {
+    std::vector<double> weights = full(map, voxel);
+    weights[1] = weights[2];
+    return weights;
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryModel, Conditionals,
+                         ::testing::Values(ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
+                                           ForwardModel::attenuation),
+                         [](const auto& parameter) { return std::string(name(parameter.param)); });
+
+}  // namespace
+}  // namespace nextview

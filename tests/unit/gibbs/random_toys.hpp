@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/gibbs/range_measurements.hpp"
+#include "core/map/voxel_grid.hpp"
+
+namespace nextview::random_toys {
+
+/// What a toy is made from. Lengths count in voxel edges.
+struct Shape {
+  std::string name;
+  Eigen::Vector3i size = {10, 1, 1};
+  int origins = 1;
+  int rays = 6;
+  double sigma = 0.5;    ///< noise of the ranges
+  bool weights = false;  ///< rays that stand for several
+};
+
+/// A grid and rays through a random map: returns with noise, no-returns, outliers. The same seed, the same toy.
+struct Toy {
+  VoxelGrid grid;
+  RangeMeasurements measurements;
+  double sigma = 0.0;  ///< [m]
+};
+Toy make(const Shape& shape, std::uint64_t seed);
+
+/// One-dimensional corridors, two- and three-dimensional grids; none has over 12 voxels, so that three levels can be
+/// enumerated too, but those of `large`, for two levels.
+std::vector<Shape> small();
+std::vector<Shape> large();
+
+}  // namespace nextview::random_toys

@@ -1,0 +1,181 @@
+#include "core/gibbs/range_measurements.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/random/counter_random.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+std::size_t total_weight(const RangeMeasurements& measurements) {
+  return std::accumulate(measurements.rays.begin(), measurements.rays.end(), std::size_t{0},
+                         [](std::size_t sum, const RangeMeasurement& ray) { return sum + ray.weight; });
+}
+
+/// Two cameras that look at a bumpy wall, densely; every fifth ray misses it, some returns are outliers.
+RangeMeasurements dense_rays() {
+  RangeMeasurements measurements;
+  measurements.origins = {{0.0, 0.0, 0.0}, {0.3, 0.1, -0.2}};
+  const CounterRandom random(3, 998);
+  for (std::uint32_t i = 0; i < 4'000; ++i) {
+    const auto u = random.uniform(i);
+    RangeMeasurement ray;
+    ray.origin = i % 2;
+    ray.beyond_range = i % 5 == 0;
+    ray.weight = static_cast<std::uint16_t>(1 + i % 3);
+    const Vector3 direction = Vector3(u[0] - 0.5, u[1] - 0.5, 1.0).normalized();
+    const double range = ray.beyond_range ? measurements.max_range : i % 50 == 1 ? 0.2 + u[2] : 1.0 + 0.01 * u[2];
+    ray.end = (measurements.origins[ray.origin] + range * direction).cast<float>();
+    measurements.rays.push_back(ray);
+  }
+  return measurements;
+}
+
+TEST(RangeMeasurements, addTakesReturnsAndPassesOfEachScan) {
+  RangeMeasurements measurements;
+  measurements.add({{0, 0, 0}, {{0, 0, 1}, {0.5, 0, 0}}, {{0, 1.5f, 0}}});
+  measurements.add({{1, 0, 0}, {{1, 0, 1}}, {}});
+  ASSERT_EQ(measurements.origins.size(), 2u);
+  ASSERT_EQ(measurements.rays.size(), 4u);
+  EXPECT_EQ(total_weight(measurements), 4u);
+  EXPECT_EQ(std::count_if(measurements.rays.begin(), measurements.rays.end(),
+                          [](const auto& ray) { return ray.beyond_range; }),
+            1);
+  const RangeMeasurement& last = measurements.rays.back();
+  EXPECT_EQ(measurements.origins.at(last.origin), Vector3(1, 0, 0));
+  EXPECT_NEAR(measurements.range(last), 1.0, 1e-6);
+  EXPECT_NEAR((measurements.direction(last) - Vector3(0, 0, 1)).norm(), 0.0, 1e-6);
+}
+
+TEST(RangeMeasurements, addTakesReturnsBeyondTheMaximumRangeForNoReturns) {
+  RangeMeasurements measurements;
+  measurements.max_range = 1.0;
+  measurements.add({{0, 0, 0}, {{0, 0, 0.9f}, {0, 0, 1.1f}, {0, 0, 7}}, {}});
+  ASSERT_EQ(measurements.rays.size(), 3u);
+  EXPECT_FALSE(measurements.rays[0].beyond_range);
+  for (const int far : {1, 2}) {
+    EXPECT_TRUE(measurements.rays[far].beyond_range);
+    EXPECT_EQ(measurements.range(measurements.rays[far]), 1.0);
+  }
+}
+
+TEST(RangeMeasurements, addLeavesOutWhatHasNoDirection) {
+  RangeMeasurements measurements;
+  measurements.add({{1, 2, 3}, {{1, 2, 3}, {1, 2, 4}, {nan, 2, 4}}, {{1, 2, 3}, {1, nan, 3}}});
+  ASSERT_EQ(measurements.rays.size(), 1u);
+  EXPECT_NEAR(measurements.range(measurements.rays[0]), 1.0, 1e-6);
+}
+
+TEST(JoinRays, noSpacingChangesNothing) {
+  const RangeMeasurements measurements = dense_rays();
+  const RangeMeasurements joined = join_rays(measurements, 0.0, 0.1);
+  ASSERT_EQ(joined.rays.size(), measurements.rays.size());
+  for (std::size_t i = 0; i < joined.rays.size(); ++i) {
+    EXPECT_EQ(joined.rays[i].end, measurements.rays[i].end);
+    EXPECT_EQ(joined.rays[i].origin, measurements.rays[i].origin);
+    EXPECT_EQ(joined.rays[i].weight, measurements.rays[i].weight);
+    EXPECT_EQ(joined.rays[i].beyond_range, measurements.rays[i].beyond_range);
+  }
+  EXPECT_EQ(joined.origins, measurements.origins);
+  EXPECT_EQ(joined.max_range, measurements.max_range);
+}
+
+TEST(JoinRays, keepsTheWeightOfEachOriginAndKind) {
+  const RangeMeasurements measurements = dense_rays();
+  const RangeMeasurements joined = join_rays(measurements, 0.05, 0.02);
+  EXPECT_LT(joined.rays.size(), measurements.rays.size() / 2) << "few were joined";
+  const auto weight = [&](const RangeMeasurements& all, std::uint32_t origin, bool beyond_range) {
+    std::size_t sum = 0;
+    for (const RangeMeasurement& ray : all.rays)
+      if (all.origins[ray.origin] == measurements.origins[origin] && ray.beyond_range == beyond_range)
+        sum += ray.weight;
+    return sum;
+  };
+  for (const std::uint32_t origin : {0u, 1u})
+    for (const bool beyond_range : {false, true})
+      EXPECT_EQ(weight(joined, origin, beyond_range), weight(measurements, origin, beyond_range));
+  EXPECT_EQ(total_weight(joined), total_weight(measurements));
+}
+
+TEST(JoinRays, everyRayHasAJoinedOneBesideIt) {
+  constexpr double spacing = 0.03, spread = 0.02;
+  const RangeMeasurements measurements = dense_rays(), joined = join_rays(measurements, spacing, spread);
+  for (std::size_t i = 0; i < measurements.rays.size(); i += 7) {
+    const RangeMeasurement& ray = measurements.rays[i];
+    const bool found = std::any_of(joined.rays.begin(), joined.rays.end(), [&](const RangeMeasurement& other) {
+      return other.beyond_range == ray.beyond_range &&
+             joined.origins[other.origin] == measurements.origins[ray.origin] &&
+             measurements.direction(ray).dot(joined.direction(other)) > std::cos(2.0 * spacing) &&
+             std::abs(joined.range(other) - measurements.range(ray)) <= spread;
+    });
+    ASSERT_TRUE(found) << "range " << measurements.range(ray);
+  }
+}
+
+TEST(JoinRays, theJoinedRayIsTheWeightedMean) {
+  RangeMeasurements measurements;
+  measurements.origins = {{0, 0, 0}};
+  measurements.rays = {{{0.13f, 0.14f, 1.0f}, 0, 1},
+                       {{0.1304f, 0.1404f, 1.004f}, 0, 3},
+                       {{-0.83f, 0.37f, 0.61f}, 0, 9}};  // far from the two
+  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.01);
+  ASSERT_EQ(joined.rays.size(), 2u);
+  const RangeMeasurement& mean = joined.rays[joined.rays[0].weight == 9 ? 1 : 0];
+  EXPECT_EQ(mean.weight, 4);
+  EXPECT_NEAR(mean.end.x(), 0.1303, 1e-5);
+  EXPECT_NEAR(mean.end.y(), 0.1403, 1e-5);
+  EXPECT_NEAR(mean.end.z(), 1.003, 1e-5);
+}
+
+TEST(JoinRays, anOutlierIsNotAveragedIn) {
+  RangeMeasurements measurements;
+  measurements.origins = {{0, 0, 0}};
+  for (int i = 0; i < 10; ++i) measurements.rays.push_back({{0.0f, 0.0f, 1.0f}});
+  measurements.rays.insert(measurements.rays.begin() + 4, {{0.0f, 0.0f, 0.5f}});
+  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.01);
+  ASSERT_EQ(joined.rays.size(), 2u);
+  for (const RangeMeasurement& ray : joined.rays) {
+    EXPECT_NEAR(joined.range(ray), ray.weight == 10 ? 1.0 : 0.5, 1e-6);
+    EXPECT_TRUE(ray.weight == 10 || ray.weight == 1);
+  }
+}
+
+TEST(JoinRays, rangesOfAJoinedRayAreWithinTheSpread) {
+  RangeMeasurements measurements;  // a ladder: neighbours are near, ends are not
+  measurements.origins = {{0, 0, 0}};
+  for (int i = 0; i <= 100; ++i) measurements.rays.push_back({{0.0f, 0.0f, 1.0f + 0.001f * static_cast<float>(i)}});
+  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.0105);
+  EXPECT_GE(joined.rays.size(), 10u) << "11 steps of 1 mm fit into 10.5 mm";
+  EXPECT_LE(joined.rays.size(), 30u);
+  for (const RangeMeasurement& ray : joined.rays) EXPECT_LE(ray.weight, 11);
+}
+
+TEST(JoinRays, opposedDirectionsStayApart) {
+  RangeMeasurements measurements;
+  measurements.origins = {{0, 0, 0}};
+  for (const Eigen::Vector3f& end : {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(-1, 0, 0), Eigen::Vector3f(0, 1, 0),
+                                     Eigen::Vector3f(0, -1, 0), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0, 0, -1)})
+    measurements.rays.push_back({end});
+  EXPECT_EQ(join_rays(measurements, 0.5, 0.1).rays.size(), 6u);
+}
+
+TEST(JoinRays, aHundredThousandRaysKeepTheirWeight) {
+  RangeMeasurements measurements;  // more than a weight of 16 bits can say
+  measurements.origins = {{0, 0, 0}};
+  measurements.rays.assign(100'000, {{0.0f, 0.0f, 1.0f}});
+  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.01);
+  EXPECT_EQ(total_weight(joined), 100'000u);
+  EXPECT_LE(joined.rays.size(), 4u);
+}
+
+TEST(JoinRays, ofNothingIsNothing) { EXPECT_TRUE(join_rays({}, 0.1, 0.01).rays.empty()); }
+
+}  // namespace
+}  // namespace nextview
