@@ -54,7 +54,8 @@ void ForwardSensorModel::validate() const {
   require(random_weight > 0.0 && max_weight > 0.0 && hit_weight() > 0.0,
           fmt::format("gibbs: random_weight and max_weight must be over 0 and leave something for hits, not {} and {}",
                       random_weight, max_weight));
-  require(eta_hit > 0.0 && std::isfinite(eta_hit), fmt::format("gibbs: eta_hit must be over 0, not {}", eta_hit));
+  require(eta_hit > 0.0 && eta_hit <= 1e3,
+          fmt::format("gibbs: eta_hit must be over 0 and at most 1000, not {}", eta_hit));
   require(!attenuations.empty() && attenuations.size() <= most_attenuations && attenuations.front() > 0.0 &&
               attenuations.back() <= 50.0 && std::is_sorted(attenuations.begin(), attenuations.end()),
           fmt::format("gibbs: attenuations must be one to {} ascending numbers over 0, up to 50", most_attenuations));

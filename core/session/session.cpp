@@ -151,7 +151,8 @@ void Session::update_map(const Measurement& measurement, StepRecord& record) {
 }
 
 void Session::refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress) {
-  const double entropy_before = records_.empty() ? total_entropy(planning_voxels()) : records_.back().total_entropy;
+  const double untouched = static_cast<double>(map_.voxels().size());  // a bit a voxel
+  const double entropy_before = records_.empty() ? untouched : records_.back().total_entropy;
   if (refinement_) {
     Stopwatch watch(record.seconds.refine);
     refinement_->add(measurement.scan);

@@ -38,7 +38,7 @@ TEST_P(BothSemantics, EveryGainAgreesWithTheTable) {
       not_zero[std::string(g.name)] += std::abs(wanted) > 1e-9;
     }
   }
-  EXPECT_EQ(not_zero.size(), 7u);
+  EXPECT_EQ(not_zero.size(), 8u);
   for (const auto& [name, count] : not_zero) EXPECT_GT(count, 100) << name;
 }
 

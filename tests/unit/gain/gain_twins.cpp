@@ -69,16 +69,14 @@ double area_factor(std::span<const VoxelsOfRay> rays, Semantics semantics) {
 }  // namespace
 
 std::map<std::string, double> values(std::span<const VoxelsOfRay> rays, Semantics semantics, double d_max) {
-  std::map<std::string, double> sum = {{"occlusion-aware", 0},
-                                       {"unobserved-voxel", 0},
-                                       {"rear-side-voxel", 0},
-                                       {"rear-side-entropy", 0},
-                                       {"proximity-count", 0}};
+  std::map<std::string, double> sum = {{"occlusion-aware", 0},   {"unobserved-voxel", 0}, {"rear-side-voxel", 0},
+                                       {"rear-side-entropy", 0}, {"proximity-count", 0},  {"gibbs", 0}};
   double entropy_to_surfaces = 0, voxels_to_surfaces = 0;
   for (const VoxelsOfRay& ray : rays) {
     for (std::size_t i = 0; i < ray.size(); ++i) {
       const double expected = visibility(ray, i, semantics) * h(ray[i]);
       sum["occlusion-aware"] += expected;
+      sum["gibbs"] += h(ray[i]);
       sum["unobserved-voxel"] += unknown(ray[i]) ? expected : 0.0;
       sum["rear-side-voxel"] += i > 0 && occupied(ray[i]) && unknown(ray[i - 1]);
       if (!ray[i].measured && ray[i].occlusion_distance > 0)

@@ -26,7 +26,7 @@ Configuration with_gain(const std::string& gain, Semantics semantics = Semantics
 TEST(SessionGains, EveryGainAndBaselineRuns) {
   for (const std::string& gain : gain_names())
     for (const Semantics semantics : {Semantics::published, Semantics::reference}) {
-      if (is_baseline(gain) && semantics == Semantics::reference) continue;
+      if ((is_baseline(gain) || gain == "gibbs") && semantics == Semantics::reference) continue;
       Session session(with_gain(gain, semantics));
       finish(session);
       const auto views = views_of(session);
@@ -40,7 +40,7 @@ TEST(SessionGains, EveryGainAndBaselineRuns) {
 TEST(SessionGains, ExplanationsAreThoseOfTheRanking) {
   for (const std::string& gain : gain_names())
     for (const Semantics semantics : {Semantics::published, Semantics::reference}) {
-      if (is_baseline(gain) && semantics == Semantics::reference) continue;
+      if ((is_baseline(gain) || gain == "gibbs") && semantics == Semantics::reference) continue;
       Session session(with_gain(gain, semantics));
       session.step();
       for (std::size_t v = 0; v < session.candidates().size(); v += 3) {

@@ -1,0 +1,154 @@
+// The refine command as a user runs it, and scans planned on the Gibbs map.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file/atomic_file.hpp"
+#include "core/map/octree_file.hpp"
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string quick =
+    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --views.count 12 "
+    "--evaluation.surface_samples 2000 --no-pictures ";
+
+std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
+
+class Refine : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Result run = nextview("scan " + housing() + quick + "--out " + scan());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  std::string scan() const { return (folder_.path() / "scan").string(); }
+  std::string out(const std::string& name) const { return (folder_.path() / name).string(); }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(Refine, WritesMapsNumbersAndPictures) {
+  const Result run = nextview("refine " + scan() + " --out " + out("refined"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("log loss near the surface"));
+  EXPECT_THAT(run.out, HasSubstr("open rows"));
+  for (const char* file : {"posterior.ot", "posterior.bt", "conventional.ot", "scores.csv", "trace.csv", "metrics.json",
+                           "config.toml", "timings.csv", "refinement.png", "sensor_models.png"})
+    EXPECT_GT(fs::file_size(fs::path(out("refined")) / file), 0u) << file;
+  // The views are taken again exactly: the conventional map is that of the scan.
+  EXPECT_TRUE(read_file(fs::path(out("refined")) / "conventional.ot") == read_file(fs::path(scan()) / "map.ot"));
+  const auto metrics = nlohmann::json::parse(read_file(fs::path(out("refined")) / "metrics.json"));
+  EXPECT_GT(metrics["diagnostics"]["informed_voxels"], 10000);
+  EXPECT_LT(metrics["gibbs"]["touch truth"]["visited"]["log_loss_nats"],
+            metrics["conventional"]["touch truth"]["visited"]["log_loss_nats"]);
+}
+
+TEST_F(Refine, SameBytesOnAnyNumberOfThreadsAndFromItsOwnConfiguration) {
+  ASSERT_EQ(nextview("--threads 1 refine " + scan() + " --out " + out("one")).exit_code, 0);
+  ASSERT_EQ(
+      nextview("--threads 2 refine " + scan() + " --out " + out("two") + " --config " + out("one") + "/config.toml")
+          .exit_code,
+      0);
+  for (const auto& entry : fs::directory_iterator(out("one"))) {
+    const fs::path name = entry.path().filename();
+    if (name == "timings.csv") continue;
+    EXPECT_TRUE(read_file(entry.path()) == read_file(fs::path(out("two")) / name)) << name << " differs";
+  }
+}
+
+TEST_F(Refine, EveryModelAndThePaperRun) {
+  for (const std::string options : {"--gibbs.model beam", "--gibbs.model cone", "--gibbs.model paper", "--config paper",
+                                    "--gibbs.updated occupied", "--gibbs.start random"}) {
+    const Result run =
+        nextview("refine " + scan() + " --no-pictures --gibbs.sweeps 20 " + options + " --out " + out("model"));
+    EXPECT_EQ(run.exit_code, 0) << options << ": " << run.err;
+    EXPECT_EQ(read_file(fs::path(out("model")) / "metrics.json").find("nan"), std::string::npos) << options;
+  }
+}
+
+TEST_F(Refine, WarnsWhenItIsNotStationary) {
+  const Result run = nextview("refine " + scan() + " --no-pictures --out " + out("short") +
+                              " --gibbs.model paper --gibbs.sweeps 8 --gibbs.burn_in 0 --gibbs.start occupied");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("not stationary after 8 sweeps"));
+}
+
+TEST_F(Refine, BadInputIsOneLineAndExitCode2) {
+  const auto expect = [&](const std::string& arguments, const std::string& word) {
+    const Result run = nextview("refine " + arguments + " --no-pictures --out " + out("bad"));
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(word));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  };
+  expect("/nowhere", "/nowhere");
+  expect(scan() + " --gibbs.prior 0", "gibbs.prior");
+  expect(scan() + " --gibbs.prior 1", "gibbs.prior");
+  expect(scan() + " --gibbs.sigma nan", "sigma");
+  expect(scan() + " --gibbs.attenuations 2,1", "attenuations");
+  expect(scan() + " --gibbs.model thrun", "gibbs.model");
+  expect(scan() + " --gibbs.chains 0", "gibbs.chains");
+  write_file(fs::path(scan()) / "views.csv", "step,view,x[m]\n1,77,0,0,1,0,0,0,1\n");
+  expect(scan(), "views.csv:2");
+  fs::remove(fs::path(scan()) / "views.csv");
+  expect(scan(), "views.csv");
+}
+
+TEST(RefineScenes, RecordedScansHaveNoTruthAndWork) {
+  const TemporaryFolder folder;
+  std::string scene =
+      "param resolution_m 0.02\nparam bbox_min_x -0.3\nparam bbox_max_x 0.3\nparam bbox_min_y -0.3\n"
+      "param bbox_max_y 0.3\nparam bbox_min_z 0.4\nparam bbox_max_z 1.0\nscan 0 0 0 0 0 0 1 400\n";
+  for (int i = 0; i < 400; ++i)
+    scene += std::to_string(-0.2 + 0.02 * (i % 20)) + " " + std::to_string(-0.2 + 0.02 * (i / 20)) + " 0.7\n";
+  scene += "view 0 0 0 0 0 0 1\nview 0.1 0 0 0 0 0 1\n";
+  write_file(folder.path() / "scene.txt", scene);
+  const std::string out = (folder.path() / "out").string();
+  const Result run = nextview("refine " + (folder.path() / "scene.txt").string() + " --out " + out);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const OccupancyMap map = read_octree(fs::path(out) / "posterior.ot");
+  std::size_t occupied = 0;
+  for (const Voxel& v : map.voxels()) occupied += v.measured && v.probability >= 0.5f;
+  EXPECT_GT(occupied, 200u);  // the wall is 20 x 20 voxels
+  EXPECT_LT(occupied, 1600u);
+}
+
+TEST(RefineScenes, StanfordsRangeScans) {
+  const fs::path bunny = NEXTVIEW_SHARED_DIR "/data/scans/stanford_bunny";
+  if (!fs::exists(bunny)) GTEST_SKIP() << "missing: " << bunny << "; the Stanford scans are not checked";
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  const Result run =
+      nextview("refine " + bunny.string() + " --voxel 0.004 --no-pictures --out " + out + " --gibbs.sweeps 60");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const OccupancyMap map = read_octree(fs::path(out) / "posterior.ot");
+  std::size_t occupied = 0;
+  for (const Voxel& v : map.voxels()) occupied += v.measured && v.probability >= 0.5f;
+  EXPECT_GT(occupied, 1500u);
+}
+
+TEST(RefineScenes, ScoringASceneByTheGibbsGainRefinesIt) {
+  const fs::path scene = NEXTVIEW_SHARED_DIR "/conformance/scans1.txt";
+  if (!fs::exists(scene)) GTEST_SKIP() << "missing: " << scene << "; the conformance scene is not checked";
+  const Result run = nextview("score --scene " + scene.string() + " --gain gibbs --csv -");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 49);
+  EXPECT_EQ(nextview("score --scene " + scene.string() + " --gain gibbs --semantics reference").exit_code, 2);
+}
+
+TEST(GibbsScan, WritesThePosteriorAndWhatRefinementDid) {
+  const TemporaryFolder folder;
+  const Result run = nextview("scan " + housing() + quick + "--gain gibbs --out " + folder.path().string());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("without refinement"));
+  EXPECT_NO_THROW(read_octree(folder.path() / "posterior.ot"));
+  const std::string rows = read_file(folder.path() / "refinement.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 4);
+  EXPECT_THAT(read_file(folder.path() / "scores.csv"), HasSubstr("gain_on_conventional_map"));
+}
+
+}  // namespace
+}  // namespace nextview

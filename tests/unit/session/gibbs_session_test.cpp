@@ -1,0 +1,102 @@
+// A scan that is planned on the Gibbs map.
+#include <gtest/gtest.h>
+
+#include "core/evaluation/entropy.hpp"
+#include "core/gain/view_score.hpp"
+#include "core/session/session.hpp"
+#include "tests/unit/session/small_scan.hpp"
+
+namespace nextview {
+namespace {
+
+Configuration gibbs_scan() {
+  Configuration c = small_scan();
+  c.planner.gain = "gibbs";
+  c.termination.views = 3;
+  return c;
+}
+
+TEST(GibbsSession, PlansOnThePosterior) {
+  Session session(gibbs_scan());
+  while (session.finished().empty()) session.step();
+  const StepRecord& last = session.records().back();
+  ASSERT_TRUE(last.refinement.has_value());
+  const GibbsPosterior& posterior = session.refinement()->posterior();
+  const auto voxels = session.planning_voxels();
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    ASSERT_EQ(voxels[v].probability, posterior.occupied[v]);
+    ASSERT_EQ(voxels[v].measured, posterior.informed[v] != 0);
+  }
+  EXPECT_EQ(last.total_entropy, total_entropy(voxels));
+  // Scored anew through rays of our own, the candidates come out as recorded.
+  const Configuration& c = session.configuration();
+  const MapRays rays(posterior.grid, voxels, c.map.model.occupancy_threshold, c.planner.ray_length);
+  const RayBundle bundle = RayBundle::regular(session.camera().camera(), c.planner.ray_columns, c.planner.ray_rows);
+  const Gain* one = &gain("gibbs");
+  const auto scores = score_views(rays, session.candidates(), bundle, {&one, 1});
+  for (std::size_t v = 0; v < scores.size(); ++v)
+    if (last.candidates[v].available) {
+      EXPECT_EQ(last.candidates[v].gain, scores[v].gains.front());
+    }
+}
+
+TEST(GibbsSession, TheConventionalMapAndItsRankingAreKeptBeside) {
+  Session session(gibbs_scan()), plain(small_scan());
+  session.step();
+  plain.step();
+  EXPECT_TRUE(std::ranges::equal(session.map().log_odds(), plain.map().log_odds()));
+  const RefinementRecord& refinement = *session.records().front().refinement;
+  const Configuration& c = session.configuration();
+  const MapRays rays(session.map().grid(), session.map().voxels(), c.map.model.occupancy_threshold,
+                     c.planner.ray_length);
+  const RayBundle bundle = RayBundle::regular(session.camera().camera(), c.planner.ray_columns, c.planner.ray_rows);
+  const Gain* one = &gain("gibbs");
+  const auto scores = score_views(rays, session.candidates(), bundle, {&one, 1});
+  for (std::size_t v = 0; v < scores.size(); ++v) EXPECT_EQ(refinement.conventional_gains[v], scores[v].gains.front());
+  EXPECT_GT(refinement.changed_class, 0u);
+  EXPECT_TRUE(refinement.conventional_best.has_value());
+}
+
+TEST(GibbsSession, EntropyAddsUpFromStepToStep) {
+  Session session(gibbs_scan());
+  double before = static_cast<double>(session.map().voxels().size());  // a bit a voxel
+  while (session.finished().empty()) {
+    session.step();
+    const StepRecord& r = session.records().back();
+    EXPECT_NEAR(r.realised_gain, (before - r.total_entropy) * std::numbers::ln2, 1e-6 * before);  // Eq. 12
+    before = r.total_entropy;
+  }
+}
+
+TEST(GibbsSession, AWarmStartAndAColdStartAgree) {
+  Configuration warm = gibbs_scan(), cold = gibbs_scan();
+  warm.gibbs.view_sweeps = 400;
+  Session session(warm);
+  while (session.finished().empty()) session.step();
+  // The same views at once, from nothing.
+  MapRefinement once(session.map().grid(), posterior_sampler_config(cold), cold.map.model, cold.sensor.max_range);
+  for (std::size_t k = 0; k < session.records().size(); ++k) {
+    const DepthImage image = session.camera().sense(RayScene(*session.mesh()), session.records()[k].T_world_camera,
+                                                    cold.seed, static_cast<std::uint32_t>(k + 1));
+    Scan scan = back_project(image, session.records()[k].T_world_camera, cold.sensor.max_range);
+    scan.returns = clean(scan.returns, cold.cloud);
+    once.add(scan);
+  }
+  once.refine({}, 400, {}, {});
+  double sum = 0.0, worst = 0.0;
+  std::size_t count = 0;
+  const GibbsPosterior &a = session.refinement()->posterior(), &b = once.posterior();
+  for (std::size_t v = 0; v < a.occupied.size(); ++v) {
+    if (!a.informed[v] || !b.informed[v]) continue;
+    const double difference = std::abs(double(a.occupied[v]) - b.occupied[v]);
+    sum += difference;
+    worst = std::max(worst, difference);
+    ++count;
+  }
+  ASSERT_GT(count, 1000u);
+  EXPECT_LT(sum / static_cast<double>(count), 0.002);
+  EXPECT_LT(worst, 0.25) << "a voxel at 0.5 has a standard error of 0.04 or so at 100 effective samples";
+}
+
+}  // namespace
+}  // namespace nextview
