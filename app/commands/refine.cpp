@@ -129,6 +129,8 @@ int run(const RefineArguments& arguments) {
   const ProgressLine progress;
   const RefinementJob job = find_job(arguments, progress, stop.token());
   prepare_output_folder(out);
+  if (fs::equivalent(out, arguments.input))
+    throw std::invalid_argument(fmt::format("--out {}: that is what is refined; give another folder", out.string()));
   const Refinement refinement = refine(job, progress, stop.token());
   progress.clear();
   print(job, refinement);

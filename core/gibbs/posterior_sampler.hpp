@@ -28,7 +28,7 @@ struct PosteriorSamplerConfig {
   UpdatedVoxels updated = UpdatedVoxels::occupied_and_free;
   StartMap start = StartMap::octree;
   int swaps = 1;                 ///< passes of neighbour swaps a sweep
-  int plaquettes = 1;            ///< passes of 2 x 2 plaquettes a sweep
+  int plaquettes = 0;            ///< passes of 2 x 2 plaquettes a sweep
   int chains = 2;                ///< independent of each other
   int sweeps = 400;              ///< at most, a chain
   int burn_in = 10;              ///< sweeps before the first attempt at a mean

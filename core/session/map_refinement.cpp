@@ -21,7 +21,8 @@ void MapRefinement::add(const Scan& scan) {
 void MapRefinement::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
                            std::stop_token stop) {
   PosteriorSamplerConfig config = config_;
-  config.ray_spacing = 0.0;  // they are joined
+  config.ray_spacing = 0.0;             // they are joined
+  config.seed += refinements_++ << 32;  // other numbers than the last time
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
   config.burn_in = std::min(config.burn_in, config.sweeps / 2);

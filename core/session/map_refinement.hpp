@@ -29,6 +29,7 @@ class MapRefinement {
   PosteriorSamplerConfig config_;
   InverseSensorModel classes_;
   std::size_t measured_rays_ = 0;
+  std::uint64_t refinements_ = 0;
   RangeMeasurements measurements_;
   GibbsPosterior posterior_;
   std::vector<Voxel> voxels_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -25,7 +26,7 @@ struct Options {
   std::vector<double> turned = {0.0, 1.0};
   int width = 160;
   double noise = 0.005, outliers = 0.01;
-  std::string only;
+  std::vector<std::string> only;
 };
 
 /// A Gibbs map to compare.
@@ -35,7 +36,7 @@ struct Variant {
 };
 constexpr Variant variants[] = {
     {"attenuation", [](PosteriorSamplerConfig&) {}},
-    {"attenuation 0.3,2",
+    {"attenuation 0.3/2",
      [](PosteriorSamplerConfig& c) {
        c.model.attenuations = {0.3, 2.0};
      }},
@@ -51,14 +52,14 @@ constexpr Variant variants[] = {
        c.prior = 0.05;
        c.sweeps = 90;
      }},
-    {"paper, exact",
+    {"paper exact",
      [](PosteriorSamplerConfig& c) {
        c.model.kind = ForwardModel::paper;
        c.model.voxel_range = VoxelRange::centre;
        c.prior = 0.05;
        c.sweeps = 90;
      }},
-    {"paper, algorithm1",
+    {"paper algorithm1",
      [](PosteriorSamplerConfig& c) {
        c.model.kind = ForwardModel::paper;
        c.model.voxel_range = VoxelRange::centre;
@@ -67,7 +68,7 @@ constexpr Variant variants[] = {
        c.sweeps = 20;
        c.until_stationary = false;
      }},
-    {"beam, algorithm1",
+    {"beam algorithm1",
      [](PosteriorSamplerConfig& c) {
        c.model.kind = ForwardModel::beam;
        c.prior = 0.5;
@@ -134,7 +135,8 @@ class Comparison {
     RangeMeasurements measurements{camera_.max_range, {}, {}};
     for (const Scan& scan : views_.scans) measurements.add(scan);
     for (const Variant& variant : variants) {
-      if (!options_.only.empty() && options_.only != variant.name) continue;
+      const auto& only = options_.only;
+      if (!only.empty() && std::find(only.begin(), only.end(), variant.name) == only.end()) continue;
       PosteriorSamplerConfig config;
       config.model.sigma = camera_.range_noise;
       config.model.angular_sigma = 0.5 * ray_pitch(camera_);
@@ -146,10 +148,10 @@ class Comparison {
       row(variant.name, posterior.voxels(InverseSensorModel{}), seconds,
           fmt::format("{} sweeps R-hat {:.3f} trend {:.1f} differ {}", d.sweeps, d.r_hat, d.trend,
                       d.disagreeing_voxels));
-      if (std::string_view(variant.name) == "attenuation 0.3,2") {
+      if (std::string_view(variant.name) == "attenuation 0.3/2") {
         GibbsPosterior upper = posterior;
         upper.occupied = posterior.upper;
-        row("attenuation 0.3,2 (upper level)", upper.voxels(InverseSensorModel{}), 0.0, "");
+        row("attenuation 0.3/2 (upper level)", upper.voxels(InverseSensorModel{}), 0.0, "");
       }
     }
   }
@@ -185,7 +187,7 @@ int main(int argc, char** argv) {
   program.add_option("--width", options.width, "image width; three quarters of it high [px]")->capture_default_str();
   program.add_option("--noise", options.noise, "of ranges [m]")->capture_default_str();
   program.add_option("--outliers", options.outliers, "share of pixels")->capture_default_str();
-  program.add_option("--only", options.only, "one of the Gibbs maps instead of all");
+  program.add_option("--only", options.only, "these of the Gibbs maps instead of all");
   CLI11_PARSE(program, argc, argv);
   try {
     fmt::print(

@@ -91,6 +91,9 @@ TEST_F(Refine, BadInputIsOneLineAndExitCode2) {
   expect(scan() + " --gibbs.attenuations 2,1", "attenuations");
   expect(scan() + " --gibbs.model thrun", "gibbs.model");
   expect(scan() + " --gibbs.chains 0", "gibbs.chains");
+  const Result onto_itself = nextview("refine " + scan() + " --no-pictures --out " + scan());
+  EXPECT_EQ(onto_itself.exit_code, 2);
+  EXPECT_THAT(onto_itself.err, HasSubstr("another folder"));
   write_file(fs::path(scan()) / "views.csv", "step,view,x[m]\n1,77,0,0,1,0,0,0,1\n");
   expect(scan(), "views.csv:2");
   fs::remove(fs::path(scan()) / "views.csv");

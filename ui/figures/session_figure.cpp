@@ -51,7 +51,7 @@ StepPicture step_picture(const Session& session) {
   picture.gain_unit = gain_unit(c.planner.gain);
   picture.object = session.mesh().get();
   picture.grid = session.map().grid();
-  picture.voxels = session.map().voxels();
+  picture.voxels = session.planning_voxels();
   picture.cloud = thinned(session.clouds());
   picture.camera = session.camera().camera();
   picture.candidates = session.candidates();

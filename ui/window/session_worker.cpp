@@ -39,7 +39,7 @@ void add_next_view(SessionSnapshot& snapshot, const Session& session) {
 }
 
 void add_map(SessionSnapshot& snapshot, const Session& session, const PointCloud& cloud) {
-  const auto voxels = session.map().voxels();
+  const auto voxels = session.planning_voxels();
   ++snapshot.map;
   snapshot.voxels = std::make_shared<const std::vector<Voxel>>(voxels.begin(), voxels.end());
   snapshot.cloud = std::make_shared<const PointCloud>(cloud);
