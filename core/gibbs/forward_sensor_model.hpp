@@ -22,7 +22,8 @@ constexpr std::string_view name(ForwardModel model) {
 }
 
 /// What stands for the range of a voxel: the mean of the Gaussian over the ray's entry-exit segment, or the distance of
-/// the voxel's centre from the camera, as in the paper.
+/// the voxel's centre from the camera, as in the paper. With centres sigma is taken as it is: what the voxel's own size
+/// adds, sqrt(sigma^2 + edge^2 / 12), is for the caller to say.
 enum class VoxelRange { segment, centre };
 
 /// A voxel on the ray of a measurement.
@@ -43,7 +44,9 @@ struct ForwardSensorModel {
   double random_weight = 0.05;   ///< beam, attenuation: share of ranges that come from anywhere
   double max_weight = 0.05;      ///< ... of rays that miss a surface they should have met
   double eta_hit = 1.0;          ///< paper: the weight inside the exponent of Eq. 1
-  std::vector<double> attenuations = {0.05, 0.2};  ///< attenuation: kappa of each level, ascending [1 / voxel edge]
+  /// attenuation: kappa of each level, ascending [1 / voxel edge]. Weak levels, as a surface that touches a voxel
+  /// mostly fills little of it: with strong ones a voxel that stops half of its rays makes its neighbours look free.
+  std::vector<double> attenuations = {0.05, 0.2};
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;

@@ -17,6 +17,7 @@ enum class Sampler {
   exact,      ///< draws from the full conditional
   algorithm1  ///< as printed: the conditional is replaced by 0.7 or 0.4, whichever side of 0.5 it is on
 };
+/// `occupied`: only voxels that the start map calls occupied; the others stay free, and keep its probability.
 enum class UpdatedVoxels { occupied_and_free, occupied };
 enum class StartMap { octree, free, occupied, random };
 
@@ -40,12 +41,14 @@ struct PosteriorSamplerConfig {
   void validate() const;
 };
 
-/// The posterior of every voxel of a grid, and how it came about.
+/// The posterior of every voxel of a grid, and how it came about. What the levels mean follows from the model: of
+/// attenuations such as {0.3, 2}, `occupied` says that a surface touches the voxel and `upper` that its centre is
+/// solid.
 struct GibbsPosterior {
   VoxelGrid grid;
-  std::vector<float> occupied;         ///< P(level > 0 | z): a surface touches the voxel. 0.5 where not informed
-  std::vector<float> upper;            ///< P(uppermost level | z): its centre is solid. 0.5 where not informed
-  std::vector<std::uint8_t> informed;  ///< 1: on posterior average at least half a measured ray reaches it
+  std::vector<float> occupied;                    ///< P(level > 0 | z), the map's p. 0.5 where not informed
+  std::vector<float> upper;                       ///< P(uppermost level | z). 0.5 where not informed
+  std::vector<std::uint8_t> informed;             ///< 1: on posterior average at least half a measured ray reaches it
   std::vector<std::vector<std::uint8_t>> states;  ///< the last map of each chain, to start from again
   SamplerDiagnostics diagnostics;
 
