@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/gibbs/first_hit_state.hpp"
+#include "core/gibbs/neighbour_moves.hpp"
 #include "core/gibbs/survival_state.hpp"
 #include "core/random/counter_random.hpp"
 
@@ -24,10 +25,14 @@ template <class State>
 class StateChain final : public Chain {
  public:
   StateChain(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites, int index)
-      : lists_(lists), config_(config), sites_(sites), index_(index), state_(lists, config.model) {
+      : lists_(lists),
+        config_(config),
+        sites_(sites),
+        index_(index),
+        state_(lists, config.model),
+        moves_(lists.grid(), sites, state_) {
     const int occupied_levels = state_.levels() - 1;
     log_prior_odds_ = std::log(config.prior / occupied_levels / (1.0 - config.prior));
-    stride_ = {1u, std::uint32_t(lists.grid().size.x()), std::uint32_t(lists.grid().size.x() * lists.grid().size.y())};
   }
 
   void start(std::vector<std::uint8_t> map) override { state_.reset(std::move(map)); }
@@ -41,8 +46,9 @@ class StateChain final : public Chain {
     changed_ = 0;
     update_levels(mean);
     if (config_.sampler == Sampler::exact) {
-      for (int pass = 0; pass < config_.swaps; ++pass) swap_neighbours(pass);
-      for (int pass = 0; pass < config_.plaquettes; ++pass) redraw_plaquettes(pass);
+      for (int pass = 0; pass < config_.swaps; ++pass) changed_ += moves_.swap(random(Draw::swaps, pass));
+      for (int pass = 0; pass < config_.plaquettes; ++pass)
+        changed_ += moves_.redraw_plaquettes(random(Draw::plaquettes, pass));
     }
     return changed_;
   }
@@ -187,75 +193,6 @@ class StateChain final : public Chain {
     return state_.set(voxel, level);
   }
 
-  /// The voxel after this one along an axis, if it is one that moves may touch.
-  bool neighbour(std::uint32_t voxel, int axis, std::uint32_t& next) const {
-    if (lists_.grid().cell(voxel)[axis] + 1 >= lists_.grid().size[axis]) return false;
-    next = voxel + stride_[axis];
-    return sites_.kind[next] == Sites::near;
-  }
-
-  /// Neighbours exchange their levels (Metropolis; the pair does not depend on the map, so the proposal is symmetric,
-  /// and the prior does not change). A surface slides along the rays this way without first vanishing.
-  void swap_neighbours(int pass) {
-    const CounterRandom draws = random(Draw::swaps, pass);
-    for (const std::uint32_t a : sites_.near_voxels) {
-      std::uint32_t b;
-      const auto u = draws.uniform(a);
-      if (!neighbour(a, static_cast<int>(3.0 * u[0]), b)) continue;
-      const std::uint8_t level_a = state_.map()[a], level_b = state_.map()[b];
-      if (level_a == level_b) continue;
-      const double change = state_.set(a, level_b) + state_.set(b, level_a);
-      if (std::log(u[1]) <= change) {
-        changed_ += 2;
-        continue;
-      }
-      state_.set(b, level_b);
-      state_.set(a, level_a);
-    }
-  }
-
-  /// Four voxels in a square exchange their levels: drawn from all arrangements, each with its exact probability.
-  void redraw_plaquettes(int pass) {
-    const CounterRandom draws = random(Draw::plaquettes, pass);
-    for (const std::uint32_t corner : sites_.near_voxels) {
-      const auto u = draws.uniform(corner);
-      const int axis = static_cast<int>(3.0 * u[0]);
-      std::array<std::uint32_t, 4> voxels{corner};
-      if (!neighbour(corner, axis, voxels[1]) || !neighbour(corner, (axis + 1) % 3, voxels[2]) ||
-          !neighbour(voxels[1], (axis + 1) % 3, voxels[3]))
-        continue;
-      redraw(voxels, u[1]);
-    }
-  }
-
-  void redraw(const std::array<std::uint32_t, 4>& voxels, double u) {
-    std::array<std::uint8_t, 4> levels, before;
-    for (int k = 0; k < 4; ++k) levels[k] = before[k] = state_.map()[voxels[k]];
-    std::sort(levels.begin(), levels.end());
-    if (levels.front() == levels.back()) return;
-    const auto arrange = [&](const std::array<std::uint8_t, 4>& to) {
-      double change = 0.0;
-      for (int k = 0; k < 4; ++k) change += state_.set(voxels[k], to[k]);
-      return change;
-    };
-    std::array<std::array<std::uint8_t, 4>, 24> arrangements;
-    std::array<double, 24> log_weights;
-    int count = 0;
-    double log_likelihood = 0.0;
-    do {
-      log_likelihood += arrange(levels);
-      arrangements[count] = levels;
-      log_weights[count++] = log_likelihood;
-    } while (std::next_permutation(levels.begin(), levels.end()));
-    const double largest = *std::max_element(log_weights.begin(), log_weights.begin() + count);
-    double total = 0.0;
-    for (int k = 0; k < count; ++k) total += log_weights[k] = std::exp(log_weights[k] - largest);
-    int chosen = 0;
-    for (double at = u * total; chosen < count - 1 && at > log_weights[chosen]; ++chosen) at -= log_weights[chosen];
-    arrange(arrangements[chosen]);
-    for (int k = 0; k < 4; ++k) changed_ += before[k] != arrangements[chosen][k];
-  }
-
   struct Look {
     std::uint32_t voxel;
     double u;
@@ -268,8 +205,8 @@ class StateChain final : public Chain {
   std::uint32_t sweep_ = 0;
   std::size_t changed_ = 0;
   double log_prior_odds_;
-  std::array<std::uint32_t, 3> stride_;
   State state_;
+  NeighbourMoves<State> moves_;
   std::vector<Look> looks_;  ///< scratch of update_unsettled
 };
 
