@@ -42,6 +42,8 @@ MarginalComparison sample(const Problem& right, const Conditional& conditional) 
 class Conditionals : public ::testing::TestWithParam<ForwardModel> {
  protected:
   const Problem right{GetParam()};
+  class ConditionalsWithAFloor : public Conditionals {};
+  class ConditionalsOfSeveralLevels : public Conditionals {};
 
   void expect_caught(const Conditional& broken) const {
     const MarginalComparison comparison = sample(right, broken);
@@ -86,8 +88,7 @@ TEST_P(Conditionals, oneThatForgetsWhatBlocksARayIsCaught) {
   });
 }
 
-TEST_P(Conditionals, oneWithoutTheFloorIsCaught) {
-  if (right.model.is_first_hit()) GTEST_SKIP() << "has no floor";
+TEST_P(ConditionalsWithAFloor, oneWithoutTheFloorIsCaught) {
   Problem wrong = right;
   wrong.model.random_weight = 1e-9;
   expect_caught(wrong);
@@ -115,8 +116,7 @@ TEST_P(Conditionals, oneThatIgnoresNoReturnsIsCaught) {
   expect_caught(wrong);
 }
 
-TEST_P(Conditionals, oneThatTakesTheUpperLevelForOccupiedIsCaught) {
-  if (right.posterior().levels() == 2) GTEST_SKIP() << "has one level";
+TEST_P(ConditionalsOfSeveralLevels, oneThatTakesTheUpperLevelForOccupiedIsCaught) {
   const plain::Posterior posterior = right.posterior();
   const Conditional full = plain::full_conditional(posterior);
   expect_caught([&](const Levels& map, std::uint32_t voxel) {
@@ -126,10 +126,17 @@ TEST_P(Conditionals, oneThatTakesTheUpperLevelForOccupiedIsCaught) {
   });
 }
 
+std::string name_of(const ::testing::TestParamInfo<ForwardModel>& parameter) {
+  return std::string(name(parameter.param));
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryModel, Conditionals,
                          ::testing::Values(ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
                                            ForwardModel::attenuation),
-                         [](const auto& parameter) { return std::string(name(parameter.param)); });
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Mixtures, ConditionalsWithAFloor,
+                         ::testing::Values(ForwardModel::beam, ForwardModel::attenuation), name_of);
+INSTANTIATE_TEST_SUITE_P(Mixtures, ConditionalsOfSeveralLevels, ::testing::Values(ForwardModel::attenuation), name_of);
 
 }  // namespace
 }  // namespace nextview
