@@ -57,6 +57,9 @@ class Conditionals : public ::testing::TestWithParam<ForwardModel> {
   }
 };
 
+class ConditionalsWithAFloor : public Conditionals {};
+class ConditionalsOfSeveralLevels : public Conditionals {};
+
 TEST_P(Conditionals, theRightOnePasses) {
   const plain::Posterior posterior = right.posterior();
   const MarginalComparison comparison = sample(right, plain::full_conditional(posterior));
