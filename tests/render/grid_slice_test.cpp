@@ -57,23 +57,23 @@ TEST(GridSlice, AnOpeningIsCutAcrossItsLength) {
 }
 
 TEST(GridSlice, TheLargestDifferenceIsFound) {
-  const VoxelGrid grid = grid_of(12, 14, 16);
+  const VoxelGrid grid = grid_of(12, 14, 40);
   std::vector<Voxel> one(grid.voxel_count(), measured(0.1f)), other = one;
   // Most in the layer y = 9, however little in each voxel.
   for (int x = 0; x < 12; ++x)
-    for (int z = 0; z < 16; ++z) other[grid.index({x, 9, z})].probability = 0.2f;
+    for (int z = 0; z < 40; ++z) other[grid.index({x, 9, z})].probability = 0.2f;
   GridSlice slice = slice_of_largest_difference(grid, one, other);
   EXPECT_EQ(slice.axis, 1);
   EXPECT_EQ(slice.index, 9);
   EXPECT_EQ(slice.width, 12) << "nothing occupied in it: all of it shows";
-  EXPECT_EQ(slice.height, 16);
+  EXPECT_EQ(slice.height, 40);
 
   // Free space does not count as soon as something is called occupied: a wall that the other map has not, in x = 4.
   for (int y = 3; y < 8; ++y) other[grid.index({4, y, 6})].probability = 0.9f;
   slice = slice_of_largest_difference(grid, one, other);
   EXPECT_EQ(slice.axis, 0);
   EXPECT_EQ(slice.index, 4);
-  EXPECT_LT(slice.width, 14) << "cropped around the wall";
+  EXPECT_LT(slice.height, 40) << "cropped around the wall";
 }
 
 TEST(GridSlice, ACrossSectionOfABoxIsItsRectangle) {

@@ -42,8 +42,6 @@ MarginalComparison sample(const Problem& right, const Conditional& conditional) 
 class Conditionals : public ::testing::TestWithParam<ForwardModel> {
  protected:
   const Problem right{GetParam()};
-  class ConditionalsWithAFloor : public Conditionals {};
-  class ConditionalsOfSeveralLevels : public Conditionals {};
 
   void expect_caught(const Conditional& broken) const {
     const MarginalComparison comparison = sample(right, broken);
