@@ -45,7 +45,7 @@ void ChainEnsemble::begin_mean(int sweeps) {
   const std::size_t voxels = sites_.kind.size();
   window_ = sweeps;
   const std::size_t affordable = reach_incidences / std::max<std::size_t>(1, diagnostics_.incidences);
-  reach_samples_ = static_cast<int>(std::clamp<std::size_t>(affordable, 2, std::min(sweeps, 1000)));
+  reach_samples_ = static_cast<int>(std::clamp<std::size_t>(affordable, 2, std::clamp(sweeps / 10, 2, 1000)));
   diagnostics_.burn_in = diagnostics_.sweeps;
   diagnostics_.divergence.clear();
   for (int c = 0; c < config_.chains; ++c) {
