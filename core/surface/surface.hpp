@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.hpp"
@@ -13,6 +14,7 @@ struct Surface {
   std::vector<float> uncertainty;
   std::vector<std::uint8_t> seen;  ///< of each vertex, 1: measured; 0: closes the surface where no view has looked
 
+  std::string why_empty;  ///< for people; set if there is no triangle
   bool empty() const { return mesh.triangles.empty(); }
 };
 

@@ -1,0 +1,213 @@
+#include "core/surface/cloud_surface.hpp"
+
+#include <fmt/format.h>
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/kdtree/kdtree_flann.h>
+#include <pcl/point_types.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <vtkExtractSurface.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSignedDistance.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/surface/connected_pieces.hpp"
+#include "core/surface/vtk_mesh.hpp"
+
+namespace nextview {
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointNormal>;
+using Tree = pcl::KdTreeFLANN<pcl::PointNormal>;
+
+constexpr int neighbours = 20;      ///< of a point, for its normal and for a vertex's uncertainty
+constexpr std::size_t fewest = 50;  ///< points that make a surface
+constexpr double reach = 2.0;       ///< of a point's plane [cells]
+constexpr double margin = 3.0;      ///< of the lattice around the points, over `reach` [cells]
+constexpr std::size_t speck = 200;  ///< pieces with fewer triangles than this, some 10 x 10 cells, go
+constexpr double largest_lattice = 1 << 28;
+
+Eigen::Vector3f position(const pcl::PointNormal& p) { return p.getVector3fMap(); }
+Eigen::Vector3f normal(const pcl::PointNormal& p) { return p.getNormalVector3fMap(); }
+
+/// All returns; the normal is the direction to the camera.
+Cloud::Ptr to_pcl(std::span<const Scan> scans) {
+  auto cloud = std::make_shared<Cloud>();
+  for (const Scan& scan : scans)
+    for (const Eigen::Vector3f& point : scan.returns) {
+      pcl::PointNormal p;
+      p.getVector3fMap() = point;
+      p.getNormalVector3fMap() = (scan.origin.cast<float>() - point).normalized();
+      cloud->push_back(p);
+    }
+  return cloud;
+}
+
+/// How far neighbouring points of one scan lie apart: the median over some points of some scans [m].
+double point_spacing(std::span<const Scan> scans) {
+  constexpr std::size_t looked_at = 4, samples = 500;  // scans, and points of each
+  std::vector<float> squared_distances;
+  for (std::size_t s = 0; s < scans.size(); s += scans.size() / looked_at + 1) {
+    if (scans[s].returns.size() < 2) continue;
+    const Cloud::Ptr cloud = to_pcl(scans.subspan(s, 1));
+    Tree tree(false);
+    tree.setInputCloud(cloud);
+    pcl::Indices indices;
+    std::vector<float> squared;
+    for (std::size_t i = 0; i < cloud->size(); i += std::max<std::size_t>(1, cloud->size() / samples)) {
+      tree.nearestKSearch((*cloud)[i], 2, indices, squared);  // the point finds itself first
+      squared_distances.push_back(squared.back());
+    }
+  }
+  if (squared_distances.empty()) return 0.0;
+  const auto middle = squared_distances.begin() + std::ptrdiff_t(squared_distances.size() / 2);
+  std::nth_element(squared_distances.begin(), middle, squared_distances.end());
+  return std::sqrt(double(*middle));
+}
+
+void check_lattice(const Cloud& points, double cell) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points) box.extend(position(p).cast<double>());
+  if ((box.sizes() / cell + Vector3::Constant(2.0 * (reach + margin) + 2.0)).prod() > largest_lattice)
+    throw std::invalid_argument(
+        fmt::format("surface of a cloud: cells of {:.3g} m are too small for points that lie {:.3g} m apart; remove "
+                    "stray points or "
+                    "take larger cells",
+                    cell, box.sizes().maxCoeff()));
+}
+
+/// The points averaged in cells.
+Cloud::Ptr averaged(const Cloud::Ptr& points, double cell) {
+  pcl::VoxelGrid<pcl::PointNormal> filter;
+  filter.setInputCloud(points);
+  filter.setLeafSize(float(cell), float(cell), float(cell));
+  auto result = std::make_shared<Cloud>();
+  filter.filter(*result);
+  return result;
+}
+
+/// Calls `visit(i, nearest)` for each of `count` positions with the indices of the nearest points of the tree's cloud.
+template <class Position, class Visit>
+void with_neighbours(const Tree& tree, std::size_t count, Position position_of, Visit visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
+    pcl::Indices indices;
+    std::vector<float> squared;
+    pcl::PointNormal at;
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      at.getVector3fMap() = position_of(i);
+      tree.nearestKSearch(at, neighbours, indices, squared);
+      visit(i, indices);
+    }
+  });
+}
+
+/// Normals of planes fitted to neighbours, turned to the side where the cameras were.
+void fit_normals(Cloud& cloud, const Tree& tree) {
+  with_neighbours(
+      tree, cloud.size(), [&](std::size_t i) { return position(cloud[i]); },
+      [&](std::size_t i, const pcl::Indices& nearest) {
+        Vector3 mean = Vector3::Zero();
+        for (const auto k : nearest) mean += position(cloud[k]).cast<double>() / double(nearest.size());
+        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+        for (const auto k : nearest) {
+          const Vector3 d = position(cloud[k]).cast<double>() - mean;
+          spread += d * d.transpose();
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+        const Eigen::Vector3f across = axes.eigenvectors().col(0).cast<float>();
+        const bool turned = across.dot(normal(cloud[i])) < 0.0f;
+        cloud[i].getNormalVector3fMap() = turned ? Eigen::Vector3f(-across) : across;
+      });
+}
+
+/// Where the mean signed distance to the planes of the points around is zero.
+TriangleMesh integrate(const Cloud& cloud, double cell) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  Eigen::AlignedBox3d box;
+  for (const auto& p : cloud) {
+    points->InsertNextPoint(p.data);
+    normals->InsertNextTuple(p.data_n);
+    box.extend(position(p).cast<double>());
+  }
+  vtkNew<vtkPolyData> input;
+  input->SetPoints(points);
+  input->GetPointData()->SetNormals(normals);
+
+  // VTK marks points out of reach with the radius in single precision and looks for it in double.
+  const double radius = static_cast<float>(reach * cell);
+  const Vector3 lower = box.min() - Vector3::Constant((reach + margin) * cell);
+  const Eigen::Vector3i size = ((box.sizes() / cell).array() + 2.0 * (reach + margin) + 2.0).cast<int>();
+  const Vector3 upper = lower + cell * (size - Eigen::Vector3i::Ones()).cast<double>();
+  vtkNew<vtkSignedDistance> distance;
+  distance->SetInputData(input);
+  distance->SetRadius(radius);
+  distance->SetBounds(lower.x(), upper.x(), lower.y(), upper.y(), lower.z(), upper.z());
+  distance->SetDimensions(size.x(), size.y(), size.z());
+  vtkNew<vtkExtractSurface> zero;
+  zero->SetInputConnection(distance->GetOutputPort());
+  zero->SetRadius(radius);
+  zero->HoleFillingOff();
+  zero->ComputeNormalsOff();
+  zero->Update();
+  return to_mesh(*zero->GetOutput());
+}
+
+std::vector<float> deviations(const TriangleMesh& mesh, const Cloud& cloud, const Tree& tree) {
+  std::vector<float> result(mesh.vertices.size());
+  with_neighbours(
+      tree, result.size(), [&](std::size_t v) { return mesh.vertices[v]; },
+      [&](std::size_t v, const pcl::Indices& nearest) {
+        Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+        for (const auto k : nearest) mean += normal(cloud[k]);
+        mean.normalize();
+        float squares = 0.0f;
+        for (const auto k : nearest) {
+          const float d = mean.dot(position(cloud[k]) - mesh.vertices[v]);
+          squares += d * d;
+        }
+        result[v] = std::sqrt(squares / float(nearest.size()));
+      });
+  return result;
+}
+
+}  // namespace
+
+Surface cloud_surface(std::span<const Scan> scans, double finest, const SurfaceProgress& progress,
+                      std::stop_token stop) {
+  if (!(finest > 0.0))
+    throw std::invalid_argument(fmt::format("surface of a cloud: cells must be over 0 m wide, not {}", finest));
+  Surface surface;
+  const auto go_on = [&](double fraction, std::string_view what) {
+    if (progress) progress(fraction, what);
+    if (stop.stop_requested()) surface.why_empty = "stopped";
+    return surface.why_empty.empty();
+  };
+  const Cloud::Ptr points = to_pcl(scans);
+  if (points->size() < fewest) surface.why_empty = fmt::format("{} points are too few for a surface", points->size());
+  if (!go_on(0.0, "averaging the points")) return surface;
+  const double cell = std::max(finest, 1.25 * point_spacing(scans));
+  check_lattice(*points, cell);
+  const Cloud::Ptr cloud = averaged(points, cell);
+  if (!go_on(0.2, "fitting normals")) return surface;
+  Tree tree(false);
+  tree.setInputCloud(cloud);
+  fit_normals(*cloud, tree);
+  if (!go_on(0.4, "integrating the points' planes")) return surface;
+  surface.mesh = without_small_pieces(integrate(*cloud, cell), speck);
+  if (surface.empty()) surface.why_empty = "the points lie too far apart for a surface";
+  if (!go_on(0.8, "measuring the uncertainty")) return surface;
+  surface.uncertainty = deviations(surface.mesh, *cloud, tree);
+  surface.seen.assign(surface.mesh.vertices.size(), 1);
+  return surface;
+}
+
+}  // namespace nextview

@@ -1,0 +1,174 @@
+#include "core/surface/map_surface.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/surface/isosurface.hpp"
+#include "core/surface/solid_voxels.hpp"
+
+namespace nextview {
+namespace {
+
+/// Values this near to the level are moved off it, so that no two vertices come to lie at one place.
+constexpr float off_level = 1e-3f;
+/// At the middle of a thin wall: the surface runs an eighth of a voxel edge off it on both sides.
+constexpr float thin_value = 2.0f / 3.0f;
+/// Of the solid voxels whose centres are this near to a vertex, half must be measured for it to be seen [voxel edges].
+constexpr double seen_within = 0.9;
+
+/// The voxels that contain a point of a lattice of half the grid's spacing: 1 at a voxel's centre, 2 on a face, 4 on an
+/// edge, 8 at a corner. Points are counted from the grid's lowest corner.
+struct VoxelsAround {
+  Eigen::Vector3i lowest, highest;
+
+  explicit VoxelsAround(const Eigen::Vector3i& point) {
+    for (int k = 0; k < 3; ++k) {
+      highest[k] = point[k] >> 1;
+      lowest[k] = point[k] & 1 ? highest[k] : highest[k] - 1;
+    }
+  }
+
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (int z = lowest.z(); z <= highest.z(); ++z)
+      for (int y = lowest.y(); y <= highest.y(); ++y)
+        for (int x = lowest.x(); x <= highest.x(); ++x) visit(Eigen::Vector3i(x, y, z));
+  }
+};
+
+/// The part of a grid that holds everything solid.
+struct CellBox {
+  Eigen::Vector3i lowest, highest;
+};
+
+CellBox solid_box(const VoxelGrid& grid, std::span<const float> solid) {
+  CellBox box{grid.size, Eigen::Vector3i::Constant(-1)};
+  for (std::uint32_t v = 0; v < solid.size(); ++v)
+    if (solid[v] >= solid_from) {
+      box.lowest = box.lowest.cwiseMin(grid.cell(v));
+      box.highest = box.highest.cwiseMax(grid.cell(v));
+    }
+  return box;
+}
+
+/// How far inside the object each point of a lattice of half the grid's spacing is: at corners of voxels the least
+/// solid of the eight decides, between corners their mean; within thin walls the least solid of the voxels around the
+/// point.
+class InsideField {
+ public:
+  InsideField(const VoxelGrid& grid, std::span<const float> solid)
+      : grid_(grid), solid_(solid), thin_(thin_voxels(grid, solid)) {}
+
+  ScalarField make() const {
+    const CellBox box = solid_box(grid_, solid_);
+    const Eigen::Vector3i first = 2 * box.lowest - Eigen::Vector3i::Ones();  // a point outside on every side
+    ScalarField field;
+    field.size = 2 * (box.highest - box.lowest) + Eigen::Vector3i::Constant(5);
+    field.spacing = 0.5 * grid_.resolution;
+    field.origin = grid_.lower() + field.spacing * first.cast<double>();
+    field.values.reserve(std::size_t(field.size.prod()));
+    for (int z = 0; z < field.size.z(); ++z)
+      for (int y = 0; y < field.size.y(); ++y)
+        for (int x = 0; x < field.size.x(); ++x) {
+          const float value = at(first + Eigen::Vector3i(x, y, z));
+          field.values.push_back(std::abs(value - solid_from) < off_level ? solid_from + off_level : value);
+        }
+    return field;
+  }
+
+ private:
+  float solid(const Eigen::Vector3i& cell) const { return grid_.contains(cell) ? solid_[grid_.index(cell)] : 0.0f; }
+
+  float at_corner(const Eigen::Vector3i& corner) const {
+    float least = 1.0f;
+    VoxelsAround(2 * corner).for_each([&](const Eigen::Vector3i& cell) { least = std::min(least, solid(cell)); });
+    return least;
+  }
+
+  float at(const Eigen::Vector3i& point) const {
+    float sum = 0.0f, least = 1.0f;
+    int corners = 0;
+    bool in_thin = false;
+    // The corners around a point are to it what the voxels are, half a voxel on.
+    VoxelsAround(point + Eigen::Vector3i::Ones()).for_each([&](const Eigen::Vector3i& corner) {
+      sum += at_corner(corner);
+      ++corners;
+    });
+    VoxelsAround(point).for_each([&](const Eigen::Vector3i& cell) {
+      least = std::min(least, solid(cell));
+      in_thin |= grid_.contains(cell) && thin_[grid_.index(cell)];
+    });
+    const float mean = sum / float(corners);
+    return in_thin ? std::max(mean, std::min(least, thin_value)) : mean;
+  }
+
+  const VoxelGrid& grid_;
+  std::span<const float> solid_;
+  std::vector<std::uint8_t> thin_;
+};
+
+/// Between points of the lattice, trilinear.
+double interpolate(const ScalarField& field, const Vector3& point) {
+  const Eigen::Vector3i last = field.size - Eigen::Vector3i::Constant(2);
+  const Vector3 place = (point - field.origin) / field.spacing;
+  const Eigen::Vector3i cell =
+      place.array().floor().matrix().cast<int>().cwiseMax(Eigen::Vector3i::Zero()).cwiseMin(last);
+  const Vector3 t = (place - cell.cast<double>()).cwiseMax(0.0).cwiseMin(1.0);
+  double value = 0.0;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector3i step(k & 1, k >> 1 & 1, k >> 2);
+    double weight = 1.0;
+    for (int axis = 0; axis < 3; ++axis) weight *= step[axis] ? t[axis] : 1.0 - t[axis];
+    value += weight * field.values[field.index(cell + step)];
+  }
+  return value;
+}
+
+float uncertainty(const ScalarField& field, const Vector3& vertex, double largest) {
+  Vector3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 step = field.spacing * Vector3::Unit(axis);
+    gradient[axis] = (interpolate(field, vertex + step) - interpolate(field, vertex - step)) / (2.0 * field.spacing);
+  }
+  return static_cast<float>(std::min(0.25 / gradient.norm(), largest));
+}
+
+bool is_seen(const VoxelGrid& grid, std::span<const Voxel> voxels, std::span<const float> solid,
+             const Vector3& vertex) {
+  int near = 0, measured = 0;
+  const Eigen::Vector3i centre = grid.cell_at(vertex);
+  for (int k = 0; k < 27; ++k) {
+    const Eigen::Vector3i cell = centre + Eigen::Vector3i(k % 3, k / 3 % 3, k / 9) - Eigen::Vector3i::Ones();
+    if (!grid.contains(cell)) continue;
+    const std::uint32_t v = grid.index(cell);
+    if (solid[v] < solid_from || (grid.centre(v) - vertex).norm() > seen_within * grid.resolution) continue;
+    ++near;
+    measured += voxels[v].measured;
+  }
+  return near > 0 && 2 * measured >= near;
+}
+
+}  // namespace
+
+Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels) {
+  if (voxels.size() != grid.voxel_count())
+    throw std::invalid_argument("surface of a map: the voxels are not as many as the grid's");
+  Surface surface;
+  if (std::none_of(voxels.begin(), voxels.end(), [](const Voxel& v) { return v.measured; }))
+    surface.why_empty = "nothing has been measured yet";
+  else if (std::none_of(voxels.begin(), voxels.end(),
+                        [](const Voxel& v) { return v.measured && v.probability >= solid_from; }))
+    surface.why_empty = "no voxel is occupied";
+  if (!surface.why_empty.empty()) return surface;
+
+  const std::vector<float> solid = solid_voxels(grid, voxels);
+  const ScalarField field = InsideField(grid, solid).make();
+  surface.mesh = isosurface(field, solid_from);
+  for (const Eigen::Vector3f& vertex : surface.mesh.vertices) {
+    surface.uncertainty.push_back(uncertainty(field, vertex.cast<double>(), grid.resolution));
+    surface.seen.push_back(is_seen(grid, voxels, solid, vertex.cast<double>()));
+  }
+  return surface;
+}
+
+}  // namespace nextview

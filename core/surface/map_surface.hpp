@@ -1,0 +1,22 @@
+#pragma once
+#include <span>
+
+#include "core/map/occupancy.hpp"
+#include "core/map/voxel_grid.hpp"
+#include "core/surface/surface.hpp"
+
+namespace nextview {
+
+/// The surface of an occupancy map, conventional or Gibbs, by marching cubes at p = 0.5. A voxel counts as occupied if
+/// the surface touches it, so a point is inside only if all voxels around it are occupied: the surface runs through the
+/// middle of the outermost occupied voxels, and within half an edge of the true one; where probabilities lie between 0
+/// and 1 it moves with them. Voxels that are not measured count as solid: what no view has seen is closed, and its
+/// vertices are not `seen`. Walls one voxel thin become a shell half a voxel thick. Left out: solid pieces without any
+/// occupied voxel that was measured (corners that no ray reached), and free pockets that do not reach the region's
+/// border (no camera sees into them). Uncertainty: half the distance between where p is 0.25 and 0.75, at most a voxel
+/// edge; a quarter of an edge where the map is sure. Watertight. Empty, with the reason, if no voxel is measured or
+/// none that is measured is occupied.
+/// @throws std::invalid_argument if the number of voxels is not the grid's.
+Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels);
+
+}  // namespace nextview

@@ -1,0 +1,129 @@
+#include "core/surface/solid_voxels.hpp"
+
+#include <algorithm>
+
+namespace nextview {
+namespace {
+
+constexpr std::size_t speck = 4;  ///< fewer thin voxels than this on something thicker are noise [voxels]
+
+/// What is connected to what: over faces, or over faces, edges and corners.
+enum class Neighbours { faces, all };
+
+/// Calls `visit(neighbour)` for the neighbours of a voxel that lie in the grid.
+template <class Visit>
+void for_each_neighbour(const VoxelGrid& grid, std::uint32_t voxel, Neighbours neighbours, Visit visit) {
+  const Eigen::Vector3i cell = grid.cell(voxel);
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int steps = std::abs(dx) + std::abs(dy) + std::abs(dz);
+        if (steps == 0 || (neighbours == Neighbours::faces && steps > 1)) continue;
+        const Eigen::Vector3i other = cell + Eigen::Vector3i(dx, dy, dz);
+        if (grid.contains(other)) visit(grid.index(other));
+      }
+}
+
+/// Calls `visit(piece)` with the voxels of each connected piece of those that `belongs` is true for.
+template <class Belongs, class Visit>
+void for_each_piece(const VoxelGrid& grid, Neighbours neighbours, Belongs belongs, Visit visit) {
+  std::vector<std::uint8_t> done(grid.voxel_count());
+  std::vector<std::uint32_t> piece;
+  for (std::uint32_t start = 0; start < done.size(); ++start) {
+    if (done[start] || !belongs(start)) continue;
+    done[start] = 1;
+    piece.assign(1, start);
+    for (std::size_t next = 0; next < piece.size(); ++next)
+      for_each_neighbour(grid, piece[next], neighbours, [&](std::uint32_t v) {
+        if (done[v] || !belongs(v)) return;
+        done[v] = 1;
+        piece.push_back(v);
+      });
+    visit(piece);
+  }
+}
+
+bool at_border(const VoxelGrid& grid, std::uint32_t voxel) {
+  const Eigen::Vector3i cell = grid.cell(voxel);
+  return (cell.array() == 0).any() || (cell.array() == grid.size.array() - 1).any();
+}
+
+/// Free pockets that do not reach the region's border become solid. The largest stays in any case: a region may end
+/// where nothing was measured.
+void close_pockets(const VoxelGrid& grid, std::vector<float>& solid) {
+  std::vector<std::vector<std::uint32_t>> pockets;
+  std::vector<std::uint32_t> largest;
+  std::size_t largest_size = 0;
+  for_each_piece(
+      grid, Neighbours::faces, [&](std::uint32_t v) { return solid[v] < solid_from; },
+      [&](const std::vector<std::uint32_t>& piece) {
+        const bool reaches = std::any_of(piece.begin(), piece.end(), [&](auto v) { return at_border(grid, v); });
+        if (piece.size() > largest_size) {
+          largest_size = piece.size();
+          if (!largest.empty()) pockets.push_back(std::move(largest));
+          largest = reaches ? std::vector<std::uint32_t>{} : piece;
+        } else if (!reaches) {
+          pockets.push_back(piece);
+        }
+      });
+  for (const auto& pocket : pockets)
+    for (const std::uint32_t v : pocket) solid[v] = 1.0f;
+}
+
+/// Solid pieces that nothing measured speaks for become free.
+void drop_unmeasured_pieces(const VoxelGrid& grid, std::span<const Voxel> voxels, std::vector<float>& solid) {
+  const std::vector<float> before = solid;
+  for_each_piece(
+      grid, Neighbours::all, [&](std::uint32_t v) { return before[v] >= solid_from; },
+      [&](const std::vector<std::uint32_t>& piece) {
+        const bool measured = std::any_of(piece.begin(), piece.end(), [&](std::uint32_t v) {
+          return voxels[v].measured && voxels[v].probability >= solid_from;
+        });
+        if (!measured)
+          for (const std::uint32_t v : piece) solid[v] = 0.0f;
+      });
+}
+
+bool in_solid_block(const VoxelGrid& grid, std::span<const float> solid, std::uint32_t voxel) {
+  const Eigen::Vector3i cell = grid.cell(voxel);
+  for (int block = 0; block < 8; ++block) {
+    const Eigen::Vector3i lowest = cell - Eigen::Vector3i(block & 1, block >> 1 & 1, block >> 2);
+    bool all = true;
+    for (int k = 0; k < 8 && all; ++k) {
+      const Eigen::Vector3i other = lowest + Eigen::Vector3i(k & 1, k >> 1 & 1, k >> 2);
+      all = grid.contains(other) && solid[grid.index(other)] >= solid_from;
+    }
+    if (all) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<float> solid_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels) {
+  std::vector<float> solid(voxels.size());
+  for (std::size_t v = 0; v < voxels.size(); ++v) solid[v] = voxels[v].measured ? voxels[v].probability : 1.0f;
+  close_pockets(grid, solid);
+  drop_unmeasured_pieces(grid, voxels, solid);
+  return solid;
+}
+
+std::vector<std::uint8_t> thin_voxels(const VoxelGrid& grid, std::span<const float> solid) {
+  std::vector<std::uint8_t> thin(solid.size());
+  for (std::uint32_t v = 0; v < solid.size(); ++v) thin[v] = solid[v] >= solid_from && !in_solid_block(grid, solid, v);
+  const std::vector<std::uint8_t> found = thin;
+  for_each_piece(
+      grid, Neighbours::all, [&](std::uint32_t v) { return found[v] != 0; },
+      [&](const std::vector<std::uint32_t>& piece) {
+        if (piece.size() >= speck) return;
+        bool on_something = false;
+        for (const std::uint32_t v : piece)
+          for_each_neighbour(grid, v, Neighbours::all,
+                             [&](std::uint32_t n) { on_something |= solid[n] >= solid_from && !found[n]; });
+        if (on_something)
+          for (const std::uint32_t v : piece) thin[v] = 0;
+      });
+  return thin;
+}
+
+}  // namespace nextview

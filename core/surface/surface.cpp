@@ -1,1 +1,0 @@
-#include "core/surface/surface.hpp"
