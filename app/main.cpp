@@ -22,7 +22,7 @@ bool draws_headless(const std::vector<std::string_view>& arguments) {
   const auto has = [&](std::string_view word) {
     return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
   };
-  return (has("scan") || has("refine")) && !has("--no-pictures") && !has("--help") && !has("-h");
+  return (has("scan") || has("refine") || has("calibrate")) && !has("--no-pictures") && !has("--help") && !has("-h");
 }
 
 int run(int argc, char** argv) {
@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   add_score_command(program);
   add_refine_command(program);
   add_posterior_command(program);
+  add_calibrate_command(program);
   CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
   options.add_to(*window);
   window->footer("Examples:\n  nextview window bunny.ply --gain area-factor\n  nextview bunny.ply");
@@ -70,8 +71,8 @@ int main(int argc, char** argv) {
     // `nextview FILE --gain …` and a bare `nextview` mean the window.
     static char window[] = "window";
     const std::string_view first = argc > 1 ? argv[1] : "";
-    constexpr std::array commands = {"scan",   "score", "refine",    "posterior", "window",
-                                     "--help", "-h",    "--version", "--threads"};
+    constexpr std::array commands = {"scan",   "score",  "refine", "posterior", "calibrate",
+                                     "window", "--help", "-h",     "--version", "--threads"};
     const bool names_command = std::find(commands.begin(), commands.end(), first) != commands.end();
     if (!names_command) arguments.insert(arguments.begin() + 1, window);
     if (draws_headless({arguments.begin() + 1, arguments.end()})) ensure_headless(argc, argv);

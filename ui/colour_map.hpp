@@ -12,6 +12,7 @@ class ColourMap {
   static ColourMap score();         ///< pale to deep blue: a view's score
   static ColourMap contribution();  ///< pale to deep red: what a ray or voxel contributes
   static ColourMap probability();   ///< blue, pale, brown: free, undecided at 0.5, occupied
+  static ColourMap deviation();     ///< blue, light grey, red: inside, on the true surface at 0.5, outside
 
   /// `t` is clamped to [0, 1]; not a number counts as 0.
   Colour at(double t) const;

@@ -13,11 +13,13 @@ struct Legend {
   struct Swatch {
     std::string name;
     Colour colour;
+    std::optional<Colour> stripes = {};  ///< across it, if it is striped
   };
   struct Range {
     ColourMap map;
     double low, high;
-    std::string unit;  ///< empty: dimensionless
+    std::string unit;                           ///< empty: dimensionless
+    std::string low_name = {}, high_name = {};  ///< what the ends mean, if it needs saying
   };
   std::string title;
   std::vector<Swatch> swatches;

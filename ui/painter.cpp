@@ -21,6 +21,10 @@ std::string title_of(const Legend& legend) {
   return has_unit ? fmt::format("{} [{}]", legend.title, legend.range->unit) : legend.title;
 }
 
+std::string named(double value, const std::string& name) {
+  return name.empty() ? short_number(value) : short_number(value) + " " + name;
+}
+
 }  // namespace
 
 std::string short_number(double value) { return fmt::format("{:.4g}", value); }
@@ -85,6 +89,10 @@ double Painter::legend(double x, double y, const Legend& legend) {
   for (const Legend::Swatch& swatch : legend.swatches) {
     at -= legend_line;
     box(x, at + 1, swatch_size, swatch_size, swatch.colour);
+    for (double from = 4; swatch.stripes && from < 2 * swatch_size; from += 5) {
+      const double low = std::max(0.0, from - swatch_size), high = std::min(from, swatch_size);
+      line(x + low, at + 1 + swatch_size - high, x + high, at + 1 + swatch_size - low, 1, *swatch.stripes);
+    }
     frame(x, at + 1, swatch_size, swatch_size, mix(swatch.colour, theme::ink, 0.3));
     text(x + swatch_size + 8, at, swatch.name, theme::small_text, theme::ink);
   }
@@ -95,9 +103,13 @@ double Painter::legend(double x, double y, const Legend& legend) {
     }
     frame(x, at, usual_legend_width, bar_height, theme::soft_ink);
     at -= legend_line - 2;
-    text(x, at, short_number(legend.range->low), theme::small_text, theme::soft_ink);
-    text(x + usual_legend_width, at, short_number(legend.range->high), theme::small_text, theme::soft_ink,
-         TextWeight::regular, TextAlign::right);
+    const auto& [map, low, high, unit, low_name, high_name] = *legend.range;
+    text(x, at, named(low, low_name), theme::small_text, theme::soft_ink);
+    if (low < 0.0 && low == -high)
+      text(x + 0.5 * usual_legend_width, at, "0", theme::small_text, theme::soft_ink, TextWeight::regular,
+           TextAlign::centre);
+    text(x + usual_legend_width, at, named(high, high_name), theme::small_text, theme::soft_ink, TextWeight::regular,
+         TextAlign::right);
   }
   return legend_height(legend);
 }

@@ -96,7 +96,8 @@ void Scene::annotate() {
   for (const Layer* layer : layers()) {
     if (!layer->visible()) continue;
     overlay_->item->labels.insert(overlay_->item->labels.end(), layer->labels().begin(), layer->labels().end());
-    overlay_->item->legends.insert(overlay_->item->legends.end(), layer->legends().begin(), layer->legends().end());
+    if (legends_)
+      overlay_->item->legends.insert(overlay_->item->legends.end(), layer->legends().begin(), layer->legends().end());
   }
 }
 

@@ -44,6 +44,8 @@ class Scene {
 
   void set_caption(const std::string& caption);
   void set_axes(bool axes, bool scale_bar);
+  /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
+  void set_legends(bool legends) { legends_ = legends; }
 
   /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a surface, for its
   /// proportions.
@@ -61,6 +63,7 @@ class Scene {
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
+  bool legends_ = true;
   vtkSmartPointer<vtkRenderer> renderer_;
   std::unique_ptr<MeshLayer> mesh_;
   std::unique_ptr<CloudLayer> cloud_;

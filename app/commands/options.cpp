@@ -46,7 +46,10 @@ void ConfigurationOptions::add_to(CLI::App& app) {
 }
 
 void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes) {
-  app.add_option("--config", file_, "configuration file (TOML), or paper; options override it")->type_name("FILE");
+  app.add_option("--config", files_,
+                 "configuration file (TOML), or paper; may be given several times, later ones override; so do options")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   static Configuration defaults;
   for (const Setting& setting : settings(defaults)) {
     const auto begins = [&](const std::string& prefix) { return setting.key.starts_with(prefix); };
@@ -75,7 +78,7 @@ Configuration ConfigurationOptions::configuration() const {
 }
 
 void ConfigurationOptions::apply_to(Configuration& configuration) const {
-  if (!file_.empty()) configuration = read_configuration(find_configuration(file_), configuration);
+  for (const std::string& file : files_) configuration = read_configuration(find_configuration(file), configuration);
   if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
     apply_sensor_preset(configuration, preset->second);
   auto list = settings(configuration);

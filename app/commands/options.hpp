@@ -9,7 +9,7 @@
 
 namespace nextview {
 
-/// What the command line says of a configuration: a file, and settings by their keys, which override it.
+/// What the command line says of a configuration: files, and settings by their keys, which override them.
 class ConfigurationOptions {
  public:
   /// Adds OBJECT, --config, an option for every setting (`--sensor.range_noise 0.001`), and the short names of the
@@ -24,7 +24,7 @@ class ConfigurationOptions {
   void apply_to(Configuration& configuration) const;
 
  private:
-  std::string file_;
+  std::vector<std::string> files_;  ///< later ones override earlier ones
   std::string object_;
   std::map<std::string, std::string> given_;  ///< key -> text
 };

@@ -6,7 +6,8 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
-#include "core/cloud/range_scan_folder.hpp"
+#include "app/commands/recorded_input.hpp"
+#include "app/commands/surface_output.hpp"
 #include "core/session/diagnostics_text.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/scan_files.hpp"
@@ -21,31 +22,9 @@ namespace fs = std::filesystem;
 struct RefineArguments {
   ConfigurationOptions options;
   std::string input, out = "refined";
-  double resolution = 0.0, stand_off = default_stand_off;
-  bool no_pictures = false;
+  RangeScanOptions range_scans;
+  bool no_pictures = false, no_surfaces = false;
 };
-
-/// What there is to refine: a folder that `scan` wrote, a folder of range scans, or a scene file.
-RefinementJob find_job(const RefineArguments& arguments, const Progress& progress, std::stop_token stop) {
-  const fs::path input = arguments.input;
-  if (!fs::exists(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
-  if (fs::exists(input / "config.toml"))
-    return refinement_job(
-        input, [&](Configuration& c) { arguments.options.apply_to(c); }, progress, stop);
-  const RecordedScene scene = fs::is_directory(input)
-                                  ? read_range_scan_folder(input, arguments.stand_off, arguments.resolution)
-                                  : read_recorded_scene(input);
-  const Configuration configuration = arguments.options.configuration();
-  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
-  try {
-    RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
-    job.name = fs::absolute(input).lexically_normal().stem().string();
-    job.configuration = to_toml(configuration);
-    return job;
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", input.string(), error.what()));
-  }
-}
 
 std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.1f}", 100.0 * *share) : std::string("-");
@@ -127,7 +106,8 @@ int run(const RefineArguments& arguments) {
   const fs::path out = arguments.out;
   const StopOnInterrupt stop;
   const ProgressLine progress;
-  const RefinementJob job = find_job(arguments, progress, stop.token());
+  const RefinementJob job =
+      recorded_job(arguments.input, arguments.options, arguments.range_scans, progress, stop.token());
   prepare_output_folder(out);
   if (fs::equivalent(out, arguments.input))
     throw std::invalid_argument(fmt::format("--out {}: that is what is refined; give another folder", out.string()));
@@ -136,8 +116,14 @@ int run(const RefineArguments& arguments) {
   print(job, refinement);
   write_refinement(job, refinement, out);
   if (!arguments.no_pictures) write_pictures(job, refinement, out);
+  if (!arguments.no_surfaces) {
+    const auto surfaces = scan_surfaces(job, refinement, progress, stop.token());
+    progress.clear();
+    write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
+  }
   fmt::print("\n{}/\n", out.string());
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");
+  if (!arguments.no_surfaces) fmt::print(surface_files);
   fmt::print(
       "  posterior.ot, posterior.bt, conventional.ot   the maps (OctoMap)\n"
       "  metrics.json, scores.csv, trace.csv, timings.csv, config.toml   the numbers\n");
@@ -156,13 +142,8 @@ void add_refine_command(CLI::App& program) {
   arguments->options.add_settings_to(*app, {"gibbs.", "seed"});
   app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
-  app->add_option("--voxel", arguments->resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
-  app->add_option("--stand-off", arguments->stand_off,
-                  "range scans: the scanner's distance, which they do not tell [m]")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+  app->add_flag("--no-surfaces", arguments->no_surfaces, "make no surfaces: faster");
+  arguments->range_scans.add_to(*app);
   app->footer(
       "Examples:\n  nextview refine out --out refined\n  nextview refine out --gibbs.model beam --out beam\n"
       "  nextview refine stanford_bunny --out bunny");

@@ -6,6 +6,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/surface_output.hpp"
 #include "core/session/scan_files.hpp"
 #include "ui/figures/session_figure.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 struct ScanArguments {
   ConfigurationOptions options;
   std::string out = "out";
-  bool no_pictures = false;
+  bool no_pictures = false, no_surfaces = false;
 };
 
 void print_head(const Session& session) {
@@ -47,7 +48,7 @@ void print_step(const StepRecord& r) {
   std::fflush(stdout);
 }
 
-void print_files(const Session& session, const std::filesystem::path& out, bool pictures) {
+void print_files(const Session& session, const std::filesystem::path& out, bool pictures, bool surfaces) {
   fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
   if (session.known_object() && !session.records().empty())
     fmt::print(
@@ -60,11 +61,11 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
       "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
-      "{}  cloud.ply       the cleaned point cloud\n"
+      "{}  cloud.ply       the cleaned point cloud\n{}"
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
       "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
-      out.string());
+      surfaces ? surface_files : "", out.string());
 }
 
 int run(const ScanArguments& arguments) {
@@ -85,8 +86,13 @@ int run(const ScanArguments& arguments) {
   }
   progress(1.0, "writing the files");
   write_scan(session, out);
-  progress.clear();
-  print_files(session, out, figure != nullptr);
+  if (!arguments.no_surfaces && !session.records().empty()) {
+    const auto surfaces = scan_surfaces(session, progress, stop.token());
+    progress.clear();
+    write_and_print_surfaces(surfaces, session.object_file().stem().string(), session.records().size(), out,
+                             figure != nullptr);
+  }
+  print_files(session, out, figure != nullptr, !arguments.no_surfaces);
   return session.finished().empty() ? exit_stopped : 0;
 }
 
@@ -98,6 +104,7 @@ void add_scan_command(CLI::App& program) {
   arguments->options.add_to(*app);
   app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
+  app->add_flag("--no-surfaces", arguments->no_surfaces, "make no surfaces: faster");
   app->footer(
       "Examples:\n  nextview scan --out out\n  nextview scan bunny.ply --gain rear-side-entropy --views 10 --seed 7 "
       "--out bunny\n"

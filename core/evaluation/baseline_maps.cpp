@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/evaluation/touched_voxels.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/map/traversal.hpp"
 
@@ -134,21 +135,35 @@ std::vector<Voxel> BaselineMaps::octomap() const {
   return {map.voxels().begin(), map.voxels().end()};
 }
 
+double BaselineMaps::update_term(const Scan& scan, std::uint32_t voxel, bool is_hit) const {
+  const double range = (grid_.centre(voxel) - scan.origin).norm();
+  return is_hit ? model_.hit_term(range) : model_.miss_term(range);
+}
+
 std::vector<Voxel> BaselineMaps::per_ray() const {
-  const double hit = log_odds(model_.hit), miss = log_odds(model_.miss);
+  const double hit = model_.hit_term(1.0), miss = model_.miss_term(1.0);
   const double lowest = log_odds(model_.clamp_min), highest = log_odds(model_.clamp_max);
   std::vector<double> sums(counts_.size());
   for (const Scan& scan : scans_)
     visit_rays(grid_, scan, max_range_, [&](std::uint32_t voxel, Touch touch) {
-      sums[voxel] = std::clamp(sums[voxel] + (touch == Touch::hit ? hit : miss), lowest, highest);
+      double term = touch == Touch::hit ? hit : miss;
+      if (model_.range_dependent()) term = update_term(scan, voxel, touch == Touch::hit);
+      sums[voxel] = std::clamp(sums[voxel] + term, lowest, highest);
     });
   return visited_voxels([&](std::size_t v) { return probability(sums[v]); });
 }
 
 std::vector<Voxel> BaselineMaps::no_clamps() const {
-  const double hit = log_odds(model_.hit), miss = log_odds(model_.miss);
-  return visited_voxels(
-      [&](std::size_t v) { return probability(counts_[v].scan_hits * hit + counts_[v].scan_passes * miss); });
+  std::vector<double> sums(counts_.size());
+  if (model_.range_dependent()) {
+    for (const Scan& scan : scans_)
+      visit_touched_voxels(grid_, scan, max_range_,
+                           [&](std::uint32_t voxel, bool is_hit) { sums[voxel] += update_term(scan, voxel, is_hit); });
+  } else {
+    const double hit = model_.hit_term(1.0), miss = model_.miss_term(1.0);
+    for (std::size_t v = 0; v < sums.size(); ++v) sums[v] = counts_[v].scan_hits * hit + counts_[v].scan_passes * miss;
+  }
+  return visited_voxels([&](std::size_t v) { return probability(sums[v]); });
 }
 
 }  // namespace nextview

@@ -54,7 +54,8 @@ double beta_binomial(const RayCounts& counts);
 class BaselineMaps {
  public:
   /// `max_range` in metres. The scans must outlive this. Of the model `per_ray` uses the terms and clamps, `no_clamps`
-  /// the terms, and all of them the bounds of the classes.
+  /// the terms, and all of them the bounds of the classes. Terms that depend on the range have, for rays as for scans,
+  /// that from the camera to the voxel's centre.
   /// @throws std::invalid_argument if the model is not valid or `max_range` is not over 0.
   BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, double max_range,
                const InverseSensorModel& model = {});
@@ -69,6 +70,7 @@ class BaselineMaps {
   void count_rays();
   std::vector<Voxel> octomap() const;
   std::vector<Voxel> per_ray() const;
+  double update_term(const Scan& scan, std::uint32_t voxel, bool is_hit) const;
   std::vector<Voxel> no_clamps() const;
   /// Gives each voxel that a ray visited the probability `p_of(voxel)`.
   template <class Probability>

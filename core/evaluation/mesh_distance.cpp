@@ -28,11 +28,12 @@ Eigen::Array4f padded(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z(), 0
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw std::invalid_argument("distance to a mesh: the mesh has no triangles");
-  std::vector<std::uint32_t> order(mesh.triangles.size());
-  std::iota(order.begin(), order.end(), 0u);
-  nodes_.reserve(order.size());
-  build(mesh, order, 0, order.size());
-  for (const std::uint32_t t : order) {
+  order_.resize(mesh.triangles.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  nodes_.reserve(order_.size());
+  build(mesh, 0, order_.size());
+  triangles_.reserve(order_.size());
+  for (const std::uint32_t t : order_) {
     const auto corner = [&](int k) -> Vector3 { return mesh.vertices[mesh.triangles[t][k]].cast<double>(); };
     const Vector3 ab = corner(1) - corner(0), ac = corner(2) - corner(0);
     triangles_.push_back({corner(0), ab, ac, ab.cross(ac)});
@@ -40,16 +41,15 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh) {
 }
 
 /// Splits at the median of the centroids along their longest side, so the tree's depth is the logarithm of its size.
-void MeshDistance::build(const TriangleMesh& mesh, std::vector<std::uint32_t>& order, std::size_t begin,
-                         std::size_t end) {
+void MeshDistance::build(const TriangleMesh& mesh, std::size_t begin, std::size_t end) {
   const auto thrice_centroid = [&](std::uint32_t t) -> Eigen::Vector3f {
     const auto& [a, b, c] = mesh.triangles[t];
     return mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c];
   };
   Eigen::AlignedBox3f box, centroids;
   for (std::size_t i = begin; i < end; ++i) {
-    for (const std::uint32_t vertex : mesh.triangles[order[i]]) box.extend(mesh.vertices[vertex]);
-    centroids.extend(thrice_centroid(order[i]));
+    for (const std::uint32_t vertex : mesh.triangles[order_[i]]) box.extend(mesh.vertices[vertex]);
+    centroids.extend(thrice_centroid(order_[i]));
   }
   const std::size_t node = nodes_.size();
   nodes_.push_back({padded(box.min()), padded(box.max()), static_cast<std::uint32_t>(begin)});
@@ -60,13 +60,13 @@ void MeshDistance::build(const TriangleMesh& mesh, std::vector<std::uint32_t>& o
   int axis = 0;
   centroids.sizes().maxCoeff(&axis);
   const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
     return thrice_centroid(a)[axis] < thrice_centroid(b)[axis];
   });
-  build(mesh, order, begin, middle);
+  build(mesh, begin, middle);
   nodes_[node].second = static_cast<std::uint32_t>(nodes_.size());
-  build(mesh, order, middle, end);
+  build(mesh, middle, end);
 }
 
 /// Infinity if it is over `limit` at first sight. Where the point is not above the inside of the triangle, the nearest

@@ -7,6 +7,8 @@
 #include <array>
 #include <atomic>
 
+#include "core/mesh/line_crossing.hpp"
+
 namespace nextview {
 namespace {
 
@@ -80,41 +82,25 @@ void mark_touched(const Triangle& t, const VoxelGrid& grid, std::vector<std::uin
       }
 }
 
-/// Whether the edge passes on one given side of a point of the plane, at the point's height. The edge is always taken
-/// from its lower end, so the triangles on its two sides get the same answer, however it rounds; an even number of
-/// triangles an edge then makes an even number of crossings a column: nothing leaks.
-bool edge_passes(Eigen::Vector2d a, Eigen::Vector2d b, const Eigen::Vector2d& point) {
-  if ((a.y() <= point.y()) == (b.y() <= point.y())) return false;
-  if (a.y() > b.y()) std::swap(a, b);
-  return (b.x() - a.x()) * (point.y() - a.y()) - (point.x() - a.x()) * (b.y() - a.y()) > 0.0;
-}
-
 /// Toggles, in each column along `axis` that crosses the triangle, the first voxel whose centre is behind the crossing
 /// (above the grid: the column's parity alone).
 void mark_crossings(const Triangle& t, const VoxelGrid& grid, int axis, std::vector<std::uint8_t>& toggles,
                     std::vector<std::uint8_t>& parity) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto flat = [&](const Vector3& p) { return Eigen::Vector2d(p[u], p[v]); };
-  const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const auto [u_low, u_high] = std::minmax({t[0][u], t[1][u], t[2][u]});
   const auto [v_low, v_high] = std::minmax({t[0][v], t[1][v], t[2][v]});
-  const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
   const int u_first = std::max(0, clamped_floor(u_low - 0.5, grid.size[u])),
             v_first = std::max(0, clamped_floor(v_low - 0.5, grid.size[v]));
   const int u_last = std::min(grid.size[u] - 1, clamped_floor(u_high, grid.size[u]));
   const int v_last = std::min(grid.size[v] - 1, clamped_floor(v_high, grid.size[v]));
   for (int j = v_first; j <= v_last; ++j)
     for (int i = u_first; i <= u_last; ++i) {
-      const Eigen::Vector2d p(i + 0.5, j + 0.5);
-      const bool crossed = edge_passes(flat(t[0]), flat(t[1]), p) ^ edge_passes(flat(t[1]), flat(t[2]), p) ^
-                           edge_passes(flat(t[2]), flat(t[0]), p);
-      if (!crossed) continue;
-      const double rise = normal[u] * (p.x() - t[0][u]) + normal[v] * (p.y() - t[0][v]);
-      const double crossing = normal[axis] == 0.0 ? low : std::clamp(t[0][axis] - rise / normal[axis], low, high);
+      const std::optional<double> crossing = line_crossing(t, axis, {i + 0.5, j + 0.5});
+      if (!crossing) continue;
       Eigen::Vector3i cell;
       cell[u] = i;
       cell[v] = j;
-      cell[axis] = std::max(0, clamped_floor(crossing - 0.5, grid.size[axis]) + 1);
+      cell[axis] = std::max(0, clamped_floor(*crossing - 0.5, grid.size[axis]) + 1);
       std::atomic_ref(parity[std::size_t(j) * grid.size[u] + i]).fetch_xor(1, std::memory_order_relaxed);
       if (cell[axis] < grid.size[axis])
         std::atomic_ref(toggles[grid.index(cell)]).fetch_xor(1, std::memory_order_relaxed);

@@ -12,6 +12,8 @@ void InverseSensorModel::validate() const {
   };
   require(hit > 0.5 && hit < 1.0, "hit must lie between 0.5 and 1");
   require(miss > 0.0 && miss < 0.5, "miss must lie between 0 and 0.5");
+  require(hit_decay >= -5.0 && hit_decay <= 5.0, "hit_decay must be from -5 to 5 per m");
+  require(miss_decay >= -5.0 && miss_decay <= 5.0, "miss_decay must be from -5 to 5 per m");
   require(clamp_min > 0.0 && clamp_min < 0.5, "clamp_min must lie between 0 and 0.5");
   require(clamp_max > 0.5 && clamp_max < 1.0, "clamp_max must lie between 0.5 and 1");
   require(occupancy_threshold > clamp_min && occupancy_threshold < clamp_max,

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -25,10 +26,19 @@ struct Voxel {
       0;  ///< how far behind a measured surface it lies [voxels along the ray]; 0: not behind one
 };
 
-/// OctoMap's inverse sensor model and the bounds of the classes (SCIENCE: the conventional map).
+/// How large an update term is at `range` [m] from the camera, as a share of what it is at 1 m; `decay` in 1/m. The
+/// exponent is kept within 80, so that in single precision too a term neither overflows nor vanishes.
+inline double range_factor(double decay, double range) {
+  return std::exp(std::clamp(-decay * (range - 1.0), -80.0, 80.0));
+}
+
+/// OctoMap's inverse sensor model and the bounds of the classes (SCIENCE: the conventional map). OctoMap's terms do not
+/// depend on the range; with decays they do.
 struct InverseSensorModel {
-  double hit = 0.7;         ///< probability that a voxel is occupied given that a ray ended in it
+  double hit = 0.7;         ///< probability that a voxel is occupied given that a ray ended in it, 1 m away
   double miss = 0.4;        ///< ... given that a ray passed through it
+  double hit_decay = 0.0;   ///< the log-odds of a hit fall by this share a metre, as exp(-decay (range - 1 m)) [1/m]
+  double miss_decay = 0.0;  ///< ... of a miss
   double clamp_min = 0.12;  ///< bounds of the probability
   double clamp_max = 0.97;
   double occupancy_threshold = 0.5;  ///< from here on a measured voxel stops a ray
@@ -38,6 +48,12 @@ struct InverseSensorModel {
   bool operator==(const InverseSensorModel&) const = default;
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;
+
+  bool range_dependent() const { return hit_decay != 0.0 || miss_decay != 0.0; }
+  /// What a hit adds to the log-odds of a voxel whose centre is `range` [m] from the camera.
+  double hit_term(double range) const { return log_odds(hit) * range_factor(hit_decay, range); }
+  /// ... and a miss; negative.
+  double miss_term(double range) const { return log_odds(miss) * range_factor(miss_decay, range); }
 
   VoxelClass classify(double p) const {
     return p > occupied_above ? VoxelClass::occupied : p < free_below ? VoxelClass::free : VoxelClass::unknown;

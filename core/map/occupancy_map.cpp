@@ -80,39 +80,52 @@ void OccupancyMap::insert(const Scan& scan, double max_range) {
   };
   pass(scan.returns);
   pass(scan.passes);
-  update_touched();
+  update_touched(scan.origin);
 }
 
-/// Adds the hit or the miss to the log-odds of each touched voxel, clamps, and clears the scratch.
-void OccupancyMap::update_touched() {
-  const auto hit_update = static_cast<float>(nextview::log_odds(model_.hit));
-  const auto miss_update = static_cast<float>(nextview::log_odds(model_.miss));
+/// Adds the hit or the miss, as the model has them for a camera at `origin`, to the log-odds of each touched voxel.
+void OccupancyMap::update_touched(const Vector3& origin) {
+  if (model_.range_dependent()) {
+    add_to_touched([&](std::uint32_t voxel, bool is_hit) {
+      const double range = (grid_.centre(voxel) - origin).norm();
+      return static_cast<float>(is_hit ? model_.hit_term(range) : model_.miss_term(range));
+    });
+  } else {
+    const auto hit_update = static_cast<float>(model_.hit_term(1.0));
+    const auto miss_update = static_cast<float>(model_.miss_term(1.0));
+    add_to_touched([=](std::uint32_t, bool is_hit) { return is_hit ? hit_update : miss_update; });
+  }
+}
+
+/// Adds `term(voxel, is_hit)` to the log-odds of each touched voxel, clamps, and clears the scratch.
+template <class Term>
+void OccupancyMap::add_to_touched(Term term) {
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   constexpr std::size_t chunk = 8;  // eight touches are looked at as one word: most voxels are untouched
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096), [&](const auto& range) {
-        float last_log_odds = 0.0f;  // neighbours often have the same, and logarithms are dear
-        Voxel last_voxel = measured_voxel(last_log_odds);
-        for (std::size_t c = range.begin(); c != range.end(); ++c) {
-          const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
-          if (last - first == chunk) {
-            std::uint64_t word;
-            std::memcpy(&word, &touched_[first], chunk);
-            if (word == 0) continue;
-          }
-          for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
-            if (touched_[v] == untouched) continue;
-            log_odds_[v] = std::clamp(log_odds_[v] + (touched_[v] == hit ? hit_update : miss_update), lowest, highest);
-            if (log_odds_[v] != last_log_odds) last_voxel = measured_voxel(last_log_odds = log_odds_[v]);
-            voxels_[v] = last_voxel;
-            touched_[v] = untouched;
-          }
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096),
+                    [&](const auto& range) {
+                      float last_log_odds = 0.0f;  // neighbours often have the same, and logarithms are dear
+                      Voxel last_voxel = measured_voxel(last_log_odds);
+                      for (std::size_t c = range.begin(); c != range.end(); ++c) {
+                        const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
+                        if (last - first == chunk) {
+                          std::uint64_t word;
+                          std::memcpy(&word, &touched_[first], chunk);
+                          if (word == 0) continue;
+                        }
+                        for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
+                          if (touched_[v] == untouched) continue;
+                          log_odds_[v] = std::clamp(log_odds_[v] + term(v, touched_[v] == hit), lowest, highest);
+                          if (log_odds_[v] != last_log_odds) last_voxel = measured_voxel(last_log_odds = log_odds_[v]);
+                          voxels_[v] = last_voxel;
+                          touched_[v] = untouched;
+                        }
+                      }
+                    });
 }
 
-void OccupancyMap::register_local(const OccupancyMap& local) {
+void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin) {
   const bool same_grid =
       local.grid_.first == grid_.first && local.grid_.size == grid_.size && local.grid_.resolution == grid_.resolution;
   if (!same_grid || !(local.model_ == model_))
@@ -121,7 +134,7 @@ void OccupancyMap::register_local(const OccupancyMap& local) {
   // One scan's log-odds tell hits from passes; they may be clamped already, so they are not what is added.
   for (std::size_t v = 0; v < voxels_.size(); ++v)
     touched_[v] = !local.voxels_[v].measured ? untouched : local.log_odds_[v] > 0.0f ? hit : passed;
-  update_touched();
+  update_touched(origin);
 }
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double reach) {

@@ -19,13 +19,14 @@ class OccupancyMap {
   OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model);
 
   /// Updates each voxel at most once: a hit where a return ends, a miss where a ray passes and none ends (as OctoMap's
-  /// insertPointCloud). Rays longer than `max_range` [m] carve up to it and end nowhere; passes carve only.
+  /// insertPointCloud). Rays longer than `max_range` [m] carve up to it and end nowhere; passes carve only. If the
+  /// model depends on the range, it is that from the scan's origin to the voxel's centre.
   void insert(const Scan& scan, double max_range);
 
-  /// Adds a local map, made of one scan, to this one: the paper's registration of local octrees. Gives the same map as
-  /// inserting the scan.
+  /// Adds a local map, made of one scan from `origin` [m, world], to this one: the paper's registration of local
+  /// octrees. Gives the same map as inserting the scan.
   /// @throws std::invalid_argument if grid or sensor model differ.
-  void register_local(const OccupancyMap& local);
+  void register_local(const OccupancyMap& local, const Vector3& origin);
 
   /// From each return a traversal runs `distance` [m] farther along its ray; voxels it meets unmeasured learn how far
   /// behind a surface they are: the smallest number of steps wins. Proximity count and area factor need it, nothing
@@ -42,7 +43,9 @@ class OccupancyMap {
 
  private:
   Voxel measured_voxel(float log_odds) const;
-  void update_touched();
+  void update_touched(const Vector3& origin);
+  template <class Term>
+  void add_to_touched(Term term);
 
   VoxelGrid grid_;
   InverseSensorModel model_;

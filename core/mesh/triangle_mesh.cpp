@@ -3,39 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
+#include "core/mesh/edge_uses.hpp"
 #include "core/mesh/weld.hpp"
 
 namespace nextview {
 namespace {
-
-/// One triangle's use of an edge between two places.
-struct EdgeUse {
-  std::uint32_t lower, upper;
-  bool downwards;  ///< the triangle runs from `upper` to `lower`
-  bool operator<(const EdgeUse& other) const {
-    return std::tie(lower, upper, downwards) < std::tie(other.lower, other.upper, other.downwards);
-  }
-  bool same_edge(const EdgeUse& other) const { return lower == other.lower && upper == other.upper; }
-};
-
-std::vector<EdgeUse> edge_uses(const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> place = weld(mesh.vertices);
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    const std::array<std::uint32_t, 3> corner = {place[triangle[0]], place[triangle[1]], place[triangle[2]]};
-    // A triangle folded to a line closes nothing and opens nothing.
-    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t from = corner[i], to = corner[(i + 1) % 3];
-      uses.push_back({std::min(from, to), std::max(from, to), from > to});
-    }
-  }
-  std::sort(uses.begin(), uses.end());
-  return uses;
-}
 
 /// Divergence theorem, about the box's centre: far from the origin the terms would cancel badly.
 double signed_volume(const TriangleMesh& mesh) {
@@ -70,7 +43,7 @@ double TriangleMesh::surface_area() const {
 }
 
 MeshTopology topology(const TriangleMesh& mesh) {
-  const std::vector<EdgeUse> uses = edge_uses(mesh);
+  const std::vector<EdgeUse> uses = edge_uses(mesh, weld(mesh.vertices));
   MeshTopology topology;
   for (auto first = uses.begin(); first != uses.end();) {
     const auto last = std::find_if(first, uses.end(), [&](const EdgeUse& use) { return !use.same_edge(*first); });

@@ -171,6 +171,8 @@ void Configuration::validate() const {
   require(!knows_object || evaluation.enabled, fmt::format("planner.gain {} needs evaluation.enabled", planner.gain));
   require(!needs_refinement(*this) || planner.semantics == Semantics::published,
           "planner.gain gibbs has published semantics only: the reference code knows no Gibbs map");
+  require(!map.model.range_dependent() || planner.semantics == Semantics::published,
+          "map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no range");
   constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
   require(seed <= largest,
           fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));

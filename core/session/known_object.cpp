@@ -32,10 +32,11 @@ KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const 
       samples_(sample_surface(mesh, surface_samples, seed)),
       normals_(sample_normals(mesh, samples_)),
       seen_from_(see_from(candidates, progress, stop)),
+      visible_(seen_by_any()),
       seen_(samples_.points.size()),
       truth_(ground_truth(mesh, grid)),
-      coverage_(samples_.points, seen_by_any(), d_reg),
-      coverage_paper_(samples_.points, seen_by_any(), paper_d_reg) {
+      coverage_(samples_.points, visible_, d_reg),
+      coverage_paper_(samples_.points, visible_, paper_d_reg) {
   if (stop.stop_requested()) throw std::runtime_error("stopped");
 }
 

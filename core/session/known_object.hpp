@@ -44,6 +44,7 @@ class KnownObject {
   const SurfaceCoverage& coverage() const { return coverage_; }
   const SurfaceCoverage& coverage_paper() const { return coverage_paper_; }
   const SurfaceSamples& samples() const { return samples_; }
+  std::span<const std::uint8_t> visible() const { return visible_; }  ///< one a sample, 1: some candidate sees it
 
  private:
   std::vector<std::vector<std::uint32_t>> see_from(std::span<const Pose> candidates, const Progress& progress,
@@ -55,6 +56,7 @@ class KnownObject {
   SurfaceSamples samples_;
   std::vector<Eigen::Vector3f> normals_;               ///< of the samples
   std::vector<std::vector<std::uint32_t>> seen_from_;  ///< of each candidate
+  std::vector<std::uint8_t> visible_;                  ///< 1: some candidate sees the sample
   std::vector<std::uint8_t> seen_;                     ///< 1: a view taken has seen the sample
   GroundTruth truth_;
   SurfaceCoverage coverage_, coverage_paper_;

@@ -5,6 +5,7 @@
 
 #include "core/evaluation/map_quality.hpp"
 #include "core/evaluation/openings.hpp"
+#include "core/mesh/surface_samples.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/known_object.hpp"
 #include "core/session/map_refinement.hpp"
@@ -16,8 +17,10 @@ namespace nextview {
 struct RefinementTruth {
   std::shared_ptr<const TriangleMesh> mesh;
   GroundTruth voxels;
-  std::vector<std::uint8_t> visited;  ///< by noise-free rays
-  std::vector<Opening> openings;      ///< of our own parts
+  std::vector<std::uint8_t> visited;       ///< by noise-free rays
+  std::vector<Opening> openings;           ///< of our own parts
+  SurfaceSamples samples = {};             ///< of the true surface
+  std::vector<std::uint8_t> visible = {};  ///< one a sample, 1: some candidate sees it
 };
 
 /// Everything that refining the map of finished scans needs.
@@ -40,6 +43,10 @@ struct RefinementJob {
 /// @throws std::runtime_error naming the file and the reason.
 RefinementJob refinement_job(const std::filesystem::path& scan_folder,
                              const std::function<void(Configuration&)>& override_settings,
+                             const Progress& progress = {}, std::stop_token stop = {});
+/// What a configuration's camera sees of its object from these views: the k-th with the noise that it would have as a
+/// scan's k-th view. @throws std::runtime_error if stopped, or naming a file and the reason.
+RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views,
                              const Progress& progress = {}, std::stop_token stop = {});
 /// A recorded scene. Its sensor's noise is not known: a sigma of 0 means a quarter of a voxel edge.
 RefinementJob refinement_job(const RecordedScene& scene, const GibbsConfig& gibbs, std::uint64_t seed,

@@ -59,7 +59,11 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   Configuration c = read_configuration(folder / "config.toml");
   if (override_settings) override_settings(c);
   c.validate();
-  const auto poses = views_taken(folder / "views.csv", c);
+  return refinement_job(c, views_taken(folder / "views.csv", c), progress, stop);
+}
+
+RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views, const Progress& progress,
+                             std::stop_token stop) {
   const fs::path object = resolve_object(c.object.file);
   PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side});
   const RayScene scene(mesh.mesh);
@@ -76,18 +80,23 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   job.sampler = posterior_sampler_config(c);
   job.configuration = to_toml(c);
   std::vector<std::uint8_t> visited(job.grid.voxel_count());
-  for (std::size_t k = 0; k < poses.size(); ++k) {
+  for (std::size_t k = 0; k < views.size(); ++k) {
     if (stop.stop_requested()) throw std::runtime_error("stopped");
-    if (progress) progress(double(k) / double(poses.size()), "taking the views again");
-    Scan scan = back_project(camera.sense(scene, poses[k], c.seed, static_cast<std::uint32_t>(k + 1)), poses[k],
+    if (progress) progress(double(k) / double(views.size()), "taking the views");
+    Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1)), views[k],
                              c.sensor.max_range);
     scan.returns = clean(scan.returns, c.cloud);
     job.scans.push_back(std::move(scan));
-    mark_visited(job.grid, back_project(camera.sense_ideal(scene, poses[k]), poses[k], c.sensor.max_range), visited);
+    mark_visited(job.grid, back_project(camera.sense_ideal(scene, views[k]), views[k], c.sensor.max_range), visited);
   }
-  GroundTruth truth = ground_truth(mesh.mesh, job.grid);
-  job.truth = RefinementTruth{std::make_shared<TriangleMesh>(std::move(mesh.mesh)), std::move(truth),
-                              std::move(visited), known_openings(object, mesh.placement)};
+  const KnownObject known(mesh.mesh, scene, camera, job.candidates, job.grid, c.evaluation.surface_samples,
+                          c.evaluation.d_reg, c.seed, progress, stop);
+  job.truth = RefinementTruth{std::make_shared<TriangleMesh>(std::move(mesh.mesh)),
+                              known.truth(),
+                              std::move(visited),
+                              known_openings(object, mesh.placement),
+                              known.samples(),
+                              {known.visible().begin(), known.visible().end()}};
   return job;
 }
 

@@ -136,7 +136,7 @@ void Session::update_map(const Measurement& measurement, StepRecord& record) {
     if (configuration_.map.insertion == Insertion::local_octree) {
       OccupancyMap local(map_.grid(), map_.model());
       local.insert(measurement.scan, max_range);
-      map_.register_local(local);
+      map_.register_local(local, measurement.scan.origin);
     } else {
       map_.insert(measurement.scan, max_range);
     }

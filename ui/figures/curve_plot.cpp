@@ -102,6 +102,17 @@ void paint_part(Painter& painter, const Frame& frame, const CurvePlot::Part& par
   painter.text(from + 6, frame.area().top() - 20, part.name, theme::small_text, theme::soft_ink);
 }
 
+void paint_bar(Painter& painter, const Frame& frame, const CurvePlot::Bar& bar) {
+  const PageArea& area = frame.area();
+  const double left = std::max(frame.x(bar.from), area.left), right = std::min(frame.x(bar.to), area.right());
+  const double top = std::min(frame.y(bar.y), area.top());
+  if (right <= left || !(top > area.bottom)) return;
+  const Colour edge = mix(bar.colour, theme::ink, 0.35);  // pale bars would be lost on the paper
+  painter.box(left, area.bottom, right - left, top - area.bottom, edge);
+  if (right - left > 3 && top - area.bottom > 1)
+    painter.box(left + 1, area.bottom, right - left - 2, top - area.bottom - 1, bar.colour);
+}
+
 /// What is seen of it, in unbroken runs: x and y in turn.
 std::vector<std::vector<float>> visible_runs(const Frame& frame, const Curve& curve) {
   std::vector<std::vector<float>> runs(1);
@@ -183,6 +194,7 @@ void paint_curve_plot(vtkContext2D& context, const PageArea& panel, const CurveP
   const Frame frame(plot, area);
   for (const CurvePlot::Part& part : plot.parts) paint_part(painter, frame, part);
   paint_axes(context, frame);
+  for (const CurvePlot::Bar& bar : plot.bars) paint_bar(painter, frame, bar);
   for (const Curve& curve : plot.curves) paint_curve(context, frame, curve);
 }
 

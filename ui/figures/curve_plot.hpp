@@ -14,7 +14,7 @@ struct Curve {
 };
 
 /// Curves over given ranges, without a mark at each value, on a page. For what Chart does not draw: many values, a
-/// logarithmic axis, a marked part of the x axis. What is outside of the ranges is cut off.
+/// logarithmic axis, bars, a marked part of the x axis. What is outside of the ranges is cut off.
 struct CurvePlot {
   std::string title, remark;
   std::string x_label, y_label;  ///< with their units
@@ -31,6 +31,13 @@ struct CurvePlot {
     std::string name;
   };
   std::vector<Part> parts;
+
+  /// A column that stands on the x axis, behind the curves.
+  struct Bar {
+    double from, to, y;
+    Colour colour;
+  };
+  std::vector<Bar> bars;
 };
 
 /// A panel with the plot and the curves' names.

@@ -1,12 +1,21 @@
 #include "ui/layers/mesh_layer.hpp"
 
+#include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkDataObject.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
+#include <vtkUniforms.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "ui/layers/geometry.hpp"
 #include "ui/shader_file.hpp"
@@ -16,6 +25,68 @@ namespace {
 
 /// Smooth over shallow edges, sharp over steep ones.
 constexpr double crease_angle = 35.0;  // [deg]
+
+constexpr double specular = 0.1;
+constexpr int paint_stops = 17;  // of the colours in shaders/mesh_paint.glsl
+const Colour no_value = mix(theme::object, theme::paper, 0.25), no_value_stripes = mix(theme::object, theme::ink, 0.4);
+
+bool has_value(const MeshPaint& paint, std::size_t vertex) {
+  return paint.has_value.empty() || paint.has_value[vertex] != 0;
+}
+
+void check(const TriangleMesh& mesh, const MeshPaint& paint) {
+  const std::size_t vertices = mesh.vertices.size();
+  if (paint.values.size() != vertices || (!paint.has_value.empty() && paint.has_value.size() != vertices))
+    throw std::invalid_argument(fmt::format("painted mesh: {} vertices, but {} values and {} marks", vertices,
+                                            paint.values.size(), paint.has_value.size()));
+  for (std::size_t i = 0; i < vertices; ++i)
+    if (has_value(paint, i) && !std::isfinite(paint.values[i]))
+      throw std::invalid_argument(fmt::format("painted mesh: the value of vertex {} is not finite", i));
+  if (!(paint.low < paint.high))
+    throw std::invalid_argument(fmt::format("painted mesh: no range from {} to {}", paint.low, paint.high));
+}
+
+/// The vertex attribute "paint": (place in the range from 0 to 1, 1), or (0, 0) without a value.
+vtkSmartPointer<vtkFloatArray> paint_attribute(const MeshPaint& paint) {
+  auto attribute = vtkSmartPointer<vtkFloatArray>::New();
+  attribute->SetName("paint");
+  attribute->SetNumberOfComponents(2);
+  attribute->SetNumberOfTuples(vtkIdType(paint.values.size()));
+  for (std::size_t i = 0; i < paint.values.size(); ++i) {
+    const bool painted = has_value(paint, i);
+    const double place = (paint.values[i] - paint.low) / (paint.high - paint.low);
+    attribute->SetTuple2(vtkIdType(i), painted ? std::clamp(place, 0.0, 1.0) : 0.0, painted ? 1.0 : 0.0);
+  }
+  return attribute;
+}
+
+void set_palette(vtkUniforms& uniforms, const ColourMap& map) {
+  float colours[paint_stops][3], without[2][3];
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < paint_stops; ++i) colours[i][c] = float(map.at(i / double(paint_stops - 1))[c]);
+    without[0][c] = float(no_value[c]);
+    without[1][c] = float(no_value_stripes[c]);
+  }
+  uniforms.SetUniform3fv("range_colours", paint_stops, colours);
+  uniforms.SetUniform3fv("no_value_colours", 2, without);
+}
+
+Legend legend_of(const MeshPaint& paint) {
+  Legend legend{
+      paint.title, {}, Legend::Range{paint.map, paint.low, paint.high, paint.unit, paint.low_name, paint.high_name}};
+  if (std::count(paint.has_value.begin(), paint.has_value.end(), 0) > 0)
+    legend.swatches.push_back({paint.no_value_name, no_value, no_value_stripes});
+  return legend;
+}
+
+vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* polydata) {
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(polydata);
+  normals->SetFeatureAngle(crease_angle);
+  normals->ConsistencyOff();
+  normals->Update();
+  return normals->GetOutput();
+}
 
 }  // namespace
 
@@ -28,29 +99,50 @@ MeshLayer::MeshLayer(vtkRenderer& renderer)
   actor_->GetProperty()->SetInterpolationToPhong();
   actor_->GetProperty()->SetAmbient(0.28);
   actor_->GetProperty()->SetDiffuse(0.85);
-  actor_->GetProperty()->SetSpecular(0.1);
   actor_->GetProperty()->SetSpecularPower(24);
   add(*actor_);
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, MeshStyle style) {
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(triangle_polydata(mesh));
-  normals->SetFeatureAngle(crease_angle);
-  normals->ConsistencyOff();
-  normals->Update();
-  mapper_->SetInputDataObject(normals->GetOutput());
+  mapper_->SetInputDataObject(with_normals(triangle_polydata(mesh)));
   set_style(style);
   describe(corners(mesh.bounding_box()), {});
+}
+
+void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {
+  check(mesh, paint);
+  const auto polydata = triangle_polydata(mesh);
+  polydata->GetPointData()->AddArray(paint_attribute(paint));
+  mapper_->SetInputDataObject(with_normals(polydata));
+  set_style(MeshStyle::solid);
+  mapper_->MapDataArrayToVertexAttribute("paint", "paint", vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  actor_->GetProperty()->SetSpecular(0.0);  // a gleam would look like another value
+  vtkShaderProperty& shaders = *actor_->GetShaderProperty();
+  shaders.AddVertexShaderReplacement("//VTK::Normal::Dec", true,
+                                     "//VTK::Normal::Dec\n" + load_shader("mesh_paint_vertex.glsl"), false);
+  shaders.AddVertexShaderReplacement("//VTK::Normal::Impl", true, "//VTK::Normal::Impl\n  pass_paint();\n", false);
+  shaders.AddFragmentShaderReplacement("//VTK::Normal::Dec", true,
+                                       "//VTK::Normal::Dec\n" + load_shader("mesh_paint.glsl"), false);
+  shaders.AddFragmentShaderReplacement(
+      "//VTK::Color::Impl", true,
+      "//VTK::Color::Impl\n  diffuseColor = 0.54 * paint_colour();\n  ambientColor = 0.54 * paint_colour();\n", false);
+  set_palette(*shaders.GetFragmentCustomUniforms(), paint.map);
+  const bool empty = mesh.vertices.empty();
+  describe(corners(mesh.bounding_box()), empty ? std::vector<Legend>{} : std::vector<Legend>{legend_of(paint)});
 }
 
 void MeshLayer::set_style(MeshStyle style) {
   vtkProperty& property = *actor_->GetProperty();
   vtkShaderProperty& shaders = *actor_->GetShaderProperty();
+  mapper_->RemoveAllVertexAttributeMappings();
+  shaders.ClearAllVertexShaderReplacements();
   shaders.ClearAllFragmentShaderReplacements();
+  shaders.GetFragmentCustomUniforms()->RemoveAllUniforms();
   property.SetRepresentationToSurface();
   property.SetOpacity(1.0);
+  property.SetSpecular(specular);
   set_colour(property, theme::object);
+  describe({outline().begin(), outline().end()}, {});
   if (style == MeshStyle::wire) {
     property.SetRepresentationToWireframe();
     property.SetLineWidth(1.0f);

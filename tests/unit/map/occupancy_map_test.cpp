@@ -142,7 +142,7 @@ TEST(OccupancyMap, RegisteringLocalMapsGivesTheSameMap) {
         direct.insert(scan, 1.5);
         OccupancyMap local(region(0.01), model);
         local.insert(scan, 1.5);
-        registered.register_local(local);
+        registered.register_local(local, scan.origin);
         ASSERT_TRUE(same_bytes(direct, registered));
       }
   }
@@ -152,9 +152,9 @@ TEST(OccupancyMap, RegistersNoMapOfAnotherKind) {
   OccupancyMap map(region(0.02), {});
   InverseSensorModel other;
   other.hit = 0.8;
-  EXPECT_THROW(map.register_local(OccupancyMap(region(0.01), {})), std::invalid_argument);
-  EXPECT_THROW(map.register_local(OccupancyMap(region(0.02), other)), std::invalid_argument);
-  EXPECT_THROW(map.register_local(OccupancyMap(region_of_interest(Vector3(1, 0, 0), 0.64, 0.02), {})),
+  EXPECT_THROW(map.register_local(OccupancyMap(region(0.01), {}), Vector3::Zero()), std::invalid_argument);
+  EXPECT_THROW(map.register_local(OccupancyMap(region(0.02), other), Vector3::Zero()), std::invalid_argument);
+  EXPECT_THROW(map.register_local(OccupancyMap(region_of_interest(Vector3(1, 0, 0), 0.64, 0.02), {}), Vector3::Zero()),
                std::invalid_argument);
 }
 

@@ -163,6 +163,18 @@ TEST(Validate, BaselinesThatKnowTheObjectNeedTheEvaluation) {
   }
 }
 
+TEST(Validate, TheReferenceCodeKnowsNoDecayOfTerms) {
+  for (const char* key : {"map.hit_decay", "map.miss_decay"}) {
+    Configuration configuration;
+    find(configuration, key).set("0.5");
+    EXPECT_NO_THROW(configuration.validate()) << key;
+    configuration.planner.semantics = Semantics::reference;
+    EXPECT_THROW(configuration.validate(), std::invalid_argument) << key;
+    find(configuration, key).set("0");
+    EXPECT_NO_THROW(configuration.validate()) << key;
+  }
+}
+
 TEST(CombinedWeights, AreReadOrRefused) {
   using Weights = std::vector<std::pair<std::string, double>>;
   EXPECT_EQ(parse_combined_weights("average-entropy=2.5,rear-side-voxel=1"),

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
+#include "app/commands/progress.hpp"
+#include "app/commands/recorded_input.hpp"
+#include "core/file/atomic_file.hpp"
+#include "core/session/map_calibration.hpp"
+#include "core/session/scan_files.hpp"
+#include "core/view/candidate_views.hpp"
+#include "ui/figures/calibration_figure.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CalibrateArguments {
+  ConfigurationOptions options;
+  RangeScanOptions range_scans;
+  MapCalibrationConfig config;
+  std::vector<std::string> fitted = {"bunny", "slotted_plate"}, held_out = {"gearbox", "slotted_housing"};
+  std::vector<int> views = {4, 20};
+  std::string out = "calibrated";
+  bool no_pictures = false;
+};
+
+/// An input is finished scans, or else an object, which is then seen from as many views as each number says, spread
+/// evenly around it.
+void add_examples(const CalibrateArguments& arguments, const std::string& input, bool held_out,
+                  std::vector<CalibrationExample>& examples, const Progress& progress, std::stop_token stop) {
+  const fs::path path = input;
+  if (fs::is_directory(path) || path.extension() == ".txt") {
+    examples.push_back({recorded_job(path, arguments.options, arguments.range_scans, progress, stop), held_out});
+    return;
+  }
+  for (const int count : arguments.views) {
+    Configuration configuration = arguments.options.configuration();
+    configuration.object.file = input;
+    CandidateViewsConfig around = configuration.views;
+    around.layout = ViewLayout::fibonacci;
+    around.count = count;
+    CalibrationExample example{refinement_job(configuration, candidate_views(around, Vector3::Zero()), progress, stop),
+                               held_out};
+    example.job.name = path.stem().string();
+    examples.push_back(std::move(example));
+  }
+}
+
+void print_model(const char* label, const InverseSensorModel& m) {
+  fmt::print("{:<8} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f} {:>10.3f} {:>10.3f}\n", label, m.hit, m.miss, m.clamp_min,
+             m.clamp_max, m.hit_decay, m.miss_decay);
+}
+
+void print(const MapCalibration& calibration) {
+  const Calibration& fit = calibration.fit;
+  fmt::print(
+      "Cross entropy to the Gibbs maps: {:.4f} before, {:.4f} after {} iterations of BFGS [nats a voxel].\n{}.\n\n",
+      fit.cross_entropy_before, fit.cross_entropy, fit.descent.empty() ? 0 : fit.descent.size() - 1, fit.termination);
+  fmt::print("{:<8} {:>8} {:>8} {:>10} {:>10} {:>10} {:>10}\n", "", "hit", "miss", "clamp_min", "clamp_max",
+             "hit_decay", "miss_decay");
+  print_model("before", calibration.before);
+  print_model("after", fit.model);
+  fmt::print("\n{:<24} {:>6}   {:>24}   {:>24}   {:>18}\n", "", "", "cross entropy [nats]", "log loss, surface* [nats]",
+             "rows open** [%]");
+  fmt::print("{:<24} {:>6}   {:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n", "object", "views", "before",
+             "after", "Gibbs", "before", "after", "Gibbs", "before", "after", "Gibbs");
+  const auto log_loss = [](const std::optional<MapScores>& s) {
+    return s ? fmt::format("{:.3f}", s->touch_band.log_loss) : std::string("-");
+  };
+  const auto open = [](const std::optional<MapScores>& s) {
+    const auto share = s ? s->openings.row_openness() : std::nullopt;
+    return share ? fmt::format("{:.0f}", 100.0 * *share) : std::string("-");
+  };
+  for (const ExampleScores& e : calibration.examples)
+    fmt::print("{:<24} {:>6}   {:>8.4f}{:>8.4f}{:>8.4f}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n",
+               e.name + (e.held_out ? "" : " (fitted)"), e.views, e.cross_entropy_before, e.cross_entropy_after,
+               e.gibbs_entropy, log_loss(e.before), log_loss(e.after), log_loss(e.gibbs), open(e.before), open(e.after),
+               open(e.gibbs));
+  fmt::print("* within 3 voxels of the true surface, touch truth. ** of slots and bores, centre truth.\n");
+}
+
+std::string remark(const CalibrateArguments& arguments, const MapCalibration& calibration, double resolution) {
+  std::string objects;
+  for (const std::string& input : arguments.fitted) objects += (objects.empty() ? "" : ", ") + input;
+  return fmt::format(
+      "The inverse sensor model that nextview calibrate fitted to the Gibbs maps of {}: cross entropy {:.4f}, before\n"
+      "{:.4f} nats a voxel. For voxels of {} m and the sensor of the config.toml beside it.\n"
+      "Use it with --config: nextview scan --config sensor_model.toml",
+      objects, calibration.fit.cross_entropy, calibration.fit.cross_entropy_before, resolution);
+}
+
+int run(const CalibrateArguments& arguments) {
+  const fs::path out = arguments.out;
+  prepare_output_folder(out);
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
+  std::vector<CalibrationExample> examples;
+  for (const std::string& input : arguments.fitted)
+    add_examples(arguments, input, false, examples, progress, stop.token());
+  for (const std::string& input : arguments.held_out)
+    add_examples(arguments, input, true, examples, progress, stop.token());
+  const double resolution = examples.empty() ? 0.0 : examples.front().job.grid.resolution;
+  const MapCalibration calibration = calibrate_map(std::move(examples), arguments.config, progress, stop.token());
+  progress.clear();
+  print(calibration);
+  write_file(out / "config.toml", to_toml(arguments.options.configuration()));
+  write_map_calibration(calibration, remark(arguments, calibration, resolution), out);
+  if (!arguments.no_pictures) write_png(draw_calibration_figure(calibration), out / "calibration.png");
+  fmt::print(
+      "\n{0}/\n  sensor_model.toml   the fitted model: nextview scan --config {0}/sensor_model.toml\n"
+      "{1}  descent.csv, scores.csv, config.toml   the numbers\n",
+      out.string(), arguments.no_pictures ? "" : "  calibration.png     the picture\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& program) {
+  auto arguments = std::make_shared<CalibrateArguments>();
+  CLI::App* app = program.add_subcommand(
+      "calibrate", "Fit the conventional map's sensor model to Gibbs maps, and try it on objects that it has not seen");
+  app->add_option("INPUT", arguments->fitted, "objects to fit to: as for `scan`; or finished scans: as for `refine`")
+      ->capture_default_str();
+  app->add_option("--held-out", arguments->held_out, "the same, to try the fitted model on")->capture_default_str();
+  app->add_option("--views", arguments->views, "of each object, so many views, spread evenly around it")
+      ->capture_default_str()
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1000));
+  app->add_flag("--range-dependent", arguments->config.fit.range_dependent,
+                "let the update terms depend on the range (map.hit_decay, map.miss_decay)");
+  app->add_flag("!--keep-clamps", arguments->config.fit.clamps, "leave the clamps as they are");
+  app->add_option("--band", arguments->config.band,
+                  "fit to voxels at most so many from the surface, as the Gibbs map has it; 0: to all")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
+  app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
+  app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
+  arguments->range_scans.add_to(*app);
+  arguments->options.add_settings_to(
+      *app, {"sensor.", "cloud.", "map.", "gibbs.", "views.radius", "object.longest_side", "evaluation.", "seed"});
+  app->footer(
+      "Examples:\n  nextview calibrate --out calibrated\n"
+      "  nextview calibrate bunny part.stl --held-out gearbox --views 4,10,20 --sensor narrow\n"
+      "  nextview scan --config calibrated/sensor_model.toml --out out");
+  app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
+}
+
+}  // namespace nextview

@@ -1,0 +1,41 @@
+#include "app/commands/recorded_input.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace nextview {
+
+namespace fs = std::filesystem;
+
+void RangeScanOptions::add_to(CLI::App& app) {
+  app.add_option("--voxel", resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--stand-off", stand_off, "range scans: the scanner's distance, which they do not tell [m]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+}
+
+RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
+                           const RangeScanOptions& range_scans, const Progress& progress, std::stop_token stop) {
+  if (!fs::exists(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
+  if (fs::exists(input / "config.toml"))
+    return refinement_job(
+        input, [&](Configuration& c) { options.apply_to(c); }, progress, stop);
+  const RecordedScene scene = fs::is_directory(input)
+                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution)
+                                  : read_recorded_scene(input);
+  const Configuration configuration = options.configuration();
+  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
+  try {
+    RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
+    job.name = fs::absolute(input).lexically_normal().stem().string();
+    job.configuration = to_toml(configuration);
+    return job;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", input.string(), error.what()));
+  }
+}
+
+}  // namespace nextview

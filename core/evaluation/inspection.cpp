@@ -1,0 +1,136 @@
+#include "core/evaluation/inspection.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+constexpr std::size_t bins = 50;
+constexpr double smallest_scale = 1e-5;  // [m]
+
+void check(const Surface& surface, const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
+           const InspectionOptions& options) {
+  if (surface.seen.size() != surface.mesh.vertices.size())
+    throw std::invalid_argument(fmt::format("inspection: {} vertices, but {} marks of seen",
+                                            surface.mesh.vertices.size(), surface.seen.size()));
+  if (samples.points.empty()) throw std::invalid_argument("inspection: there are no samples of the true surface");
+  if (visible.size() != samples.points.size())
+    throw std::invalid_argument(
+        fmt::format("inspection: {} samples, but visibility for {}", samples.points.size(), visible.size()));
+  if (options.samples == 0) throw std::invalid_argument("inspection: at least 1 sample must be taken");
+  for (const double threshold : options.thresholds)
+    if (!(threshold >= 0.0 && std::isfinite(threshold)))
+      throw std::invalid_argument(fmt::format("inspection: a threshold must be at least 0 m, not {}", threshold));
+}
+
+/// The triangles whose three corners are seen; all vertices.
+TriangleMesh seen_part(const Surface& surface) {
+  TriangleMesh part;
+  part.vertices = surface.mesh.vertices;
+  for (const auto& triangle : surface.mesh.triangles)
+    if (std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t i) { return surface.seen[i] != 0; }))
+      part.triangles.push_back(triangle);
+  return part;
+}
+
+template <class Value, class Measure>
+std::vector<Value> measured(std::span<const Eigen::Vector3f> points, const Measure& measure) {
+  std::vector<Value> values(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) values[i] = static_cast<Value>(measure(points[i]));
+  });
+  return values;
+}
+
+std::vector<double> sorted_magnitudes(std::span<const double> distances) {
+  std::vector<double> sorted;
+  for (const double d : distances) sorted.push_back(std::abs(d));
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+/// NaN of none.
+double share_within(double threshold, const std::vector<double>& sorted) {
+  const auto within = std::upper_bound(sorted.begin(), sorted.end(), threshold) - sorted.begin();
+  return double(within) / double(sorted.size());
+}
+
+double percentile(std::size_t percent, const std::vector<double>& sorted) {
+  return sorted[(percent * sorted.size() + 99) / 100 - 1];
+}
+
+DistanceHistogram histogram_of(std::span<const double> distances, double limit) {
+  DistanceHistogram histogram{limit, std::vector<std::size_t>(bins, 0)};
+  for (const double d : distances) {
+    if (d < -limit)
+      ++histogram.below;
+    else if (d > limit)
+      ++histogram.above;
+    else
+      ++histogram.counts[std::min(std::size_t((d / limit + 1.0) / 2.0 * double(bins)), bins - 1)];
+  }
+  return histogram;
+}
+
+/// Everything that the distances of the samples say.
+void summarise(std::span<const double> distances, const std::vector<double>& magnitudes, SurfaceInspection& result) {
+  double sum = 0.0, squares = 0.0;
+  for (const double d : distances) {
+    sum += d;
+    squares += d * d;
+  }
+  result.bias = sum / double(distances.size());
+  result.rms = std::sqrt(squares / double(distances.size()));
+  result.percentile_50 = percentile(50, magnitudes);
+  result.percentile_95 = percentile(95, magnitudes);
+  result.percentile_99 = percentile(99, magnitudes);
+  result.largest = magnitudes.back();
+  result.histogram = histogram_of(distances, scale_end(result.percentile_99));
+}
+
+}  // namespace
+
+double scale_end(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(length, smallest_scale)) + 1e-9));
+  for (const double factor : {1.0, 2.0, 3.0, 5.0})
+    if (length <= factor * power * (1.0 + 1e-9)) return factor * power;
+  return 10.0 * power;
+}
+
+std::optional<SurfaceInspection> inspect(const Surface& surface, const SignedDistance& truth,
+                                         const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
+                                         const InspectionOptions& options) {
+  check(surface, samples, visible, options);
+  const TriangleMesh seen = seen_part(surface);
+  SurfaceInspection result;
+  result.area_seen = seen.surface_area();
+  if (!(result.area_seen > 0.0)) return std::nullopt;
+  result.area_unseen = surface.mesh.surface_area() - result.area_seen;
+  result.at_vertices = measured<float>(surface.mesh.vertices, truth);
+
+  const auto taken = sample_surface(seen, options.samples, options.seed);
+  const std::vector<double> distances = measured<double>(taken.points, truth);
+  const std::vector<double> accuracies = sorted_magnitudes(distances);
+  summarise(distances, accuracies, result);
+
+  const std::vector<double> of_truth = measured<double>(samples.points, MeshDistance(seen));
+  std::vector<double> of_visible;
+  for (std::size_t i = 0; i < visible.size(); ++i)
+    if (visible[i]) of_visible.push_back(of_truth[i]);
+  const std::vector<double> all = sorted_magnitudes(of_truth), seeable = sorted_magnitudes(of_visible);
+  for (const double t : options.thresholds) {
+    ThresholdScore score{t, share_within(t, accuracies), share_within(t, seeable), share_within(t, all)};
+    const double sum = score.accuracy + score.completeness_visible;
+    score.f_score = sum > 0.0 ? 2.0 * score.accuracy * score.completeness_visible / sum : sum;
+    result.scores.push_back(score);
+  }
+  return result;
+}
+
+}  // namespace nextview

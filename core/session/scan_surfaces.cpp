@@ -1,0 +1,140 @@
+#include "core/session/scan_surfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/file/atomic_file.hpp"
+#include "core/surface/cloud_surface.hpp"
+#include "core/surface/map_surface.hpp"
+#include "core/surface/surface_file.hpp"
+
+namespace nextview {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The cloud's surface is made in cells of this share of a voxel edge, or larger: see cloud_surface.
+constexpr double cloud_cell = 0.2;
+
+/// What surfaces are made of, and held against.
+struct Material {
+  const VoxelGrid& grid;
+  std::span<const Voxel> voxels;
+  bool refined;  ///< the voxels are a Gibbs map's
+  std::span<const Scan> scans;
+  const TriangleMesh* true_mesh;  ///< null: not known; nor are the samples then
+  const SurfaceSamples* samples;
+  std::span<const std::uint8_t> visible;
+};
+
+std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress& progress, std::stop_token stop) {
+  const auto tell = [&](double fraction, std::string_view what) {
+    if (progress) progress(fraction, what);
+    return !stop.stop_requested();
+  };
+  std::vector<ScanSurface> surfaces;
+  if (!tell(0.0, "making the map's surface")) return surfaces;
+  surfaces.push_back({material.refined ? "surface_posterior" : "surface_map",
+                      material.refined ? "the Gibbs map" : "the occupancy map",
+                      map_surface(material.grid, material.voxels),
+                      {},
+                      {}});
+  Surface cloud;
+  try {
+    cloud = cloud_surface(
+        material.scans, cloud_cell * material.grid.resolution,
+        [&](double fraction, std::string_view what) { tell(0.1 + 0.6 * fraction, what); }, stop);
+  } catch (const std::invalid_argument& error) {  // the points do not make one; what the scan found stands all the same
+    cloud.why_empty = error.what();
+  }
+  if (!stop.stop_requested()) surfaces.push_back({"surface_cloud", "the point cloud", std::move(cloud), {}, {}});
+
+  for (ScanSurface& s : surfaces) {
+    if (s.surface.empty()) continue;
+    s.openings = boundary_loops(s.surface.mesh);
+    if (!material.true_mesh || !tell(0.8, "holding the surfaces against the true one")) continue;
+    s.inspection = inspect(s.surface, SignedDistance(*material.true_mesh), *material.samples, material.visible);
+  }
+  return surfaces;
+}
+
+Json to_json(const SurfaceInspection& i) {
+  Json scores = Json::array();
+  for (const ThresholdScore& s : i.scores)
+    scores.push_back({{"threshold_m", s.threshold},
+                      {"accuracy", s.accuracy},
+                      {"completeness_visible", s.completeness_visible},
+                      {"completeness_all", s.completeness_all},
+                      {"f_score", s.f_score}});
+  return {{"area_seen_m2", i.area_seen},
+          {"area_unseen_m2", i.area_unseen},
+          {"bias_m", i.bias},
+          {"rms_m", i.rms},
+          {"percentile_50_m", i.percentile_50},
+          {"percentile_95_m", i.percentile_95},
+          {"percentile_99_m", i.percentile_99},
+          {"largest_m", i.largest},
+          {"thresholds", scores}};
+}
+
+Json to_json(const ScanSurface& s) {
+  if (s.surface.empty()) return {{"empty", s.surface.why_empty}};
+  constexpr std::size_t listed = 20;
+  Json openings = Json::array();
+  for (const BoundaryLoop& loop : std::span(s.openings).first(std::min(listed, s.openings.size())))
+    openings.push_back({{"length_m", loop.length}, {"centre_m", {loop.centre.x(), loop.centre.y(), loop.centre.z()}}});
+  Json json = {{"triangles", s.surface.mesh.triangles.size()},
+               {"area_m2", s.surface.mesh.surface_area()},
+               {"watertight", topology(s.surface.mesh).watertight()},
+               {"openings", s.openings.size()},
+               {"longest_openings", openings}};
+  if (s.inspection) json["inspection"] = to_json(*s.inspection);
+  return json;
+}
+
+}  // namespace
+
+std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& progress, std::stop_token stop) {
+  std::vector<Scan> scans;
+  for (std::size_t k = 0; k < session.clouds().size(); ++k)
+    scans.push_back({session.records()[k].T_world_camera.translation(), session.clouds()[k], {}});
+  const KnownObject* known = session.known_object();
+  return scan_surfaces({session.map().grid(), session.planning_voxels(), session.refinement() != nullptr, scans,
+                        known ? session.mesh().get() : nullptr, known ? &known->samples() : nullptr,
+                        known ? known->visible() : std::span<const std::uint8_t>{}},
+                       progress, stop);
+}
+
+std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement, const Progress& progress,
+                                       std::stop_token stop) {
+  const RefinementTruth* truth = job.truth ? &*job.truth : nullptr;
+  return scan_surfaces({job.grid, refinement.refined, true, job.scans, truth ? truth->mesh.get() : nullptr,
+                        truth ? &truth->samples : nullptr,
+                        truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
+                       progress, stop);
+}
+
+std::string summary(const ScanSurface& s) {
+  if (s.surface.empty()) return fmt::format("none of {}: {}", s.source, s.surface.why_empty);
+  std::string text =
+      fmt::format("of {}: {} triangles, {}", s.source, s.surface.mesh.triangles.size(), summary(s.openings));
+  if (!s.inspection) return text;
+  const SurfaceInspection& i = *s.inspection;
+  return text + fmt::format("; {:.0f} % of its area was seen, 95 % of that within {:.2f} mm of the true surface",
+                            100.0 * i.area_seen / (i.area_seen + i.area_unseen), 1e3 * i.percentile_95);
+}
+
+void write_surfaces(std::span<const ScanSurface> surfaces, const std::filesystem::path& folder) {
+  Json json;
+  for (const ScanSurface& s : surfaces) {
+    json[s.name] = to_json(s);
+    if (s.surface.empty()) continue;
+    write_ply(s.surface, folder / (s.name + ".ply"));
+    write_stl(s.surface.mesh, folder / (s.name + ".stl"));
+  }
+  write_file(folder / "surfaces.json", json.dump(2) + "\n");
+}
+
+}  // namespace nextview

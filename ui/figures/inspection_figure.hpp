@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+
+#include "core/evaluation/inspection.hpp"
+#include "core/surface/surface.hpp"
+#include "ui/surface/image.hpp"
+
+namespace nextview {
+
+/// A reconstructed surface and what is said about it. The surface needs to live while it is drawn only.
+struct SurfacePicture {
+  std::string title;
+  std::string remark;   ///< beside the title: how the surface came about
+  std::string caption;  ///< one sentence: what is to be seen
+  const Surface* surface = nullptr;
+};
+
+/// A reconstructed surface held against the true one, as for a paper: painted by its signed distance, from three sides;
+/// how the distances are spread; accuracy, completeness and what else sums it up. Drawn headless (ensure_headless).
+/// Made for 1600 x 1000 pixels.
+/// @throws std::invalid_argument if there is no surface or the inspection is not one of it.
+Image draw_inspection_figure(const SurfacePicture& picture, const SurfaceInspection& inspection, int width = 1600,
+                             int height = 1000);
+
+/// The same of a surface whose truth nobody knows, by its uncertainty.
+/// @throws std::invalid_argument if there is no surface or there is not for every vertex an uncertainty and a mark
+///         whether it was seen.
+Image draw_surface_figure(const SurfacePicture& picture, int width = 1600, int height = 1000);
+
+}  // namespace nextview

@@ -1,0 +1,51 @@
+#include "ui/figures/surface_views.hpp"
+
+#include <vtkContext2D.h>
+
+#include "ui/surface/offscreen_surface.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr std::size_t framing_points = 20'000;  // at most about; as many leave no more than a hair of a surface out
+
+/// Of the surface itself: its bounding box would leave much room around it.
+std::vector<Vector3> points_to_frame(const TriangleMesh& mesh) {
+  std::vector<Vector3> points;
+  const std::size_t stride = mesh.vertices.size() / framing_points + 1;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += stride) points.push_back(mesh.vertices[i].cast<double>());
+  if (points.empty()) points.push_back(Vector3::Zero());
+  return points;
+}
+
+Image draw(const PageArea& panel, const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading,
+           const ViewDirection& direction, bool legend) {
+  OffscreenSurface surface(int(panel.width), int(panel.height));
+  Scene scene;
+  scene.attach(surface);
+  scene.set_caption(heading);
+  scene.set_axes(true, legend);
+  scene.set_legends(legend);
+  scene.mesh().show(mesh, paint);
+  scene.frame(points_to_frame(mesh), direction);
+  surface.render();
+  return surface.read_back();
+}
+
+}  // namespace
+
+SurfaceViews::SurfaceViews(const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading,
+                           const PageArea& large, const PageArea& other_side, const PageArea& below)
+    : views_{View{large, draw(large, mesh, paint, heading, {-50, 24}, true)},
+             View{other_side, draw(other_side, mesh, paint, "From the other side", {130, 24}, false)},
+             View{below, draw(below, mesh, paint, "From below", {-50, -50}, false)}} {}
+
+void SurfaceViews::paint(vtkContext2D& context) const {
+  Painter painter(context);
+  for (const auto& [panel, image] : views_) {
+    paint_image(context, panel.left, panel.bottom, image);
+    painter.frame(panel.left - 1, panel.bottom - 1, panel.width + 2, panel.height + 2, theme::hairline);
+  }
+}
+
+}  // namespace nextview
