@@ -9,6 +9,7 @@
 #include "app/commands/surface_output.hpp"
 #include "core/session/scan_files.hpp"
 #include "ui/figures/session_figure.hpp"
+#include "ui/window/known_objects.hpp"
 
 namespace nextview {
 namespace {
@@ -89,7 +90,7 @@ int run(const ScanArguments& arguments) {
   if (!arguments.no_surfaces && !session.records().empty()) {
     const auto surfaces = scan_surfaces(session, progress, stop.token());
     progress.clear();
-    write_and_print_surfaces(surfaces, session.object_file().stem().string(), session.records().size(), out,
+    write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(), out,
                              figure != nullptr);
   }
   print_files(session, out, figure != nullptr, !arguments.no_surfaces);

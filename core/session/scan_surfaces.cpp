@@ -22,7 +22,7 @@ constexpr double cloud_cell = 0.2;
 struct Material {
   const VoxelGrid& grid;
   std::span<const Voxel> voxels;
-  bool refined;  ///< the voxels are a Gibbs map's
+  std::optional<double> prior;  ///< if the voxels are a Gibbs map's: of a voxel being occupied
   std::span<const Scan> scans;
   const TriangleMesh* true_mesh;  ///< null: not known; nor are the samples then
   const SurfaceSamples* samples;
@@ -36,9 +36,12 @@ std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress&
   };
   std::vector<ScanSurface> surfaces;
   if (!tell(0.0, "making the map's surface")) return surfaces;
-  surfaces.push_back({material.refined ? "surface_posterior" : "surface_map",
-                      material.refined ? "the Gibbs map" : "the occupancy map",
-                      map_surface(material.grid, material.voxels),
+  surfaces.push_back({material.prior ? "surface_posterior" : "surface_map",
+                      material.prior ? "the Gibbs map" : "the occupancy map",
+                      "Marching cubes at p = 0.5, through the middle of the outermost occupied voxels; closed where no "
+                      "view has looked.",
+                      material.prior ? map_surface(material.grid, without_undecided(material.voxels, *material.prior))
+                                     : map_surface(material.grid, material.voxels),
                       {},
                       {}});
   Surface cloud;
@@ -49,7 +52,13 @@ std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress&
   } catch (const std::invalid_argument& error) {  // the points do not make one; what the scan found stands all the same
     cloud.why_empty = error.what();
   }
-  if (!stop.stop_requested()) surfaces.push_back({"surface_cloud", "the point cloud", std::move(cloud), {}, {}});
+  if (!stop.stop_requested())
+    surfaces.push_back({"surface_cloud",
+                        "the point cloud",
+                        "Signed distances to the planes of averaged points, integrated; open where no view has looked.",
+                        std::move(cloud),
+                        {},
+                        {}});
 
   for (ScanSurface& s : surfaces) {
     if (s.surface.empty()) continue;
@@ -101,16 +110,18 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
   for (std::size_t k = 0; k < session.clouds().size(); ++k)
     scans.push_back({session.records()[k].T_world_camera.translation(), session.clouds()[k], {}});
   const KnownObject* known = session.known_object();
-  return scan_surfaces({session.map().grid(), session.planning_voxels(), session.refinement() != nullptr, scans,
-                        known ? session.mesh().get() : nullptr, known ? &known->samples() : nullptr,
-                        known ? known->visible() : std::span<const std::uint8_t>{}},
-                       progress, stop);
+  return scan_surfaces(
+      {session.map().grid(), session.planning_voxels(),
+       session.refinement() ? std::optional(session.configuration().gibbs.sampler.prior) : std::nullopt, scans,
+       known ? session.mesh().get() : nullptr, known ? &known->samples() : nullptr,
+       known ? known->visible() : std::span<const std::uint8_t>{}},
+      progress, stop);
 }
 
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement, const Progress& progress,
                                        std::stop_token stop) {
   const RefinementTruth* truth = job.truth ? &*job.truth : nullptr;
-  return scan_surfaces({job.grid, refinement.refined, true, job.scans, truth ? truth->mesh.get() : nullptr,
+  return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, job.scans, truth ? truth->mesh.get() : nullptr,
                         truth ? &truth->samples : nullptr,
                         truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
                        progress, stop);

@@ -14,8 +14,9 @@ namespace nextview {
 
 /// A surface that a scan found, and what is known of it.
 struct ScanSurface {
-  std::string name;    ///< of its files: "surface_map", "surface_posterior" or "surface_cloud"
-  std::string source;  ///< for people: "the occupancy map", …
+  std::string name;     ///< of its files: "surface_map", "surface_posterior" or "surface_cloud"
+  std::string source;   ///< for people: "the occupancy map", …
+  std::string caption;  ///< one sentence: how it was made
   Surface surface;
   std::vector<BoundaryLoop> openings;
   std::optional<SurfaceInspection> inspection;  ///< if the true surface is known and something of it was seen

@@ -37,11 +37,12 @@ constexpr double largest_lattice = 1 << 28;
 Eigen::Vector3f position(const pcl::PointNormal& p) { return p.getVector3fMap(); }
 Eigen::Vector3f normal(const pcl::PointNormal& p) { return p.getNormalVector3fMap(); }
 
-/// All returns; the normal is the direction to the camera.
+/// All returns that are finite; the normal is the direction to the camera.
 Cloud::Ptr to_pcl(std::span<const Scan> scans) {
   auto cloud = std::make_shared<Cloud>();
   for (const Scan& scan : scans)
     for (const Eigen::Vector3f& point : scan.returns) {
+      if (!point.allFinite()) continue;
       pcl::PointNormal p;
       p.getVector3fMap() = point;
       p.getNormalVector3fMap() = (scan.origin.cast<float>() - point).normalized();
@@ -53,17 +54,20 @@ Cloud::Ptr to_pcl(std::span<const Scan> scans) {
 /// How far neighbouring points of one scan lie apart: the median over some points of some scans [m].
 double point_spacing(std::span<const Scan> scans) {
   constexpr std::size_t looked_at = 4, samples = 500;  // scans, and points of each
+  std::vector<const Scan*> with_points;
+  for (const Scan& scan : scans)
+    if (!scan.returns.empty()) with_points.push_back(&scan);
   std::vector<float> squared_distances;
-  for (std::size_t s = 0; s < scans.size(); s += scans.size() / looked_at + 1) {
-    if (scans[s].returns.size() < 2) continue;
-    const Cloud::Ptr cloud = to_pcl(scans.subspan(s, 1));
+  for (std::size_t s = 0; s < with_points.size(); s += with_points.size() / looked_at + 1) {
+    const Cloud::Ptr cloud = to_pcl({with_points[s], 1});
+    if (cloud->size() < 2) continue;
     Tree tree(false);
     tree.setInputCloud(cloud);
     pcl::Indices indices;
     std::vector<float> squared;
     for (std::size_t i = 0; i < cloud->size(); i += std::max<std::size_t>(1, cloud->size() / samples)) {
       tree.nearestKSearch((*cloud)[i], 2, indices, squared);  // the point finds itself first
-      squared_distances.push_back(squared.back());
+      if (squared.back() > 0.0f) squared_distances.push_back(squared.back());
     }
   }
   if (squared_distances.empty()) return 0.0;
@@ -185,26 +189,31 @@ Surface cloud_surface(std::span<const Scan> scans, double finest, const SurfaceP
                       std::stop_token stop) {
   if (!(finest > 0.0))
     throw std::invalid_argument(fmt::format("surface of a cloud: cells must be over 0 m wide, not {}", finest));
-  Surface surface;
+  const auto empty = [](const std::string& reason) {
+    Surface surface;
+    surface.why_empty = reason;
+    return surface;
+  };
   const auto go_on = [&](double fraction, std::string_view what) {
     if (progress) progress(fraction, what);
-    if (stop.stop_requested()) surface.why_empty = "stopped";
-    return surface.why_empty.empty();
+    return !stop.stop_requested();
   };
+  const std::string stopped = "stopped";
+  if (!go_on(0.0, "averaging the points")) return empty(stopped);
   const Cloud::Ptr points = to_pcl(scans);
-  if (points->size() < fewest) surface.why_empty = fmt::format("{} points are too few for a surface", points->size());
-  if (!go_on(0.0, "averaging the points")) return surface;
+  if (points->size() < fewest) return empty(fmt::format("{} points are too few for a surface", points->size()));
   const double cell = std::max(finest, 1.25 * point_spacing(scans));
   check_lattice(*points, cell);
   const Cloud::Ptr cloud = averaged(points, cell);
-  if (!go_on(0.2, "fitting normals")) return surface;
+  if (!go_on(0.2, "fitting normals")) return empty(stopped);
   Tree tree(false);
   tree.setInputCloud(cloud);
   fit_normals(*cloud, tree);
-  if (!go_on(0.4, "integrating the points' planes")) return surface;
+  if (!go_on(0.4, "integrating the points' planes")) return empty(stopped);
+  Surface surface;
   surface.mesh = without_small_pieces(integrate(*cloud, cell), speck);
-  if (surface.empty()) surface.why_empty = "the points lie too far apart for a surface";
-  if (!go_on(0.8, "measuring the uncertainty")) return surface;
+  if (surface.empty()) return empty("the points lie too far apart for a surface");
+  if (!go_on(0.8, "measuring the uncertainty")) return empty(stopped);
   surface.uncertainty = deviations(surface.mesh, *cloud, tree);
   surface.seen.assign(surface.mesh.vertices.size(), 1);
   return surface;

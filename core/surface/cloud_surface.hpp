@@ -16,6 +16,7 @@ using SurfaceProgress = std::function<void(double fraction, std::string_view wha
 /// is the surface (volumetric integration, Curless and Levoy 1996; VTK's). It ends where no points are: its openings
 /// are where no view has looked, and all of its vertices are `seen`. Cells are `finest` [m] wide, or, if the pixels lie
 /// farther apart than that, as wide as it takes for neighbouring pixels to fall into neighbouring cells.
+/// Points that are not finite are left out.
 /// Uncertainty: root mean square distance of the neighbouring averaged points from the surface.
 /// Empty, with the reason, if there are too few points for a surface, or if stopped. The same bytes on any number of
 /// threads.

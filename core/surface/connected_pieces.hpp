@@ -4,7 +4,7 @@
 namespace nextview {
 
 /// The mesh without its connected pieces of fewer than `fewest` triangles, and without vertices that no triangle uses.
-/// What stays keeps its order.
+/// Triangles keep their order; vertices are numbered anew, in the order in which triangles use them.
 TriangleMesh without_small_pieces(const TriangleMesh& mesh, std::size_t fewest);
 
 }  // namespace nextview

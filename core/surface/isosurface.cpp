@@ -13,8 +13,9 @@
 namespace nextview {
 
 TriangleMesh isosurface(const ScalarField& field, float level) {
-  if (field.values.size() != std::size_t(field.size.prod()))
+  if ((field.size.array() < 0).any() || field.values.size() != field.point_count())
     throw std::invalid_argument("isosurface: the field's values are not as many as its points");
+  if (field.values.empty()) return {};
   vtkNew<vtkFloatArray> values;
   values->SetArray(const_cast<float*>(field.values.data()), vtkIdType(field.values.size()), 1);  // only read
   vtkNew<vtkImageData> image;

@@ -13,6 +13,7 @@ struct ScalarField {
   double spacing = 0.01;                           ///< between points [m]
   std::vector<float> values;
 
+  std::size_t point_count() const { return std::size_t(size.x()) * std::size_t(size.y()) * std::size_t(size.z()); }
   std::size_t index(const Eigen::Vector3i& point) const {
     return (std::size_t(point.z()) * size.y() + point.y()) * size.x() + point.x();
   }
@@ -21,7 +22,7 @@ struct ScalarField {
 /// Where the field crosses `level`, by marching cubes: larger values are inside, normals point out. Every vertex lies
 /// on an edge of the lattice and is there once. Watertight if no outermost point is inside. No value may be `level`
 /// itself. The same on any number of threads.
-/// @throws std::invalid_argument if the number of values is not the lattice's.
+/// @throws std::invalid_argument if the number of values is not the lattice's, or a size is negative.
 TriangleMesh isosurface(const ScalarField& field, float level);
 
 }  // namespace nextview

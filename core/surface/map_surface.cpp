@@ -1,6 +1,7 @@
 #include "core/surface/map_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/surface/isosurface.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 /// Values this near to the level are moved off it, so that no two vertices come to lie at one place.
 constexpr float off_level = 1e-3f;
-/// At the middle of a thin wall: the surface runs an eighth of a voxel edge off it on both sides.
+/// In the middle of a thin wall, at most: the surface runs an eighth of a voxel edge off it on both sides.
 constexpr float thin_value = 2.0f / 3.0f;
 /// Of the solid voxels whose centres are this near to a vertex, half must be measured for it to be seen [voxel edges].
 constexpr double seen_within = 0.9;
@@ -51,13 +52,13 @@ CellBox solid_box(const VoxelGrid& grid, std::span<const float> solid) {
   return box;
 }
 
-/// How far inside the object each point of a lattice of half the grid's spacing is: at corners of voxels the least
-/// solid of the eight decides, between corners their mean; within thin walls the least solid of the voxels around the
-/// point.
+/// How far inside the object each point of a lattice of half the grid's spacing is. At corners of voxels the least
+/// solid of the eight decides, between corners their mean. Points that only solid voxels contain are never outside: so
+/// edges stay sharp and thin walls whole.
 class InsideField {
  public:
   InsideField(const VoxelGrid& grid, std::span<const float> solid)
-      : grid_(grid), solid_(solid), thin_(thin_voxels(grid, solid)) {}
+      : grid_(grid), solid_(solid), walls_(wall_voxels(grid, solid)) {}
 
   ScalarField make() const {
     const CellBox box = solid_box(grid_, solid_);
@@ -66,12 +67,12 @@ class InsideField {
     field.size = 2 * (box.highest - box.lowest) + Eigen::Vector3i::Constant(5);
     field.spacing = 0.5 * grid_.resolution;
     field.origin = grid_.lower() + field.spacing * first.cast<double>();
-    field.values.reserve(std::size_t(field.size.prod()));
+    field.values.reserve(field.point_count());
     for (int z = 0; z < field.size.z(); ++z)
       for (int y = 0; y < field.size.y(); ++y)
         for (int x = 0; x < field.size.x(); ++x) {
-          const float value = at(first + Eigen::Vector3i(x, y, z));
-          field.values.push_back(std::abs(value - solid_from) < off_level ? solid_from + off_level : value);
+          const float value = at(first + Eigen::Vector3i(x, y, z)), off = value - solid_from;
+          field.values.push_back(std::abs(off) >= off_level ? value : solid_from + std::copysign(off_level, off));
         }
     return field;
   }
@@ -88,7 +89,7 @@ class InsideField {
   float at(const Eigen::Vector3i& point) const {
     float sum = 0.0f, least = 1.0f;
     int corners = 0;
-    bool in_thin = false;
+    bool any_thin = false, all_thin = true;
     // The corners around a point are to it what the voxels are, half a voxel on.
     VoxelsAround(point + Eigen::Vector3i::Ones()).for_each([&](const Eigen::Vector3i& corner) {
       sum += at_corner(corner);
@@ -96,15 +97,17 @@ class InsideField {
     });
     VoxelsAround(point).for_each([&](const Eigen::Vector3i& cell) {
       least = std::min(least, solid(cell));
-      in_thin |= grid_.contains(cell) && thin_[grid_.index(cell)];
+      const Wall wall = grid_.contains(cell) ? walls_[grid_.index(cell)] : Wall::none;
+      any_thin |= wall == Wall::thin;
+      all_thin &= wall == Wall::thin || wall == Wall::step;
     });
     const float mean = sum / float(corners);
-    return in_thin ? std::max(mean, std::min(least, thin_value)) : mean;
+    return any_thin || all_thin ? std::max(mean, std::min(least, thin_value)) : mean;
   }
 
   const VoxelGrid& grid_;
   std::span<const float> solid_;
-  std::vector<std::uint8_t> thin_;
+  std::vector<Wall> walls_;
 };
 
 /// Between points of the lattice, trilinear.
@@ -125,12 +128,14 @@ double interpolate(const ScalarField& field, const Vector3& point) {
 }
 
 float uncertainty(const ScalarField& field, const Vector3& vertex, double largest) {
-  Vector3 gradient;
+  Vector3 slope;  // on the steeper side: a thin wall's two sides would cancel
+  const double step = 0.5 * field.spacing, here = interpolate(field, vertex);
   for (int axis = 0; axis < 3; ++axis) {
-    const Vector3 step = field.spacing * Vector3::Unit(axis);
-    gradient[axis] = (interpolate(field, vertex + step) - interpolate(field, vertex - step)) / (2.0 * field.spacing);
+    const Vector3 way = step * Vector3::Unit(axis);
+    const double ahead = interpolate(field, vertex + way) - here, behind = here - interpolate(field, vertex - way);
+    slope[axis] = (std::abs(ahead) > std::abs(behind) ? ahead : behind) / step;
   }
-  return static_cast<float>(std::min(0.25 / gradient.norm(), largest));
+  return static_cast<float>(std::min(0.25 / slope.norm(), largest));
 }
 
 bool is_seen(const VoxelGrid& grid, std::span<const Voxel> voxels, std::span<const float> solid,
@@ -153,6 +158,8 @@ bool is_seen(const VoxelGrid& grid, std::span<const Voxel> voxels, std::span<con
 Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels) {
   if (voxels.size() != grid.voxel_count())
     throw std::invalid_argument("surface of a map: the voxels are not as many as the grid's");
+  if (std::any_of(voxels.begin(), voxels.end(), [](const Voxel& v) { return !std::isfinite(v.probability); }))
+    throw std::invalid_argument("surface of a map: a probability is not a number");
   Surface surface;
   if (std::none_of(voxels.begin(), voxels.end(), [](const Voxel& v) { return v.measured; }))
     surface.why_empty = "nothing has been measured yet";
@@ -169,6 +176,16 @@ Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels) {
     surface.seen.push_back(is_seen(grid, voxels, solid, vertex.cast<double>()));
   }
   return surface;
+}
+
+std::vector<Voxel> without_undecided(std::span<const Voxel> voxels, double prior) {
+  constexpr double factor = 2.0;
+  const auto with_odds = [](double odds) { return odds / (1.0 + odds); };
+  const double odds = prior / (1.0 - prior), low = with_odds(odds / factor), high = with_odds(odds * factor);
+  std::vector<Voxel> decided(voxels.begin(), voxels.end());
+  for (Voxel& voxel : decided)
+    voxel.measured = voxel.measured && !(voxel.probability > low && voxel.probability < high);
+  return decided;
 }
 
 }  // namespace nextview

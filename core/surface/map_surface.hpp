@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "core/map/occupancy.hpp"
 #include "core/map/voxel_grid.hpp"
@@ -18,5 +19,10 @@ namespace nextview {
 /// none that is measured is occupied.
 /// @throws std::invalid_argument if the number of voxels is not the grid's.
 Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels);
+
+/// A Gibbs map as map_surface should see it: voxels whose odds the measurements have left within a factor of two of the
+/// `prior` probability's count as not measured. Rays reach into walls that attenuate them weakly and say nothing there;
+/// taken for free, walls would be hollow.
+std::vector<Voxel> without_undecided(std::span<const Voxel> voxels, double prior);
 
 }  // namespace nextview

@@ -1,11 +1,12 @@
 #include "core/surface/solid_voxels.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace nextview {
 namespace {
 
-constexpr std::size_t speck = 4;  ///< fewer thin voxels than this on something thicker are noise [voxels]
+constexpr std::size_t fewest_thin = 4;  ///< on something thick; fewer are specks [voxels]
 
 /// What is connected to what: over faces, or over faces, edges and corners.
 enum class Neighbours { faces, all };
@@ -84,18 +85,34 @@ void drop_unmeasured_pieces(const VoxelGrid& grid, std::span<const Voxel> voxels
       });
 }
 
-bool in_solid_block(const VoxelGrid& grid, std::span<const float> solid, std::uint32_t voxel) {
+/// Calls `visit(cells)` for each block of 2 x 2 x 2 solid voxels around a voxel.
+template <class Visit>
+void for_each_solid_block(const VoxelGrid& grid, std::span<const float> solid, std::uint32_t voxel, Visit visit) {
   const Eigen::Vector3i cell = grid.cell(voxel);
   for (int block = 0; block < 8; ++block) {
     const Eigen::Vector3i lowest = cell - Eigen::Vector3i(block & 1, block >> 1 & 1, block >> 2);
+    std::array<std::uint32_t, 8> cells;
     bool all = true;
     for (int k = 0; k < 8 && all; ++k) {
       const Eigen::Vector3i other = lowest + Eigen::Vector3i(k & 1, k >> 1 & 1, k >> 2);
-      all = grid.contains(other) && solid[grid.index(other)] >= solid_from;
+      all = grid.contains(other) && solid[cells[k] = grid.index(other)] >= solid_from;
     }
-    if (all) return true;
+    if (all) visit(cells);
   }
-  return false;
+}
+
+/// Whether a voxel is in a single solid block, and so are the other seven of that.
+bool in_lone_block(const VoxelGrid& grid, std::span<const float> solid, std::uint32_t voxel) {
+  int blocks = 0, largest = 0;
+  for_each_solid_block(grid, solid, voxel, [&](const std::array<std::uint32_t, 8>& cells) {
+    ++blocks;
+    for (const std::uint32_t v : cells) {
+      int of_v = 0;
+      for_each_solid_block(grid, solid, v, [&](const auto&) { ++of_v; });
+      largest = std::max(largest, of_v);
+    }
+  });
+  return blocks == 1 && largest == 1;
 }
 
 }  // namespace
@@ -108,22 +125,31 @@ std::vector<float> solid_voxels(const VoxelGrid& grid, std::span<const Voxel> vo
   return solid;
 }
 
-std::vector<std::uint8_t> thin_voxels(const VoxelGrid& grid, std::span<const float> solid) {
-  std::vector<std::uint8_t> thin(solid.size());
-  for (std::uint32_t v = 0; v < solid.size(); ++v) thin[v] = solid[v] >= solid_from && !in_solid_block(grid, solid, v);
-  const std::vector<std::uint8_t> found = thin;
+std::vector<Wall> wall_voxels(const VoxelGrid& grid, std::span<const float> solid) {
+  std::vector<Wall> walls(solid.size(), Wall::none);
+  for (std::uint32_t v = 0; v < solid.size(); ++v) {
+    if (solid[v] < solid_from) continue;
+    walls[v] = Wall::thin;
+    for_each_solid_block(grid, solid, v, [&](const auto&) { walls[v] = Wall::thick; });
+  }
+  const auto beside = [&](std::uint32_t v, Wall wall) {
+    bool found = false;
+    for_each_neighbour(grid, v, Neighbours::all, [&](std::uint32_t n) { found |= walls[n] == wall; });
+    return found;
+  };
+  std::vector<std::uint32_t> specks, steps;
   for_each_piece(
-      grid, Neighbours::all, [&](std::uint32_t v) { return found[v] != 0; },
+      grid, Neighbours::all, [&](std::uint32_t v) { return walls[v] == Wall::thin; },
       [&](const std::vector<std::uint32_t>& piece) {
-        if (piece.size() >= speck) return;
-        bool on_something = false;
-        for (const std::uint32_t v : piece)
-          for_each_neighbour(grid, v, Neighbours::all,
-                             [&](std::uint32_t n) { on_something |= solid[n] >= solid_from && !found[n]; });
-        if (on_something)
-          for (const std::uint32_t v : piece) thin[v] = 0;
+        const auto on_thick = [&](std::uint32_t v) { return beside(v, Wall::thick); };
+        if (piece.size() < fewest_thin && std::any_of(piece.begin(), piece.end(), on_thick))
+          specks.insert(specks.end(), piece.begin(), piece.end());
       });
-  return thin;
+  for (const std::uint32_t v : specks) walls[v] = Wall::speck;
+  for (std::uint32_t v = 0; v < solid.size(); ++v)
+    if (walls[v] == Wall::thick && beside(v, Wall::thin) && in_lone_block(grid, solid, v)) steps.push_back(v);
+  for (const std::uint32_t v : steps) walls[v] = Wall::step;
+  return walls;
 }
 
 }  // namespace nextview

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,14 @@ inline constexpr float solid_from = 0.5f;
 /// @pre one voxel a voxel of the grid
 std::vector<float> solid_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels);
 
-/// Solid voxels that are part of a wall one voxel thin: among no eight solid voxels around a corner. Specks of fewer
-/// than four such voxels on something thicker are none: they are where it barely touches the next voxel. 1: thin.
-std::vector<std::uint8_t> thin_voxels(const VoxelGrid& grid, std::span<const float> solid);
+/// What a voxel is part of.
+enum class Wall : std::uint8_t {
+  none,   ///< nothing solid
+  thick,  ///< among eight solid voxels around a corner: a block
+  thin,   ///< in no block: a wall one voxel thin
+  step,   ///< beside a thin voxel, in a block whose voxels are in no other: where a thin wall steps to the next layer
+  speck   ///< in no block, one of fewer than four on something thick: where that barely touches the next voxel
+};
+std::vector<Wall> wall_voxels(const VoxelGrid& grid, std::span<const float> solid);
 
 }  // namespace nextview

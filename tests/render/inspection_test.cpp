@@ -86,24 +86,6 @@ SurfacePicture picture_of(const Surface& surface) {
   return picture;
 }
 
-TEST(Figures, Inspection) {
-  const Surface surface = scanned_torus();
-  const SurfaceInspection inspection = inspection_of(surface);
-  SurfacePicture picture = picture_of(surface);
-  picture.caption = fmt::format(
-      "{:.0f} % of the seen surface lies within 1 mm of the true one. Put in: waves, a bump, two dents, and {:g} mm "
-      "outwards everywhere.",
-      1e2 * inspection.scores[1].accuracy, 1e3 * lean);
-  expect_screenshot("inspection", draw_inspection_figure(picture, inspection));
-}
-
-TEST(Figures, SurfaceUncertainty) {
-  const Surface surface = scanned_torus();
-  SurfacePicture picture = picture_of(surface);
-  picture.caption = "Where the surface lies, and how surely: beside what was not seen least so.";
-  expect_screenshot("surface_uncertainty", draw_surface_figure(picture));
-}
-
 TEST(InspectionFigure, RefusesWhatDoesNotBelongTogether) {
   const Surface surface = scanned_torus();
   SurfaceInspection inspection;

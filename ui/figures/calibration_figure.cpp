@@ -204,15 +204,15 @@ class Table {
     const double middle = y + 5;
     painter_.line(at(0.0), middle, at(largest_), middle, 1, theme::hairline);
     painter_.line(at(*loss(e.before)), middle, at(*loss(e.after)), middle, 3, theme::hairline);
-    mark(*loss(e.gibbs), middle, gibbs_colour, 4);
-    mark(*loss(e.before), middle, before_colour, 10);
-    mark(*loss(e.after), middle, after_colour, 10);
+    mark(*loss(e.before), middle, before_colour, 10, 12);
+    mark(*loss(e.after), middle, after_colour, 10, 12);
+    mark(*loss(e.gibbs), middle, gibbs_colour, 3, 20);
   }
 
   /// Of a log loss, along the row.
   double at(double log_loss) const { return bars_left_ + 220.0 * log_loss / largest_; }
-  void mark(double log_loss, double middle, const Colour& colour, double width) {
-    painter_.box(at(log_loss) - 0.5 * width, middle - 6, width, 12, colour);
+  void mark(double log_loss, double middle, const Colour& colour, double width, double height) {
+    painter_.box(at(log_loss) - 0.5 * width, middle - 0.5 * height, width, height, colour);
   }
   void legend(double y) {
     painter_.text(at(0.0), y, "0", theme::small_text, theme::soft_ink, TextWeight::regular, TextAlign::centre);

@@ -150,7 +150,7 @@ CurvePlot distance_plot(const SurfaceInspection& inspection) {
 }
 
 std::string seen_share(double seen, double unseen) {
-  return fmt::format("{:.4g} cm² seen, {:.4g} cm² not", 1e4 * seen, 1e4 * unseen);
+  return fmt::format("{:.3g} m² seen, {:.3g} m² not", seen, unseen);
 }
 
 void paint_inspection(Painter& painter, const PageArea& panel, const Surface& surface, const SurfaceInspection& i) {
