@@ -12,6 +12,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
+#include "core/session/stopped.hpp"
 #include "ui/surface/headless.hpp"
 #include "ui/window/window.hpp"
 
@@ -77,6 +78,9 @@ int main(int argc, char** argv) {
     if (!names_command) arguments.insert(arguments.begin() + 1, window);
     if (draws_headless({arguments.begin() + 1, arguments.end()})) ensure_headless(argc, argv);
     return run(static_cast<int>(arguments.size()), arguments.data());
+  } catch (const Stopped&) {
+    fmt::print(stderr, "nextview: stopped\n");
+    return exit_stopped;
   } catch (const std::exception& error) {
     fmt::print(stderr, "nextview: {}\n", error.what());
     return exit_bad_input;

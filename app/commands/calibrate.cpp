@@ -68,6 +68,9 @@ void print(const MapCalibration& calibration) {
              "rows open** [%]");
   fmt::print("{:<24} {:>6}   {:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n", "object", "views", "before",
              "after", "Gibbs", "before", "after", "Gibbs", "before", "after", "Gibbs");
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.4f}", *value) : std::string("-");
+  };
   const auto log_loss = [](const std::optional<MapScores>& s) {
     return s ? fmt::format("{:.3f}", s->touch_band.log_loss) : std::string("-");
   };
@@ -76,10 +79,10 @@ void print(const MapCalibration& calibration) {
     return share ? fmt::format("{:.0f}", 100.0 * *share) : std::string("-");
   };
   for (const ExampleScores& e : calibration.examples)
-    fmt::print("{:<24} {:>6}   {:>8.4f}{:>8.4f}{:>8.4f}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n",
-               e.name + (e.held_out ? "" : " (fitted)"), e.views, e.cross_entropy_before, e.cross_entropy_after,
-               e.gibbs_entropy, log_loss(e.before), log_loss(e.after), log_loss(e.gibbs), open(e.before), open(e.after),
-               open(e.gibbs));
+    fmt::print("{:<24} {:>6}   {:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n",
+               e.name + (e.held_out ? "" : " (fitted)"), e.views, number(e.cross_entropy_before),
+               number(e.cross_entropy_after), number(e.gibbs_entropy), log_loss(e.before), log_loss(e.after),
+               log_loss(e.gibbs), open(e.before), open(e.after), open(e.gibbs));
   fmt::print("* within 3 voxels of the true surface, touch truth. ** of slots and bores, centre truth.\n");
 }
 
@@ -103,11 +106,13 @@ int run(const CalibrateArguments& arguments) {
     add_examples(arguments, input, false, examples, progress, stop.token());
   for (const std::string& input : arguments.held_out)
     add_examples(arguments, input, true, examples, progress, stop.token());
-  const double resolution = examples.empty() ? 0.0 : examples.front().job.grid.resolution;
+  if (examples.empty()) throw std::invalid_argument("calibrate: there is nothing to fit to");
+  const double resolution = examples.front().job.grid.resolution;
+  const std::string configuration = examples.front().job.configuration;
   const MapCalibration calibration = calibrate_map(std::move(examples), arguments.config, progress, stop.token());
   progress.clear();
   print(calibration);
-  write_file(out / "config.toml", to_toml(arguments.options.configuration()));
+  write_file(out / "config.toml", configuration);
   write_map_calibration(calibration, remark(arguments, calibration, resolution), out);
   if (!arguments.no_pictures) write_png(draw_calibration_figure(calibration), out / "calibration.png");
   fmt::print(

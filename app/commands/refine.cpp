@@ -116,14 +116,15 @@ int run(const RefineArguments& arguments) {
   print(job, refinement);
   write_refinement(job, refinement, out);
   if (!arguments.no_pictures) write_pictures(job, refinement, out);
+  std::string surface_files;
   if (!arguments.no_surfaces) {
     const auto surfaces = scan_surfaces(job, refinement, progress, stop.token());
     progress.clear();
-    write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
+    surface_files = write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
   }
   fmt::print("\n{}/\n", out.string());
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");
-  if (!arguments.no_surfaces) fmt::print(surface_files);
+  fmt::print("{}", surface_files);
   fmt::print(
       "  posterior.ot, posterior.bt, conventional.ot   the maps (OctoMap)\n"
       "  metrics.json, scores.csv, trace.csv, timings.csv, config.toml   the numbers\n");

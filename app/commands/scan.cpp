@@ -49,7 +49,7 @@ void print_step(const StepRecord& r) {
   std::fflush(stdout);
 }
 
-void print_files(const Session& session, const std::filesystem::path& out, bool pictures, bool surfaces) {
+void print_files(const Session& session, const std::filesystem::path& out, bool pictures, const std::string& surfaces) {
   fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
   if (session.known_object() && !session.records().empty())
     fmt::print(
@@ -66,7 +66,7 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
       "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
-      surfaces ? surface_files : "", out.string());
+      surfaces, out.string());
 }
 
 int run(const ScanArguments& arguments) {
@@ -87,14 +87,15 @@ int run(const ScanArguments& arguments) {
   }
   progress(1.0, "writing the files");
   write_scan(session, out);
+  std::string surface_files;
   if (!arguments.no_surfaces && !session.records().empty()) {
     const auto surfaces = scan_surfaces(session, progress, stop.token());
     progress.clear();
-    write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(), out,
-                             figure != nullptr);
+    surface_files = write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(),
+                                             out, figure != nullptr);
   }
-  print_files(session, out, figure != nullptr, !arguments.no_surfaces);
-  return session.finished().empty() ? exit_stopped : 0;
+  print_files(session, out, figure != nullptr, surface_files);
+  return session.finished().empty() || stop.token().stop_requested() ? exit_stopped : 0;
 }
 
 }  // namespace

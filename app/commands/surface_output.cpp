@@ -18,14 +18,18 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
 
 }  // namespace
 
-void write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
-                              const std::filesystem::path& out, bool pictures) {
+std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
+                                     const std::filesystem::path& out, bool pictures) {
   write_surfaces(surfaces, out);
   fmt::print("\n");
+  std::string files;
   for (const ScanSurface& surface : surfaces) {
     fmt::print("Surface {}.\n", summary(surface));
-    if (pictures && !surface.surface.empty()) write_png(draw(surface, name, views), out / (surface.name + ".png"));
+    if (surface.surface.empty()) continue;
+    if (pictures) write_png(draw(surface, name, views), out / (surface.name + ".png"));
+    files += fmt::format("{0}.ply, {0}.stl, {1}", surface.name, pictures ? surface.name + ".png, " : "");
   }
+  return fmt::format("  {}surfaces.json   the surfaces: PLY in metres, STL in millimetres\n", files);
 }
 
 }  // namespace nextview

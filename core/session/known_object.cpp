@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/random/counter_random.hpp"
+#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -37,7 +38,7 @@ KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const 
       truth_(ground_truth(mesh, grid)),
       coverage_(samples_.points, visible_, d_reg),
       coverage_paper_(samples_.points, visible_, paper_d_reg) {
-  if (stop.stop_requested()) throw std::runtime_error("stopped");
+  if (stop.stop_requested()) throw Stopped();
 }
 
 std::vector<std::vector<std::uint32_t>> KnownObject::see_from(std::span<const Pose> candidates,

@@ -23,7 +23,7 @@ class KnownObject {
   /// The paper's registration distance [m], reported beside the chosen one.
   static constexpr double paper_d_reg = 0.0005;
 
-  /// @throws std::runtime_error if stopped.
+  /// @throws Stopped
   KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera,
               std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
               std::uint64_t seed, const Progress& progress, std::stop_token stop);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/session/stopped.hpp"
+
 namespace nextview {
 namespace {
 
@@ -70,26 +72,31 @@ struct Prepared {
 ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, const InverseSensorModel& after) {
   const RefinementJob& job = prepared.example.job;
   const std::vector<float>& gibbs = prepared.refinement.posterior.occupied;
-  ExampleScores scores{job.name, job.scans.size(), prepared.example.held_out};
+  ExampleScores scores;
+  scores.name = job.name;
+  scores.views = job.scans.size();
+  scores.held_out = prepared.example.held_out;
   scores.voxels = std::size_t(std::count(prepared.mask.begin(), prepared.mask.end(), 1));
   scores.gibbs = prepared.refinement.scores_after;
-  if (scores.voxels == 0) return scores;
-  for (std::size_t v = 0; v < gibbs.size(); ++v)
-    if (prepared.mask[v]) scores.gibbs_entropy += entropy(gibbs[v]) / double(scores.voxels);
-  UpdateHistories histories;
-  prepared.add_to(histories);
   const auto made_with = [&](const InverseSensorModel& model) {
     OccupancyMap map(job.grid, model);
     for (const Scan& scan : job.scans) map.insert(scan, job.max_range);
     return map;
   };
   const OccupancyMap map_before = made_with(before), map_after = made_with(after);
-  scores.cross_entropy_before = histories.cross_entropy(before).value;
-  scores.cross_entropy_after = histories.cross_entropy(after).value;
   scores.before = score_map(map_before.voxels(), job.truth);
   scores.after = score_map(map_after.voxels(), job.truth);
   scores.reliability_before = reliability(map_before.voxels(), gibbs, prepared.mask);
   scores.reliability_after = reliability(map_after.voxels(), gibbs, prepared.mask);
+  if (scores.voxels == 0) return scores;
+  UpdateHistories histories;
+  prepared.add_to(histories);
+  scores.cross_entropy_before = histories.cross_entropy(before).value;
+  scores.cross_entropy_after = histories.cross_entropy(after).value;
+  double sum = 0.0;
+  for (std::size_t v = 0; v < gibbs.size(); ++v)
+    if (prepared.mask[v]) sum += entropy(gibbs[v]);
+  scores.gibbs_entropy = sum / double(scores.voxels);
   return scores;
 }
 
@@ -116,7 +123,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     };
   };
   const auto check_stop = [&] {
-    if (stop.stop_requested()) throw std::runtime_error("stopped");
+    if (stop.stop_requested()) throw Stopped();
   };
   std::vector<Prepared> prepared;
   UpdateHistories histories;
@@ -129,6 +136,9 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     prepared.push_back({examples[e], std::move(refinement), std::move(mask)});
     if (!examples[e].held_out) prepared.back().add_to(histories);
   }
+  if (histories.voxels() == 0)
+    throw std::invalid_argument(
+        "calibration: there is nothing to fit to: no Gibbs map of the objects calls a voxel occupied");
   MapCalibration result;
   result.before = examples.front().job.model;
   result.fit = calibrate(histories, result.before, config.fit, part(0.8, 0.95), stop);

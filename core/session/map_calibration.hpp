@@ -28,16 +28,17 @@ struct ExampleScores {
   std::size_t views = 0;
   bool held_out = false;
   std::size_t voxels = 0;
-  double cross_entropy_before = 0.0, cross_entropy_after = 0.0;  ///< to the Gibbs map [nats a voxel]
-  double gibbs_entropy = 0.0;                     ///< of the Gibbs map itself: no map has less [nats a voxel]
+  std::optional<double> cross_entropy_before,
+      cross_entropy_after;                        ///< to the Gibbs map [nats a voxel]; of no voxels none
+  std::optional<double> gibbs_entropy;            ///< of the Gibbs map itself: no map has less [nats a voxel]
   std::optional<MapScores> before, after, gibbs;  ///< against the true surface, if it is known
   GibbsReliability reliability_before, reliability_after;
 };
 
 struct MapCalibrationConfig {
   CalibrationConfig fit;
-  /// Voxels at most this far from one that the Gibbs map calls occupied (Chebyshev) [voxels]; 0: all that it is
-  /// informed of. Near the surface the map is decided; free space would drown it.
+  /// Voxels at most this far from one that the Gibbs map calls occupied (Chebyshev) [voxels]; 0: all. Of these, those
+  /// that both maps know. Near the surface the map is decided; free space would drown it.
   int band = band_width;
 };
 
@@ -50,7 +51,7 @@ struct MapCalibration {
 
 /// Samples the Gibbs map of each example, fits the inverse sensor model of the conventional map to those that are not
 /// held out (`calibrate`), starting from the first example's, and scores all of them before and after.
-/// @throws std::invalid_argument if there is nothing to fit to, or voxel edges differ; std::runtime_error if stopped.
+/// @throws std::invalid_argument if there is nothing to fit to, or voxel edges differ; Stopped.
 MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const MapCalibrationConfig& config,
                              const Progress& progress = {}, std::stop_token stop = {});
 

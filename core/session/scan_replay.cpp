@@ -8,6 +8,7 @@
 #include "core/mesh/parts.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/stopped.hpp"
 #include "core/session/visited_voxels.hpp"
 
 namespace nextview {
@@ -66,6 +67,7 @@ RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views
                              std::stop_token stop) {
   const fs::path object = resolve_object(c.object.file);
   PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side});
+  require_within_region(mesh.mesh, c, object);
   const RayScene scene(mesh.mesh);
   const DepthCamera camera(c.sensor);
 
@@ -81,7 +83,7 @@ RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views
   job.configuration = to_toml(c);
   std::vector<std::uint8_t> visited(job.grid.voxel_count());
   for (std::size_t k = 0; k < views.size(); ++k) {
-    if (stop.stop_requested()) throw std::runtime_error("stopped");
+    if (stop.stop_requested()) throw Stopped();
     if (progress) progress(double(k) / double(views.size()), "taking the views");
     Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1)), views[k],
                              c.sensor.max_range);

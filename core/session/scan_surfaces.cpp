@@ -138,7 +138,7 @@ std::string summary(const ScanSurface& s) {
 }
 
 void write_surfaces(std::span<const ScanSurface> surfaces, const std::filesystem::path& folder) {
-  Json json;
+  Json json = Json::object();
   for (const ScanSurface& s : surfaces) {
     json[s.name] = to_json(s);
     if (s.surface.empty()) continue;

@@ -30,7 +30,7 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement,
                                        const Progress& progress = {}, std::stop_token stop = {});
 
-/// One line for people: "surface_cloud: 728,818 triangles, 12 openings, …", with the distance to the truth if known.
+/// For people: "of the point cloud: 728818 triangles, 12 openings, …", with the distance to the truth if it is known.
 std::string summary(const ScanSurface& surface);
 
 /// Writes NAME.ply (metres, coloured by uncertainty) and NAME.stl (millimetres) of each surface that is not empty, and

@@ -51,12 +51,7 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
       visited_(candidates_.size()),
       visited_voxels_(map_.grid().voxel_count()) {
-  const Vector3 size = mesh_->bounding_box().sizes();
-  if (size.maxCoeff() > configuration_.map.region_edge)
-    throw std::invalid_argument(fmt::format(
-        "{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
-        "object.longest_side or enlarge map.region_edge",
-        object_file_.string(), size.maxCoeff(), configuration_.map.region_edge));
+  require_within_region(*mesh_, configuration_, object_file_);
   const EvaluationConfig& e = configuration_.evaluation;
   if (e.enabled)
     known_object_ = std::make_unique<KnownObject>(*mesh_, scene_, camera_, candidates_, map_.grid(), e.surface_samples,

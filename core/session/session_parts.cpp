@@ -1,7 +1,10 @@
 #include "core/session/session_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace nextview {
 
@@ -15,6 +18,15 @@ Pose configured_start_view(const Configuration& c) {
 
 VoxelGrid configured_region(const Configuration& c) {
   return region_of_interest(Vector3::Zero(), c.map.region_edge, c.map.resolution);  // load_mesh centres the object
+}
+
+void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {
+  const double longest = object.bounding_box().sizes().maxCoeff();
+  if (longest > c.map.region_edge)
+    throw std::invalid_argument(fmt::format(
+        "{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
+        "object.longest_side or enlarge map.region_edge",
+        file.string(), longest, c.map.region_edge));
 }
 
 RayBundle scoring_rays(const Configuration& c, const PinholeCamera& camera) {

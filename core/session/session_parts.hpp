@@ -14,6 +14,9 @@ Configuration validated(Configuration configuration);
 
 Pose configured_start_view(const Configuration& configuration);
 VoxelGrid configured_region(const Configuration& configuration);
+/// @throws std::invalid_argument naming the file if the object reaches beyond the region of interest.
+void require_within_region(const TriangleMesh& object, const Configuration& configuration,
+                           const std::filesystem::path& file);
 /// The rays that score a view.
 RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& camera);
 /// Rays through a map; the voxels must outlive them.

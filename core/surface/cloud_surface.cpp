@@ -18,6 +18,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/mesh/weld.hpp"
 #include "core/surface/connected_pieces.hpp"
 #include "core/surface/vtk_mesh.hpp"
 
@@ -162,7 +163,7 @@ TriangleMesh integrate(const Cloud& cloud, double cell) {
   zero->HoleFillingOff();
   zero->ComputeNormalsOff();
   zero->Update();
-  return to_mesh(*zero->GetOutput());
+  return welded(to_mesh(*zero->GetOutput()));
 }
 
 std::vector<float> deviations(const TriangleMesh& mesh, const Cloud& cloud, const Tree& tree) {

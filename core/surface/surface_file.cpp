@@ -80,9 +80,9 @@ std::string ply_header(const Surface& surface, float end) {
       "comment uncertainty: how far the surface may lie off along its normal [m]\n"
       "comment seen: 1 measured, 0 closes the surface where no view has looked\n"
       "comment colour: uncertainty from 0 m (dark blue) to {:g} m and more (yellow); grey: not seen\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "property float uncertainty\nproperty uchar seen\n"
+      "element vertex {}\nproperty uchar seen\n"  // not x: a first byte of 10 makes Assimp skip it as a line end
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float uncertainty\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
       end, surface.mesh.vertices.size(), surface.mesh.triangles.size());
 }
@@ -121,10 +121,10 @@ void write_ply(const Surface& surface, const std::filesystem::path& file) {
     const float uncertainty = surface.uncertainty[i];
     const std::uint8_t seen = surface.seen[i] != 0;
     const Rgb colour = seen ? ramp_colour(end > 0.0f ? uncertainty / end : 0.0) : not_seen_colour;
+    append(bytes, &seen, 1);
     append(bytes, surface.mesh.vertices[i].data(), 3);
     append(bytes, colour.data(), 3);
     append(bytes, &uncertainty, 1);
-    append(bytes, &seen, 1);
   }
   for (const auto& triangle : surface.mesh.triangles) {
     bytes.push_back(3);

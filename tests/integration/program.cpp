@@ -10,14 +10,24 @@
 #include "core/file/atomic_file.hpp"
 
 namespace nextview {
+namespace {
 
-Result nextview(const std::string& arguments) {
+/// Runs it behind `prefix`, commands that run others.
+Result run(const std::string& prefix, const std::string& arguments) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
-  const std::string command =
-      fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} >'{}' 2>'{}'", NEXTVIEW_PROGRAM, arguments, out, err);
+  const std::string command = fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY {} '{}' {} >'{}' 2>'{}'", prefix,
+                                          NEXTVIEW_PROGRAM, arguments, out, err);
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(out), read_file(err)};
+}
+
+}  // namespace
+
+Result nextview(const std::string& arguments) { return run("", arguments); }
+
+Result nextview_interrupted(double seconds, const std::string& arguments) {
+  return run(fmt::format("timeout --preserve-status --signal=INT {}", seconds), arguments);
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -12,6 +12,8 @@ struct Result {
 
 /// Runs `nextview` with these arguments (as a shell has them), without a display.
 Result nextview(const std::string& arguments);
+/// The same, with Ctrl+C pressed after so many seconds. Without pictures only.
+Result nextview_interrupted(double seconds, const std::string& arguments);
 
 /// A folder of this test's own, empty, removed at the end.
 class TemporaryFolder {

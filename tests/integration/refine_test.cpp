@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 const std::string quick =
-    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --views.count 12 "
+    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --map.region_edge 0.72 --views.count 12 "
     "--evaluation.surface_samples 2000 --no-pictures ";
 
 std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
@@ -23,7 +23,7 @@ std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_hous
 class Refine : public ::testing::Test {
  protected:
   void SetUp() override {
-    const Result run = nextview("scan " + housing() + quick + "--out " + scan());
+    const Result run = nextview("scan " + housing() + quick + "--no-surfaces --out " + scan());
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
   std::string scan() const { return (folder_.path() / "scan").string(); }
@@ -36,9 +36,13 @@ TEST_F(Refine, WritesMapsNumbersAndPictures) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("log loss near the surface"));
   EXPECT_THAT(run.out, HasSubstr("open rows"));
-  for (const char* file : {"posterior.ot", "posterior.bt", "conventional.ot", "scores.csv", "trace.csv", "metrics.json",
-                           "config.toml", "timings.csv", "refinement.png", "sensor_models.png"})
+  for (const char* file :
+       {"posterior.ot", "posterior.bt", "conventional.ot", "scores.csv", "trace.csv", "metrics.json", "config.toml",
+        "timings.csv", "refinement.png", "sensor_models.png", "surface_posterior.ply", "surface_posterior.stl",
+        "surface_posterior.png", "surface_cloud.ply", "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
     EXPECT_GT(fs::file_size(fs::path(out("refined")) / file), 0u) << file;
+  EXPECT_EQ(std::distance(fs::directory_iterator(out("refined")), fs::directory_iterator{}), 17)
+      << "something else was left behind";
   // The views are taken again exactly: the conventional map is that of the scan.
   EXPECT_TRUE(read_file(fs::path(out("refined")) / "conventional.ot") == read_file(fs::path(scan()) / "map.ot"));
   const auto metrics = nlohmann::json::parse(read_file(fs::path(out("refined")) / "metrics.json"));
@@ -63,15 +67,15 @@ TEST_F(Refine, SameBytesOnAnyNumberOfThreadsAndFromItsOwnConfiguration) {
 TEST_F(Refine, EveryModelAndThePaperRun) {
   for (const std::string options : {"--gibbs.model beam", "--gibbs.model cone", "--gibbs.model paper", "--config paper",
                                     "--gibbs.updated occupied", "--gibbs.start random"}) {
-    const Result run =
-        nextview("refine " + scan() + " --no-pictures --gibbs.sweeps 20 " + options + " --out " + out("model"));
+    const Result run = nextview("refine " + scan() + " --no-pictures --no-surfaces --gibbs.sweeps 20 " + options +
+                                " --out " + out("model"));
     EXPECT_EQ(run.exit_code, 0) << options << ": " << run.err;
     EXPECT_EQ(read_file(fs::path(out("model")) / "metrics.json").find("nan"), std::string::npos) << options;
   }
 }
 
 TEST_F(Refine, WarnsWhenItIsNotStationary) {
-  const Result run = nextview("refine " + scan() + " --no-pictures --out " + out("short") +
+  const Result run = nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") +
                               " --gibbs.model paper --gibbs.sweeps 8 --gibbs.burn_in 0 --gibbs.start occupied");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("not stationary after 8 sweeps"));
@@ -124,8 +128,8 @@ TEST(RefineScenes, StanfordsRangeScans) {
   if (!fs::exists(bunny)) GTEST_SKIP() << "missing: " << bunny << "; the Stanford scans are not checked";
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
-  const Result run =
-      nextview("refine " + bunny.string() + " --voxel 0.004 --no-pictures --out " + out + " --gibbs.sweeps 60");
+  const Result run = nextview("refine " + bunny.string() + " --voxel 0.004 --no-pictures --no-surfaces --out " + out +
+                              " --gibbs.sweeps 60");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const OccupancyMap map = read_octree(fs::path(out) / "posterior.ot");
   std::size_t occupied = 0;

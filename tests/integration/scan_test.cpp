@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// A scan that takes a second or two: few pixels, coarse voxels.
 const std::string quick =
-    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --views.count 12 "
+    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --map.region_edge 0.72 --views.count 12 "
     "--evaluation.surface_samples 2000 ";
 
 std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
@@ -25,10 +25,12 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   const TemporaryFolder folder;
   const Result run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* file : {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json",
-                           "map.ot", "map.bt", "cloud.ply", "step_01.png", "step_02.png", "step_03.png"})
+  for (const char* file :
+       {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json", "map.ot", "map.bt",
+        "cloud.ply", "step_01.png", "step_02.png", "step_03.png", "surface_map.ply", "surface_map.stl",
+        "surface_map.png", "surface_cloud.ply", "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
     EXPECT_GT(fs::file_size(folder.path() / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 12)
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 19)
       << "something else was left behind";
   const std::string steps = read_file(folder.path() / "steps.csv");
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row a view";
@@ -53,7 +55,7 @@ TEST(Scan, SameConfigurationAndSeedGiveTheSameBytesOnAnyNumberOfThreads) {
 
 TEST(Scan, AnotherSeedGivesAnotherCloud) {
   const TemporaryFolder one, two;
-  const std::string plain = "scan " + housing() + quick + "--no-pictures --out ";
+  const std::string plain = "scan " + housing() + quick + "--no-pictures --no-surfaces --out ";
   ASSERT_EQ(nextview(plain + one.path().string() + " --seed 1").exit_code, 0);
   ASSERT_EQ(nextview(plain + two.path().string() + " --seed 2").exit_code, 0);
   EXPECT_FALSE(read_file(one.path() / "cloud.ply") == read_file(two.path() / "cloud.ply"));
@@ -72,14 +74,14 @@ TEST(Scan, EveryGainAndBaselineRuns) {
         "average-entropy", "combined", "random", "farthest", "fixed-order", "covering-order", "oracle"})
     for (const char* semantics : {"published", "reference"}) {
       const TemporaryFolder folder;
-      const Result run = nextview("scan " + housing() + quick + "--no-pictures --gain " + gain + " --semantics " +
-                                  semantics + " --out " + folder.path().string());
+      const Result run = nextview("scan " + housing() + quick + "--no-pictures --no-surfaces --gain " + gain +
+                                  " --semantics " + semantics + " --out " + folder.path().string());
       EXPECT_EQ(run.exit_code, 0) << gain << ", " << semantics << ": " << run.err;
     }
 }
 
 TEST(Help, EverySubcommandHasAnExample) {
-  for (const char* command : {"", "scan", "score", "window"}) {
+  for (const char* command : {"", "scan", "score", "refine", "calibrate", "window"}) {
     const Result run = nextview(std::string(command) + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("Example"));

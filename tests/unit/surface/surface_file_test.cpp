@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
+#include <bit>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -127,22 +128,31 @@ TEST(SurfacePly, holdsWhatItsHeaderSays) {
   EXPECT_TRUE(header.starts_with("ply\nformat binary_little_endian 1.0\n"));
   EXPECT_THAT(header, HasSubstr("unit m\n"));
   EXPECT_THAT(header, HasSubstr("from 0 m (dark blue) to 0.001 m"));  // of the seen vertices
-  EXPECT_THAT(header, HasSubstr("\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+  EXPECT_THAT(header, HasSubstr("\nelement vertex 3\nproperty uchar seen\n"
+                                "property float x\nproperty float y\nproperty float z\n"
                                 "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-                                "property float uncertainty\nproperty uchar seen\nelement face 1\n"
+                                "property float uncertainty\nelement face 1\n"
                                 "property list uchar int vertex_indices\n"));
   ASSERT_EQ(bytes.size(), end + 3 * 20 + 13);
   const Surface surface = triangle();
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(vector(bytes, end + 20 * i), surface.mesh.vertices[i]);
-    EXPECT_EQ(value<float>(bytes, end + 20 * i + 15), surface.uncertainty[i]);
-    EXPECT_EQ(value<std::uint8_t>(bytes, end + 20 * i + 19), surface.seen[i]);
+    EXPECT_EQ(vector(bytes, end + 20 * i + 1), surface.mesh.vertices[i]);
+    EXPECT_EQ(value<float>(bytes, end + 20 * i + 16), surface.uncertainty[i]);
+    EXPECT_EQ(value<std::uint8_t>(bytes, end + 20 * i), surface.seen[i]);
   }
-  EXPECT_EQ(bytes.substr(end + 12, 3), "\x2d\x1a\x5a");           // dark blue
-  EXPECT_EQ(bytes.substr(end + 20 + 12, 3), "\xf8\xe7\x50");      // yellow
-  EXPECT_EQ(bytes.substr(end + 2 * 20 + 12, 3), "\xa0\xa0\xa0");  // not seen
+  EXPECT_EQ(bytes.substr(end + 13, 3), "\x2d\x1a\x5a");           // dark blue
+  EXPECT_EQ(bytes.substr(end + 20 + 13, 3), "\xf8\xe7\x50");      // yellow
+  EXPECT_EQ(bytes.substr(end + 2 * 20 + 13, 3), "\xa0\xa0\xa0");  // not seen
   EXPECT_EQ(bytes[end + 60], 3);
   for (std::uint32_t k = 0; k < 3; ++k) EXPECT_EQ(value<std::uint32_t>(bytes, end + 61 + 4 * k), k);
+}
+
+TEST(SurfacePly, isReadAgainWhereACoordinateBeginsWithALineEnd) {
+  const TemporaryFolder folder;
+  Surface surface = triangle();
+  surface.mesh.vertices[0].x() = std::bit_cast<float>(0x3e23d70au);  // 0.16: the lowest byte is 10
+  write_ply(surface, folder / "a.ply");
+  EXPECT_EQ(load_mesh(folder / "a.ply").triangles.size(), 1u);
 }
 
 TEST(SurfacePly, coloursGetLighterAsTheUncertaintyRises) {
@@ -160,7 +170,7 @@ TEST(SurfacePly, coloursGetLighterAsTheUncertaintyRises) {
   const std::size_t end = bytes.find("end_header\n") + 11;
   const auto luminance = [&](std::size_t i) {
     const auto channel = [&](std::size_t c) {
-      return std::pow(double(value<std::uint8_t>(bytes, end + 20 * i + 12 + c)) / 255.0, 2.2);
+      return std::pow(double(value<std::uint8_t>(bytes, end + 20 * i + 13 + c)) / 255.0, 2.2);
     };
     return 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
   };
