@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
     if (draws_headless({arguments.begin() + 1, arguments.end()})) ensure_headless(argc, argv);
     return run(static_cast<int>(arguments.size()), arguments.data());
   } catch (const Stopped&) {
-    fmt::print(stderr, "nextview: stopped\n");
+    fmt::print(stderr, "{}nextview: stopped\n", ::isatty(STDERR_FILENO) ? "\r\033[K" : "");  // over the progress line
     return exit_stopped;
   } catch (const std::exception& error) {
     fmt::print(stderr, "nextview: {}\n", error.what());

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "core/session/scan_files.hpp"
 #include "core/view/candidate_views.hpp"
 #include "ui/figures/calibration_figure.hpp"
+#include "ui/window/known_objects.hpp"
 
 namespace nextview {
 namespace {
@@ -22,19 +24,52 @@ struct CalibrateArguments {
   ConfigurationOptions options;
   RangeScanOptions range_scans;
   MapCalibrationConfig config;
-  std::vector<std::string> fitted = {"bunny", "slotted_plate"}, held_out = {"gearbox", "slotted_housing"};
+  std::vector<std::string> fitted = {"bunny", "slotted_plate"};
+  std::vector<std::string> held_out = {"gearbox", "slotted_housing"};
+  bool held_out_given = false;
   std::vector<int> views = {4, 20};
-  std::string out = "calibrated";
+  std::string out = "calibration";
   bool no_pictures = false;
 };
 
-/// An input is finished scans, or else an object, which is then seen from as many views as each number says, spread
-/// evenly around it.
+/// Whether an input is finished scans; otherwise it is an object. A name that the program knows is the object, also
+/// where there is a folder of this name (./NAME is the folder).
+bool is_recorded(const std::string& input) {
+  const auto names = known_objects();
+  if (std::find(names.begin(), names.end(), input) != names.end()) return false;
+  return fs::is_directory(input) || fs::path(input).extension() == ".txt";
+}
+
+/// The same for two spellings of one input.
+fs::path identity(const std::string& input) {
+  if (input.empty()) throw std::invalid_argument("calibrate: an input has no name");
+  return fs::weakly_canonical(is_recorded(input) ? fs::path(input) : resolve_object(input));
+}
+
+/// The inputs to try the model on: none that is fitted to. Unless they were asked for, none if a fitted one is
+/// recorded: it has a camera and voxels of its own.
+std::vector<std::string> held_out_inputs(const CalibrateArguments& arguments) {
+  const auto& fitted = arguments.fitted;
+  if (!arguments.held_out_given && std::any_of(fitted.begin(), fitted.end(), is_recorded)) return {};
+  std::vector<std::string> inputs;
+  for (const std::string& input : arguments.held_out) {
+    const auto same = [&](const std::string& other) { return identity(other) == identity(input); };
+    if (std::none_of(fitted.begin(), fitted.end(), same))
+      inputs.push_back(input);
+    else if (arguments.held_out_given)
+      fmt::print(stderr, "{}: is fitted to, and so not held out\n", input);
+  }
+  return inputs;
+}
+
+/// Finished scans make one example, an object one for each number of views, spread evenly around it.
 void add_examples(const CalibrateArguments& arguments, const std::string& input, bool held_out,
                   std::vector<CalibrationExample>& examples, const Progress& progress, std::stop_token stop) {
-  const fs::path path = input;
-  if (fs::is_directory(path) || path.extension() == ".txt") {
-    examples.push_back({recorded_job(path, arguments.options, arguments.range_scans, progress, stop), held_out});
+  if (is_recorded(input)) {
+    if (fs::exists(input) && fs::equivalent(input, arguments.out))
+      throw std::invalid_argument(
+          fmt::format("--out {}: that is what is calibrated with; give another folder", arguments.out));
+    examples.push_back({recorded_job(input, arguments.options, arguments.range_scans, progress, stop), held_out});
     return;
   }
   for (const int count : arguments.views) {
@@ -45,7 +80,7 @@ void add_examples(const CalibrateArguments& arguments, const std::string& input,
     around.count = count;
     CalibrationExample example{refinement_job(configuration, candidate_views(around, Vector3::Zero()), progress, stop),
                                held_out};
-    example.job.name = path.stem().string();
+    example.job.name = fs::path(input).stem().string();
     examples.push_back(std::move(example));
   }
 }
@@ -83,30 +118,35 @@ void print(const MapCalibration& calibration) {
                e.name + (e.held_out ? "" : " (fitted)"), e.views, number(e.cross_entropy_before),
                number(e.cross_entropy_after), number(e.gibbs_entropy), log_loss(e.before), log_loss(e.after),
                log_loss(e.gibbs), open(e.before), open(e.after), open(e.gibbs));
+  for (const ExampleScores& e : calibration.examples)
+    if (!e.gibbs_stationary)
+      fmt::print("! The Gibbs map of {} from {} views is not stationary; raise gibbs.sweeps.\n", e.name, e.views);
   fmt::print("* within 3 voxels of the true surface, touch truth. ** of slots and bores, centre truth.\n");
 }
 
 std::string remark(const CalibrateArguments& arguments, const MapCalibration& calibration, double resolution) {
-  std::string objects;
-  for (const std::string& input : arguments.fitted) objects += (objects.empty() ? "" : ", ") + input;
   return fmt::format(
       "The inverse sensor model that nextview calibrate fitted to the Gibbs maps of {}: cross entropy {:.4f}, before\n"
-      "{:.4f} nats a voxel. For voxels of {} m and the sensor of the config.toml beside it.\n"
+      "{:.4f} nats a voxel. For voxels of {} m{}.\n"
       "Use it with --config: nextview scan --config sensor_model.toml",
-      objects, calibration.fit.cross_entropy, calibration.fit.cross_entropy_before, resolution);
+      fmt::join(arguments.fitted, ", "), calibration.fit.cross_entropy, calibration.fit.cross_entropy_before,
+      resolution,
+      is_recorded(arguments.fitted.front()) && !fs::exists(fs::path(arguments.fitted.front()) / "config.toml")
+          ? ""
+          : " and the sensor of the config.toml beside it");
 }
 
 int run(const CalibrateArguments& arguments) {
   const fs::path out = arguments.out;
+  if (arguments.fitted.empty()) throw std::invalid_argument("calibrate: there is nothing to fit to");
+  const std::vector<std::string> held_out = held_out_inputs(arguments);
   prepare_output_folder(out);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::vector<CalibrationExample> examples;
   for (const std::string& input : arguments.fitted)
     add_examples(arguments, input, false, examples, progress, stop.token());
-  for (const std::string& input : arguments.held_out)
-    add_examples(arguments, input, true, examples, progress, stop.token());
-  if (examples.empty()) throw std::invalid_argument("calibrate: there is nothing to fit to");
+  for (const std::string& input : held_out) add_examples(arguments, input, true, examples, progress, stop.token());
   const double resolution = examples.front().job.grid.resolution;
   const std::string configuration = examples.front().job.configuration;
   const MapCalibration calibration = calibrate_map(std::move(examples), arguments.config, progress, stop.token());
@@ -117,7 +157,7 @@ int run(const CalibrateArguments& arguments) {
   if (!arguments.no_pictures) write_png(draw_calibration_figure(calibration), out / "calibration.png");
   fmt::print(
       "\n{0}/\n  sensor_model.toml   the fitted model: nextview scan --config {0}/sensor_model.toml\n"
-      "{1}  descent.csv, scores.csv, config.toml   the numbers\n",
+      "{1}  calibration.json, descent.csv, scores.csv, config.toml   the numbers\n",
       out.string(), arguments.no_pictures ? "" : "  calibration.png     the picture\n");
   return 0;
 }
@@ -130,14 +170,26 @@ void add_calibrate_command(CLI::App& program) {
       "calibrate", "Fit the conventional map's sensor model to Gibbs maps, and try it on objects that it has not seen");
   app->add_option("INPUT", arguments->fitted, "objects to fit to: as for `scan`; or finished scans: as for `refine`")
       ->capture_default_str();
-  app->add_option("--held-out", arguments->held_out, "the same, to try the fitted model on")->capture_default_str();
+  app->add_option_function<std::vector<std::string>>(
+         "--held-out",
+         [arguments](const std::vector<std::string>& inputs) {
+           arguments->held_out = inputs;
+           arguments->held_out_given = true;
+         },
+         "the same, to try the fitted model on, separated by commas; default gearbox and slotted_housing, or, if an "
+         "INPUT is finished scans, none")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("INPUT");
   app->add_option("--views", arguments->views, "of each object, so many views, spread evenly around it")
       ->capture_default_str()
       ->delimiter(',')
-      ->check(CLI::Range(1, 1000));
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 100));
   app->add_flag("--range-dependent", arguments->config.fit.range_dependent,
                 "let the update terms depend on the range (map.hit_decay, map.miss_decay)");
-  app->add_flag("!--keep-clamps", arguments->config.fit.clamps, "leave the clamps as they are");
+  app->add_flag_callback(
+      "--keep-clamps", [arguments] { arguments->config.fit.clamps = false; }, "leave the clamps as they are");
   app->add_option("--band", arguments->config.band,
                   "fit to voxels at most so many from the surface, as the Gibbs map has it; 0: to all")
       ->capture_default_str()
@@ -148,9 +200,9 @@ void add_calibrate_command(CLI::App& program) {
   arguments->options.add_settings_to(
       *app, {"sensor.", "cloud.", "map.", "gibbs.", "views.radius", "object.longest_side", "evaluation.", "seed"});
   app->footer(
-      "Examples:\n  nextview calibrate --out calibrated\n"
-      "  nextview calibrate bunny part.stl --held-out gearbox --views 4,10,20 --sensor narrow\n"
-      "  nextview scan --config calibrated/sensor_model.toml --out out");
+      "Examples:\n  nextview calibrate --out calibration\n"
+      "  nextview calibrate bunny part.stl --held-out gearbox,slotted_plate --views 4,10,20 --sensor narrow\n"
+      "  nextview scan --config calibration/sensor_model.toml --out out");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
 }
 

@@ -34,7 +34,8 @@ std::string describe(const Setting& setting) {
 /// A file, or the name of one that comes with the program.
 std::filesystem::path find_configuration(const std::string& name) {
   const auto named = assets_folder() / "configurations" / (name + ".toml");
-  return !std::filesystem::exists(name) && std::filesystem::exists(named) ? named : std::filesystem::path(name);
+  return !std::filesystem::is_regular_file(name) && std::filesystem::exists(named) ? named
+                                                                                   : std::filesystem::path(name);
 }
 
 }  // namespace
@@ -47,7 +48,8 @@ void ConfigurationOptions::add_to(CLI::App& app) {
 
 void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes) {
   app.add_option("--config", files_,
-                 "configuration file (TOML), or paper; may be given several times, later ones override; so do options")
+                 "configuration file (TOML), or paper or calibrated; may be given several times: later ones override, "
+                 "options all")
       ->type_name("FILE")
       ->allow_extra_args(false);
   static Configuration defaults;

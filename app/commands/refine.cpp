@@ -116,6 +116,7 @@ int run(const RefineArguments& arguments) {
   print(job, refinement);
   write_refinement(job, refinement, out);
   if (!arguments.no_pictures) write_pictures(job, refinement, out);
+  remove_surfaces(out);
   std::string surface_files;
   if (!arguments.no_surfaces) {
     const auto surfaces = scan_surfaces(job, refinement, progress, stop.token());

@@ -87,6 +87,7 @@ int run(const ScanArguments& arguments) {
   }
   progress(1.0, "writing the files");
   write_scan(session, out);
+  remove_surfaces(out);
   std::string surface_files;
   if (!arguments.no_surfaces && !session.records().empty()) {
     const auto surfaces = scan_surfaces(session, progress, stop.token());

@@ -21,6 +21,7 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
 std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
                                      const std::filesystem::path& out, bool pictures) {
   write_surfaces(surfaces, out);
+  if (surfaces.empty()) return "";  // stopped
   fmt::print("\n");
   std::string files;
   for (const ScanSurface& surface : surfaces) {

@@ -1,6 +1,7 @@
 #include "core/evaluation/free_sensor_parameters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -103,6 +104,17 @@ std::vector<double> FreeSensorParameters::chain(std::span<const double> free,
                        slope_of_log_odds(f.value(free[i]), f.parameter) * f.slope(free[i]));
   }
   return gradient;
+}
+
+std::string FreeSensorParameters::at_bounds(const InverseSensorModel& model) const {
+  constexpr std::array names = {"hit", "miss", "clamp_min", "clamp_max", "hit_decay", "miss_decay"};
+  std::string text;
+  for (const Fitted& f : fitted_) {
+    const double share = (bounded(model, f.parameter) - f.low) / (f.high - f.low);
+    if (share < 0.001 || share > 0.999)
+      text += (text.empty() ? "" : ", ") + std::string(names[static_cast<std::size_t>(f.parameter)]);
+  }
+  return text;
 }
 
 }  // namespace nextview

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/evaluation/update_histories.hpp"
@@ -20,6 +21,8 @@ class FreeSensorParameters {
   InverseSensorModel to_model(std::span<const double> free) const;
   /// Values beyond the bounds, or on them, are taken from just inside.
   std::vector<double> from_model(const InverseSensorModel& model) const;
+  /// The names of what a model has at its bound: there the descent was stopped by the bound, not by the data.
+  std::string at_bounds(const InverseSensorModel& model) const;
   /// The gradient by the free numbers that belongs to one by the model's, as CrossEntropy has it.
   std::vector<double> chain(std::span<const double> free, const std::array<double, sensor_parameters>& by_model) const;
 

@@ -171,6 +171,8 @@ Calibration calibrate(const UpdateHistories& all, const InverseSensorModel& star
     result.converged = descent.converged;
     result.descent = std::move(descent.steps);
   }
+  if (const std::string bounds = parameters.at_bounds(result.model); !bounds.empty())
+    result.termination += fmt::format(" At the bounds of what is tried: {}.", bounds);
   if (stop.stop_requested()) result.termination = "stopped", result.converged = false;
   return result;
 }

@@ -43,7 +43,7 @@ class ChainEnsemble {
   std::vector<std::uint32_t> traced_;                     ///< a sample of the voxels near a return
   std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
   int window_ = 1;                                        ///< sweeps of the mean
-  int reach_samples_ = 2;                                 ///< of each chain over the mean: fewer where they are dear
+  int reach_samples_ = 2;  ///< of each chain over the mean: a tenth of the sweeps, fewer where dear
 };
 
 }  // namespace nextview

@@ -76,6 +76,7 @@ ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, 
   scores.name = job.name;
   scores.views = job.scans.size();
   scores.held_out = prepared.example.held_out;
+  scores.gibbs_stationary = prepared.refinement.posterior.diagnostics.stationary;
   scores.voxels = std::size_t(std::count(prepared.mask.begin(), prepared.mask.end(), 1));
   scores.gibbs = prepared.refinement.scores_after;
   const auto made_with = [&](const InverseSensorModel& model) {
@@ -140,6 +141,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     throw std::invalid_argument(
         "calibration: there is nothing to fit to: no Gibbs map of the objects calls a voxel occupied");
   MapCalibration result;
+  result.config = config;
   result.before = examples.front().job.model;
   result.fit = calibrate(histories, result.before, config.fit, part(0.8, 0.95), stop);
   check_stop();

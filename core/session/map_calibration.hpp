@@ -33,6 +33,7 @@ struct ExampleScores {
   std::optional<double> gibbs_entropy;            ///< of the Gibbs map itself: no map has less [nats a voxel]
   std::optional<MapScores> before, after, gibbs;  ///< against the true surface, if it is known
   GibbsReliability reliability_before, reliability_after;
+  bool gibbs_stationary = false;
 };
 
 struct MapCalibrationConfig {
@@ -44,6 +45,7 @@ struct MapCalibrationConfig {
 
 /// What a calibration found (SCIENCE: calibration).
 struct MapCalibration {
+  MapCalibrationConfig config;
   InverseSensorModel before;
   Calibration fit;
   std::vector<ExampleScores> examples;
@@ -58,8 +60,9 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
 /// The sensor model as a configuration file that sets nothing else; `remark` becomes a comment.
 std::string sensor_model_toml(const InverseSensorModel& model, const std::string& remark);
 
-/// Writes sensor_model.toml, descent.csv (each iteration of BFGS) and scores.csv (each example before, after, and its
-/// Gibbs map). @throws std::runtime_error naming the file and the reason.
+/// Writes sensor_model.toml, calibration.json (what was fitted to what, and how it ended), descent.csv (each iteration
+/// of BFGS) and scores.csv (each example before, after, and its Gibbs map). @throws std::runtime_error naming the file
+/// and the reason.
 void write_map_calibration(const MapCalibration& calibration, const std::string& remark,
                            const std::filesystem::path& folder);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/file/atomic_file.hpp"
@@ -53,6 +54,24 @@ std::string scores_csv(const MapCalibration& calibration) {
   return csv;
 }
 
+std::string calibration_json(const MapCalibration& calibration) {
+  nlohmann::ordered_json json = {{"clamps_fitted", calibration.config.fit.clamps},
+                                 {"range_dependent", calibration.config.fit.range_dependent},
+                                 {"band_voxels", calibration.config.band},
+                                 {"cross_entropy_before_nats", calibration.fit.cross_entropy_before},
+                                 {"cross_entropy_after_nats", calibration.fit.cross_entropy},
+                                 {"converged", calibration.fit.converged},
+                                 {"termination", calibration.fit.termination}};
+  json["examples"] = nlohmann::ordered_json::array();
+  for (const ExampleScores& e : calibration.examples)
+    json["examples"].push_back({{"name", e.name},
+                                {"views", e.views},
+                                {"held_out", e.held_out},
+                                {"voxels", e.voxels},
+                                {"gibbs_map_stationary", e.gibbs_stationary}});
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string sensor_model_toml(const InverseSensorModel& model, const std::string& remark) {
@@ -72,6 +91,7 @@ std::string sensor_model_toml(const InverseSensorModel& model, const std::string
 void write_map_calibration(const MapCalibration& calibration, const std::string& remark,
                            const std::filesystem::path& folder) {
   write_file(folder / "sensor_model.toml", sensor_model_toml(calibration.fit.model, remark));
+  write_file(folder / "calibration.json", calibration_json(calibration));
   write_file(folder / "descent.csv", descent_csv(calibration.fit));
   write_file(folder / "scores.csv", scores_csv(calibration));
 }

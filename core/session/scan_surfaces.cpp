@@ -29,6 +29,19 @@ struct Material {
   std::span<const std::uint8_t> visible;
 };
 
+/// The returns that lie in the region: strays far off would make the cloud's lattice huge.
+std::vector<Scan> within_region(std::span<const Scan> scans, const VoxelGrid& grid) {
+  const Eigen::AlignedBox3d region(grid.lower(), grid.upper());
+  std::vector<Scan> cropped;
+  for (const Scan& scan : scans) {
+    Scan& kept = cropped.emplace_back();
+    kept.origin = scan.origin;
+    for (const Eigen::Vector3f& point : scan.returns)
+      if (region.contains(point.cast<double>())) kept.returns.push_back(point);
+  }
+  return cropped;
+}
+
 std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress& progress, std::stop_token stop) {
   const auto tell = [&](double fraction, std::string_view what) {
     if (progress) progress(fraction, what);
@@ -47,7 +60,7 @@ std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress&
   Surface cloud;
   try {
     cloud = cloud_surface(
-        material.scans, cloud_cell * material.grid.resolution,
+        within_region(material.scans, material.grid), cloud_cell * material.grid.resolution,
         [&](double fraction, std::string_view what) { tell(0.1 + 0.6 * fraction, what); }, stop);
   } catch (const std::invalid_argument& error) {  // the points do not make one; what the scan found stands all the same
     cloud.why_empty = error.what();
@@ -60,11 +73,13 @@ std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress&
                         {},
                         {}});
 
+  std::optional<SignedDistance> truth;
+  if (material.true_mesh) truth.emplace(*material.true_mesh);
   for (ScanSurface& s : surfaces) {
     if (s.surface.empty()) continue;
     s.openings = boundary_loops(s.surface.mesh);
-    if (!material.true_mesh || !tell(0.8, "holding the surfaces against the true one")) continue;
-    s.inspection = inspect(s.surface, SignedDistance(*material.true_mesh), *material.samples, material.visible);
+    if (!truth || !tell(0.8, "holding the surfaces against the true one")) continue;
+    s.inspection = inspect(s.surface, *truth, *material.samples, material.visible);
   }
   return surfaces;
 }
@@ -137,8 +152,16 @@ std::string summary(const ScanSurface& s) {
                             100.0 * i.area_seen / (i.area_seen + i.area_unseen), 1e3 * i.percentile_95);
 }
 
+void remove_surfaces(const std::filesystem::path& folder) {
+  for (const char* name : {"surface_map", "surface_posterior", "surface_cloud"})
+    for (const char* kind : {".ply", ".stl", ".png"}) std::filesystem::remove(folder / (std::string(name) + kind));
+  std::filesystem::remove(folder / "surfaces.json");
+}
+
 void write_surfaces(std::span<const ScanSurface> surfaces, const std::filesystem::path& folder) {
-  Json json = Json::object();
+  remove_surfaces(folder);
+  if (surfaces.empty()) return;
+  Json json;
   for (const ScanSurface& s : surfaces) {
     json[s.name] = to_json(s);
     if (s.surface.empty()) continue;

@@ -33,9 +33,13 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
 /// For people: "of the point cloud: 728818 triangles, 12 openings, …", with the distance to the truth if it is known.
 std::string summary(const ScanSurface& surface);
 
-/// Writes NAME.ply (metres, coloured by uncertainty) and NAME.stl (millimetres) of each surface that is not empty, and
-/// surfaces.json: sizes, openings, distances to the true surface. @throws std::runtime_error naming the file and the
-/// reason.
+/// Removes what write_surfaces, and the pictures of it, have left in a folder: they would not belong to what is written
+/// there next.
+void remove_surfaces(const std::filesystem::path& folder);
+
+/// Removes those of an earlier scan, then writes NAME.ply (metres, coloured by uncertainty) and NAME.stl (millimetres)
+/// of each surface that is not empty, and surfaces.json: sizes, openings, distances to the true surface. Without
+/// surfaces nothing. @throws std::runtime_error naming the file and the reason.
 void write_surfaces(std::span<const ScanSurface> surfaces, const std::filesystem::path& folder);
 
 }  // namespace nextview

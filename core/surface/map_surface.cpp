@@ -1,5 +1,7 @@
 #include "core/surface/map_surface.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -67,13 +69,15 @@ class InsideField {
     field.size = 2 * (box.highest - box.lowest) + Eigen::Vector3i::Constant(5);
     field.spacing = 0.5 * grid_.resolution;
     field.origin = grid_.lower() + field.spacing * first.cast<double>();
-    field.values.reserve(field.point_count());
-    for (int z = 0; z < field.size.z(); ++z)
+    field.values.resize(field.point_count());
+    tbb::parallel_for(0, field.size.z(), [&](int z) {
       for (int y = 0; y < field.size.y(); ++y)
         for (int x = 0; x < field.size.x(); ++x) {
           const float value = at(first + Eigen::Vector3i(x, y, z)), off = value - solid_from;
-          field.values.push_back(std::abs(off) >= off_level ? value : solid_from + std::copysign(off_level, off));
+          field.values[field.index({x, y, z})] =
+              std::abs(off) >= off_level ? value : solid_from + std::copysign(off_level, off);
         }
+    });
     return field;
   }
 
@@ -171,10 +175,14 @@ Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels) {
   const std::vector<float> solid = solid_voxels(grid, voxels);
   const ScalarField field = InsideField(grid, solid).make();
   surface.mesh = isosurface(field, solid_from);
-  for (const Eigen::Vector3f& vertex : surface.mesh.vertices) {
-    surface.uncertainty.push_back(uncertainty(field, vertex.cast<double>(), grid.resolution));
-    surface.seen.push_back(is_seen(grid, voxels, solid, vertex.cast<double>()));
-  }
+  const std::size_t vertices = surface.mesh.vertices.size();
+  surface.uncertainty.resize(vertices);
+  surface.seen.resize(vertices);
+  tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+    const Vector3 vertex = surface.mesh.vertices[v].cast<double>();
+    surface.uncertainty[v] = uncertainty(field, vertex, grid.resolution);
+    surface.seen[v] = is_seen(grid, voxels, solid, vertex);
+  });
   return surface;
 }
 

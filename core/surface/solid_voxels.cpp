@@ -6,7 +6,8 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t fewest_thin = 4;  ///< on something thick; fewer are specks [voxels]
+constexpr std::size_t fewest_trusted = 4;  ///< occupied voxels side by side; fewer are stray returns
+constexpr std::size_t fewest_thin = 4;     ///< on something thick; fewer are specks [voxels]
 
 /// What is connected to what: over faces, or over faces, edges and corners.
 enum class Neighbours { faces, all };
@@ -71,16 +72,49 @@ void close_pockets(const VoxelGrid& grid, std::vector<float>& solid) {
     for (const std::uint32_t v : pocket) solid[v] = 1.0f;
 }
 
-/// Solid pieces that nothing measured speaks for become free.
-void drop_unmeasured_pieces(const VoxelGrid& grid, std::span<const Voxel> voxels, std::vector<float>& solid) {
+/// Which voxels say where the object is: measured and occupied, but for pieces of fewer than a few, which stray returns
+/// leave; the largest piece counts in any case.
+std::vector<std::uint8_t> trusted_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels) {
+  std::vector<std::uint8_t> trusted(voxels.size());
+  std::vector<std::vector<std::uint32_t>> small;
+  std::size_t largest = 0;
+  for_each_piece(
+      grid, Neighbours::all, [&](std::uint32_t v) { return voxels[v].measured && voxels[v].probability >= solid_from; },
+      [&](const std::vector<std::uint32_t>& piece) {
+        for (const std::uint32_t v : piece) trusted[v] = 1;
+        largest = std::max(largest, piece.size());
+        if (piece.size() < fewest_trusted) small.push_back(piece);
+      });
+  for (const auto& piece : small)
+    if (piece.size() < largest)
+      for (const std::uint32_t v : piece) trusted[v] = 0;
+  return trusted;
+}
+
+/// Farther beyond the box of what is trusted than a quarter of its longest side nothing is solid, measured or not: the
+/// shadow of the object there would reach to the region's border.
+void clear_beyond(const VoxelGrid& grid, std::span<const std::uint8_t> trusted, std::vector<float>& solid) {
+  Eigen::Vector3i lowest = grid.size, highest = Eigen::Vector3i::Constant(-1);
+  for (std::uint32_t v = 0; v < solid.size(); ++v)
+    if (trusted[v]) {
+      lowest = lowest.cwiseMin(grid.cell(v));
+      highest = highest.cwiseMax(grid.cell(v));
+    }
+  const int margin = (highest - lowest).maxCoeff() / 4 + 1;
+  for (std::uint32_t v = 0; v < solid.size(); ++v) {
+    const Eigen::Array3i cell = grid.cell(v);
+    const bool beyond = (cell < lowest.array() - margin).any() || (cell > highest.array() + margin).any();
+    if (beyond && solid[v] >= solid_from) solid[v] = 0.0f;
+  }
+}
+
+/// Solid pieces that nothing trusted speaks for become free.
+void drop_other_pieces(const VoxelGrid& grid, std::span<const std::uint8_t> trusted, std::vector<float>& solid) {
   const std::vector<float> before = solid;
   for_each_piece(
       grid, Neighbours::all, [&](std::uint32_t v) { return before[v] >= solid_from; },
       [&](const std::vector<std::uint32_t>& piece) {
-        const bool measured = std::any_of(piece.begin(), piece.end(), [&](std::uint32_t v) {
-          return voxels[v].measured && voxels[v].probability >= solid_from;
-        });
-        if (!measured)
+        if (std::none_of(piece.begin(), piece.end(), [&](std::uint32_t v) { return trusted[v]; }))
           for (const std::uint32_t v : piece) solid[v] = 0.0f;
       });
 }
@@ -120,8 +154,10 @@ bool in_lone_block(const VoxelGrid& grid, std::span<const float> solid, std::uin
 std::vector<float> solid_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels) {
   std::vector<float> solid(voxels.size());
   for (std::size_t v = 0; v < voxels.size(); ++v) solid[v] = voxels[v].measured ? voxels[v].probability : 1.0f;
+  const std::vector<std::uint8_t> trusted = trusted_voxels(grid, voxels);
+  clear_beyond(grid, trusted, solid);
   close_pockets(grid, solid);
-  drop_unmeasured_pieces(grid, voxels, solid);
+  drop_other_pieces(grid, trusted, solid);
   return solid;
 }
 

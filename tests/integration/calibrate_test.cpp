@@ -45,8 +45,8 @@ const std::vector<std::string> fitted_keys = {"hit", "miss", "hit_decay", "miss_
 
 TEST_F(Calibrate, WritesTheModelTheNumbersAndThePictureAndNothingElse) {
   run(sphere_and_box + coarse + "--views 2,4 --out " + in("out"));
-  EXPECT_THAT(file_names(in("out")), ::testing::ElementsAre("calibration.png", "config.toml", "descent.csv",
-                                                            "scores.csv", "sensor_model.toml"));
+  EXPECT_THAT(file_names(in("out")), ::testing::ElementsAre("calibration.json", "calibration.png", "config.toml",
+                                                            "descent.csv", "scores.csv", "sensor_model.toml"));
   const Table scores = read_table(read("out", "scores.csv"));
   ASSERT_EQ(scores.size(), 2u * 2u * 3u) << "two objects, two numbers of views, three maps";
   for (std::size_t row = 0; row < scores.size(); row += 3) {
@@ -78,7 +78,7 @@ TEST_F(Calibrate, TheSameBytesOnAnyNumberOfThreads) {
   for (const std::string& name : file_names(in("one"))) {
     EXPECT_TRUE(read("one", name) == read("two", name)) << name << " differs";
   }
-  EXPECT_EQ(file_names(in("one")).size(), 4u);
+  EXPECT_EQ(file_names(in("one")).size(), 5u);
 }
 
 TEST_F(Calibrate, ScanTakesTheModelAloneAndWithOtherFiles) {
@@ -122,21 +122,34 @@ TEST_F(Calibrate, DecaysAreFittedAndClampsKeptOnlyIfAsked) {
 TEST_F(Calibrate, TakesFinishedScansToo) {
   run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces" + coarse + "--out " + in("scan"));
   write_file(in("scene.txt"), wall_scene(0.04));
-  // A trailing slash, as a shell completes it.
+  // A trailing slash, as a shell completes it; the scan that is fitted to is not held out as well.
   run("calibrate " + in("scan") + "/ " + in("scene.txt") + " --held-out " + in("scan") + " --no-pictures --out " +
       in("out"));
   const Table scores = read_table(read("out", "scores.csv"));
-  ASSERT_EQ(scores.size(), 3u * 3u);
+  ASSERT_EQ(scores.size(), 2u * 3u);
   EXPECT_EQ(scores[0].at("object"), "box");
   EXPECT_EQ(scores[0].at("views"), "2");
   EXPECT_EQ(scores[3].at("object"), "scene");
   EXPECT_EQ(scores[3].at("views"), "1");
   EXPECT_EQ(scores[3].at("log_loss_touch_near_surface[nats]"), "") << "nothing is known of a recorded scene";
-  for (std::size_t row = 0; row < 3; ++row)  // the same scan, fitted and held out
-    for (const auto& [column, cell] : scores[row])
-      if (column != "held_out") {
-        EXPECT_EQ(scores[6 + row].at(column), cell) << column;
-      }
+  for (const auto& row : scores) EXPECT_EQ(row.at("held_out"), "0");
+}
+
+TEST_F(Calibrate, AScanAsInputHasNothingHeldOutUnlessAskedForAndIsNotOverwritten) {
+  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces" + coarse + "--out " + in("scan"));
+  run("calibrate " + in("scan") + " --no-pictures --out " + in("first"));
+  EXPECT_EQ(read_table(read("first", "scores.csv")).size(), 3u);
+  const std::string before = read("scan", "scores.csv");
+  expect_error("calibrate " + in("scan") + " --no-pictures --out " + in("scan"), "another folder");
+  EXPECT_EQ(read("scan", "scores.csv"), before);
+}
+
+TEST_F(Calibrate, OptionsDoNotSwallowInputs) {
+  run("calibrate --held-out box --views 3 sphere --no-pictures" + coarse + "--out " + in("out"));
+  const Table scores = read_table(read("out", "scores.csv"));
+  ASSERT_EQ(scores.size(), 2u * 3u);
+  EXPECT_EQ(scores[0].at("object") + scores[0].at("held_out"), "sphere0");
+  EXPECT_EQ(scores[3].at("object") + scores[3].at("held_out"), "box1");
 }
 
 // sensor_model.toml says so, and the noise decides what is fitted.
@@ -170,7 +183,7 @@ TEST_F(Calibrate, VoxelsOfTwoSizesAreRefused) {
   run(scan + "0.04 --out " + in("coarse"));
   run(scan + "0.05 --out " + in("coarser"));
   const std::string rest = " --no-pictures --out " + in("out");
-  expect_error("calibrate " + in("coarse") + " " + in("coarser") + " --held-out " + in("coarse") + rest, "0.05");
+  expect_error("calibrate " + in("coarse") + " " + in("coarser") + rest, "0.05");
   expect_error("calibrate " + in("coarse") + " --held-out " + in("coarser") + rest, "0.05");
 }
 

@@ -176,28 +176,30 @@ class ScanSurfaceFiles : public TemporaryFolder {
   nlohmann::json written() const { return nlohmann::json::parse(read_file(folder_ / "surfaces.json")); }
 };
 
-// A stop may leave none: the file is still a list of surfaces, with nothing in it.
+// A stop may leave none: then there is no file either, nor one of an earlier scan.
 TEST_F(ScanSurfaceFiles, OfNoSurfaces) {
+  const char* const names[] = {"surface_map.ply", "surface_cloud.stl", "surface_posterior.png", "surfaces.json"};
+  for (const char* name : names) write_file(folder_ / name, "of an earlier scan");
+  write_file(folder_ / "surface_of_mine.ply", "not ours");
   write_surfaces({}, folder_);
-  EXPECT_TRUE(written().is_object()) << read_file(folder_ / "surfaces.json");
-  EXPECT_TRUE(written().empty());
+  for (const char* name : names) EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "surface_of_mine.ply"));
 }
 
-// A far return makes the cloud's lattice too large: the map's surface stands all the same, and the reason is told.
-TEST_F(ScanSurfaceFiles, AStrayPointCostsTheCloudsSurfaceAlone) {
+// A far return would make the cloud's lattice too large; it lies beyond the region, so it is left out.
+TEST_F(ScanSurfaceFiles, AStrayPointBeyondTheRegionCostsNothing) {
   Configuration c = small_scan();
   c.termination.views = 1;
   RefinementJob job = refinement_job(c, std::vector<Pose>{candidate_views(c.views, Vector3::Zero()).front()});
+  const Refinement refinement = refine(job);
+  const auto without = scan_surfaces(job, refinement);
   job.scans[0].returns.push_back({900.0f, 800.0f, 700.0f});
-  const auto surfaces = scan_surfaces(job, refine(job));
-  ASSERT_EQ(surfaces.size(), 2u);
-  EXPECT_FALSE(surfaces[0].surface.empty());
-  EXPECT_TRUE(surfaces[1].surface.empty());
-  EXPECT_THAT(surfaces[1].surface.why_empty, HasSubstr("stray"));
-  write_surfaces(surfaces, folder_);
-  EXPECT_EQ(written()["surface_cloud"]["empty"], surfaces[1].surface.why_empty);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "surface_posterior.stl"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "surface_cloud.stl"));
+  job.scans[0].returns.push_back({NAN, 0.0f, 0.0f});
+  const auto with = scan_surfaces(job, refinement);
+  ASSERT_EQ(with.size(), 2u);
+  ASSERT_FALSE(without[1].surface.empty()) << without[1].surface.why_empty;
+  EXPECT_EQ(with[1].surface.mesh.vertices, without[1].surface.mesh.vertices);
+  EXPECT_EQ(with[1].surface.mesh.triangles, without[1].surface.mesh.triangles);
 }
 
 // The first number of this PLY's body begins with the byte that ends lines: its reader must not take it for one.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "core/session/configuration.hpp"
@@ -198,6 +199,17 @@ TEST(GainNames, AreThoseOfTheGainsTheCombinationAndTheBaselines) {
   EXPECT_EQ(std::count_if(names.begin(), names.end(), is_baseline), 5);
   EXPECT_FALSE(is_baseline("combined"));
   EXPECT_FALSE(is_baseline("occlusion-aware"));
+}
+
+TEST(Configurations, ThoseThatComeWithTheProgramAreGoodAndChangeSomething) {
+  std::set<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(assets_folder() / "configurations")) {
+    const Configuration configuration = read_configuration(file);
+    EXPECT_NO_THROW(configuration.validate()) << file;
+    EXPECT_NE(to_toml(configuration), to_toml(Configuration())) << file;
+    names.insert(file.path().stem().string());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"calibrated", "paper"})) << "--help names these";
 }
 
 }  // namespace

@@ -41,12 +41,43 @@ bool at_border(const VoxelGrid& grid, std::uint32_t v) {
   return c.minCoeff() == 0 || d.minCoeff() == 0;
 }
 
-/// What is not measured is solid; free pockets (over faces) that do not reach the border close, but for the largest
-/// piece of free space; solid pieces (over corners too) without an occupied voxel go. Nothing if it is not said which
-/// pocket is the largest.
+/// Measured and occupied, in a piece (over corners too) of at least four or of the largest there is.
+std::vector<std::uint8_t> trusted_twin(const VoxelGrid& grid, const std::vector<Voxel>& voxels) {
+  const auto piece =
+      pieces(grid, 3, [&](std::size_t v) { return voxels[v].measured && voxels[v].probability >= 0.5f; });
+  const auto size = [&](int number) { return std::count(piece.begin(), piece.end(), number); };
+  std::ptrdiff_t largest = 0;
+  for (const int number : piece)
+    if (number >= 0) largest = std::max(largest, size(number));
+  std::vector<std::uint8_t> trusted;
+  for (const int number : piece) trusted.push_back(number >= 0 && (size(number) >= 4 || size(number) == largest));
+  return trusted;
+}
+
+/// What is not measured is solid; beyond the box of what is trusted nothing is; free pockets (over faces) that do not
+/// reach the border close, but for the largest piece of free space; solid pieces (over corners too) without a trusted
+/// voxel go. Nothing if it is not said which pocket is the largest.
 std::optional<std::vector<float>> solid_twin(const VoxelGrid& grid, const std::vector<Voxel>& voxels) {
   std::vector<float> solid;
   for (const Voxel& v : voxels) solid.push_back(v.measured ? v.probability : 1.0f);
+  const std::vector<std::uint8_t> trusted = trusted_twin(grid, voxels);
+  int longest = 0;
+  for (std::uint32_t a = 0; a < solid.size(); ++a)
+    for (std::uint32_t b = 0; b < solid.size(); ++b)
+      if (trusted[a] && trusted[b]) longest = std::max(longest, (grid.cell(a) - grid.cell(b)).maxCoeff());
+  const int margin = longest / 4 + 1;
+  for (std::uint32_t v = 0; v < solid.size(); ++v) {
+    bool within = true;  // of the box of the trusted ones and a quarter of its longest side, one more for the rest
+    for (int axis = 0; axis < 3; ++axis) {
+      bool below = false, above = false;
+      for (std::uint32_t t = 0; t < solid.size(); ++t) {
+        below |= trusted[t] && grid.cell(t)[axis] - margin <= grid.cell(v)[axis];
+        above |= trusted[t] && grid.cell(t)[axis] + margin >= grid.cell(v)[axis];
+      }
+      within &= below && above;
+    }
+    if (!within && solid[v] >= 0.5f) solid[v] = 0.0f;
+  }
   const std::vector<int> open = pieces(grid, 1, [&](std::size_t v) { return solid[v] < 0.5f; });
   std::map<int, std::size_t> sizes;
   std::set<int> reaching;
@@ -68,7 +99,7 @@ std::optional<std::vector<float>> solid_twin(const VoxelGrid& grid, const std::v
   const std::vector<int> filled = pieces(grid, 3, [&](std::size_t v) { return solid[v] >= 0.5f; });
   std::set<int> spoken_for;
   for (std::size_t v = 0; v < filled.size(); ++v)
-    if (filled[v] >= 0 && voxels[v].measured && voxels[v].probability >= 0.5f) spoken_for.insert(filled[v]);
+    if (filled[v] >= 0 && trusted[v]) spoken_for.insert(filled[v]);
   for (std::size_t v = 0; v < filled.size(); ++v)
     if (filled[v] >= 0 && !spoken_for.contains(filled[v])) solid[v] = 0.0f;
   return solid;
