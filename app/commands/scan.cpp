@@ -103,7 +103,8 @@ int run(const ScanArguments& arguments) {
 
 void add_scan_command(CLI::App& program) {
   auto arguments = std::make_shared<ScanArguments>();
-  CLI::App* app = program.add_subcommand("scan", "Scan an object without a display: pictures, map, cloud and numbers");
+  CLI::App* app =
+      program.add_subcommand("scan", "Scan an object without a display: pictures, map, cloud, surfaces and numbers");
   arguments->options.add_to(*app);
   app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
