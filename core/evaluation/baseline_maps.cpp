@@ -21,18 +21,6 @@ constexpr double prior_occupied = 0.05;
 constexpr double stop_alpha = 1, stop_beta = 2;      ///< of the share of rays that an occupied voxel stops
 constexpr double false_alpha = 1, false_beta = 999;  ///< of the share of rays that a free voxel stops (false hits)
 
-/// In single precision, as OctoMap and OccupancyMap::insert have it.
-double distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  const Eigen::Vector3f d = b - a;
-  return std::sqrt(static_cast<double>(d.x() * d.x() + d.y() * d.y() + d.z() * d.z()));
-}
-
-/// The point at `max_range` on the way from origin to point, with the same rounding.
-Eigen::Vector3f shortened(const Eigen::Vector3f& origin, const Eigen::Vector3f& point, double max_range) {
-  const Eigen::Vector3f direction = (point - origin) / static_cast<float>(distance(origin, point));
-  return origin + direction * static_cast<float>(max_range);
-}
-
 enum class Touch : bool { pass, hit };
 
 /// Calls `visit(voxel, touch)` for each voxel that a ray passes or ends in, ray after ray, along each in order.
@@ -50,8 +38,8 @@ void visit_rays(const VoxelGrid& grid, const Scan& scan, double max_range, Visit
   };
   for (const auto* ends : {&scan.returns, &scan.passes})
     for (const Eigen::Vector3f& point : *ends) {
-      const bool in_range = distance(origin, point) <= max_range;
-      carve(in_range ? point : shortened(origin, point, max_range));
+      const bool in_range = ray_length(origin, point) <= max_range;
+      carve(in_range ? point : point_on_ray(origin, point, max_range));
       const Eigen::Vector3i cell = grid.cell_at(point.cast<double>());
       if (ends == &scan.returns && in_range && grid.contains(cell)) visit(grid.index(cell), Touch::hit);
     }

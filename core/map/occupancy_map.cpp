@@ -14,20 +14,6 @@ namespace {
 
 enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
 
-/// Cameras and points in single precision, as OctoMap has them.
-double distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  const Eigen::Vector3f d = b - a;
-  return std::sqrt(static_cast<double>(d.x() * d.x() + d.y() * d.y() + d.z() * d.z()));
-}
-
-/// The point at `max_range` on the way from origin to point, with OctoMap's rounding.
-Eigen::Vector3f shortened(const Eigen::Vector3f& origin, const Eigen::Vector3f& point, double max_range) {
-  Eigen::Vector3f direction = point - origin;
-  const auto length = static_cast<float>(distance(origin, point));
-  for (float& d : direction) d /= length;
-  return origin + direction * static_cast<float>(max_range);
-}
-
 }  // namespace
 
 OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model)
@@ -59,14 +45,14 @@ void OccupancyMap::insert(const Scan& scan, double max_range) {
   // Hits first: a voxel where a ray ends is a hit, whatever else passes through it.
   for (const auto& point : scan.returns) {
     const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
-    if (grid_.contains(cell) && distance(origin, point) <= max_range) touched_[grid_.index(cell)] = hit;
+    if (grid_.contains(cell) && ray_length(origin, point) <= max_range) touched_[grid_.index(cell)] = hit;
   }
   // Rays side by side: they only ever turn `untouched` into `passed`, so their order does not matter.
   const auto pass = [&](const PointCloud& ends) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 1024), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        const bool short_enough = distance(origin, ends[i]) <= max_range;
-        const Eigen::Vector3f end = short_enough ? ends[i] : shortened(origin, ends[i], max_range);
+        const bool short_enough = ray_length(origin, ends[i]) <= max_range;
+        const Eigen::Vector3f end = short_enough ? ends[i] : point_on_ray(origin, ends[i], max_range);
         bool inside = false;
         walk_segment(grid_, origin, end, [&](int x, int y, int z) {
           if (!in_grid(x, y, z)) return !inside;  // the region is convex: a ray that left it is done
@@ -142,9 +128,9 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double re
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.returns.size(), 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Eigen::Vector3f& point = scan.returns[i];
-      const double length = distance(origin, point);
+      const double length = ray_length(origin, point);
       if (length > max_range || length == 0.0 || !grid_.contains(grid_.cell_at(point.cast<double>()))) continue;
-      const Eigen::Vector3f end = shortened(origin, point, length + reach);
+      const Eigen::Vector3f end = point_on_ray(origin, point, length + reach);
       int behind = -1;  // the return's own voxel is no. 0
       walk_segment(grid_, point, end, [&](int x, int y, int z) {
         if (!grid_.contains({x, y, z}) || ++behind > 65535) return false;

@@ -7,6 +7,20 @@
 
 namespace nextview {
 
+/// How long a ray is, in single precision as OctoMap has cameras and points [m].
+inline double ray_length(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
+  const Eigen::Vector3f d = end - origin;
+  return std::sqrt(static_cast<double>(d.x() * d.x() + d.y() * d.y() + d.z() * d.z()));
+}
+
+/// The point at `length` [m] on the way from origin to point, and beyond, with OctoMap's rounding.
+inline Eigen::Vector3f point_on_ray(const Eigen::Vector3f& origin, const Eigen::Vector3f& point, double length) {
+  Eigen::Vector3f direction = point - origin;
+  const auto whole = static_cast<float>(ray_length(origin, point));
+  for (float& d : direction) d /= whole;
+  return origin + direction * static_cast<float>(length);
+}
+
 /// Steps from voxel to voxel along a straight line (Amanatides and Woo 1987).
 struct VoxelWalk {
   int x, y, z;  ///< current voxel
