@@ -48,12 +48,9 @@ void add_wall(const LatticeSolid::Outline& hole, int axis, double low, double hi
 }
 
 TriangleMesh join(const Corners& corners) {
-  const std::vector<std::uint32_t> place = weld(corners);
-  TriangleMesh mesh;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    if (place[i] == mesh.vertices.size()) mesh.vertices.push_back(corners[i]);
-  for (std::size_t i = 0; i < corners.size(); i += 3) mesh.triangles.push_back({place[i], place[i + 1], place[i + 2]});
-  return mesh;
+  TriangleMesh mesh{corners, {}};
+  for (std::uint32_t i = 0; i < corners.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
+  return welded(mesh);
 }
 
 }  // namespace

@@ -39,18 +39,11 @@ struct VoxelsAround {
   }
 };
 
-/// The part of a grid that holds everything solid.
-struct CellBox {
-  Eigen::Vector3i lowest, highest;
-};
-
-CellBox solid_box(const VoxelGrid& grid, std::span<const float> solid) {
-  CellBox box{grid.size, Eigen::Vector3i::Constant(-1)};
+/// The voxels that hold everything solid.
+Eigen::AlignedBox3i solid_box(const VoxelGrid& grid, std::span<const float> solid) {
+  Eigen::AlignedBox3i box;
   for (std::uint32_t v = 0; v < solid.size(); ++v)
-    if (solid[v] >= solid_from) {
-      box.lowest = box.lowest.cwiseMin(grid.cell(v));
-      box.highest = box.highest.cwiseMax(grid.cell(v));
-    }
+    if (solid[v] >= solid_from) box.extend(grid.cell(v));
   return box;
 }
 
@@ -63,10 +56,10 @@ class InsideField {
       : grid_(grid), solid_(solid), walls_(wall_voxels(grid, solid)) {}
 
   ScalarField make() const {
-    const CellBox box = solid_box(grid_, solid_);
-    const Eigen::Vector3i first = 2 * box.lowest - Eigen::Vector3i::Ones();  // a point outside on every side
+    const Eigen::AlignedBox3i box = solid_box(grid_, solid_);
+    const Eigen::Vector3i first = 2 * box.min() - Eigen::Vector3i::Ones();  // a point outside on every side
     ScalarField field;
-    field.size = 2 * (box.highest - box.lowest) + Eigen::Vector3i::Constant(5);
+    field.size = 2 * box.sizes() + Eigen::Vector3i::Constant(5);
     field.spacing = 0.5 * grid_.resolution;
     field.origin = grid_.lower() + field.spacing * first.cast<double>();
     field.values.resize(field.point_count());

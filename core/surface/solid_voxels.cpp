@@ -94,18 +94,15 @@ std::vector<std::uint8_t> trusted_voxels(const VoxelGrid& grid, std::span<const 
 /// Farther beyond the box of what is trusted than a quarter of its longest side nothing is solid, measured or not: the
 /// shadow of the object there would reach to the region's border.
 void clear_beyond(const VoxelGrid& grid, std::span<const std::uint8_t> trusted, std::vector<float>& solid) {
-  Eigen::Vector3i lowest = grid.size, highest = Eigen::Vector3i::Constant(-1);
+  Eigen::AlignedBox3i box;
   for (std::uint32_t v = 0; v < solid.size(); ++v)
-    if (trusted[v]) {
-      lowest = lowest.cwiseMin(grid.cell(v));
-      highest = highest.cwiseMax(grid.cell(v));
-    }
-  const int margin = (highest - lowest).maxCoeff() / 4 + 1;
-  for (std::uint32_t v = 0; v < solid.size(); ++v) {
-    const Eigen::Array3i cell = grid.cell(v);
-    const bool beyond = (cell < lowest.array() - margin).any() || (cell > highest.array() + margin).any();
-    if (beyond && solid[v] >= solid_from) solid[v] = 0.0f;
+    if (trusted[v]) box.extend(grid.cell(v));
+  if (!box.isEmpty()) {
+    const Eigen::Vector3i margin = Eigen::Vector3i::Constant(box.sizes().maxCoeff() / 4 + 1);
+    box = {box.min() - margin, box.max() + margin};
   }
+  for (std::uint32_t v = 0; v < solid.size(); ++v)
+    if (solid[v] >= solid_from && !box.contains(grid.cell(v))) solid[v] = 0.0f;
 }
 
 /// Solid pieces that nothing trusted speaks for become free.
