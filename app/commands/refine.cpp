@@ -116,12 +116,13 @@ int run(const RefineArguments& arguments) {
   print(job, refinement);
   write_refinement(job, refinement, out);
   if (!arguments.no_pictures) write_pictures(job, refinement, out);
-  remove_surfaces(out);
   std::string surface_files;
   if (!arguments.no_surfaces) {
     const auto surfaces = scan_surfaces(job, refinement, progress, stop.token());
     progress.clear();
     surface_files = write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
+  } else {
+    remove_surfaces(out);
   }
   fmt::print("\n{}/\n", out.string());
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");

@@ -87,13 +87,14 @@ int run(const ScanArguments& arguments) {
   }
   progress(1.0, "writing the files");
   write_scan(session, out);
-  remove_surfaces(out);
   std::string surface_files;
   if (!arguments.no_surfaces && !session.records().empty()) {
     const auto surfaces = scan_surfaces(session, progress, stop.token());
     progress.clear();
     surface_files = write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(),
                                              out, figure != nullptr);
+  } else {
+    remove_surfaces(out);
   }
   print_files(session, out, figure != nullptr, surface_files);
   return session.finished().empty() || stop.token().stop_requested() ? exit_stopped : 0;

@@ -12,6 +12,7 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
   picture.title = fmt::format("{}: the surface of {}", name, surface.source);
   picture.remark = fmt::format("{} views", views);
   picture.caption = surface.caption;
+  picture.openings = summary(surface.openings);
   picture.surface = &surface.surface;
   return surface.inspection ? draw_inspection_figure(picture, *surface.inspection) : draw_surface_figure(picture);
 }

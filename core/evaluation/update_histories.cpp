@@ -112,6 +112,14 @@ void UpdateHistories::add(const VoxelGrid& grid, std::span<const Scan> scans, do
   }
 }
 
+void UpdateHistories::append(const UpdateHistories& others) {
+  const std::size_t before = updates_.size();
+  updates_.insert(updates_.end(), others.updates_.begin(), others.updates_.end());
+  for (const History& history : others.histories_)
+    histories_.push_back({before + history.end, history.voxels, history.occupied});
+  voxels_ += others.voxels_;
+}
+
 std::span<const float> UpdateHistories::updates(std::size_t history) const {
   const std::size_t begin = history == 0 ? 0 : histories_[history - 1].end;
   return std::span(updates_).subspan(begin, histories_[history].end - begin);

@@ -37,6 +37,9 @@ class UpdateHistories {
   void add(const VoxelGrid& grid, std::span<const Scan> scans, double max_range, std::span<const float> target,
            std::span<const std::uint8_t> mask);
 
+  /// Adds the voxels of others behind these.
+  void append(const UpdateHistories& others);
+
   std::size_t voxels() const { return voxels_; }
 
   /// Same bytes on any number of threads.

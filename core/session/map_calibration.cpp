@@ -58,15 +58,12 @@ GibbsReliability reliability(std::span<const Voxel> conventional, std::span<cons
   return bins;
 }
 
-/// An example with its Gibbs map.
+/// An example with its Gibbs map, and what its scans did to the voxels that count.
 struct Prepared {
   const CalibrationExample& example;
   Refinement refinement;
   std::vector<std::uint8_t> mask;
-
-  void add_to(UpdateHistories& histories) const {
-    histories.add(example.job.grid, example.job.scans, example.job.max_range, refinement.posterior.occupied, mask);
-  }
+  UpdateHistories histories;
 };
 
 ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, const InverseSensorModel& after) {
@@ -84,16 +81,15 @@ ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, 
     for (const Scan& scan : job.scans) map.insert(scan, job.max_range);
     return map;
   };
-  const OccupancyMap map_before = made_with(before), map_after = made_with(after);
+  const OccupancyMap map_before = job.model == before ? prepared.refinement.conventional : made_with(before);
+  const OccupancyMap map_after = made_with(after);
   scores.before = score_map(map_before.voxels(), job.truth);
   scores.after = score_map(map_after.voxels(), job.truth);
   scores.reliability_before = reliability(map_before.voxels(), gibbs, prepared.mask);
   scores.reliability_after = reliability(map_after.voxels(), gibbs, prepared.mask);
   if (scores.voxels == 0) return scores;
-  UpdateHistories histories;
-  prepared.add_to(histories);
-  scores.cross_entropy_before = histories.cross_entropy(before).value;
-  scores.cross_entropy_after = histories.cross_entropy(after).value;
+  scores.cross_entropy_before = prepared.histories.cross_entropy(before).value;
+  scores.cross_entropy_after = prepared.histories.cross_entropy(after).value;
   double sum = 0.0;
   for (std::size_t v = 0; v < gibbs.size(); ++v)
     if (prepared.mask[v]) sum += entropy(gibbs[v]);
@@ -129,13 +125,15 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
   std::vector<Prepared> prepared;
   UpdateHistories histories;
   for (std::size_t e = 0; e < examples.size(); ++e) {
-    Refinement refinement =
-        refine(examples[e].job,
-               part(0.8 * double(e) / double(examples.size()), 0.8 * double(e + 1) / double(examples.size())), stop);
+    const RefinementJob& job = examples[e].job;
+    Refinement refinement = refine(
+        job, part(0.8 * double(e) / double(examples.size()), 0.8 * double(e + 1) / double(examples.size())), stop);
     check_stop();
     auto mask = scored_voxels(refinement.posterior, refinement.conventional.voxels(), config.band);
-    prepared.push_back({examples[e], std::move(refinement), std::move(mask)});
-    if (!examples[e].held_out) prepared.back().add_to(histories);
+    UpdateHistories of_example;
+    of_example.add(job.grid, job.scans, job.max_range, refinement.posterior.occupied, mask);
+    if (!examples[e].held_out) histories.append(of_example);
+    prepared.push_back({examples[e], std::move(refinement), std::move(mask), std::move(of_example)});
   }
   if (histories.voxels() == 0)
     throw std::invalid_argument(

@@ -48,6 +48,7 @@ SurfacePicture picture_of(const ScanSurface& surface) {
   picture.title = "Slotted housing: the surface of " + surface.source;
   picture.remark = fmt::format("{} views of 320 × 240 pixels, 1 mm noise", housing().views);
   picture.caption = surface.caption;
+  picture.openings = summary(surface.openings);
   picture.surface = &surface.surface;
   return picture;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/mesh/boundary_loops.hpp"
 #include "ui/figures/curve_plot.hpp"
 #include "ui/figures/surface_views.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
@@ -153,7 +152,8 @@ std::string seen_share(double seen, double unseen) {
   return fmt::format("{:.3g} m² seen, {:.3g} m² not", seen, unseen);
 }
 
-void paint_inspection(Painter& painter, const PageArea& panel, const Surface& surface, const SurfaceInspection& i) {
+void paint_inspection(Painter& painter, const PageArea& panel, const SurfacePicture& picture,
+                      const SurfaceInspection& i) {
   paint_panel(painter, panel, "Accuracy and completeness");
   double y = paint_scores(painter, panel, panel.top() - heading_height, i.scores) - 14;
   paint_numbers(painter, panel, y,
@@ -161,7 +161,7 @@ void paint_inspection(Painter& painter, const PageArea& panel, const Surface& su
                  {"50th, 95th, 99th percentile",
                   digits(i.percentile_50) + ", " + digits(i.percentile_95) + ", " + mm(i.percentile_99)},
                  {"area", seen_share(i.area_seen, i.area_unseen)},
-                 {"openings", summary(boundary_loops(surface.mesh))}});
+                 {"openings", picture.openings}});
   paint_note(painter, panel,
              "Accuracy: share of the seen surface that lies within so much of the true one. Completeness: share of the "
              "true surface that some view could see, and of all of it, within so much of the seen one.");
@@ -175,15 +175,16 @@ CurvePlot uncertainty_plot(const UncertaintySpread& spread) {
   return plot;
 }
 
-void paint_uncertainty(Painter& painter, const PageArea& panel, const Surface& surface,
+void paint_uncertainty(Painter& painter, const PageArea& panel, const SurfacePicture& picture,
                        const UncertaintySpread& spread) {
+  const Surface& surface = *picture.surface;
   paint_panel(painter, panel, "The surface");
   paint_numbers(
       painter, panel, panel.top() - heading_height + 7,
       {{"area", seen_share(spread.area_seen, spread.area_unseen)},
        {"uncertainty, median and 95th percentile", mm(spread.median) + ", " + mm(spread.percentile_95)},
        {"vertices, triangles", fmt::format("{}, {}", surface.mesh.vertices.size(), surface.mesh.triangles.size())},
-       {"openings", summary(boundary_loops(surface.mesh))}});
+       {"openings", picture.openings}});
   paint_note(painter, panel,
              "Seen: triangles whose three corners were measured. What is not seen closes the surface where no view has "
              "looked; it has no uncertainty that means anything.");
@@ -215,7 +216,7 @@ Image draw_inspection_figure(const SurfacePicture& picture, const SurfaceInspect
     paint_title(painter, width, height, picture.title, picture.remark, picture.caption);
     views.paint(context);
     paint_curve_plot(context, layout.chart, distance_plot(inspection));
-    paint_inspection(painter, layout.numbers, surface, inspection);
+    paint_inspection(painter, layout.numbers, picture, inspection);
   });
 }
 
@@ -231,7 +232,7 @@ Image draw_surface_figure(const SurfacePicture& picture, int width, int height) 
     paint_title(painter, width, height, picture.title, picture.remark, picture.caption);
     views.paint(context);
     paint_curve_plot(context, layout.chart, uncertainty_plot(spread));
-    paint_uncertainty(painter, layout.numbers, surface, spread);
+    paint_uncertainty(painter, layout.numbers, picture, spread);
   });
 }
 

@@ -10,8 +10,9 @@ namespace nextview {
 /// A reconstructed surface and what is said about it. The surface needs to live while it is drawn only.
 struct SurfacePicture {
   std::string title;
-  std::string remark;   ///< beside the title: how the surface came about
-  std::string caption;  ///< one sentence: what is to be seen
+  std::string remark;    ///< beside the title: how the surface came about
+  std::string caption;   ///< one sentence: what is to be seen
+  std::string openings;  ///< as summary() of its boundary loops says
   const Surface* surface = nullptr;
 };
 
