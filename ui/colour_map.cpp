@@ -34,6 +34,10 @@ ColourMap ColourMap::score() { return ColourMap({{{0.93, 0.03, 180}, {0.645, 0.0
 ColourMap ColourMap::contribution() { return ColourMap({{{0.87, 0.08, 85}, {0.635, 0.15, 55}, {0.40, 0.15, 25}}}); }
 ColourMap ColourMap::probability() { return ColourMap({{{0.55, 0.11, 235}, {0.93, 0.02, 150}, {0.45, 0.10, 50}}}); }
 ColourMap ColourMap::deviation() { return ColourMap({{{0.47, 0.16, 258}, {0.94, 0.0, 0}, {0.47, 0.17, 27}}}); }
+ColourMap ColourMap::uncertainty() { return ColourMap({{{0.92, 0.02, 210}, {0.64, 0.11, 325}, {0.36, 0.15, 305}}}); }
+ColourMap ColourMap::error() { return ColourMap({{{0.92, 0.02, 200}, {0.66, 0.13, 45}, {0.40, 0.16, 20}}}); }
+ColourMap ColourMap::height() { return ColourMap({{{0.34, 0.13, 300}, {0.57, 0.10, 215}, {0.80, 0.16, 130}}}); }
+ColourMap ColourMap::order() { return ColourMap({{{0.84, 0.15, 90}, {0.605, 0.10, 175}, {0.37, 0.15, 280}}}); }
 
 Colour ColourMap::at(double t) const {
   t = t > 0 ? std::min(t, 1.0) : 0.0;

@@ -12,7 +12,11 @@ class ColourMap {
   static ColourMap score();         ///< pale to deep blue: a view's score
   static ColourMap contribution();  ///< pale to deep red: what a ray or voxel contributes
   static ColourMap probability();   ///< blue, pale, brown: free, undecided at 0.5, occupied
-  static ColourMap deviation();     ///< blue, light grey, red: inside, on the true surface at 0.5, outside
+  static ColourMap deviation();     ///< blue, light grey, red: below, at 0.5 even, above
+  static ColourMap uncertainty();   ///< pale to deep violet: entropy
+  static ColourMap error();         ///< pale to deep red: how far from the truth
+  static ColourMap height();        ///< deep violet, teal, light green: from low to high
+  static ColourMap order();         ///< gold, green, deep blue: from the first to the last
 
   /// `t` is clamped to [0, 1]; not a number counts as 0.
   Colour at(double t) const;

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ui/colour_map.hpp"
@@ -24,7 +25,11 @@ struct Legend {
   std::string title;
   std::vector<Swatch> swatches;
   std::optional<Range> range;
+  bool locked = false;  ///< the range stays from step to step; said beside the title
 };
+
+/// From where to where a colour map goes, in the unit of what it shows.
+using ValueRange = std::pair<double, double>;
 
 /// A word at a place in the scene; drawn above everything. Of several places, the lowest in the picture is taken.
 struct Label {

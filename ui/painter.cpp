@@ -15,6 +15,7 @@ namespace {
 unsigned char channel(double value) { return static_cast<unsigned char>(std::lround(value * 255)); }
 
 constexpr double legend_line = 20.0, swatch_size = 13.0, bar_height = 12.0;  // [px]
+constexpr double lock_width = 9.0, lock_gap = 7.0;                           // [px]
 
 std::string title_of(const Legend& legend) {
   const bool has_unit = legend.range && !legend.range->unit.empty();
@@ -32,32 +33,32 @@ std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 void Painter::text(double x, double y, const std::string& text, int size, const Colour& colour, TextWeight weight,
                    TextAlign align) {
   vtkTextProperty& property = *context_.GetTextProp();
-  set_text(property, size, colour, weight);
+  set_text(property, int(std::lround(size * scale_)), colour, weight);
   property.SetJustification(align == TextAlign::left     ? VTK_TEXT_LEFT
                             : align == TextAlign::centre ? VTK_TEXT_CENTERED
                                                          : VTK_TEXT_RIGHT);
   property.SetVerticalJustificationToBottom();
-  context_.DrawString(float(std::round(x)), float(std::round(y)), text.c_str());
+  context_.DrawString(std::round(px(x)), std::round(px(y)), text.c_str());
 }
 
 double Painter::text_width(const std::string& text, int size, TextWeight weight) {
-  set_text(*context_.GetTextProp(), size, theme::ink, weight);
+  set_text(*context_.GetTextProp(), int(std::lround(size * scale_)), theme::ink, weight);
   float bounds[4];
   context_.ComputeStringBounds(text.c_str(), bounds);
-  return bounds[2];
+  return bounds[2] / scale_;
 }
 
 void Painter::line(double x1, double y1, double x2, double y2, double width, const Colour& colour) {
   context_.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   context_.GetPen()->SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), 255);
-  context_.GetPen()->SetWidth(float(width));
-  context_.DrawLine(float(x1), float(y1), float(x2), float(y2));
+  context_.GetPen()->SetWidth(px(width));
+  context_.DrawLine(px(x1), px(y1), px(x2), px(y2));
 }
 
 void Painter::box(double x, double y, double width, double height, const Colour& colour, double opacity) {
   context_.GetPen()->SetLineType(vtkPen::NO_PEN);
   context_.GetBrush()->SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), channel(opacity));
-  context_.DrawRect(float(x), float(y), float(width), float(height));
+  context_.DrawRect(px(x), px(y), px(width), px(height));
 }
 
 void Painter::frame(double x, double y, double width, double height, const Colour& colour) {
@@ -67,8 +68,18 @@ void Painter::frame(double x, double y, double width, double height, const Colou
   line(x + width, y, x + width, y + height, 1, colour);
 }
 
+/// A padlock whose lower left corner is (x, y).
+void Painter::lock(double x, double y) {
+  constexpr double body = 6.5, shackle = 4.5;  // heights [px]
+  box(x, y, lock_width, body, theme::soft_ink);
+  line(x + 2, y + body, x + 2, y + body + shackle, 1.5, theme::soft_ink);
+  line(x + lock_width - 2, y + body, x + lock_width - 2, y + body + shackle, 1.5, theme::soft_ink);
+  line(x + 1.25, y + body + shackle, x + lock_width - 1.25, y + body + shackle, 1.5, theme::soft_ink);
+}
+
 double Painter::legend_width(const Legend& legend) {
-  double width = std::max(usual_legend_width, text_width(title_of(legend), theme::small_text, TextWeight::semi_bold));
+  const double title = text_width(title_of(legend), theme::small_text, TextWeight::semi_bold);
+  double width = std::max(usual_legend_width, title + (legend.locked ? lock_gap + lock_width : 0.0));
   for (const Legend::Swatch& swatch : legend.swatches) {
     width = std::max(width, swatch_size + 8 + text_width(swatch.name, theme::small_text));
   }
@@ -85,6 +96,8 @@ double Painter::legend(double x, double y, const Legend& legend) {
   if (!legend.title.empty()) {
     at -= legend_line;
     text(x, at, title_of(legend), theme::small_text, theme::ink, TextWeight::semi_bold);
+    if (legend.locked)
+      lock(x + text_width(title_of(legend), theme::small_text, TextWeight::semi_bold) + lock_gap, at + 2);
   }
   for (const Legend::Swatch& swatch : legend.swatches) {
     at -= legend_line;

@@ -11,10 +11,12 @@ namespace nextview {
 
 enum class TextAlign { left, centre, right };
 
-/// Draws flat things in pixels, the origin in the lower left corner: text, lines, boxes, legends.
+/// Draws flat things, the origin in the lower left corner: text, lines, boxes, legends. All lengths are in pixels of a
+/// display of scale 1.
 class Painter {
  public:
-  explicit Painter(vtkContext2D& context) : context_(context) {}
+  /// `scale`: pixels of the display a pixel here; 2 on a HiDPI display.
+  explicit Painter(vtkContext2D& context, double scale = 1.0) : context_(context), scale_(scale) {}
 
   /// The text's baseline starts (or is centred, or ends) at (x, y).
   void text(double x, double y, const std::string& text, int size, const Colour& colour,
@@ -30,7 +32,11 @@ class Painter {
   static double legend_height(const Legend& legend);
 
  private:
+  float px(double length) const { return static_cast<float>(length * scale_); }
+  void lock(double x, double y);
+
   vtkContext2D& context_;
+  double scale_;
 };
 
 /// Of most legends, and of every colour bar [px].

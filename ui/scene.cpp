@@ -90,6 +90,12 @@ void Scene::set_axes(bool axes, bool scale_bar) {
   overlay_->item->scale_bar = scale_bar;
 }
 
+void Scene::set_scale(double scale) {
+  if (scale == overlay_->item->scale) return;
+  overlay_->item->scale = scale;
+  for (Layer* layer : layers()) layer->set_scale(scale);
+}
+
 void Scene::annotate() {
   overlay_->item->legends.clear();
   overlay_->item->labels.clear();
@@ -113,7 +119,8 @@ void Scene::frame(const ViewDirection& direction) {
 /// The nearest camera of this orientation that shows all points clear of the legends.
 Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const {
   const SceneOverlay& overlay = *overlay_->item;
-  const double width = std::max(renderer_->GetSize()[0], 1), height = std::max(renderer_->GetSize()[1], 1);
+  const double width = std::max(renderer_->GetSize()[0], 1) / overlay.scale;  // [px] of the design, as the margins
+  const double height = std::max(renderer_->GetSize()[1], 1) / overlay.scale;
   const auto framed = [&](const FrameMargins& margins) {
     return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
   };

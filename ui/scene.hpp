@@ -44,6 +44,9 @@ class Scene {
 
   void set_caption(const std::string& caption);
   void set_axes(bool axes, bool scale_bar);
+  /// Pixels of the display a pixel of the design: 2 on a HiDPI display, 1 unless told otherwise. Lines, points, text
+  /// and legends become as much larger.
+  void set_scale(double scale);
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }
 

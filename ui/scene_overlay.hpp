@@ -18,7 +18,7 @@ class SceneOverlay : public vtkContextItem {
   static SceneOverlay* New();
   vtkTypeMacro(SceneOverlay, vtkContextItem)
 
-      double legends_height() const;  ///< from the upper border [px]
+      double legends_height() const;  ///< from the upper border [px at scale 1]
   bool Paint(vtkContext2D* context) override;
 
   vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
@@ -27,6 +27,7 @@ class SceneOverlay : public vtkContextItem {
   std::vector<Label> labels;                  ///< beside their places
   Vector3 scale_reference = Vector3::Zero();  ///< where the scale bar is true [m, world]
   bool axes = true, scale_bar = true;
+  double scale = 1.0;  ///< pixels of the display a pixel of the design
 };
 
 }  // namespace nextview

@@ -15,8 +15,9 @@ namespace {
 
 /// GLSL knows no file names, and Mesa loses track of source numbers. So each file has a block of line numbers of its
 /// own.
-constexpr std::array shaders{"voxels_vertex.glsl", "voxels.glsl", "ghost.glsl", "mesh_paint_vertex.glsl",
-                             "mesh_paint.glsl"};
+constexpr std::array shaders{"voxels_vertex.glsl",     "voxels.glsl",     "ghost.glsl",
+                             "mesh_paint_vertex.glsl", "mesh_paint.glsl", "mesh_classes_vertex.glsl",
+                             "mesh_classes.glsl"};
 constexpr int lines_per_file = 10000;
 
 /// Mesa's form: "source:line(column): error: …".

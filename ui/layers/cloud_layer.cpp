@@ -1,13 +1,108 @@
 #include "ui/layers/cloud_layer.hpp"
 
+#include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "ui/layers/geometry.hpp"
 
 namespace nextview {
+namespace {
+
+constexpr int steps = 512;  // along a colour map: more than the eye tells apart
+const Colour no_truth = mix(theme::object, theme::ink, 0.1);
+
+void check(const CloudPicture& picture) {
+  const auto fits = [&](std::size_t count, CloudColouring needs, const char* what) {
+    if (count == picture.points.size() || (count == 0 && picture.colouring != needs)) return;
+    throw std::invalid_argument(fmt::format("cloud: {} points, but {} {}", picture.points.size(), count, what));
+  };
+  fits(picture.views.size(), CloudColouring::by_view, "views");
+  fits(picture.distances.size(), CloudColouring::by_distance, "distances");
+  if (picture.heights && !(picture.heights->first < picture.heights->second))
+    throw std::invalid_argument("cloud: the heights' range is empty");
+  if (!(picture.farthest > 0)) throw std::invalid_argument("cloud: the farthest distance must be over 0");
+}
+
+/// What a point is coloured by, in the unit of the legend.
+double value_of(const CloudPicture& picture, std::size_t point) {
+  switch (picture.colouring) {
+    case CloudColouring::by_view:
+      return picture.views[point] + 1.0;  // people count views from 1
+    case CloudColouring::by_height:
+      return picture.points[point].z();
+    case CloudColouring::by_distance:
+      return picture.distances[point] * 1000.0;
+    case CloudColouring::single:
+      break;
+  }
+  return 0.0;
+}
+
+Legend legend_of(const CloudPicture& picture) {
+  double low = value_of(picture, 0), high = low;
+  bool truthless = false;
+  for (std::size_t i = 0; i < picture.points.size(); ++i) {
+    const double value = value_of(picture, i);
+    truthless |= std::isnan(value);
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  switch (picture.colouring) {
+    case CloudColouring::by_view:
+      return {"measured in view", {}, Legend::Range{ColourMap::order(), 1.0, high, "", "first", "last"}};
+    case CloudColouring::by_height: {
+      const auto [from, to] = picture.heights.value_or(ValueRange{low, high});
+      const Legend::Range range{ColourMap::height(),        from, to, "m", low < from ? "and less" : "",
+                                high > to ? "and more" : ""};
+      return {"height of a point", {}, range, picture.heights.has_value()};
+    }
+    case CloudColouring::by_distance: {
+      Legend legend{"distance to the truth",
+                    {},
+                    Legend::Range{ColourMap::error(), 0.0, picture.farthest * 1000.0, "mm", "", "and more"}};
+      if (truthless) legend.swatches.push_back({"no truth", no_truth});
+      return legend;
+    }
+    case CloudColouring::single:
+      break;
+  }
+  return {"", {{"measured points", theme::cloud}}, {}};
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> colours_of(const CloudPicture& picture, const Legend::Range& range) {
+  std::vector<std::array<unsigned char, 3>> along_map;
+  const auto bytes = [](const Colour& colour) {
+    std::array<unsigned char, 3> result;
+    for (int c = 0; c < 3; ++c) result[c] = static_cast<unsigned char>(std::lround(colour[c] * 255));
+    return result;
+  };
+  for (int i = 0; i < steps; ++i) along_map.push_back(bytes(range.map.at(i / double(steps - 1))));
+  auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(vtkIdType(picture.points.size()));
+  unsigned char* out = colours->GetPointer(0);
+  for (std::size_t i = 0; i < picture.points.size(); ++i, out += 3) {
+    const double value = value_of(picture, i);
+    const double width = range.high - range.low, place = width > 0 ? (value - range.low) / width : 1.0;
+    const auto colour = std::isnan(value)
+                            ? bytes(no_truth)
+                            : along_map[std::size_t(std::lround(std::clamp(place, 0.0, 1.0) * (steps - 1)))];
+    std::copy(colour.begin(), colour.end(), out);
+  }
+  return colours;
+}
+
+}  // namespace
 
 CloudLayer::CloudLayer(vtkRenderer& renderer)
     : Layer(renderer), mapper_(vtkSmartPointer<vtkPolyDataMapper>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
@@ -20,12 +115,24 @@ CloudLayer::CloudLayer(vtkRenderer& renderer)
 }
 
 void CloudLayer::show(const PointCloud& cloud, double point_size) {
-  mapper_->SetInputDataObject(point_polydata(cloud));
-  actor_->GetProperty()->SetPointSize(static_cast<float>(point_size));
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& point : cloud) box.extend(point.cast<double>());
+  CloudPicture picture;
+  picture.points = cloud;
+  picture.point_size = point_size;
+  show(picture);
+}
+
+void CloudLayer::show(const CloudPicture& picture) {
+  check(picture);
+  const auto polydata = point_polydata(picture.points);
   std::vector<Legend> legends;
-  if (!cloud.empty()) legends.push_back({"", {{"measured points", theme::cloud}}, {}});
+  if (!picture.points.empty()) {
+    legends.push_back(legend_of(picture));
+    if (legends[0].range) polydata->GetPointData()->SetScalars(colours_of(picture, *legends[0].range));
+  }
+  mapper_->SetInputDataObject(polydata);
+  actor_->GetProperty()->SetPointSize(static_cast<float>(picture.point_size * scale()));
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& point : picture.points) box.extend(point.cast<double>());
   describe(corners(box), std::move(legends));
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "core/cloud/point_cloud.hpp"
 #include "ui/layers/layer.hpp"
 
@@ -7,12 +9,34 @@ class vtkPolyDataMapper;
 
 namespace nextview {
 
+enum class CloudColouring {
+  single,
+  by_view,     ///< from the first view to the last
+  by_height,   ///< z in the world [m]
+  by_distance  ///< to the true surface [mm]
+};
+
+/// Measured points and what is known of each. Spans need to live during show() only.
+struct CloudPicture {
+  std::span<const Eigen::Vector3f> points;  ///< [m, world]
+  std::span<const std::uint16_t> views;     ///< in which view it was measured, from 0; one a point or none
+  std::span<const float> distances;         ///< [m], not a number without a truth; one a point or none
+  CloudColouring colouring = CloudColouring::single;
+  /// Of the colours by height [m], locked; that of the points if not given.
+  std::optional<ValueRange> heights = {};
+  double farthest = 0.005;  ///< [m] points at this distance and beyond take the last colour
+  double point_size = 2.5;  ///< [px]
+};
+
 /// The measured points.
 class CloudLayer : public Layer {
  public:
   explicit CloudLayer(vtkRenderer& renderer);
 
-  void show(const PointCloud& cloud, double point_size = 2.5);  ///< point size in pixels
+  void show(const PointCloud& cloud, double point_size = 2.5);  ///< in one colour; point size in pixels
+  /// @throws std::invalid_argument if there are views or distances but not one a point, none though the points are to
+  ///         be coloured by them, or a range is empty.
+  void show(const CloudPicture& picture);
 
  private:
   vtkSmartPointer<vtkPolyDataMapper> mapper_;

@@ -1,5 +1,6 @@
 #include "ui/layers/layer.hpp"
 
+#include <vtkActor.h>
 #include <vtkProp.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
@@ -15,6 +16,18 @@ Layer::~Layer() {
 void Layer::set_visible(bool visible) {
   visible_ = visible;
   for (auto& prop : props_) prop->SetVisibility(visible);
+}
+
+void Layer::set_scale(double scale) {
+  const auto factor = static_cast<float>(scale / scale_);
+  for (auto& prop : props_) {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    if (!actor) continue;
+    actor->GetProperty()->SetLineWidth(actor->GetProperty()->GetLineWidth() * factor);
+    actor->GetProperty()->SetPointSize(actor->GetProperty()->GetPointSize() * factor);
+  }
+  scale_ = scale;
+  on_scale();
 }
 
 void Layer::add(vtkProp& prop) {

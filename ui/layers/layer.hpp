@@ -24,6 +24,9 @@ class Layer {
   void set_visible(bool visible);
   bool visible() const { return visible_; }
 
+  /// Pixels of the display a pixel of the design: 2 on a HiDPI display. Lines and points become as much wider.
+  void set_scale(double scale);
+
   /// Points that enclose what the layer draws [m, world], for framing; none if it is empty.
   std::span<const Vector3> outline() const { return outline_; }
   /// What its colours mean; none if it is empty.
@@ -32,6 +35,9 @@ class Layer {
 
  protected:
   void add(vtkProp& prop);
+  double scale() const { return scale_; }
+  /// What else a new scale changes, apart from the width of lines and the size of points.
+  virtual void on_scale() {}
   void describe(std::vector<Vector3> outline, std::vector<Legend> legends, std::vector<Label> labels = {});
 
  private:
@@ -41,6 +47,7 @@ class Layer {
   std::vector<Legend> legends_;
   std::vector<Label> labels_;
   bool visible_ = true;
+  double scale_ = 1.0;
 };
 
 void set_colour(vtkProperty& property, const Colour& colour);

@@ -28,6 +28,7 @@ constexpr double crease_angle = 35.0;  // [deg]
 
 constexpr double specular = 0.1;
 constexpr int paint_stops = 17;  // of the colours in shaders/mesh_paint.glsl
+constexpr int most_classes = 4;  // in shaders/mesh_classes.glsl
 const Colour no_value = mix(theme::object, theme::paper, 0.25), no_value_stripes = mix(theme::object, theme::ink, 0.4);
 
 bool has_value(const MeshPaint& paint, std::size_t vertex) {
@@ -69,6 +70,45 @@ void set_palette(vtkUniforms& uniforms, const ColourMap& map) {
   }
   uniforms.SetUniform3fv("range_colours", paint_stops, colours);
   uniforms.SetUniform3fv("no_value_colours", 2, without);
+}
+
+void check(const TriangleMesh& mesh, const MeshClasses& classes) {
+  if (classes.classes.size() != mesh.vertices.size())
+    throw std::invalid_argument(
+        fmt::format("painted mesh: {} vertices, but {} classes", mesh.vertices.size(), classes.classes.size()));
+  if (classes.palette.empty() || classes.palette.size() > most_classes)
+    throw std::invalid_argument(fmt::format("painted mesh: a palette of {} classes", classes.palette.size()));
+  for (const std::uint8_t vertex_class : classes.classes)
+    if (vertex_class >= classes.palette.size())
+      throw std::invalid_argument(fmt::format("painted mesh: class {} is not in the palette", vertex_class));
+}
+
+/// The vertex attribute "class_weights": 1 for the vertex' class.
+vtkSmartPointer<vtkFloatArray> class_attribute(const MeshClasses& classes) {
+  auto attribute = vtkSmartPointer<vtkFloatArray>::New();
+  attribute->SetName("class_weights");
+  attribute->SetNumberOfComponents(most_classes);
+  attribute->SetNumberOfTuples(vtkIdType(classes.classes.size()));
+  attribute->Fill(0.0);
+  for (std::size_t i = 0; i < classes.classes.size(); ++i)
+    attribute->SetTypedComponent(vtkIdType(i), classes.classes[i], 1.0f);
+  return attribute;
+}
+
+void set_palette(vtkUniforms& uniforms, const std::vector<MeshClass>& palette) {
+  float colours[most_classes][3] = {};
+  for (std::size_t i = 0; i < palette.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) colours[i][c] = float(palette[i].colour[c]);
+  uniforms.SetUniform3fv("mesh_class_colours", most_classes, colours);
+}
+
+Legend legend_of(const MeshClasses& classes) {
+  Legend legend{classes.title, {}, {}};
+  for (std::size_t i = 0; i < classes.palette.size(); ++i) {
+    if (std::find(classes.classes.begin(), classes.classes.end(), i) != classes.classes.end())
+      legend.swatches.push_back({classes.palette[i].name, classes.palette[i].colour});
+  }
+  return legend;
 }
 
 Legend legend_of(const MeshPaint& paint) {
@@ -114,21 +154,43 @@ void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {
   const auto polydata = triangle_polydata(mesh);
   polydata->GetPointData()->AddArray(paint_attribute(paint));
   mapper_->SetInputDataObject(with_normals(polydata));
+  paint_with("paint", "mesh_paint_vertex.glsl", "mesh_paint.glsl");
+  set_palette(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), paint.map);
+  const bool empty = mesh.vertices.empty();
+  describe(corners(mesh.bounding_box()), empty ? std::vector<Legend>{} : std::vector<Legend>{legend_of(paint)});
+}
+
+void MeshLayer::show(const TriangleMesh& mesh, const MeshClasses& classes) {
+  check(mesh, classes);
+  const auto polydata = triangle_polydata(mesh);
+  polydata->GetPointData()->AddArray(class_attribute(classes));
+  mapper_->SetInputDataObject(with_normals(polydata));
+  paint_with("class_weights", "mesh_classes_vertex.glsl", "mesh_classes.glsl");
+  set_palette(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), classes.palette);
+  const bool empty = mesh.vertices.empty();
+  describe(corners(mesh.bounding_box()), empty ? std::vector<Legend>{} : std::vector<Legend>{legend_of(classes)});
+}
+
+void MeshLayer::paint_with(const std::string& attribute, const std::string& vertex_shader,
+                           const std::string& fragment_shader) {
   set_style(MeshStyle::solid);
-  mapper_->MapDataArrayToVertexAttribute("paint", "paint", vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  mapper_->MapDataArrayToVertexAttribute(attribute.c_str(), attribute.c_str(), vtkDataObject::FIELD_ASSOCIATION_POINTS,
+                                         -1);
   actor_->GetProperty()->SetSpecular(0.0);  // a gleam would look like another value
   vtkShaderProperty& shaders = *actor_->GetShaderProperty();
-  shaders.AddVertexShaderReplacement("//VTK::Normal::Dec", true,
-                                     "//VTK::Normal::Dec\n" + load_shader("mesh_paint_vertex.glsl"), false);
+  shaders.AddVertexShaderReplacement("//VTK::Normal::Dec", true, "//VTK::Normal::Dec\n" + load_shader(vertex_shader),
+                                     false);
   shaders.AddVertexShaderReplacement("//VTK::Normal::Impl", true, "//VTK::Normal::Impl\n  pass_paint();\n", false);
   shaders.AddFragmentShaderReplacement("//VTK::Normal::Dec", true,
-                                       "//VTK::Normal::Dec\n" + load_shader("mesh_paint.glsl"), false);
+                                       "//VTK::Normal::Dec\n" + load_shader(fragment_shader), false);
   shaders.AddFragmentShaderReplacement(
       "//VTK::Color::Impl", true,
       "//VTK::Color::Impl\n  diffuseColor = 0.54 * paint_colour();\n  ambientColor = 0.54 * paint_colour();\n", false);
-  set_palette(*shaders.GetFragmentCustomUniforms(), paint.map);
-  const bool empty = mesh.vertices.empty();
-  describe(corners(mesh.bounding_box()), empty ? std::vector<Legend>{} : std::vector<Legend>{legend_of(paint)});
+  on_scale();
+}
+
+void MeshLayer::on_scale() {
+  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("pixel_scale", float(scale()));
 }
 
 void MeshLayer::set_style(MeshStyle style) {
@@ -145,7 +207,7 @@ void MeshLayer::set_style(MeshStyle style) {
   describe({outline().begin(), outline().end()}, {});
   if (style == MeshStyle::wire) {
     property.SetRepresentationToWireframe();
-    property.SetLineWidth(1.0f);
+    property.SetLineWidth(float(scale()));
     set_colour(property, theme::soft_ink);
   } else if (style == MeshStyle::ghost) {
     property.SetOpacity(0.5);  // sends it to VTK's translucent pass; the shader decides

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "core/mesh/triangle_mesh.hpp"
 #include "ui/layers/layer.hpp"
 
@@ -24,6 +26,19 @@ struct MeshPaint {
   std::string no_value_name = "not seen";
 };
 
+/// A kind of surface, such as what the views missed.
+struct MeshClass {
+  std::string name;
+  Colour colour;
+};
+
+/// A class a vertex. Where corners differ, the border runs between them as a crisp line; no mixed colours.
+struct MeshClasses {
+  std::span<const std::uint8_t> classes;  ///< one a vertex, an index of the palette
+  std::vector<MeshClass> palette;         ///< 1 to 4
+  std::string title = {};                 ///< of the legend
+};
+
 /// The object, or a reconstructed surface.
 class MeshLayer : public Layer {
  public:
@@ -34,10 +49,18 @@ class MeshLayer : public Layer {
   /// @throws std::invalid_argument if the numbers of values or marks are not that of the vertices, a value is not
   ///         finite, or the range is empty.
   void show(const TriangleMesh& mesh, const MeshPaint& paint);
+  /// Solid and painted by class, with a legend of the classes that there are.
+  /// @throws std::invalid_argument if the number of classes is not that of the vertices, a class is not in the palette,
+  ///         or the palette is not of 1 to 4 colours.
+  void show(const TriangleMesh& mesh, const MeshClasses& classes);
   /// Without paint from now on.
   void set_style(MeshStyle style);
 
  private:
+  /// Solid, coloured by a function of ours that takes a vertex attribute of this name.
+  void paint_with(const std::string& attribute, const std::string& vertex_shader, const std::string& fragment_shader);
+  void on_scale() override;
+
   vtkSmartPointer<vtkOpenGLPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
 };

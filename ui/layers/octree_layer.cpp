@@ -1,101 +1,60 @@
 #include "ui/layers/octree_layer.hpp"
 
-#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <vtkActor.h>
-#include <vtkCellArray.h>
 #include <vtkDataObject.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
 
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ui/layers/voxel_polydata.hpp"
 #include "ui/shader_file.hpp"
 
 namespace nextview {
 namespace {
 
-/// Stops of the probability colours in shaders/voxels.glsl.
-constexpr int probability_stops = 9;
+constexpr float no_value = -1.0f;  // instead of a colour, for shaders/voxels_vertex.glsl
+constexpr std::size_t faces_a_task = 4096;
 
-/// One quad a face. The vertex attribute "voxel" is (position in the face: u, v; probability; class).
-vtkSmartPointer<vtkPolyData> face_polydata(const VoxelGrid& grid, std::span<const Voxel> voxels,
-                                           std::span<const VoxelFace> faces) {
-  const auto vertices = vtkIdType(faces.size()) * 4;
-  vtkNew<vtkFloatArray> positions, normals, attributes;
-  for (auto* array : {positions.Get(), normals.Get(), attributes.Get()}) {
-    array->SetNumberOfComponents(array == attributes.Get() ? 4 : 3);
-    array->SetNumberOfTuples(vertices);
-  }
-  attributes->SetName("voxel");
-  vtkNew<vtkCellArray> quads;
-  quads->AllocateEstimate(vtkIdType(faces.size()), 4);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto corner_points = face_corners(grid, faces[f]);
-    const Vector3 normal = face_normal(faces[f]);
-    const Voxel& voxel = voxels[faces[f].voxel];
-    const auto first = vtkIdType(f) * 4;
-    for (int corner = 0; corner < 4; ++corner) {
-      positions->SetTuple(first + corner, corner_points[corner].data());
-      normals->SetTuple(first + corner, normal.data());
-      attributes->SetTuple4(first + corner, corner == 1 || corner == 2, corner >= 2, voxel.probability,
-                            static_cast<double>(voxel.voxel_class));
-    }
-    quads->InsertNextCell({first, first + 1, first + 2, first + 3});
-  }
-  vtkNew<vtkPoints> points;
-  points->SetData(positions);
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->SetPoints(points);
-  result->SetPolys(quads);
-  result->GetPointData()->SetNormals(normals);
-  result->GetPointData()->AddArray(attributes);
+/// 8 bits a channel in one float, which holds 24 bits exactly.
+float packed(const Colour& colour) {
+  float result = 0.0f;
+  for (const double channel : colour) result = 256.0f * result + float(std::lround(channel * 255));
   return result;
 }
 
-void set_palette(vtkUniforms& uniforms) {
-  float classes[3][3], probabilities[probability_stops][3];
-  const std::array class_colours{theme::unknown, theme::free, theme::occupied};  // in the order of VoxelClass
-  const ColourMap map = ColourMap::probability();
+void set_uniforms(vtkUniforms& uniforms, double scale) {
+  float without[2][3];
   for (int c = 0; c < 3; ++c) {
-    for (int i = 0; i < 3; ++i) classes[i][c] = float(class_colours[i][c]);
-    for (int i = 0; i < probability_stops; ++i) {
-      probabilities[i][c] = float(map.at(i / double(probability_stops - 1))[c]);
-    }
+    without[0][c] = float(valueless_voxel[c]);
+    without[1][c] = float(valueless_voxel_stripes[c]);
   }
-  uniforms.SetUniform3fv("class_colours", 3, classes);
-  uniforms.SetUniform3fv("probability_colours", probability_stops, probabilities);
-}
-
-std::vector<Legend> legends_of(const VoxelFilter& filter, VoxelColouring colouring) {
-  if (colouring == VoxelColouring::by_probability) {
-    return {{"occupancy probability", {}, Legend::Range{ColourMap::probability(), 0.0, 1.0, ""}}};
-  }
-  Legend legend{"voxels", {}, {}};
-  if (filter.occupied) legend.swatches.push_back({"occupied", theme::occupied});
-  if (filter.unknown) {
-    const std::string bound = filter.unknown_from > 0 ? fmt::format(", p ≥ {:g}", filter.unknown_from) : "";
-    legend.swatches.push_back({"measured, unknown" + bound, theme::unknown});
-  }
-  if (filter.free) legend.swatches.push_back({"free", theme::free});
-  return {legend};
+  uniforms.SetUniform3fv("valueless_colours", 2, without);
+  uniforms.SetUniformf("pixel_scale", float(scale));
 }
 
 }  // namespace
 
 OctreeLayer::OctreeLayer(vtkRenderer& renderer) : Layer(renderer), solid_(make_part()), free_(make_part()) {
   free_.actor->GetProperty()->SetOpacity(0.16);
-  set_colouring(VoxelColouring::by_class);
 }
 
 OctreeLayer::Part OctreeLayer::make_part() {
-  Part part{vtkSmartPointer<vtkOpenGLPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New()};
+  Part part{vtkSmartPointer<vtkOpenGLPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New(), {}, {}};
   part.mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
-  part.mapper->MapDataArrayToVertexAttribute("voxel", "voxel", vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  for (const char* name : {"voxel_corner", "voxel_colour"})
+    part.mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
   part.actor->SetMapper(part.mapper);
   vtkShaderProperty& shaders = *part.actor->GetShaderProperty();
   shaders.AddVertexShaderReplacement("//VTK::Normal::Dec", true,
@@ -103,40 +62,82 @@ OctreeLayer::Part OctreeLayer::make_part() {
   shaders.AddVertexShaderReplacement("//VTK::Normal::Impl", true, "//VTK::Normal::Impl\n  pass_voxel();\n", false);
   shaders.AddFragmentShaderReplacement("//VTK::Normal::Dec", true, "//VTK::Normal::Dec\n" + load_shader("voxels.glsl"),
                                        false);
-  shaders.AddFragmentShaderReplacement(
-      "//VTK::Color::Impl", true,
-      "//VTK::Color::Impl\n  diffuseColor = 0.75 * voxel_colour();\n  ambientColor = 0.4 * voxel_colour();\n", false);
-  set_palette(*shaders.GetFragmentCustomUniforms());
+  // Instead of the normal that VTK would derive from neighbouring pixels.
+  shaders.AddFragmentShaderReplacement("//VTK::Normal::Impl", true, "vec3 normalVCVSOutput = face_normal;\n", false);
+  shaders.AddFragmentShaderReplacement("//VTK::Color::Impl", true,
+                                       "//VTK::Color::Impl\n  vec3 face_shade = voxel_shade();\n"
+                                       "  diffuseColor = 0.75 * face_shade;\n  ambientColor = 0.4 * face_shade;\n",
+                                       false);
+  set_uniforms(*shaders.GetFragmentCustomUniforms(), scale());
   add(*part.actor);
   return part;
 }
 
+void OctreeLayer::on_scale() {
+  for (Part* part : {&solid_, &free_})
+    set_uniforms(*part->actor->GetShaderProperty()->GetFragmentCustomUniforms(), scale());
+}
+
+void OctreeLayer::show_part(Part& part, const VoxelGrid& grid, std::span<const Voxel> voxels,
+                            const VoxelFilter& filter) {
+  part.faces = exposed_faces(grid, voxels, filter);
+  part.voxels.clear();
+  for (const VoxelFace& face : part.faces) part.voxels.push_back(voxels[face.voxel]);
+  part.mapper->SetInputDataObject(voxel_polydata(grid, part.faces));
+}
+
 void OctreeLayer::show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter,
-                       VoxelColouring colouring) {
-  const auto solid = exposed_faces(grid, voxels, {filter.occupied, filter.unknown, false, filter.unknown_from});
-  const auto free = exposed_faces(grid, voxels, {false, false, filter.free});
-  solid_.mapper->SetInputDataObject(face_polydata(grid, voxels, solid));
-  free_.mapper->SetInputDataObject(face_polydata(grid, voxels, free));
+                       VoxelColouring colouring, std::span<const float> values) {
+  if (!values.empty() && values.size() != grid.voxel_count())
+    throw std::invalid_argument("values: their number is not that of the voxels");
+  VoxelFilter solid = filter, free = filter;
+  solid.free = false;
+  free.occupied = free.unknown = free.uncertain = false;
+  free.free = filter.free && !filter.uncertain;
+  show_part(solid_, grid, voxels, solid);
+  show_part(free_, grid, voxels, free);
   Eigen::AlignedBox3d box;
-  for (const auto& faces : {solid, free}) {
-    for (const VoxelFace& face : faces) box.extend(grid.centre(face.voxel));
+  for (const Part* part : {&solid_, &free_}) {
+    for (const VoxelFace& face : part->faces) box.extend(grid.centre(face.voxel));
   }
   if (!box.isEmpty()) {
     box.min().array() -= 0.5 * grid.resolution;
     box.max().array() += 0.5 * grid.resolution;
   }
   filter_ = filter;
+  voxel_count_ = grid.voxel_count();
   describe(corners(box), {});
-  set_colouring(colouring);
+  set_colouring(colouring, values);
 }
 
-void OctreeLayer::set_colouring(VoxelColouring colouring) {
-  for (Part* part : {&solid_, &free_}) {
-    part->actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformi(
-        "by_probability", colouring == VoxelColouring::by_probability);
-  }
+bool OctreeLayer::colour_part(Part& part, const VoxelPalette& palette, std::span<const float> values) {
+  vtkNew<vtkFloatArray> colours;
+  colours->SetName("voxel_colour");
+  colours->SetNumberOfTuples(vtkIdType(part.faces.size()) * 4);
+  std::atomic<bool> complete = true;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, part.faces.size(), faces_a_task), [&](const auto& range) {
+    float* out = colours->GetPointer(vtkIdType(range.begin()) * 4);
+    for (std::size_t f = range.begin(); f < range.end(); ++f, out += 4) {
+      const float value = values.empty() ? std::numeric_limits<float>::quiet_NaN() : values[part.faces[f].voxel];
+      const auto colour = palette.colour(part.voxels[f], value);
+      if (!colour) complete = false;
+      std::fill_n(out, 4, colour ? packed(*colour) : no_value);
+    }
+  });
+  auto* polydata = vtkPolyData::SafeDownCast(part.mapper->GetInputDataObject(0, 0));
+  polydata->GetPointData()->AddArray(colours);
+  return complete;
+}
+
+void OctreeLayer::set_colouring(VoxelColouring colouring, std::span<const float> values) {
+  if (!values.empty() && values.size() != voxel_count_)
+    throw std::invalid_argument("values: their number is not that of the voxels");
+  const VoxelPalette palette(colouring);
+  const bool solid = colour_part(solid_, palette, values), free = colour_part(free_, palette, values);
   const std::vector<Vector3> points(outline().begin(), outline().end());
-  describe(points, points.empty() ? std::vector<Legend>{} : legends_of(filter_, colouring));
+  std::vector<Legend> legends;
+  if (!points.empty()) legends.push_back(palette.legend(filter_, !solid || !free));
+  describe(points, std::move(legends));
 }
 
 }  // namespace nextview

@@ -29,12 +29,13 @@ RaysLayer::RaysLayer(vtkRenderer& renderer)
 }
 
 void RaysLayer::show(std::span<const RaySegment> segments, const RayValues& values) {
-  double high = 0.0;
+  double largest = 0.0;
   std::vector<Vector3> points;
   for (const RaySegment& segment : segments) {
-    high = std::max(high, segment.value);
+    largest = std::max(largest, segment.value);
     points.insert(points.end(), {segment.from, segment.to});
   }
+  const double high = values.high.value_or(largest);
   Geometry geometry;
   const ColourMap map = ColourMap::contribution();
   for (const RaySegment& segment : segments) {
@@ -43,7 +44,11 @@ void RaysLayer::show(std::span<const RaySegment> segments, const RayValues& valu
   }
   mapper_->SetInputDataObject(geometry.polydata());
   std::vector<Legend> legends;
-  if (!segments.empty()) legends.push_back({values.name, {}, Legend::Range{map, 0.0, high, values.unit}});
+  if (!segments.empty()) {
+    const std::string beyond = largest > high ? "and more" : "";
+    legends.push_back(
+        {values.name, {}, Legend::Range{map, 0.0, high, values.unit, "", beyond}, values.high.has_value()});
+  }
   describe(std::move(points), std::move(legends));
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "ui/layers/layer.hpp"
@@ -18,9 +19,10 @@ struct RaySegment {
 struct RayValues {
   std::string name = "information along rays";
   std::string unit;
+  std::optional<double> high = {};  ///< upper end of the colours, locked; the largest value if not given
 };
 
-/// Rays of a view, coloured from 0 to the largest value. What has no value (0) is nearly clear.
+/// Rays of a view, coloured from 0 to the largest value or a locked end. What has no value (0) is nearly clear.
 class RaysLayer : public Layer {
  public:
   explicit RaysLayer(vtkRenderer& renderer);

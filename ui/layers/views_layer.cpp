@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "ui/layers/geometry.hpp"
 
@@ -51,11 +52,15 @@ void check(const ViewsPicture& picture) {
   if (std::any_of(picture.visited.begin(), picture.visited.end(), beyond)) {
     throw std::invalid_argument("visited: an index is no candidate's");
   }
+  if (picture.range && !(picture.range->first < picture.range->second)) {
+    throw std::invalid_argument("the scores' range is empty");
+  }
   if (picture.chosen && beyond(*picture.chosen)) throw std::invalid_argument("chosen: the index is no candidate's");
 }
 
 struct Scores {
-  double low = 0.0, high = 0.0;  ///< over the candidates that are not visited
+  double low = 0.0, high = 0.0;       ///< of the colours
+  bool below = false, above = false;  ///< some scores are beyond these
   std::vector<bool> visited;
 
   explicit Scores(const ViewsPicture& picture) : visited(picture.candidates.size(), false) {
@@ -67,25 +72,33 @@ struct Scores {
       high = first ? picture.scores[i] : std::max(high, picture.scores[i]);
       first = false;
     }
+    if (!picture.range) return;
+    below = low < picture.range->first;
+    above = high > picture.range->second;
+    std::tie(low, high) = *picture.range;
   }
 
   Colour colour(const ViewsPicture& picture, std::size_t candidate) const {
-    if (picture.chosen == candidate) return theme::chosen;
+    if (picture.chosen == candidate && !picture.own_view) return theme::chosen;
     if (visited[candidate]) return theme::visited;
     return picture.scores.empty() ? theme::object : ColourMap::score().at(picture.scores[candidate], low, high);
   }
 };
 
 std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores) {
-  if (picture.candidates.empty() && picture.path.empty()) return {};
+  if (picture.candidates.empty() && picture.path.empty() && !picture.own_view) return {};
   Legend views{"views", {}, {}};
-  if (picture.chosen) views.swatches.push_back({"chosen", theme::chosen});
+  if (picture.chosen && !picture.own_view) views.swatches.push_back({"chosen", theme::chosen});
+  if (picture.own_view) views.swatches.push_back({"own view", theme::chosen});
   if (!picture.visited.empty()) views.swatches.push_back({"visited", theme::visited});
   if (picture.scores.empty() && !picture.candidates.empty()) views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
   if (!picture.scores.empty()) {
-    result.push_back(
-        {picture.score_name, {}, Legend::Range{ColourMap::score(), scores.low, scores.high, picture.score_unit}});
+    result.push_back({picture.score_name,
+                      {},
+                      Legend::Range{ColourMap::score(), scores.low, scores.high, picture.score_unit,
+                                    scores.below ? "and less" : "", scores.above ? "and more" : ""},
+                      picture.range.has_value()});
   }
   if (!views.swatches.empty()) result.push_back(views);
   return result;
@@ -115,8 +128,9 @@ ViewsLayer::Part ViewsLayer::make_part(double line_width, double opacity) {
 void ViewsLayer::show(const ViewsPicture& picture) {
   check(picture);
   const Scores scores(picture);
-  Geometry frustums, outlines, path, chosen_faces, chosen_outline;
+  Geometry frustums, outlines, path;
   std::vector<Vector3> points;
+  std::vector<Label> labels;
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);
@@ -128,20 +142,33 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   for (std::size_t i = 0; i < picture.path.size(); ++i) {
     points.push_back(picture.path[i].translation());
     if (i > 0) path.add_line(picture.path[i - 1].translation(), points.back(), theme::visited);
+    if (picture.numbered_path) labels.push_back({{points.back()}, std::to_string(i + 1), theme::soft_ink});
   }
-  std::vector<Label> labels;
-  if (picture.chosen) {
-    const Frustum frustum(picture.camera, picture.candidates[*picture.chosen], picture.reach);
-    frustum.add_faces(chosen_faces, theme::chosen, false);
-    frustum.add_outline(chosen_outline, theme::chosen);
-    labels.push_back({{frustum.apex}, fmt::format("view {}", *picture.chosen), theme::chosen, true});
+  if (picture.own_view) {
+    points.push_back(picture.own_view->translation());
+    show_full_frustum(picture, *picture.own_view);
+    labels.push_back({{points.back()}, "own view", theme::chosen, true});
+  } else if (picture.chosen) {
+    const Pose& chosen = picture.candidates[*picture.chosen];
+    show_full_frustum(picture, chosen);
+    labels.push_back({{chosen.translation()}, fmt::format("view {}", *picture.chosen), theme::chosen, true});
+  } else {
+    for (Part* part : {&chosen_faces_, &chosen_outline_})
+      part->mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
   }
   frustums_.mapper->SetInputDataObject(frustums.polydata());
   outlines_.mapper->SetInputDataObject(outlines.polydata());
   path_.mapper->SetInputDataObject(path.polydata());
-  chosen_faces_.mapper->SetInputDataObject(chosen_faces.polydata());
-  chosen_outline_.mapper->SetInputDataObject(chosen_outline.polydata());
   describe(std::move(points), legends_of(picture, scores), std::move(labels));
+}
+
+void ViewsLayer::show_full_frustum(const ViewsPicture& picture, const Pose& T_world_camera) {
+  Geometry faces, outline;
+  const Frustum frustum(picture.camera, T_world_camera, picture.reach);
+  frustum.add_faces(faces, theme::chosen, false);
+  frustum.add_outline(outline, theme::chosen);
+  chosen_faces_.mapper->SetInputDataObject(faces.polydata());
+  chosen_outline_.mapper->SetInputDataObject(outline.polydata());
 }
 
 }  // namespace nextview

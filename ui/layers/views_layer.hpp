@@ -17,11 +17,15 @@ struct ViewsPicture {
   std::span<const double> scores;        ///< one a candidate, or none
   std::span<const std::size_t> visited;  ///< candidates
   std::optional<std::size_t> chosen;     ///< a candidate
-  std::span<const Pose> path;            ///< the views taken so far, in order; T_world_camera
+  std::optional<Pose> own_view =
+      {};                      ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place
+  std::span<const Pose> path;  ///< the views taken so far, in order; T_world_camera
+  bool numbered_path = false;  ///< small numbers at the views taken, from 1
   std::string score_name = "score";
   std::string score_unit;
-  double size = 0.07;  ///< depth of a frustum [m]
-  double reach = 0.5;  ///< depth of the chosen view's frustum [m]
+  std::optional<ValueRange> range = {};  ///< of the colours, locked; that of the scores not visited if not given
+  double size = 0.07;                    ///< depth of a frustum [m]
+  double reach = 0.5;                    ///< depth of the chosen view's frustum [m]
 };
 
 /// Candidates as frustums coloured by score, visited ones grey, the chosen one with its full frustum, and the path so
@@ -30,7 +34,8 @@ class ViewsLayer : public Layer {
  public:
   explicit ViewsLayer(vtkRenderer& renderer);
 
-  /// @throws std::invalid_argument if there are scores, but not one a candidate, or an index is no candidate's.
+  /// @throws std::invalid_argument if there are scores, but not one a candidate, an index is no candidate's, or the
+  ///         range is empty.
   void show(const ViewsPicture& picture);
 
  private:
@@ -39,6 +44,8 @@ class ViewsLayer : public Layer {
     vtkSmartPointer<vtkActor> actor;
   };
   Part make_part(double line_width, double opacity);
+
+  void show_full_frustum(const ViewsPicture& picture, const Pose& T_world_camera);
 
   Part frustums_, outlines_, path_, chosen_faces_, chosen_outline_;
 };

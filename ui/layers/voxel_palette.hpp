@@ -1,0 +1,39 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "ui/layers/voxel_filter.hpp"
+#include "ui/legend.hpp"
+
+namespace nextview {
+
+enum class VoxelColouring {
+  by_class,
+  by_probability,
+  by_entropy,     ///< [nats], 0 to ln 2
+  by_difference,  ///< a value a voxel: the Gibbs map's probability minus the conventional one's, -1 to 1
+  by_error        ///< a value a voxel: |probability - truth|, 0 to 1
+};
+
+/// The colours of voxels, quickly, and what they mean.
+class VoxelPalette {
+ public:
+  explicit VoxelPalette(VoxelColouring colouring);
+
+  /// Of a voxel with this value; none if it has none (not a number) and is coloured by it.
+  std::optional<Colour> colour(const Voxel& voxel, float value) const;
+  /// `valueless`: some voxels have no value.
+  Legend legend(const VoxelFilter& filter, bool valueless) const;
+
+ private:
+  Legend class_legend(const VoxelFilter& filter) const;
+
+  VoxelColouring colouring_;
+  std::optional<Legend::Range> range_;
+  std::vector<Colour> colours_;  ///< along the range, or by class
+};
+
+/// Voxels without a value are striped with these.
+extern const Colour valueless_voxel, valueless_voxel_stripes;
+
+}  // namespace nextview
