@@ -153,6 +153,7 @@ void Scene::frame(std::span<const Vector3> points, const ViewDirection& directio
   camera.SetPosition(position.data());
   camera.SetFocalPoint(focus.data());
   camera.SetViewUp(up.data());
+  camera.SetViewAngle(vertical_angle);
   renderer_->ResetCameraClippingRange();
   overlay_->item->scale_reference = box.center();
 }

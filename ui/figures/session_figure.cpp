@@ -35,7 +35,7 @@ std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const 
     if (ray.voxels.empty()) continue;
     const auto& last = ray.voxels.back().lattice;
     const Vector3 centre = (Vector3(last[0], last[1], last[2]) + Vector3::Constant(0.5)) * resolution;
-    segments.push_back({origin, origin + ray.direction * (centre - origin).dot(ray.direction), ray.contribution});
+    segments.push_back({origin, origin + ray.direction * (centre - origin).dot(ray.direction), ray.contribution, i});
   }
   return segments;
 }

@@ -3,18 +3,12 @@
 
 #include "core/cloud/point_cloud.hpp"
 #include "ui/layers/layer.hpp"
+#include "ui/layers/styles.hpp"
 
 class vtkActor;
 class vtkPolyDataMapper;
 
 namespace nextview {
-
-enum class CloudColouring {
-  single,
-  by_view,     ///< from the first view to the last
-  by_height,   ///< z in the world [m]
-  by_distance  ///< to the true surface [mm]
-};
 
 /// Measured points and what is known of each. Spans need to live during show() only.
 struct CloudPicture {

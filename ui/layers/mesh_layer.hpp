@@ -3,17 +3,12 @@
 
 #include "core/mesh/triangle_mesh.hpp"
 #include "ui/layers/layer.hpp"
+#include "ui/layers/styles.hpp"
 
 class vtkActor;
 class vtkOpenGLPolyDataMapper;
 
 namespace nextview {
-
-enum class MeshStyle {
-  solid,
-  wire,
-  ghost  ///< clear where it faces the viewer, denser towards its outline
-};
 
 /// A number a vertex, to be seen as a colour.
 struct MeshPaint {

@@ -13,6 +13,7 @@ namespace nextview {
 struct RaySegment {
   Vector3 from, to;  ///< [m, world]
   double value = 0.0;
+  std::size_t index = 0;  ///< of the ray, for whoever asks which one is at a place
 };
 
 /// What the values of ray segments are, for the legend.

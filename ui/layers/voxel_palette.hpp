@@ -4,16 +4,9 @@
 
 #include "ui/layers/voxel_filter.hpp"
 #include "ui/legend.hpp"
+#include "ui/layers/styles.hpp"
 
 namespace nextview {
-
-enum class VoxelColouring {
-  by_class,
-  by_probability,
-  by_entropy,     ///< [nats], 0 to ln 2
-  by_difference,  ///< a value a voxel: the Gibbs map's probability minus the conventional one's, -1 to 1
-  by_error        ///< a value a voxel: |probability - truth|, 0 to 1
-};
 
 /// The colours of voxels, quickly, and what they mean.
 class VoxelPalette {

@@ -21,10 +21,18 @@ enum class Key : int {
   end,
   page_up,
   page_down,
-  f1,
   control,
   shift,
   alt,
+  f1,
+  f2,
+  f3,
+  f4,
+  f5,
+  f6,
+  f7,
+  f8,
+  f9,
   count
 };
 constexpr Key key(char character) { return static_cast<Key>(character); }

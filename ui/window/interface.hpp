@@ -4,30 +4,28 @@
 #include <string>
 
 #include "ui/surface/render_surface.hpp"
-#include "ui/window/input.hpp"
+#include "ui/window/command.hpp"
+#include "ui/window/imgui_host.hpp"
+#include "ui/window/inspection_worker.hpp"
 #include "ui/window/scene_view.hpp"
-#include "ui/window/session_worker.hpp"
 
 namespace nextview {
 
-/// What a person copies and pastes.
-struct Clipboard {
-  std::function<std::string()> get;
-  std::function<void(const std::string&)> set;
-};
-
-/// Everything in the window: scene, curves and panels. It draws into any surface and knows nothing of where input comes
-/// from, so tests drive it without a display. There is one at a time.
+/// Everything in the window: scene and panels. It draws into any surface and knows nothing of where input comes from,
+/// so tests drive it without a display. There is one at a time.
 class Interface {
  public:
-  /// `scale` is the display's. Surface and worker must live longer.
-  Interface(RenderSurface& surface, SessionWorker& worker, double scale = 1.0);
+  /// `scale` is the display's. Surface and workers must live longer.
+  Interface(RenderSurface& surface, SessionWorker& worker, InspectionWorker& inspector, double scale = 1.0);
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
   void set_clipboard(Clipboard clipboard);
   void push(const InputEvent& event);
+  /// Does these calls one after the other, each when the one before has had its effect.
+  void run_script(std::vector<CommandCall> calls);
+  bool script_is_done() const;
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
   double seconds_to_next_frame() const;
   /// Draws a frame into the surface's back buffer, `seconds` after the last one. The scene is drawn anew only if it
@@ -39,6 +37,8 @@ class Interface {
   std::string title() const;
   /// What is shown; tests look here for where things are.
   const Layout& layout() const;
+  const WindowState& state() const;
+  SceneView& scene();
   /// How often the scene was drawn.
   std::size_t scene_drawings() const;
 

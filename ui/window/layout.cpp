@@ -7,8 +7,8 @@ namespace nextview {
 namespace {
 
 // [px] on a display that does not scale
-constexpr double bar_height = 56, status_height = 30, left_width = 268, right_width = 336, session_height = 306;
-constexpr double curves_height = 218;
+constexpr double menu_height = 27, bar_height = 50, status_height = 26, left_width = 272, right_width = 336;
+constexpr double bottom_height = 236;
 /// Panels are this far apart: a hairline, in the colour behind them.
 constexpr double gap = 1;
 
@@ -21,16 +21,17 @@ Viewport Rectangle::in(int surface_width, int surface_height) const {
 Layout::Layout(int width, int height, double scale) {
   const auto px = [&](double length) { return std::round(length * scale); };
   const auto rest = [](double length) { return std::max(length, 1.0); };
-  const double top = px(bar_height) + gap, bottom = rest(height - px(status_height) - gap);
-  const double left = px(left_width) + gap, right = rest(width - px(right_width) - gap);
-  const double lower = rest(bottom - px(curves_height));
-  control_bar = {0, 0, double(width), px(bar_height)};
+  const double bar_top = px(menu_height) + gap, top = bar_top + px(bar_height) + gap;
+  const double end = rest(height - px(status_height) - gap);
+  const double begin_x = px(left_width) + gap, end_x = rest(width - px(right_width) - gap);
+  const double lower = rest(end - px(bottom_height));
+  menu = {0, 0, double(width), px(menu_height)};
+  control_bar = {0, bar_top, double(width), px(bar_height)};
   status = {0, height - px(status_height), double(width), px(status_height)};
-  session = {0, top, px(left_width), px(session_height)};
-  layers = {0, top + px(session_height) + gap, px(left_width), rest(bottom - top - px(session_height) - gap)};
-  candidates = {right + gap, top, px(right_width), rest(bottom - top)};
-  scene = {left, top, rest(right - left), rest(lower - gap - top)};
-  curves = {left, lower, rest(right - left), rest(bottom - lower)};
+  left = {0, top, px(left_width), rest(end - top)};
+  right = {end_x + gap, top, px(right_width), rest(end - top)};
+  scene = {begin_x, top, rest(end_x - begin_x), rest(lower - gap - top)};
+  bottom = {begin_x, lower, rest(end_x - begin_x), rest(end - lower)};
 }
 
 }  // namespace nextview

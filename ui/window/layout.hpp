@@ -1,5 +1,6 @@
 #pragma once
 #include "ui/scene.hpp"
+#include "ui/window/window_state.hpp"
 
 namespace nextview {
 
@@ -11,12 +12,14 @@ struct Rectangle {
   Viewport in(int surface_width, int surface_height) const;
 };
 
-/// Where everything in the window is. The scene and the curves have what the panels leave free.
+/// Where everything in the window is. Panels of a side share a place, with tabs at its top; the scene has what is left.
 struct Layout {
-  Rectangle control_bar, session, layers, candidates, scene, curves, status;
+  Rectangle menu, control_bar, left, right, bottom, scene, status;
 
   /// Made for 1280 x 800 pixels and more; `scale` is the display's.
   Layout(int width, int height, double scale);
+
+  const Rectangle& of(Side side) const { return side == Side::left ? left : side == Side::right ? right : bottom; }
 };
 
 }  // namespace nextview

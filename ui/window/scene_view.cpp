@@ -6,36 +6,73 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <tuple>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "core/evaluation/map_quality.hpp"
 #include "ui/figures/session_figure.hpp"
+#include "ui/window/camera_control.hpp"
 
 namespace nextview {
 namespace {
 
 /// Points drawn at most: more do not show, and a software renderer feels each.
-constexpr std::size_t most_points = 50'000;
-
+constexpr std::size_t most_points = 60'000;
 /// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
 constexpr std::size_t rays_shown = 60;
+constexpr double frustum_depth = 0.07;                          // [m] as the views layer draws them
+constexpr double frustum_reach = 14.0, ray_reach = 5.0;          // [px]
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
-PointCloud thinned(const PointCloud& cloud) {
-  const std::size_t stride = cloud.size() / most_points + 1;
-  PointCloud result;
-  for (std::size_t i = 0; i < cloud.size(); i += stride) result.push_back(cloud[i]);
-  return result;
+/// Gibbs minus conventional, where both say something.
+std::vector<float> differences(const SessionSnapshot& s) {
+  std::vector<float> values(s.voxels->size(), no_value);
+  if (!s.gibbs) return values;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (s.gibbs->voxels[v].measured) values[v] = s.gibbs->voxels[v].probability - (*s.voxels)[v].probability;
+  return values;
 }
 
-auto as_tuple(const VoxelFilter& f) { return std::tuple(f.occupied, f.unknown, f.free, f.unknown_from); }
+std::vector<float> values_for(const SessionSnapshot& s, const LayerChoice& choice) {
+  if (choice.colouring == VoxelColouring::by_difference) return differences(s);
+  if (choice.colouring != VoxelColouring::by_error || !s.truth) return {};
+  return voxel_errors(chosen_voxels(s, choice.map), *s.truth, TruthConvention::touch);
+}
 
-auto as_tuple(const LayerChoice& c) {
-  return std::tuple(c.object, c.cloud, c.octree, c.views, c.rays, c.region, c.object_style, as_tuple(c.voxels),
-                    c.colouring);
+double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+bool same(const LayerChoice& a, const LayerChoice& b) {
+  const auto shown = [](const LayerChoice& c) {
+    return std::tuple(c.object, c.cloud, c.octree, c.views, c.rays, c.region, c.missed, c.object_style,
+                      c.cloud_colouring, c.map, c.colouring, c.ranges_locked);
+  };
+  return shown(a) == shown(b) && a.voxels == b.voxels;
+}
+
+/// The explanation of the view that is looked at, if it is known.
+std::shared_ptr<const ScoreExplanation> explanation_of(const SessionSnapshot& s, const Selection& selection,
+                                                       const Inspection& inspection) {
+  if (selection.view.kind == LookedAt::Kind::next) return s.explanation;
+  const bool answered = inspection.view && inspection.view->view == selection.view && inspection.session &&
+                        inspection.session->session == s.session;
+  return answered ? inspection.view->explanation : nullptr;
 }
 
 }  // namespace
 
-SceneView::SceneView(RenderSurface& surface) : surface_(surface) { scene_.attach(surface); }
+std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) {
+  return map == MapChoice::gibbs && s.gibbs ? std::span<const Voxel>(s.gibbs->voxels) : *s.voxels;
+}
+
+SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
+  scene_.attach(surface);
+  scene_.set_scale(scale);
+}
 
 void SceneView::place(const Rectangle& rectangle) {
   rectangle_ = rectangle;
@@ -43,79 +80,159 @@ void SceneView::place(const Rectangle& rectangle) {
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 
-bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const LayerChoice& choice) {
+bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
+                     std::shared_ptr<const Inspection> inspection) {
   if (!snapshot->loaded()) return false;
-  if (shown_ == snapshot && as_tuple(choice_) == as_tuple(choice)) return false;
-  const bool new_session = !shown_ || shown_->session != snapshot->session;
-  if (new_session) {
-    scene_.mesh().show(*snapshot->mesh, choice.object_style);
-    scene_.region().show({snapshot->grid.lower(), snapshot->grid.upper()});
-  } else if (choice.object_style != choice_.object_style) {
-    scene_.mesh().set_style(choice.object_style);
+  const LayerChoice& choice = window.layers;
+  const auto explanation = explanation_of(*snapshot, window.selection, *inspection);
+  const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
+  const bool new_rays = explanation != explanation_;
+  const bool new_own_view = selection_.own_view.has_value() != window.selection.own_view.has_value();
+  if (!new_snapshot && !new_choice && !new_rays && !new_own_view) return false;
+
+  const SessionSnapshot& s = *snapshot;
+  const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
+  if (new_session) scene_.region().show({s.grid.lower(), s.grid.upper()});
+  if (new_session || choice.object_style != choice_.object_style || choice.missed != choice_.missed ||
+      (choice.missed && new_map))
+    show_mesh(s, choice);
+  if (new_map || choice.cloud_colouring != choice_.cloud_colouring || choice.ranges_locked != choice_.ranges_locked)
+    show_cloud(s, choice);
+  const bool new_voxels = new_map || choice.map != choice_.map || choice.voxels != choice_.voxels;
+  if (new_voxels || choice.colouring != choice_.colouring) show_voxels(s, choice, new_voxels);
+  explanation_ = explanation;
+  choice_ = choice;
+  if (const auto pose = looked_at_pose(s, window.selection); new_rays || new_snapshot)
+    show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
+              pose ? pose->translation() : Vector3(Vector3::Zero()));
+  show_views(s, window);
+  set_visible(s, choice);
+  shown_ = std::move(snapshot);
+  selection_ = window.selection;
+  if (new_session) move(camera_motion::Frame{});
+  renderer().ResetCameraClippingRange();
+  return true;
+}
+
+void SceneView::show_mesh(const SessionSnapshot& s, const LayerChoice& choice) {
+  if (choice.missed && s.missed) {
+    scene_.mesh().show(*s.missed->mesh, MeshClasses{s.missed->observed,
+                                                    {{"missed so far", theme::missed}, {"measured", theme::object}},
+                                                    "surface"});
+  } else {
+    scene_.mesh().show(*s.mesh, choice.object_style);
   }
-  show_map(*snapshot, choice, new_session || shown_->map != snapshot->map);
-  if (shown_ != snapshot) {
-    show_views(*snapshot);
-    show_rays(*snapshot);
+}
+
+void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) {
+  const SeenCloud& cloud = *s.cloud;
+  const std::size_t stride = cloud.points.size() / most_points + 1;
+  SeenCloud thin;
+  for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
+    thin.points.push_back(cloud.points[i]);
+    thin.views.push_back(cloud.views[i]);
+    if (!cloud.distances.empty()) thin.distances.push_back(cloud.distances[i]);
   }
-  scene_.mesh().set_visible(choice.object);
+  CloudPicture picture{thin.points, thin.views, thin.distances, choice.cloud_colouring};
+  if (thin.distances.empty() && choice.cloud_colouring == CloudColouring::by_distance)
+    picture.colouring = CloudColouring::single;  // there is no truth
+  if (choice.ranges_locked && choice_.ranges_locked && heights_.first < heights_.second) {
+    picture.heights = heights_;
+  } else if (!thin.points.empty()) {
+    const auto [low, high] = std::minmax_element(thin.points.begin(), thin.points.end(),
+                                                 [](const auto& a, const auto& b) { return a.z() < b.z(); });
+    heights_ = {low->z(), high->z()};
+    if (choice.ranges_locked && heights_.first < heights_.second) picture.heights = heights_;
+  }
+  scene_.cloud().show(picture);
+}
+
+void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice, bool new_voxels) {
+  const auto values = values_for(s, choice);
+  if (new_voxels) {
+    scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.voxels, choice.colouring, values);
+  } else {
+    scene_.octree().set_colouring(choice.colouring, values);
+  }
+}
+
+void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) {
+  ViewsPicture picture;
+  std::vector<double> utilities;
+  std::vector<std::size_t> visited;
+  std::vector<Pose> path;
+  for (const StepRecord& record : s.records) {
+    path.push_back(record.T_world_camera);
+    if (record.view >= 0) visited.push_back(static_cast<std::size_t>(record.view));
+  }
+  ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  if (!s.records.empty()) {
+    for (const Candidate& candidate : s.records.back().candidates) {
+      utilities.push_back(candidate.utility);
+      if (!candidate.available) continue;
+      range = {std::min(range.first, candidate.utility), std::max(range.second, candidate.utility)};
+    }
+  }
+  const bool keep = choice_.ranges_locked && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
+  if (!keep) utilities_ = range;
+  picture.camera = s.camera;
+  picture.candidates = s.candidates;
+  picture.scores = utilities;
+  picture.visited = visited;
+  picture.path = path;
+  picture.numbered_path = true;
+  picture.score_name = "utility";
+  if (choice_.ranges_locked && utilities_.first < utilities_.second) picture.range = utilities_;
+  if (s.finished.empty()) {
+    picture.chosen = s.next_candidate;
+    if (s.own_next_view) picture.own_view = s.next_view;
+  }
+  if (!picture.own_view && !picture.chosen && window.selection.own_view) picture.own_view = window.selection.own_view;
+  const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
+  picture.reach = (s.next_view.translation() - target).norm();
+  scene_.views().show(picture);
+}
+
+void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* explanation, const Vector3& origin) {
+  rays_.clear();
+  if (explanation) rays_ = ray_segments(*explanation, origin, s.grid.resolution, rays_shown);
+  double most = 0;
+  for (const RaySegment& ray : rays_) most = std::max(most, ray.value);
+  if (!choice_.ranges_locked || most_contribution_ <= 0) most_contribution_ = most;
+  RayValues values{"contribution of a ray", s.gain_unit};
+  if (choice_.ranges_locked && most_contribution_ > 0) values.high = most_contribution_;
+  scene_.rays().show(rays_, values);
+}
+
+void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice) {
+  scene_.mesh().set_visible(choice.object || (choice.missed && s.missed));
   scene_.cloud().set_visible(choice.cloud);
   scene_.octree().set_visible(choice.octree);
   scene_.views().set_visible(choice.views);
   scene_.rays().set_visible(choice.rays);
   scene_.region().set_visible(choice.region);
   scene_.annotate();
-  shown_ = std::move(snapshot);
-  choice_ = choice;
-  if (new_session) frame();
+}
+
+void SceneView::look_through(const Pose& T_world_camera) {
+  vtkCamera& camera = *renderer().GetActiveCamera();
+  const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
+  const Vector3 centre = shown_ ? 0.5 * (shown_->grid.lower() + shown_->grid.upper()) : Vector3::Zero();
+  const double distance = std::max((centre - position).dot(forward), 0.1);
+  const Vector3 focus = position + distance * forward, up = -T_world_camera.linear().col(1);
+  camera.SetPosition(position.data());
+  camera.SetFocalPoint(focus.data());
+  camera.SetViewUp(up.data());
+  if (shown_) camera.SetViewAngle(2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy) * 180 / std::numbers::pi);
+}
+
+void SceneView::move(const CameraMotion& motion) {
+  if (std::holds_alternative<camera_motion::Frame>(motion)) scene_.frame();
+  if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion)) scene_.frame(ViewDirection{from->azimuth, from->elevation});
+  if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion)) look_through(through->T_world_camera);
+  if (const auto* step = std::get_if<camera_motion::Zoom>(&motion)) zoom(renderer(), step->steps);
   renderer().ResetCameraClippingRange();
-  return true;
 }
-
-void SceneView::show_map(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_map) {
-  if (new_map) scene_.cloud().show(thinned(*snapshot.cloud));
-  if (new_map || as_tuple(choice.voxels) != as_tuple(choice_.voxels)) {
-    scene_.octree().show(snapshot.grid, *snapshot.voxels, choice.voxels, choice.colouring);
-  } else if (choice.colouring != choice_.colouring) {
-    scene_.octree().set_colouring(choice.colouring);
-  }
-}
-
-void SceneView::show_views(const SessionSnapshot& snapshot) {
-  ViewsPicture picture;
-  std::vector<double> scores;
-  std::vector<std::size_t> visited;
-  std::vector<Pose> path;
-  for (const StepRecord& record : snapshot.records) {
-    path.push_back(record.T_world_camera);
-    if (record.view >= 0) visited.push_back(static_cast<std::size_t>(record.view));
-  }
-  if (!snapshot.records.empty()) {
-    for (const Candidate& candidate : snapshot.records.back().candidates) scores.push_back(candidate.gain);
-  }
-  picture.camera = snapshot.camera;
-  picture.candidates = snapshot.candidates;
-  picture.scores = scores;
-  picture.visited = visited;
-  if (snapshot.finished.empty()) picture.chosen = snapshot.next_candidate;
-  picture.path = path;
-  picture.score_name = snapshot.configuration.planner.gain;
-  picture.score_unit = snapshot.gain_unit;
-  const Vector3 target = 0.5 * (snapshot.grid.lower() + snapshot.grid.upper());
-  picture.reach = (snapshot.next_view.translation() - target).norm();
-  scene_.views().show(picture);
-}
-
-void SceneView::show_rays(const SessionSnapshot& snapshot) {
-  std::vector<RaySegment> segments;
-  if (snapshot.explanation && snapshot.finished.empty()) {
-    segments =
-        ray_segments(*snapshot.explanation, snapshot.next_view.translation(), snapshot.grid.resolution, rays_shown);
-  }
-  scene_.rays().show(segments, {"contribution of a ray", snapshot.gain_unit});
-}
-
-void SceneView::frame() { scene_.frame(); }
 
 std::optional<Eigen::Vector2d> SceneView::project(const Vector3& point) {
   vtkMatrix4x4* projection =
@@ -125,6 +242,55 @@ std::optional<Eigen::Vector2d> SceneView::project(const Vector3& point) {
   if (clip[3] <= 0) return {};
   return Eigen::Vector2d(rectangle_.x + (clip[0] / clip[3] + 1) / 2 * rectangle_.width,
                          rectangle_.y + (1 - clip[1] / clip[3]) / 2 * rectangle_.height);
+}
+
+Vector3 SceneView::direction_at(double x, double y) {
+  const Pose pose = camera_pose();
+  const double up = std::tan(renderer().GetActiveCamera()->GetViewAngle() * std::numbers::pi / 360);
+  const double right = up * rectangle_.width / rectangle_.height;
+  const double u = 2 * (x - rectangle_.x) / rectangle_.width - 1, v = 2 * (y - rectangle_.y) / rectangle_.height - 1;
+  return pose.linear() * Vector3(u * right, v * up, 1);
+}
+
+Pose SceneView::camera_pose() {
+  const vtkCamera& camera = *renderer().GetActiveCamera();
+  Pose pose = Pose::Identity();
+  const Vector3 forward = Vector3(camera.GetDirectionOfProjection()).normalized();
+  const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
+  pose.linear() << right, forward.cross(right), forward;
+  pose.translation() = Vector3(camera.GetPosition());
+  return pose;
+}
+
+Picked SceneView::pick(double x, double y) {
+  Picked picked;
+  if (!shown_) return picked;
+  const SessionSnapshot& s = *shown_;
+  const Eigen::Vector2d pointer(x, y);
+  double least = frustum_reach;
+  for (std::size_t i = 0; choice_.views && i < s.candidates.size(); ++i) {
+    const auto pixel = project(s.candidates[i] * Vector3(0, 0, 0.5 * frustum_depth));
+    const double distance = pixel ? (*pixel - pointer).norm() : least;
+    if (distance >= least) continue;
+    least = distance;
+    picked.candidate = i;
+  }
+  if (picked.candidate) return picked;
+  if (choice_.octree) {
+    const Vector3 origin = camera_pose().translation();
+    picked.voxel = voxel_on_ray(origin, direction_at(x, y), s.grid, chosen_voxels(s, choice_.map), choice_.voxels);
+    if (picked.voxel) return picked;
+  }
+  least = ray_reach;
+  for (const RaySegment& ray : rays_) {
+    const auto from = project(ray.from), to = project(ray.to);
+    if (!choice_.rays || !from || !to) continue;
+    const double distance = distance_to_segment(pointer, *from, *to);
+    if (distance >= least) continue;
+    least = distance;
+    picked.ray = ray.index;
+  }
+  return picked;
 }
 
 }  // namespace nextview

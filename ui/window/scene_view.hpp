@@ -2,46 +2,65 @@
 #include <optional>
 
 #include "ui/scene.hpp"
+#include "ui/window/inspection.hpp"
 #include "ui/window/layout.hpp"
 #include "ui/window/session_snapshot.hpp"
 
 namespace nextview {
 
-/// What of a session the scene shows, and how.
-struct LayerChoice {
-  bool object = true, cloud = true, octree = true, views = true, rays = true, region = true;
-  MeshStyle object_style = MeshStyle::ghost;
-  VoxelFilter voxels;
-  VoxelColouring colouring = VoxelColouring::by_class;
+/// What a point of the scene shows.
+struct Picked {
+  std::optional<std::size_t> candidate, ray;
+  std::optional<std::uint32_t> voxel;
 };
 
 /// The 3D part of the window: a scene that follows snapshots and does again only what changed.
 class SceneView {
  public:
-  explicit SceneView(RenderSurface& surface);
+  SceneView(RenderSurface& surface, double scale);
 
   /// In the surface as it is now; call it again when its size changed.
   void place(const Rectangle& rectangle);
   /// Returns whether the picture changed.
-  bool show(std::shared_ptr<const SessionSnapshot> snapshot, const LayerChoice& choice);
-  /// Frames all that is shown.
-  void frame();
+  bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
+            std::shared_ptr<const Inspection> inspection);
+  void move(const CameraMotion& motion);
 
   const Rectangle& rectangle() const { return rectangle_; }
   vtkRenderer& renderer() { return scene_.renderer(); }
   /// Where a point of the world is in the window, unless it is behind the camera [px from the upper left corner].
   std::optional<Eigen::Vector2d> project(const Vector3& point);
+  /// What is at a point of the window [px from the upper left corner].
+  Picked pick(double x, double y);
+  /// Where the scene is looked at from: T_world_camera.
+  Pose camera_pose();
 
  private:
-  void show_views(const SessionSnapshot& snapshot);
-  void show_rays(const SessionSnapshot& snapshot);
-  void show_map(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_map);
+  void show_mesh(const SessionSnapshot& snapshot, const LayerChoice& choice);
+  void show_cloud(const SessionSnapshot& snapshot, const LayerChoice& choice);
+  void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_voxels);
+  void show_views(const SessionSnapshot& snapshot, const WindowState& window);
+  void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
+  void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
+  void look_through(const Pose& T_world_camera);
+  /// Direction into the scene at a point of the window; of any length.
+  Vector3 direction_at(double x, double y);
 
   RenderSurface& surface_;
   Rectangle rectangle_;
   Scene scene_;
   std::shared_ptr<const SessionSnapshot> shown_;
   LayerChoice choice_;
+  Selection selection_;
+  std::shared_ptr<const ScoreExplanation> explanation_;
+  std::vector<RaySegment> rays_;
+
+  // Colour ranges, kept while they are locked.
+  ValueRange utilities_{0, 1}, heights_{0, 1};
+  double most_contribution_ = 0;
 };
+
+/// The map's voxels that are chosen: conventional, or Gibbs if there is one.
+std::span<const Voxel> chosen_voxels(const SessionSnapshot& snapshot, MapChoice map);
 
 }  // namespace nextview

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -7,35 +8,81 @@
 
 #include "core/cloud/point_cloud.hpp"
 #include "core/gain/view_score.hpp"
-#include "core/map/voxel_grid.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
+#include "core/map/ground_truth.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/step_record.hpp"
 
 namespace nextview {
 
+/// Some points of all views so far, to be looked at; the whole clouds are in SessionSnapshot::scans.
+struct SeenCloud {
+  std::vector<Eigen::Vector3f> points;  ///< [m, world]
+  std::vector<std::uint16_t> views;     ///< of each point, from 0
+  std::vector<float> distances;         ///< of each point to the true surface [m]; empty if that is not known
+};
+
+/// What refining changed, over the voxels.
+struct MapChange {
+  std::size_t changed_class = 0;                     ///< voxels
+  double entropy_before = 0.0, entropy_after = 0.0;  ///< sums over all voxels [nats]
+  std::array<std::size_t, 20> before{}, after{};     ///< informed and measured voxels by probability, in equal bins
+};
+
+MapChange map_change(std::span<const Voxel> conventional, std::span<const Voxel> refined);
+
+/// The Gibbs map of the first views of a scan.
+struct GibbsMap {
+  std::size_t views = 0;      ///< that it is made of; fewer than were taken: it is out of date
+  GibbsPosterior posterior;
+  std::vector<Voxel> voxels;  ///< the posterior as the scene and the gains see it
+  RangeMeasurements measurements;  ///< what it was sampled from
+  PosteriorSamplerConfig config;
+  MapChange change;  ///< against the conventional map of the same views
+};
+
+/// The object with its surface marked as measured or missed.
+struct MissedPicture {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< the object in small triangles
+  std::vector<std::uint8_t> observed;        ///< one a vertex
+};
+
+/// An earlier scan of this window, for its curves.
+struct Run {
+  std::string name;  ///< "gearbox, occlusion-aware"
+  std::vector<StepRecord> records;  ///< without candidates
+};
+
 /// A session as the window sees it between two steps. Never changes once it is published. What a step does not change
 /// is shared with the snapshot before.
 struct SessionSnapshot {
   std::uint64_t session = 0;  ///< counts the sessions that were loaded; 0: there is none yet
   std::uint64_t map = 0;      ///< counts the maps: different whenever voxels, cloud or records are
-  std::string message;        ///< why the last command failed; empty if it did not
+  std::string message;        ///< why the last request failed; empty if it did not
 
   Configuration configuration;
-  std::string object_name;                           ///< for people
-  std::shared_ptr<const TriangleMesh> mesh;          ///< null without a session; so are the next two
-  std::shared_ptr<const std::vector<Voxel>> voxels;  ///< one a voxel of the grid
-  std::shared_ptr<const PointCloud> cloud;           ///< all views so far
+  std::string object_name;                             ///< for people
+  std::shared_ptr<const TriangleMesh> mesh;            ///< null without a session; so are the next two
+  std::shared_ptr<const std::vector<Voxel>> voxels;    ///< the conventional map, one a voxel of the grid
+  std::shared_ptr<const SeenCloud> cloud;
+  std::shared_ptr<const GibbsMap> gibbs;               ///< null if there is none
+  std::shared_ptr<const GroundTruth> truth;            ///< null without evaluation; so is the next
+  std::shared_ptr<const MissedPicture> missed;
+  std::vector<std::shared_ptr<const Scan>> scans;      ///< one a step
   VoxelGrid grid;
   PinholeCamera camera;
   std::vector<Pose> candidates;  ///< T_world_camera
   std::vector<StepRecord> records;
   std::string gain_unit;
+  std::shared_ptr<const std::vector<Run>> earlier_runs;  ///< oldest first; may be null
 
   Pose next_view = Pose::Identity();                    ///< T_world_camera
-  std::optional<std::size_t> next_candidate;            ///< none: the start view, or nothing is left
+  std::optional<std::size_t> next_candidate;            ///< none: the start view, an own view, or nothing is left
+  bool own_next_view = false;                           ///< the next view is the operator's own
   std::shared_ptr<const ScoreExplanation> explanation;  ///< of the next view's score; null if its gain has no rays
   std::string finished;                                 ///< why the scan is done; empty while it is not
+  bool can_undo = false, can_redo = false;
 
   bool loaded() const { return session > 0; }
   /// The candidate that the planner would take; the next view, unless that was overridden.
@@ -43,15 +90,24 @@ struct SessionSnapshot {
   bool available(std::size_t candidate) const {
     return !records.empty() && candidate < candidates.size() && records.back().candidates[candidate].available;
   }
+  /// The map that views are planned on.
+  std::span<const Voxel> planning_voxels() const {
+    return needs_refinement(configuration) && gibbs ? gibbs->voxels : *voxels;
+  }
 };
 
 /// What the session worker is doing right now.
 struct WorkerProgress {
   bool busy = false;
   bool playing = false;
-  double fraction = 0.0;  ///< of the job, 0 to 1
+  bool refining = false;
+  bool paused = false;     ///< refining is held
+  double fraction = 0.0;   ///< of the job, 0 to 1
   std::string what;
-  std::size_t waiting = 0;  ///< commands behind it
+  std::size_t waiting = 0;                ///< requests behind it
+  std::optional<double> seconds_left;     ///< of the job, as it has gone so far; whole seconds
+  double pause_between_views = 0.0;       ///< while playing [s]
+  std::shared_ptr<const SamplerDiagnostics> sampler;  ///< of the refinement that runs, up to now
 
   bool operator==(const WorkerProgress&) const = default;
 };

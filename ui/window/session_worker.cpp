@@ -1,25 +1,33 @@
 #include "ui/window/session_worker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
 
-#include "ui/window/known_objects.hpp"
+#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {
 
 /// Smaller steps of progress are no news.
 constexpr double least_progress = 0.01;
+/// Nobody needs to be told how long a shorter job will take [s].
+constexpr double least_to_estimate = 1.0;
 
 template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 
-bool starts_anew(const SessionCommand& command) {
-  return std::holds_alternative<command::Load>(command) || std::holds_alternative<command::OpenFile>(command) ||
-         std::holds_alternative<command::Reset>(command);
+template <class Request>
+bool is(const SessionRequest& request) {
+  return std::holds_alternative<Request>(request);
+}
+
+bool starts_anew(const SessionRequest& r) {
+  return is<request::Load>(r) || is<request::OpenFile>(r) || is<request::Reset>(r);
 }
 
 Configuration with_file(Configuration configuration, const std::filesystem::path& file) {
@@ -28,31 +36,20 @@ Configuration with_file(Configuration configuration, const std::filesystem::path
   return configuration;
 }
 
-void add_next_view(SessionSnapshot& snapshot, const Session& session) {
-  snapshot.next_candidate = session.next_candidate();
-  snapshot.next_view = session.next_view();
-  snapshot.explanation = nullptr;
-  if (!snapshot.next_candidate) return;
-  if (auto explanation = session.explain(*snapshot.next_candidate)) {
-    snapshot.explanation = std::make_shared<const ScoreExplanation>(std::move(*explanation));
-  }
-}
-
-void add_map(SessionSnapshot& snapshot, const Session& session, const PointCloud& cloud) {
-  const auto voxels = session.planning_voxels();
-  ++snapshot.map;
-  snapshot.voxels = std::make_shared<const std::vector<Voxel>>(voxels.begin(), voxels.end());
-  snapshot.cloud = std::make_shared<const PointCloud>(cloud);
-  snapshot.records = session.records();
-  snapshot.finished = session.finished();
-}
-
 }  // namespace
 
 SessionWorker::SessionWorker(std::function<void()> on_news)
     : on_news_(std::move(on_news)), thread_([this](std::stop_token stop) { run(stop); }) {}
 
-SessionWorker::~SessionWorker() { cancel(); }
+SessionWorker::~SessionWorker() {
+  cancel();
+  thread_.request_stop();
+  wake_.notify_all();
+}
+
+void SessionWorker::news() const {
+  if (on_news_) on_news_();
+}
 
 std::shared_ptr<const SessionSnapshot> SessionWorker::snapshot() const {
   const std::lock_guard lock(mutex_);
@@ -64,12 +61,15 @@ WorkerProgress SessionWorker::progress() const {
   WorkerProgress progress = progress_;
   progress.busy = running_ || progress_.playing || !queue_.empty();
   progress.waiting = queue_.size();
+  const double elapsed = std::chrono::duration<double>(Clock::now() - job_start_).count();
+  if (running_ && !progress.paused && progress.fraction > 0.02 && elapsed > least_to_estimate)
+    progress.seconds_left = std::ceil(elapsed * (1 - progress.fraction) / progress.fraction);
   return progress;
 }
 
 void SessionWorker::drop_all() {
   queue_.clear();
-  progress_.playing = false;
+  progress_.playing = progress_.paused = false;
   job_.request_stop();
 }
 
@@ -78,128 +78,161 @@ void SessionWorker::cancel() {
     const std::lock_guard lock(mutex_);
     drop_all();
   }
-  if (on_news_) on_news_();
+  wake_.notify_all();
+  news();
 }
 
-void SessionWorker::post(SessionCommand command) {
+void SessionWorker::hold_refinement(bool hold) {
   {
     const std::lock_guard lock(mutex_);
-    if (starts_anew(command)) drop_all();
-    if (std::holds_alternative<command::Pause>(command)) {
+    progress_.paused = hold && progress_.refining;
+  }
+  wake_.notify_all();
+  news();
+}
+
+void SessionWorker::set_pause_between_views(double seconds) {
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.pause_between_views = std::max(seconds, 0.0);
+    next_play_ = Clock::now();
+  }
+  wake_.notify_all();
+  news();
+}
+
+void SessionWorker::post(SessionRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (starts_anew(request)) drop_all();
+    if (is<request::Pause>(request)) {
       progress_.playing = false;
-      std::erase_if(queue_, [](const auto& waiting) { return std::holds_alternative<command::Play>(waiting); });
+      std::erase_if(queue_, is<request::Play>);
     } else {
-      queue_.push_back(std::move(command));
+      queue_.push_back(std::move(request));
     }
   }
   wake_.notify_all();
-  if (on_news_) on_news_();
+  news();
 }
 
-std::optional<SessionCommand> SessionWorker::next_command(std::stop_token stop) {
+std::optional<SessionRequest> SessionWorker::next_request(std::stop_token stop) {
   std::unique_lock lock(mutex_);
-  wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
-  if (stop.stop_requested()) return std::nullopt;
+  for (;;) {
+    wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
+    if (stop.stop_requested()) return std::nullopt;
+    if (!queue_.empty() || next_play_ <= Clock::now()) break;
+    wake_.wait_until(lock, stop, next_play_, [&] { return !queue_.empty() || !progress_.playing; });
+  }
   job_ = std::stop_source();
+  job_start_ = Clock::now();
   running_ = true;
-  if (queue_.empty()) return command::Step{};
-  SessionCommand command = std::move(queue_.front());
+  if (queue_.empty()) return request::Step{};
+  SessionRequest request = std::move(queue_.front());
   queue_.pop_front();
-  return command;
+  return request;
 }
 
 void SessionWorker::run(std::stop_token stop) {
-  while (const auto command = next_command(stop)) {
-    try {
-      execute(*command);
-    } catch (const std::exception& error) {
-      const bool cancelled = [&] {
-        const std::lock_guard lock(mutex_);
-        return job_.stop_requested();
-      }();
-      publish_message(cancelled ? "" : error.what());
-    }
+  while (const auto request = next_request(stop)) {
+    attempt(*request);
     {
       const std::lock_guard lock(mutex_);
-      running_ = false;
+      running_ = progress_.refining = progress_.paused = false;
       progress_.fraction = 0.0;
       progress_.what.clear();
+      progress_.sampler = nullptr;
+      const std::chrono::duration<double> pause(progress_.pause_between_views);
+      next_play_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(pause);
     }
-    if (on_news_) on_news_();
+    news();
   }
 }
 
-void SessionWorker::execute(const SessionCommand& command) {
-  const Configuration current = session_ ? session_->configuration() : Configuration{};
-  std::visit(Overloaded{
-                 [&](const command::Load& c) { load(c.configuration); },
-                 [&](const command::OpenFile& c) { load(with_file(current, c.file)); },
-                 [&](command::Reset) { load(current); },
-                 [&](command::Step) { step(); },
-                 [&](command::Play) {
-                   const std::lock_guard lock(mutex_);
-                   progress_.playing = session_ && session_->finished().empty();
-                 },
-                 [](command::Pause) {},  // done when it was posted
-                 [&](const command::TakeView& c) {
-                   if (!session_) return;
-                   session_->override_next_view(c.candidate);
-                   SessionSnapshot next = *snapshot();
-                   add_next_view(next, *session_);
-                   publish(std::move(next));
-                 },
-             },
-             command);
-}
-
-void SessionWorker::load(Configuration configuration) {
-  tell(0.0, "loading the object");
-  std::stop_token stop;
-  {
-    const std::lock_guard lock(mutex_);
-    stop = job_.get_token();
+/// Executes a request and publishes what came of it, also if it failed.
+void SessionWorker::attempt(const SessionRequest& request) {
+  const auto before = runner_.snapshot();
+  bool failed = false;
+  try {
+    execute(request);
+  } catch (const std::exception& error) {
+    failed = true;
+    const bool cancelled = [&] {
+      const std::lock_guard lock(mutex_);
+      return job_.stop_requested();
+    }();
+    if (!cancelled) runner_.set_message(error.what());
+    log_.add(cancelled ? LogEntry::Level::note : LogEntry::Level::warning, cancelled ? "Cancelled" : error.what());
   }
-  const auto progress = [this](double fraction, std::string_view what) { tell(fraction, what); };
-  // The session before stays if this one cannot be made.
-  session_ = std::make_unique<Session>(std::move(configuration), progress, stop);
-  cloud_.clear();
-
-  SessionSnapshot next = *snapshot();
-  ++next.session;
-  next.configuration = session_->configuration();
-  next.object_name = object_name(session_->object_file());
-  next.mesh = session_->mesh();
-  next.grid = session_->map().grid();
-  next.camera = session_->camera().camera();
-  next.candidates = session_->candidates();
-  next.gain_unit = gain_unit(next.configuration.planner.gain);
-  add_map(next, *session_, cloud_);
-  add_next_view(next, *session_);
-  publish(std::move(next));
-}
-
-void SessionWorker::step() {
-  std::stop_token stop;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!session_ || !session_->finished().empty()) {
-      progress_.playing = false;
-      return;
-    }
-    stop = job_.get_token();
-  }
-  const auto progress = [this](double fraction, std::string_view what) { tell(fraction, what); };
-  if (!session_->step(progress, stop)) return;
-  const PointCloud& points = session_->clouds().back();
-  cloud_.insert(cloud_.end(), points.begin(), points.end());
-
-  SessionSnapshot next = *snapshot();
-  add_map(next, *session_, cloud_);
-  add_next_view(next, *session_);
+  const auto after = runner_.snapshot();
+  if (!failed) finish(request, *before);
   const std::lock_guard lock(mutex_);
-  if (!next.finished.empty()) progress_.playing = false;
-  next.message.clear();
-  snapshot_ = std::make_shared<const SessionSnapshot>(std::move(next));
+  if (failed || !runner_.can_step()) progress_.playing = false;
+  snapshot_ = after;
+}
+
+void SessionWorker::execute(const SessionRequest& request) {
+  std::visit(Overloaded{
+                 [&](const request::Load& r) { runner_.load(r.configuration, told()); },
+                 [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), told()); },
+                 [&](request::Reset) { runner_.load(runner_.configuration(), told()); },
+                 [&](request::Step) { runner_.step(told()); },
+                 [&](request::Play) {
+                   const std::lock_guard lock(mutex_);
+                   progress_.playing = runner_.can_step();
+                   next_play_ = Clock::now();
+                 },
+                 [](request::Pause) {},  // done when it was posted
+                 [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
+                 [&](const request::TakeOwnView& r) { runner_.take_own_view(r.T_world_camera); },
+                 [&](request::Undo) { runner_.undo(told()); },
+                 [&](request::Redo) { runner_.redo(told()); },
+                 [&](const request::Refine& r) {
+                   {
+                     const std::lock_guard lock(mutex_);
+                     progress_.refining = true;
+                   }
+                   runner_.refine(r.chains, r.sweeps, told());
+                 },
+                 [&](const request::Export& r) { runner_.write(r.folder, told()); },
+                 [&](request::ForgetRuns) { runner_.forget_runs(); },
+             },
+             request);
+}
+
+/// Tells the log what was done.
+void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
+  using Level = LogEntry::Level;
+  const SessionSnapshot& s = *runner_.snapshot();
+  if (s.session != before.session) {
+    log_.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", s.object_name,
+                                      s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
+  } else if (s.records.size() > before.records.size()) {
+    const StepRecord& r = s.records.back();
+    const std::string from = r.view < 0 ? r.overridden ? "your own view" : "the start view"
+                                        : fmt::format("candidate {}", r.view);
+    log_.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
+                                      r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
+    if (!r.ranking.degenerate.empty())
+      log_.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
+    if (!s.finished.empty()) log_.add(Level::success, "The scan is finished: " + s.finished);
+  } else if (s.map != before.map && !is<request::Refine>(request)) {
+    log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
+  }
+  if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs) {
+    const SamplerDiagnostics& d = s.gibbs->posterior.diagnostics;
+    log_.add(d.stationary ? Level::success : Level::warning,
+             d.stationary ? fmt::format("Gibbs map of {} views: stationary after {} sweeps", s.gibbs->views, d.sweeps)
+                          : fmt::format("Gibbs map of {} views: {}", s.gibbs->views, d.warning));
+  }
+  if (const auto* e = std::get_if<request::Export>(&request))
+    log_.add(Level::success, "Scan written to " + e->folder.string());
+}
+
+SessionRunner::Told SessionWorker::told() {
+  const std::lock_guard lock(mutex_);
+  return {[this](double fraction, std::string_view what) { tell(fraction, what); },
+          [this](const SamplerDiagnostics& so_far) { tell_sampler(so_far); }, job_.get_token()};
 }
 
 void SessionWorker::tell(double fraction, std::string_view what) {
@@ -209,23 +242,17 @@ void SessionWorker::tell(double fraction, std::string_view what) {
     progress_.fraction = fraction;
     progress_.what = what;
   }
-  if (on_news_) on_news_();
+  news();
 }
 
-void SessionWorker::publish(SessionSnapshot snapshot) {
-  snapshot.message.clear();
-  auto published = std::make_shared<const SessionSnapshot>(std::move(snapshot));
-  const std::lock_guard lock(mutex_);
-  snapshot_ = std::move(published);
-}
-
-void SessionWorker::publish_message(const std::string& message) {
-  SessionSnapshot next = *snapshot();
-  next.message = message;
-  auto published = std::make_shared<const SessionSnapshot>(std::move(next));
-  const std::lock_guard lock(mutex_);
-  snapshot_ = std::move(published);
-  progress_.playing = false;
+void SessionWorker::tell_sampler(const SamplerDiagnostics& so_far) {
+  auto copy = std::make_shared<const SamplerDiagnostics>(so_far);
+  std::unique_lock lock(mutex_);
+  progress_.sampler = std::move(copy);
+  lock.unlock();
+  news();
+  lock.lock();
+  wake_.wait(lock, job_.get_token(), [&] { return !progress_.paused; });
 }
 
 }  // namespace nextview

@@ -17,6 +17,8 @@ constexpr double longest_wait = 60.0;
 
 std::optional<Key> key_of(int glfw_key) {
   if (glfw_key >= GLFW_KEY_SPACE && glfw_key <= GLFW_KEY_Z) return static_cast<Key>(glfw_key);
+  if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F9)
+    return static_cast<Key>(static_cast<int>(Key::f1) + glfw_key - GLFW_KEY_F1);
   switch (glfw_key) {
     case GLFW_KEY_TAB:
       return Key::tab;
@@ -45,8 +47,6 @@ std::optional<Key> key_of(int glfw_key) {
       return Key::page_up;
     case GLFW_KEY_PAGE_DOWN:
       return Key::page_down;
-    case GLFW_KEY_F1:
-      return Key::f1;
     case GLFW_KEY_LEFT_CONTROL:
     case GLFW_KEY_RIGHT_CONTROL:
       return Key::control;
@@ -136,7 +136,7 @@ void run(WindowSurface& surface, Interface& interface) {
 
 }  // namespace
 
-int run_window(const Configuration& configuration) {
+int run_window(const Configuration& configuration, const std::vector<CommandCall>& script) {
   WindowSurface surface("Nextview", width, height);
   GLFWwindow* window = surface.handle();
   glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -144,8 +144,10 @@ int run_window(const Configuration& configuration) {
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);
   SessionWorker worker([] { glfwPostEmptyEvent(); });
-  worker.post(command::Load{configuration});
-  Interface interface(surface, worker, scale);
+  InspectionWorker inspector([] { glfwPostEmptyEvent(); });
+  worker.post(request::Load{configuration});
+  Interface interface(surface, worker, inspector, scale);
+  interface.run_script(script);
   listen(window, interface);
   run(surface, interface);
   return 0;

@@ -1,0 +1,17 @@
+#pragma once
+#include "ui/panels/panel.hpp"
+
+namespace nextview {
+
+/// The Gibbs sampler: running and holding it, whether its chains are stationary, and what it changed.
+class GibbsPanel {
+ public:
+  void draw(const PanelContext& context, const Rectangle& rectangle);
+
+ private:
+  void draw_controls(const PanelContext& context);
+
+  int chains_ = 0, sweeps_ = 0;  ///< of the next run; 0: as the settings say
+};
+
+}  // namespace nextview

@@ -1,0 +1,50 @@
+#include "ui/panels/notifications.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "ui/panels/log_panel.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double shown_seconds = 6.0, warning_seconds = 12.0;
+constexpr std::size_t most_notes = 3;
+
+}  // namespace
+
+double Notifications::seconds_left() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Note& note : notes_) least = std::min(least, note.seconds_left);
+  return least;
+}
+
+void Notifications::draw(const PanelContext& context, const Rectangle& scene, std::size_t count, double seconds) {
+  for (Note& note : notes_) note.seconds_left -= seconds;
+  std::erase_if(notes_, [](const Note& note) { return note.seconds_left <= 0; });
+  const auto& log = context.log;
+  for (std::size_t back = std::min(count - std::min(seen_, count), log.size()); back > 0; --back) {
+    const LogEntry& entry = log[log.size() - back];
+    if (entry.level == LogEntry::Level::note) continue;
+    notes_.push_back({entry, entry.level == LogEntry::Level::warning ? warning_seconds : shown_seconds});
+  }
+  seen_ = count;
+  if (notes_.size() > most_notes) notes_.erase(notes_.begin(), notes_.end() - most_notes);
+  if (notes_.empty()) return;
+  const Style& style = context.style;
+  ImGui::SetNextWindowPos({float(scene.x) + style.px(12), float(scene.y) + style.px(12)});
+  ImGui::SetNextWindowSize({std::min(float(scene.width) * 0.6f, style.px(400)), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
+  ImGui::Begin("Notifications", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoScrollbar);
+  ImGui::PushFont(style.small);
+  for (const Note& note : notes_) draw_entry(style, note.entry);
+  ImGui::PopFont();
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) notes_.clear();
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace nextview

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ui/panels/panel.hpp"
+
+namespace nextview {
+
+/// The commands that a text may mean, likeliest first: those whose name or text holds all its words.
+std::vector<const Command*> matching_commands(std::string_view text);
+
+/// All commands in one list: a part of a name finds them, a whole line of a script with its values does it.
+class Palette {
+ public:
+  void draw(const PanelContext& context, const Rectangle& scene);
+
+ private:
+  void draw_commands(const PanelContext& context);
+  void draw_values(const PanelContext& context, const Command& command);
+  void run(const PanelContext& context);
+  void put(std::string text);
+
+  bool open_ = false;
+  bool put_ = false;  ///< the text was changed by us: the cursor goes to its end
+  std::string text_, error_;
+  std::size_t chosen_ = 0;
+};
+
+}  // namespace nextview

@@ -1,0 +1,66 @@
+#include "ui/panels/view_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/colour_map.hpp"
+
+namespace nextview {
+namespace {
+
+void set_pixel(Image& image, std::size_t i, const Colour& colour) {
+  for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * i + c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
+  image.rgba[4 * i + 3] = 255;
+}
+
+Image blank(int columns, int rows) {
+  return {columns, rows, std::vector<std::uint8_t>(std::size_t(columns) * rows * 4, 255)};
+}
+
+constexpr int stripe_spacing = 4;  // [cells]
+
+}  // namespace
+
+Image depth_picture(std::span<const float> depth, std::span<const std::uint8_t> unknown, int columns, int rows,
+                    double near, double far) {
+  Image image = blank(columns, rows);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const int column = int(i) % columns, row = int(i) / columns;
+    const bool stripe = !unknown.empty() && unknown[i] && (column + row) % stripe_spacing == 0;
+    const double place = far > near ? (depth[i] - near) / (far - near) : 0.5;
+    const Colour colour = depth[i] < 0 ? theme::paper : mix(theme::cloud, theme::sky, 0.1 + 0.8 * std::clamp(place, 0.0, 1.0));
+    set_pixel(image, i, stripe ? mix(colour, theme::unknown, 0.8) : colour);
+  }
+  return image;
+}
+
+std::pair<double, double> depth_range(std::span<const float> a, std::span<const float> b) {
+  double near = 1e9, far = 0;
+  for (const auto depths : {a, b})
+    for (const float depth : depths) {
+      if (depth < 0) continue;
+      near = std::min(near, double(depth));
+      far = std::max(far, double(depth));
+    }
+  return far > 0 ? std::pair(near, far) : std::pair(0.0, 1.0);
+}
+
+double largest_contribution(const ScoreExplanation& explanation) {
+  double largest = 1e-12;
+  for (const auto& ray : explanation.rays) largest = std::max(largest, ray.contribution);
+  return largest;
+}
+
+Image contribution_picture(const ScoreExplanation& explanation, int columns) {
+  const int rows = int(explanation.rays.size()) / columns;
+  const double largest = largest_contribution(explanation);
+  const ColourMap map = ColourMap::contribution();
+  Image image = blank(columns, rows);
+  for (std::size_t i = 0; i < std::size_t(columns) * rows; ++i) {
+    const double value = explanation.rays[i].contribution;
+    set_pixel(image, i, value > 0 ? map.at(value, 0, largest) : theme::paper);
+  }
+  return image;
+}
+
+}  // namespace nextview

@@ -1,0 +1,42 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "ui/panels/style.hpp"
+#include "ui/window/input.hpp"
+
+namespace nextview {
+
+/// What a person copies and pastes.
+struct Clipboard {
+  std::function<std::string()> get;
+  std::function<void(const std::string&)> set;
+};
+
+/// ImGui's context, with our fonts and colours, and the input that it sees. It draws no pixels. There is one at a time.
+class ImguiHost {
+ public:
+  explicit ImguiHost(double scale);
+  ~ImguiHost();
+  ImguiHost(const ImguiHost&) = delete;
+  ImguiHost& operator=(const ImguiHost&) = delete;
+
+  void make_current() const;
+  const Style& style() const { return style_; }
+  const ImGuiContext& context() const { return *context_; }
+  void set_clipboard(Clipboard clipboard);
+  /// What a person did since the last frame; dropped files are nothing to ImGui.
+  void take(std::span<const InputEvent> events);
+  /// Begins a frame of this size [px], `seconds` after the last one.
+  void begin_frame(int width, int height, double seconds);
+
+ private:
+  ImGuiContext* context_ = nullptr;
+  Style style_;
+  Clipboard clipboard_;
+  std::string pasted_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,62 @@
+#include "ui/window/scene_pointer.hpp"
+
+#include "ui/window/camera_control.hpp"
+
+namespace nextview {
+namespace {
+
+/// A press that moved less than this before its release is a click [px].
+constexpr float click_reach = 4.0f;
+
+}  // namespace
+
+/// The camera follows a drag that began in the scene, also over panels.
+bool ScenePointer::drag_camera(SceneView& view) {
+  const ImVec2 by = ImGui::GetIO().MouseDelta;
+  if (by.x == 0 && by.y == 0) return false;
+  drag_ == Drag::orbit ? orbit(view.renderer(), by.x, by.y) : pan(view.renderer(), by.x, by.y);
+  return true;
+}
+
+void ScenePointer::pick(SceneView& view, const PanelContext& context) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Picked picked = view.pick(io.MousePos.x, io.MousePos.y);
+  if (picked.candidate) {
+    context.call("select-view", *picked.candidate);
+  } else if (picked.voxel) {
+    const Vector3 centre = context.snapshot.grid.centre(*picked.voxel);
+    context.call("inspect-voxel", centre.x(), centre.y(), centre.z());
+  } else if (picked.ray) {
+    context.call("inspect-ray", *picked.ray);
+  } else {
+    context.call("clear-selection");
+  }
+}
+
+bool ScenePointer::follow(SceneView& view, const PanelContext& context) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool over_scene = !io.WantCaptureMouse && view.rectangle().contains(io.MousePos.x, io.MousePos.y);
+  const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
+             middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
+  bool moved = false;
+  if (over_scene && drag_ == Drag::none) {
+    if (left || middle) drag_ = left && !io.KeyShift ? Drag::orbit : Drag::pan;
+    else context.hovered = view.pick(io.MousePos.x, io.MousePos.y).candidate;
+  }
+  if (drag_ != Drag::none) {
+    moved = drag_camera(view);
+    if (!io.MouseDown[ImGuiMouseButton_Left] && !io.MouseDown[ImGuiMouseButton_Middle]) {
+      const bool click = ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+                         io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < click_reach * click_reach;
+      if (click && over_scene) pick(view, context);
+      drag_ = Drag::none;
+    }
+  }
+  if (over_scene && io.MouseWheel != 0) {
+    zoom(view.renderer(), io.MouseWheel);
+    moved = true;
+  }
+  return moved;
+}
+
+}  // namespace nextview

@@ -1,0 +1,132 @@
+#include "ui/window/selection_overlay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "ui/colour_map.hpp"
+
+namespace nextview {
+namespace {
+
+ImVec2 at(const Eigen::Vector2d& p) { return {float(p.x()), float(p.y())}; }
+
+void draw_label(const Style& style, ImVec2 place, const std::string& text, const Colour& colour) {
+  const ImVec2 size = style.semi_bold->CalcTextSizeA(style.semi_bold->FontSize, FLT_MAX, 0, text.c_str());
+  const ImVec2 corner(place.x + style.px(10), place.y - size.y - style.px(6));
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled({corner.x - style.px(5), corner.y - style.px(2)},
+                     {corner.x + size.x + style.px(5), corner.y + size.y + style.px(2)},
+                     to_imgui_u32(theme::paper, 0.85), style.px(3));
+  list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(colour), text.c_str());
+}
+
+void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32 colour, float width) {
+  const auto a = view.project(from), b = view.project(to);
+  if (a && b) ImGui::GetBackgroundDrawList()->AddLine(at(*a), at(*b), colour, width);
+}
+
+void draw_frustum(SceneView& view, const PanelContext& context, const Pose& T_world_camera, const std::string& label,
+                  const Colour& colour) {
+  const SessionSnapshot& s = context.snapshot;
+  const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
+  const double depth = (T_world_camera.translation() - target).norm();
+  const PinholeCamera& c = s.camera;
+  const auto apex = view.project(T_world_camera.translation());
+  std::array<std::optional<Eigen::Vector2d>, 4> base;
+  const double right = c.width - 0.5, bottom = c.height - 0.5;
+  const std::array<Eigen::Vector2d, 4> pixels{{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3 direction = c.direction(pixels[i].x(), pixels[i].y());
+    base[i] = view.project(T_world_camera * Vector3(direction * (depth / direction.z())));
+    if (!base[i]) return;
+  }
+  if (!apex) return;
+  const Style& style = context.style;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImU32 line = to_imgui_u32(colour);
+  for (std::size_t i = 0; i < 4; ++i) {
+    list.AddTriangleFilled(at(*apex), at(*base[i]), at(*base[(i + 1) % 4]), to_imgui_u32(colour, 0.06));
+    list.AddLine(at(*apex), at(*base[i]), line, style.px(1.6f));
+    list.AddLine(at(*base[i]), at(*base[(i + 1) % 4]), line, style.px(1.6f));
+  }
+  list.AddCircleFilled(at(*apex), style.px(4.5f), line);
+  draw_label(style, at(*apex), label, colour);
+}
+
+std::array<Vector3, 8> corners_of(const VoxelGrid& grid, std::uint32_t voxel) {
+  std::array<Vector3, 8> corners;
+  for (int i = 0; i < 8; ++i)
+    corners[i] = grid.centre(voxel) + 0.5 * grid.resolution * Vector3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  return corners;
+}
+
+/// Its edges, and the rays that touched it: blue ended in it, grey passed.
+void draw_voxel(SceneView& view, const PanelContext& context, std::uint32_t voxel) {
+  const SessionSnapshot& s = context.snapshot;
+  const float width = context.style.px(1);
+  if (const auto& inspected = context.inspection.voxel; inspected && inspected->voxel == voxel) {
+    for (std::size_t k = 0; k < inspected->rays.size() && k < s.records.size(); ++k)
+      for (const VoxelRay& ray : inspected->rays[k])
+        draw_segment(view, s.records[k].T_world_camera.translation(), ray.end.cast<double>(),
+                     ray.hit ? to_imgui_u32(theme::series[0], 0.45) : to_imgui_u32(theme::visited, 0.22), width);
+  }
+  const auto corners = corners_of(s.grid, voxel);
+  for (int from = 0; from < 8; ++from)
+    for (int axis = 1; axis < 8; axis *= 2)
+      if (!(from & axis)) draw_segment(view, corners[from], corners[from | axis], to_imgui_u32(theme::chosen), 2 * width);
+  if (const auto place = view.project(corners[7])) draw_label(context.style, at(*place), "voxel", theme::chosen);
+}
+
+/// A ray as a chain of its voxels, each as strong as what it contributes.
+void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
+  const auto& inspected = context.inspection.view;
+  if (!inspected || inspected->view != context.window.selection.view || !inspected->explanation ||
+      index >= inspected->explanation->rays.size())
+    return;
+  const auto& ray = inspected->explanation->rays[index];
+  const Vector3 origin = inspected->T_world_camera.translation();
+  double largest = 1e-12;
+  for (const auto& voxel : ray.voxels) largest = std::max(largest, voxel.contribution);
+  const ColourMap map = ColourMap::contribution();
+  const double edge = context.snapshot.grid.resolution;
+  Vector3 from = origin;
+  for (const auto& voxel : ray.voxels) {
+    const Vector3 centre = (Vector3(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) + Vector3::Constant(0.5)) * edge;
+    const Vector3 to = origin + ray.direction * ((centre - origin).dot(ray.direction) + 0.5 * edge);
+    const double share = voxel.contribution / largest;
+    draw_segment(view, from, to, to_imgui_u32(share > 0 ? map.at(share) : theme::visited), context.style.px(share > 0 ? 4.0f : 2.0f));
+    from = to;
+  }
+  if (const auto place = view.project(from)) draw_label(context.style, at(*place), fmt::format("ray {}", index), theme::chosen);
+}
+
+
+}  // namespace
+
+void draw_selection_overlay(SceneView& view, const PanelContext& context) {
+  const SessionSnapshot& s = context.snapshot;
+  if (!s.loaded()) return;
+  const Selection& selection = context.window.selection;
+  const Rectangle& r = view.rectangle();
+  ImGui::GetBackgroundDrawList()->PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
+  if (s.finished.empty() && s.records.empty()) draw_frustum(view, context, s.next_view, "start view", theme::chosen);
+  const auto draw = [&](std::size_t candidate) {
+    if (candidate >= s.candidates.size() || (candidate == s.next_candidate && s.finished.empty())) return;
+    draw_frustum(view, context, s.candidates[candidate], fmt::format("view {}", candidate),
+                 s.available(candidate) || s.records.empty() ? theme::series[0] : theme::visited);
+  };
+  if (const auto candidate = selection.candidate()) draw(*candidate);
+  if (context.hovered && context.hovered != selection.candidate()) draw(*context.hovered);
+  if (selection.view.kind == LookedAt::Kind::own && selection.own_view)
+    draw_frustum(view, context, *selection.own_view, "your own view", theme::series[0]);
+  if (selection.view.kind == LookedAt::Kind::taken && selection.view.index < s.records.size())
+    draw_frustum(view, context, s.records[selection.view.index].T_world_camera,
+                 fmt::format("view {} as taken", selection.view.index + 1), theme::visited);
+  if (selection.voxel && *selection.voxel < s.grid.voxel_count()) draw_voxel(view, context, *selection.voxel);
+  if (selection.ray) draw_ray(view, context, *selection.ray);
+  ImGui::GetBackgroundDrawList()->PopClipRect();
+}
+
+}  // namespace nextview

@@ -1,0 +1,58 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <variant>
+
+#include "core/session/configuration.hpp"
+
+namespace nextview {
+
+/// What is asked of the session worker.
+namespace request {
+
+/// Starts over with another configuration.
+struct Load {
+  Configuration configuration;
+};
+/// Starts over with another object, or, if the file is TOML, with its settings.
+struct OpenFile {
+  std::filesystem::path file;
+};
+/// Starts over with the same configuration.
+struct Reset {};
+struct Step {};
+/// Steps until the scan is finished or paused.
+struct Play {};
+/// The step that runs is still finished.
+struct Pause {};
+/// Makes a candidate the next view instead of the proposal.
+struct TakeView {
+  std::size_t candidate;
+};
+/// Makes a view of one's own the next.
+struct TakeOwnView {
+  Pose T_world_camera;
+};
+/// Goes back to before the last step or start; the scan is repeated up to there.
+struct Undo {};
+struct Redo {};
+/// Samples the Gibbs map of all views so far until it is stationary.
+struct Refine {
+  int chains = 2;
+  int sweeps = 400;  ///< at most, of each chain
+};
+/// Writes what `nextview scan` writes.
+struct Export {
+  std::filesystem::path folder;
+};
+/// Forgets the curves of earlier runs.
+struct ForgetRuns {};
+
+}  // namespace request
+
+using SessionRequest =
+    std::variant<request::Load, request::OpenFile, request::Reset, request::Step, request::Play, request::Pause,
+                 request::TakeView, request::TakeOwnView, request::Undo, request::Redo, request::Refine,
+                 request::Export, request::ForgetRuns>;
+
+}  // namespace nextview
