@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ui/colour_map.hpp"
@@ -67,19 +68,23 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
   number_cell(context, fmt::format("{:.4f}", c.utility), c.utility, largest.utility, colour);
 }
 
-void draw_row(const PanelContext& context, std::size_t candidate, const Largest& largest, CandidateFocus& focus) {
+void draw_row(const PanelContext& context, std::size_t candidate, const Largest& largest) {
   const SessionSnapshot& s = context.snapshot;
   const bool available = s.available(candidate), next = s.next_candidate == candidate && s.finished.empty();
+  const bool selected = context.window.selection.candidate() == candidate;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(!available                          ? theme::soft_ink
                                                 : is_proposed(s, candidate) || next ? theme::chosen
                                                                                     : theme::ink));
   const std::string name = fmt::format("{}##{}", candidate, candidate);
-  if (ImGui::Selectable(name.c_str(), focus.selected == candidate, ImGuiSelectableFlags_SpanAllColumns)) {
-    focus.selected = focus.selected == candidate ? std::nullopt : std::optional(candidate);
+  if (ImGui::Selectable(name.c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
+    selected ? context.call("select-next") : context.call("select-view", candidate);
   }
-  if (ImGui::IsItemHovered()) focus.hovered = candidate;
+  if (ImGui::IsItemHovered()) {
+    context.hovered = candidate;
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) context.call("panel", "view");
+  }
   if (next) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     const float size = context.style.px(8);
@@ -118,75 +123,88 @@ void draw_degenerate(const PanelContext& context, const std::string& reason) {
 std::string next_text(const SessionSnapshot& s) {
   if (!s.finished.empty()) return "The scan is finished.";
   if (s.records.empty()) return "The first view is the start view; the candidates are ranked after it.";
+  if (s.own_next_view) return fmt::format("Next is a view of your own; proposed was view {}.", s.proposal().value_or(0));
   if (!s.next_candidate) return "No candidate is left.";
   if (s.next_candidate == s.proposal()) return fmt::format("Next is the proposal, view {}.", *s.next_candidate);
   return fmt::format("Next is your choice, view {}; proposed was view {}.", *s.next_candidate, *s.proposal());
 }
 
-void draw_take_button(PanelContext& context, CandidateFocus& focus) {
-  const SessionSnapshot& s = context.snapshot;
-  const bool can = focus.selected && s.available(*focus.selected) && focus.selected != s.next_candidate &&
-                   s.finished.empty() && !context.progress.busy;
-  const std::string text =
-      focus.selected ? fmt::format("Take view {} next", *focus.selected) : std::string("Take the selected view next");
-  ImGui::BeginDisabled(!can);
-  if (ImGui::Button(fmt::format("{}###take", text).c_str(),
-                    {-FLT_MIN, ImGui::GetFrameHeight() + context.style.px(4)})) {
-    context.commands.emplace_back(command::TakeView{*focus.selected});
+/// A column's name; a click sorts by it, another one the other way round.
+void draw_header(const PanelContext& context, CandidateColumn column, const std::string& name) {
+  constexpr std::array columns = {"view", "gain", "cost", "utility"};
+  const WindowState& window = context.window;
+  const bool sorted = window.sort_column == column;
+  const bool low_first = column == CandidateColumn::view || column == CandidateColumn::cost;
+  ImGui::TableNextColumn();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const char* id = columns[static_cast<std::size_t>(column)];
+  if (ImGui::InvisibleButton(id, {width, ImGui::GetTextLineHeight()})) {
+    const bool ascending = sorted ? !window.sort_ascending : low_first;
+    context.call("sort", id, ascending ? "ascending" : "descending");
   }
-  ImGui::EndDisabled();
-  tooltip("Select a candidate in the table or in the scene, then make it the next view instead of the proposal.");
+  tooltip("Click to sort by this column.");
+  const Colour colour = sorted || ImGui::IsItemHovered() ? theme::ink : theme::soft_ink;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(corner, to_imgui_u32(colour), name.c_str());
+  if (!sorted) return;
+  const float r = context.style.px(3.5f), x = corner.x + width - r, y = corner.y + ImGui::GetTextLineHeight() / 2;
+  const float up = window.sort_ascending ? -r : r;
+  list.AddTriangleFilled({x - r, y - up / 2}, {x + r, y - up / 2}, {x, y + up}, to_imgui_u32(theme::ink));
 }
 
-}  // namespace
-
-void CandidatesPanel::draw_table(PanelContext& context, CandidateFocus& focus, float height) {
+void draw_table(const PanelContext& context, float height) {
   const SessionSnapshot& s = context.snapshot;
-  const auto flags =
-      ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX;
+  const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("candidates", 4, flags, {0, height})) return;
-  const std::string gain = s.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", s.gain_unit);
-  const auto id = [](CandidateColumn column) { return static_cast<ImGuiID>(column); };
-  const auto highest_first = ImGuiTableColumnFlags_WidthStretch | ImGuiTableColumnFlags_PreferSortDescending;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(46), id(CandidateColumn::view));
-  ImGui::TableSetupColumn(gain.c_str(), highest_first, 1.2f, id(CandidateColumn::gain));
-  ImGui::TableSetupColumn("cost [m]", ImGuiTableColumnFlags_WidthStretch, 1.0f, id(CandidateColumn::cost));
-  ImGui::TableSetupColumn("utility", highest_first | ImGuiTableColumnFlags_DefaultSort, 1.05f,
-                          id(CandidateColumn::utility));
-  ImGui::TableHeadersRow();
-  if (ImGuiTableSortSpecs* sort = ImGui::TableGetSortSpecs(); sort && sort->SpecsCount > 0) {
-    column_ = static_cast<CandidateColumn>(sort->Specs[0].ColumnUserID);
-    ascending_ = sort->Specs[0].SortDirection == ImGuiSortDirection_Ascending;
-  }
+  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(46));
+  for (const auto& [name, weight] : {std::pair{"gain", 1.2f}, {"cost", 1.0f}, {"utility", 1.05f}})
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, weight);
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  draw_header(context, CandidateColumn::view, "view");
+  draw_header(context, CandidateColumn::gain, s.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", s.gain_unit));
+  draw_header(context, CandidateColumn::cost, "cost [m]");
+  draw_header(context, CandidateColumn::utility, "utility");
   if (!s.records.empty()) {
     const std::vector<Candidate>& candidates = s.records.back().candidates;
     const Largest largest(candidates);
-    for (const std::size_t i : sorted_candidates(candidates, column_, ascending_)) draw_row(context, i, largest, focus);
+    for (const std::size_t i :
+         sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))
+      draw_row(context, i, largest);
   }
   ImGui::EndTable();
 }
 
-void CandidatesPanel::draw(PanelContext& context, const Rectangle& rectangle, CandidateFocus& focus) {
+/// Takes the selected candidate, or goes back to the proposal.
+void draw_take_buttons(const PanelContext& context) {
+  const Style& style = context.style;
+  const auto selected = context.window.selection.candidate();
+  const float width = (ImGui::GetContentRegionAvail().x - style.px(6)) / 2;
+  const std::string take = selected ? fmt::format("Take view {} next", *selected) : "Take the selected";
+  command_button(context, "take-view", Icon::none, take.c_str(), false, width);
+  ImGui::SameLine(0, style.px(6));
+  command_button(context, "take-proposal", Icon::none, "Take the proposal", false, width);
+}
+
+}  // namespace
+
+void draw_candidates_panel(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Candidates", rectangle, ImGuiWindowFlags_NoScrollbar);
   const SessionSnapshot& s = context.snapshot;
-  heading(context.style, "Candidates");
   if (!s.loaded()) return;
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", s.configuration.planner.gain.c_str());
-  ImGui::Spacing();
-  if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty()) {
+  small_text(context.style, fmt::format("ranked by {}, U = gain share − cost share (Eq. 13)", s.configuration.planner.gain));
+  if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty())
     draw_degenerate(context, s.records.back().ranking.degenerate);
-  }
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +
                       3 * ImGui::GetStyle().ItemSpacing.y;
   ImGui::PushFont(context.style.small);
-  draw_table(context, focus, ImGui::GetContentRegionAvail().y - below);
+  draw_table(context, ImGui::GetContentRegionAvail().y - below);
   ImGui::PopFont();
   small_text(context.style, next_text(s));
   ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
                        context.style.px(4));
-  draw_take_button(context, focus);
+  draw_take_buttons(context);
 }
 
 }  // namespace nextview

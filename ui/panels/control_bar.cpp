@@ -2,43 +2,60 @@
 
 #include <fmt/format.h>
 
-#include "ui/window/shortcuts.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace nextview {
 namespace {
 
-bool can_step(const PanelContext& context) { return context.snapshot.loaded() && context.snapshot.finished.empty(); }
-
-std::string with_key(const char* text, Action action) { return fmt::format("{} [{}]", text, keys_of(action)); }
-
-void draw_buttons(PanelContext& context) {
-  const bool playing = context.progress.playing;
-  ImGui::BeginDisabled(!can_step(context) || playing);
-  if (icon_button(context.style, Icon::step, "Step", true)) request_step(context);
-  ImGui::EndDisabled();
-  tooltip(with_key("Take the next view", Action::step));
-  ImGui::SameLine();
-  ImGui::BeginDisabled(!can_step(context));
-  if (icon_button(context.style, playing ? Icon::pause : Icon::play, playing ? "Pause" : "Play")) {
-    request_play_or_pause(context);
+void draw_buttons(const PanelContext& context) {
+  const float gap = context.style.px(6);
+  command_button(context, "step", Icon::step, "Step", true);
+  ImGui::SameLine(0, gap);
+  const float width = context.style.px(84);  // of either word
+  if (context.progress.playing) {
+    command_button(context, "pause", Icon::pause, "Pause", false, width);
+  } else {
+    command_button(context, "play", Icon::play, "Play", false, width);
   }
-  ImGui::EndDisabled();
-  tooltip(with_key(playing ? "Pause after this view" : "Take views until the scan is finished", Action::play));
-  ImGui::SameLine();
-  ImGui::BeginDisabled(!context.snapshot.loaded());
-  if (icon_button(context.style, Icon::reset, "Reset")) request_reset(context);
-  ImGui::EndDisabled();
-  tooltip(with_key("Start over", Action::reset));
+  ImGui::SameLine(0, gap);
+  command_button(context, "undo", Icon::undo, "");
+  ImGui::SameLine(0, gap);
+  command_button(context, "redo", Icon::redo, "");
+  ImGui::SameLine(0, gap);
+  command_button(context, "reset", Icon::reset, "");
+}
+
+/// How long Play waits between two views.
+void draw_speed(const PanelContext& context, float x, float y) {
+  const Style& style = context.style;
+  float seconds = float(context.progress.pause_between_views);
+  ImGui::SetCursorPos({x, y + style.px(1)});
+  ImGui::SetNextItemWidth(style.px(72));
+  ImGui::PushFont(style.small);
+  if (ImGui::SliderFloat("##speed", &seconds, 0.0f, 5.0f, seconds > 0 ? "+%.1f s" : "no pause"))
+    context.call("speed", std::round(10.0 * double(seconds)) / 10.0);
+  ImGui::PopFont();
+  tooltip(find_command("speed").help);
 }
 
 std::string readiness(const SessionSnapshot& s) {
   if (!s.loaded()) return "No object yet: choose one, or drop a file here";
   if (s.records.empty()) return "Ready to take the start view";
+  if (s.own_next_view) return "Ready to take your own view";
   return s.next_candidate ? fmt::format("Ready to take view {}", *s.next_candidate) : "No candidate is left";
 }
 
-/// Returns whether Cancel was pressed.
-bool draw_progress(PanelContext& context, float left, float right, float y) {
+/// "scoring the candidate views, 2 more to do, about 12 s left"
+std::string job_text(const WorkerProgress& progress) {
+  std::string text = progress.paused ? "held: " + progress.what : progress.what;
+  if (text.empty()) text = "between two views";
+  if (progress.waiting > 0) text += fmt::format(", {} more to do", progress.waiting);
+  if (progress.seconds_left) text += fmt::format(", about {:.0f} s left", *progress.seconds_left);
+  return text;
+}
+
+void draw_progress(const PanelContext& context, float left, float right, float y) {
   const WorkerProgress& progress = context.progress;
   const Style& style = context.style;
   ImGui::SetCursorPos({left, y});
@@ -50,20 +67,17 @@ bool draw_progress(PanelContext& context, float left, float right, float y) {
     } else {
       ImGui::TextDisabled("%s", readiness(s).c_str());
     }
-    return false;
+    return;
   }
   const float button = style.px(100), bar = right - left - button;
   ImGui::PushFont(style.small);
   ImGui::SetCursorPos({left, y - style.px(6)});
-  const std::string more = progress.waiting > 0 ? fmt::format(", {} more to do", progress.waiting) : "";
-  ImGui::TextUnformatted((progress.what + more).c_str());
+  ImGui::TextUnformatted(job_text(progress).c_str());
   ImGui::PopFont();
   ImGui::SetCursorPos({left, y + style.px(17)});
   ImGui::ProgressBar(float(progress.fraction), {bar, style.px(7)}, "");
   ImGui::SetCursorPos({left + bar + style.px(12), y - style.px(2)});
-  const bool cancelled = icon_button(style, Icon::cancel, "Cancel");
-  tooltip("Stop what is running. A view that has entered the map is completed.");
-  return cancelled;
+  command_button(context, "cancel", Icon::cancel, "Cancel");
 }
 
 /// One number with its name beneath, from the right; returns where it starts.
@@ -100,32 +114,17 @@ float draw_figures(const PanelContext& context, float right, float y) {
 
 }  // namespace
 
-void request_step(PanelContext& context) {
-  if (can_step(context) && !context.progress.playing) context.commands.emplace_back(command::Step{});
-}
-
-void request_play_or_pause(PanelContext& context) {
-  if (!can_step(context)) return;
-  if (context.progress.playing) {
-    context.commands.emplace_back(command::Pause{});
-  } else {
-    context.commands.emplace_back(command::Play{});
-  }
-}
-
-void request_reset(PanelContext& context) {
-  if (context.snapshot.loaded()) context.commands.emplace_back(command::Reset{});
-}
-
-bool draw_control_bar(PanelContext& context, const Rectangle& rectangle) {
+void draw_control_bar(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Control bar", rectangle, ImGuiWindowFlags_NoScrollbar);
   const Style& style = context.style;
   const float y = (float(rectangle.height) - ImGui::GetFrameHeight() - style.px(4)) / 2;
   ImGui::SetCursorPos({style.px(14), y});
   draw_buttons(context);
-  const float left = style.px(14 + 268 + 16);
+  ImGui::SameLine(0, style.px(10));
+  draw_speed(context, ImGui::GetCursorPosX(), y);
+  const float left = style.px(396);
   const float right = draw_figures(context, float(rectangle.width) - style.px(16), y + style.px(2));
-  return draw_progress(context, left, right, y + style.px(2));
+  draw_progress(context, left, right, y + style.px(2));
 }
 
 }  // namespace nextview

@@ -2,55 +2,138 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <functional>
+
 #include "ui/panels/plot.hpp"
 
 namespace nextview {
 namespace {
 
+constexpr std::array kind_names = {"entropy", "coverage", "divergence", "gain", "time"};
+
+struct Curve {
+  const char* name;
+  std::function<double(const StepRecord&)> value;
+};
+
+void add_curves(ChartContent& content, const SessionSnapshot& s, const std::vector<Curve>& curves, std::optional<double> at_start = {}) {
+  for (const Curve& curve : curves) {
+    ChartSeries series{curve.name, {}, {}};
+    if (at_start) {
+      series.x.push_back(0);
+      series.y.push_back(*at_start);
+    }
+    for (const StepRecord& r : s.records) {
+      series.x.push_back(r.step);
+      series.y.push_back(curve.value(r));
+    }
+    content.series.push_back(std::move(series));
+  }
+  if (!s.earlier_runs) return;
+  for (const Run& run : *s.earlier_runs) {  // of each the first curve: all of them would be a tangle
+    ChartSeries series{run.name, {}, {}};
+    series.earlier = true;
+    for (const StepRecord& r : run.records) {
+      series.x.push_back(r.step);
+      series.y.push_back(curves.front().value(r));
+    }
+    content.series.push_back(std::move(series));
+  }
+}
+
 ChartContent entropy_content(const SessionSnapshot& s) {
   ChartContent content{"Entropy of the map [Mbit]", "view", "", "entropy", "Mbit", {}, {}, true};
-  const double nothing_known = double(s.grid.voxel_count()) / 1e6;
-  ChartSeries unmeasured{"unmeasured (Eq. 18)", {0}, {nothing_known}};
-  ChartSeries total{"total, ΣH(p)", {0}, {nothing_known}};
-  for (const StepRecord& r : s.records) {
-    for (ChartSeries* series : {&unmeasured, &total}) series->x.push_back(r.step);
-    unmeasured.y.push_back(r.entropy / 1e6);
-    total.y.push_back(r.total_entropy / 1e6);
-  }
-  content.series = {unmeasured, total};
+  add_curves(content, s, {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }},
+                          {"total, ΣH(p)", [](const StepRecord& r) { return r.total_entropy / 1e6; }}},
+             double(s.grid.voxel_count()) / 1e6);
   return content;
 }
 
 ChartContent coverage_content(const SessionSnapshot& s) {
-  ChartContent content{"", "view", "", "coverage", "%", {}, 100.0, true};
-  const EvaluationConfig& evaluation = s.configuration.evaluation;
-  if (!evaluation.enabled) {
-    content.title = "Surface coverage: evaluation is off";
-    return content;
-  }
-  content.title = fmt::format("Surface within {:g} mm of a point [%]", 1e3 * evaluation.d_reg);
-  ChartSeries visible{"of visible surface", {0}, {0}}, all{"of all surface", {0}, {0}};
-  for (const StepRecord& r : s.records) {
-    for (ChartSeries* series : {&visible, &all}) series->x.push_back(r.step);
-    visible.y.push_back(100 * r.coverage_visible);
-    all.y.push_back(100 * r.coverage);
-  }
-  content.series = {visible, all};
+  ChartContent content{fmt::format("Surface within {:g} mm of a point [%]", 1e3 * s.configuration.evaluation.d_reg), "view", "", "coverage", "%", {}, 100.0, true};
+  add_curves(content, s, {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }},
+                          {"of all surface", [](const StepRecord& r) { return 100 * r.coverage; }}}, 0.0);
   return content;
+}
+
+ChartContent divergence_content(const SessionSnapshot& s) {
+  ChartContent content{"D_KL to the truth, visited voxels [knats]", "view", "", "D_KL", "knats", {}, {}, true};
+  add_curves(content, s, {{"conventional map", [](const StepRecord& r) { return r.quality.divergence / 1e3; }}});
+  return content;
+}
+
+ChartContent gain_content(const SessionSnapshot& s) {
+  const std::string unit = s.gain_unit.empty() ? "" : fmt::format(" [{}]", s.gain_unit);
+  ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
+  add_curves(content, s, {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
+                          {"predicted", [](const StepRecord& r) { return r.gain; }}});
+  return content;
+}
+
+ChartContent time_content(const SessionSnapshot& s) {
+  ChartContent content{"Time of a step [s]", "view", "", "time", "s", {}, {}, true};
+  add_curves(content, s, {{"score", [](const StepRecord& r) { return r.seconds.score; }},
+                          {"insert", [](const StepRecord& r) { return r.seconds.insert; }},
+                          {"sense, clean", [](const StepRecord& r) { return r.seconds.sense + r.seconds.clean; }},
+                          {"evaluate", [](const StepRecord& r) { return r.seconds.evaluate; }},
+                          {"refine", [](const StepRecord& r) { return r.seconds.refine; }}});
+  return content;
+}
+
+/// Which curves a plot shows; at the right of its title.
+void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle& r) {
+  const Style& style = context.style;
+  ImGui::SetCursorScreenPos({float(r.x + r.width) - style.px(120), float(r.y) - style.px(3)});
+  ImGui::SetNextItemWidth(style.px(106));
+  ImGui::PushFont(style.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(style.px(6), style.px(2)));
+  const auto now = static_cast<std::size_t>(context.window.curves[plot]);
+  if (ImGui::BeginCombo(fmt::format("##curves {}", plot).c_str(), kind_names[now])) {
+    for (std::size_t i = 0; i < kind_names.size(); ++i) {
+      if (!ImGui::Selectable(kind_names[i], i == now)) continue;
+      auto chosen = context.window.curves;
+      chosen[plot] = static_cast<CurveKind>(i);
+      context.call("curves", kind_names[static_cast<std::size_t>(chosen[0])], kind_names[static_cast<std::size_t>(chosen[1])]);
+    }
+    ImGui::EndCombo();
+  }
+  tooltip("What this plot shows.");
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
 }
 
 }  // namespace
 
+ChartContent curve_content(const SessionSnapshot& s, CurveKind kind) {
+  const bool needs_truth = kind == CurveKind::coverage || kind == CurveKind::divergence;
+  if (needs_truth && !s.configuration.evaluation.enabled)
+    return {"The true surface is not looked at: evaluation is off", "view", "", "", "", {}, {}, true};
+  switch (kind) {
+    case CurveKind::coverage:
+      return coverage_content(s);
+    case CurveKind::divergence:
+      return divergence_content(s);
+    case CurveKind::gain:
+      return gain_content(s);
+    case CurveKind::time:
+      return time_content(s);
+    case CurveKind::entropy:
+      break;
+  }
+  return entropy_content(s);
+}
+
 void draw_curves_panel(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Curves", rectangle, ImGuiWindowFlags_NoScrollbar);
   if (!context.snapshot.loaded()) return;
-  const double margin = context.style.px(14), top = context.style.px(10), half = rectangle.width / 2;
-  const auto part = [&](int index) {
-    return Rectangle{rectangle.x + index * half + margin, rectangle.y + top, half - margin,
-                     rectangle.height - top - context.style.px(8)};
-  };
-  draw_plot(context.style, entropy_content(context.snapshot), part(0));
-  draw_plot(context.style, coverage_content(context.snapshot), part(1));
+  const double margin = context.style.px(14), top = context.style.px(8), half = rectangle.width / 2;
+  for (std::size_t plot = 0; plot < 2; ++plot) {
+    const Rectangle place{rectangle.x + double(plot) * half + margin, rectangle.y + top, half - margin,
+                          rectangle.height - top - context.style.px(6)};
+    draw_plot(context.style, curve_content(context.snapshot, context.window.curves[plot]), place);
+    draw_choice(context, plot, place);
+  }
 }
 
 }  // namespace nextview

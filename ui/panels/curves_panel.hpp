@@ -1,9 +1,13 @@
 #pragma once
+#include "ui/figures/chart.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
 
-/// Entropy and surface coverage over the views.
+/// How the scan went, view by view: two plots, each of a kind that a person chooses. Earlier runs stay behind, pale.
 void draw_curves_panel(const PanelContext& context, const Rectangle& rectangle);
+
+/// A plot's content: the present run, and the earlier ones.
+ChartContent curve_content(const SessionSnapshot& session, CurveKind kind);
 
 }  // namespace nextview

@@ -4,6 +4,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,58 @@ Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags) {
 }
 
 Panel::~Panel() { ImGui::End(); }
+
+std::string PanelContext::text_of(double value) { return fmt::format("{}", value); }
+
+void PanelContext::invoke(const Command& command) const {
+  if (!command.available(state())) return;
+  const bool complete = command.arguments.empty() || command.arguments.front().optional;
+  if (complete) {
+    calls.push_back({&command, {}});
+  } else {
+    call("palette", command.name + " ");
+  }
+}
+
+std::string help_of(const PanelContext& context, const Command& command) {
+  std::string text = command.help;
+  if (const std::string keys = command.keys(); !keys.empty()) text += " [" + keys + "]";
+  const std::string reason = command.why_not ? command.why_not(context.state()) : "";
+  return reason.empty() ? text : text + "\nNot now: " + reason + ".";
+}
+
+const char* title_of(PanelName panel) {
+  constexpr std::array titles = {"Session", "Layers", "Candidates", "View", "Inspector", "Gibbs", "Curves", "Log"};
+  return titles[static_cast<std::size_t>(panel)];
+}
+
+Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& r) {
+  const Style& style = context.style;
+  const float height = style.px(32);
+  const std::string name = fmt::format("Tabs {}", static_cast<int>(side));
+  const Panel panel(name.c_str(), {r.x, r.y, r.width, height}, ImGuiWindowFlags_NoScrollbar);
+  float x = style.px(6);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(PanelName::count); ++i) {
+    const auto which = static_cast<PanelName>(i);
+    if (side_of(which) != side) continue;
+    const bool front = context.window.in_front(side) == which;
+    ImFont* font = front ? style.semi_bold : style.regular;
+    const char* title = title_of(which);
+    const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, title).x + style.px(16);
+    ImGui::SetCursorPos({x, 0});
+    if (ImGui::InvisibleButton(title, {width, height})) context.call("panel", panel_names()[i]);
+    tooltip(fmt::format("{} [F{}]", title, i + 2));
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    const Colour colour = front || ImGui::IsItemHovered() ? theme::ink : theme::soft_ink;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText(font, font->FontSize, {from.x + style.px(8), from.y + style.px(7)}, to_imgui_u32(colour), title);
+    if (front)
+      list.AddRectFilled({from.x + style.px(8), to.y - style.px(3)}, {to.x - style.px(8), to.y - style.px(1)},
+                         to_imgui_u32(theme::series[0]));
+    x += width;
+  }
+  return {r.x, r.y + height, r.width, r.height - height};
+}
 
 void heading(const Style& style, const char* text) {
   ImGui::PushFont(style.semi_bold);
@@ -75,12 +128,23 @@ void draw_reset(ImDrawList& list, ImVec2 c, float r, ImU32 colour) {
                          {tip.x + 0.28f * r, tip.y + 0.52f * r}, colour);
 }
 
+/// An arrow that turns back; `x` is the half width, negative for its mirror image.
+void draw_turn(ImDrawList& list, ImVec2 c, float x, float r, ImU32 colour) {
+  list.PathLineTo({c.x - 0.6f * x, c.y - 0.35f * r});
+  list.PathBezierCubicCurveTo({c.x + 1.5f * x, c.y - 0.55f * r}, {c.x + 1.3f * x, c.y + 0.95f * r},
+                              {c.x - 0.3f * x, c.y + 0.8f * r}, 12);
+  list.PathStroke(colour, 0, r * 0.28f);
+  list.AddTriangleFilled({c.x - 1.1f * x, c.y - 0.35f * r}, {c.x - 0.3f * x, c.y - 0.95f * r},
+                         {c.x - 0.3f * x, c.y + 0.25f * r}, colour);
+}
+
 }  // namespace
 
 void draw_icon(Icon icon, ImVec2 c, float size, ImU32 colour) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float r = size / 2;
   if (icon == Icon::reset) return draw_reset(list, c, r, colour);
+  if (icon == Icon::undo || icon == Icon::redo) return draw_turn(list, c, icon == Icon::undo ? r : -r, r, colour);
   if (icon == Icon::play || icon == Icon::step) {
     const float shift = icon == Icon::step ? -0.25f * r : 0.1f * r;
     list.AddTriangleFilled({c.x - 0.7f * r + shift, c.y - r}, {c.x - 0.7f * r + shift, c.y + r},
@@ -103,9 +167,12 @@ void draw_icon(Icon icon, ImVec2 c, float size, ImU32 colour) {
   }
 }
 
-bool icon_button(const Style& style, Icon icon, const char* label, bool primary) {
-  const float height = ImGui::GetFrameHeight() + style.px(4), glyph = style.px(11), padding = style.px(12);
-  const ImVec2 size(ImGui::CalcTextSize(label).x + glyph + style.px(8) + 2 * padding, height);
+bool icon_button(const Style& style, Icon icon, const char* label, bool primary, float width) {
+  const bool named = label[0] != '\0';
+  const float height = ImGui::GetFrameHeight() + style.px(4), glyph = icon == Icon::none ? 0 : style.px(11);
+  const float gap = icon == Icon::none || !named ? 0 : style.px(8), padding = style.px(named ? 12 : 9);
+  const float content = ImGui::CalcTextSize(label).x + glyph + gap;
+  const ImVec2 size(width > 0 ? width : content + 2 * padding, height);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const Colour accent = theme::series[0];
   if (primary) {
@@ -113,15 +180,57 @@ bool icon_button(const Style& style, Icon icon, const char* label, bool primary)
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, to_imgui(mix(accent, theme::ink, 0.15)));
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, to_imgui(mix(accent, theme::ink, 0.3)));
   }
-  const std::string id = fmt::format("##{}", label);
+  const std::string id = fmt::format("##{}{}", label, static_cast<int>(icon));
   const bool pressed = ImGui::Button(id.c_str(), size);
   if (primary) ImGui::PopStyleColor(3);
   const ImU32 colour = ImGui::GetColorU32(to_imgui(primary ? theme::paper : theme::ink));
   const float middle = corner.y + height / 2;
-  draw_icon(icon, {corner.x + padding + glyph / 2, middle}, glyph, colour);
-  ImGui::GetWindowDrawList()->AddText(
-      {corner.x + padding + glyph + style.px(8), std::floor(middle - ImGui::GetFontSize() / 2)}, colour, label);
+  const float left = corner.x + std::floor((size.x - content) / 2);
+  draw_icon(icon, {left + glyph / 2, middle}, glyph, colour);
+  ImGui::GetWindowDrawList()->AddText({left + glyph + gap, std::floor(middle - ImGui::GetFontSize() / 2)}, colour,
+                                      label);
   return pressed;
+}
+
+void command_button(const PanelContext& context, std::string_view name, Icon icon, const char* label, bool primary,
+                    float width) {
+  const Command& command = find_command(name);
+  ImGui::BeginDisabled(!command.available(context.state()));
+  if (icon_button(context.style, icon, label, primary, width)) context.invoke(command);
+  ImGui::EndDisabled();
+  tooltip(help_of(context, command));
+}
+
+std::optional<std::size_t> segmented(const PanelContext& context, const char* id, std::span<const char* const> names,
+                                     std::size_t selected, std::span<const char* const> help) {
+  std::optional<std::size_t> pressed;
+  const float gap = context.style.px(2);
+  const float width = (ImGui::GetContentRegionAvail().x - float(names.size() - 1) * gap) / float(names.size());
+  ImGui::PushFont(context.style.small);
+  ImGui::PushID(id);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) ImGui::SameLine(0, gap);
+    if (i == selected) {
+      const ImVec4 fill = to_imgui(mix(theme::series[0], theme::paper, 0.78));
+      for (const auto which : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive})
+        ImGui::PushStyleColor(which, fill);
+    }
+    if (ImGui::Button(names[i], {width, 0})) pressed = i;
+    if (i == selected) ImGui::PopStyleColor(3);
+    if (i < help.size()) tooltip(help[i]);
+  }
+  ImGui::PopID();
+  ImGui::PopFont();
+  return pressed;
+}
+
+void table_row(const std::string& name, const std::string& value, const std::string& help) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", name.c_str());
+  tooltip(help);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(value.c_str());
 }
 
 std::string readable(double value) {

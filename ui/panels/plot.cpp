@@ -45,7 +45,9 @@ void draw_captions(const Style& style, const ChartContent& content, ImVec2 corne
   list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(theme::ink), content.title.c_str());
   float x = corner.x;
   const float y = corner.y + style.semi_bold->FontSize + style.px(4), size = style.small->FontSize;
-  for (std::size_t i = 0; i < content.series.size(); ++i) {
+  const std::size_t named = std::min<std::size_t>(content.series.size(), 4);  // more have no room
+  for (std::size_t i = 0; i < named; ++i) {
+    if (content.series[i].earlier) break;
     const char* name = content.series[i].name.c_str();
     list.AddLine({x, y + size / 2}, {x + style.px(16), y + size / 2}, series_colour(i), style.px(2));
     list.AddCircleFilled({x + style.px(8), y + size / 2}, style.px(3), series_colour(i));

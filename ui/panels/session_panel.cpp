@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 
 #include "ui/panels/setting_control.hpp"
 #include "ui/window/known_objects.hpp"
@@ -22,24 +23,63 @@ std::vector<std::string> sensor_presets() {
   return names;
 }
 
-/// A label at the left, and room for a control up to the panel's right border.
-void label(const PanelContext& context, const char* text) {
+/// A label at the left, and room for a control and the way back to the default.
+void label(const PanelContext& context, const std::string& text, const std::string& help) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  ImGui::SameLine(context.style.px(98));
-  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::TextUnformatted(text.c_str());
+  tooltip(help);
+  ImGui::SameLine(context.style.px(104));
+  ImGui::SetNextItemWidth(-context.style.px(22));
+}
+
+/// A small arrow at the end of the row, if the setting has another value than its default.
+void draw_way_back(const PanelContext& context, const Setting& setting, const std::string& default_text) {
+  if (setting.text() == default_text) return;
+  const Style& style = context.style;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - style.px(16));
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetFrameHeight();
+  if (ImGui::InvisibleButton(("reset##" + setting.key).c_str(), {style.px(16), height}))
+    context.call("reset-setting", setting.key);
+  draw_icon(Icon::reset, {corner.x + style.px(8), corner.y + height / 2}, style.px(10),
+            to_imgui_u32(ImGui::IsItemHovered() ? theme::series[0] : theme::soft_ink));
+  tooltip(fmt::format("Back to the default, {}", default_text.empty() ? "nothing" : default_text));
+}
+
+constexpr std::array groups = {std::pair{"object", "Object"},       std::pair{"sensor", "Sensor"},
+                               std::pair{"cloud", "Cloud"},         std::pair{"map", "Map"},
+                               std::pair{"views", "Candidate views"}, std::pair{"planner", "Planner"},
+                               std::pair{"gibbs", "Gibbs sampler"}, std::pair{"termination", "Termination"},
+                               std::pair{"evaluation", "Evaluation"}};
+
+/// "range noise [m]"
+std::string name_in_group(const Setting& setting) {
+  std::string name = setting.key.substr(setting.key.find('.') + 1);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 }  // namespace
 
-void SessionPanel::load(PanelContext& context) const { context.commands.emplace_back(command::Load{edited_}); }
+void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, const char* name) {
+  label(context, name, setting.key + ": " + explanation(setting));
+  if (setting.key == "object.file") {
+    draw_object(context, setting);
+  } else if (setting.key == "sensor.preset") {
+    draw_sensor(context, setting);
+  } else if (setting_control(setting)) {
+    context.call("set", setting.key, setting.text());
+  }
+  Configuration untouched;
+  const auto all = settings(untouched);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == setting.key; });
+  draw_way_back(context, setting, defaults_[static_cast<std::size_t>(found - all.begin())]);
+}
 
-void SessionPanel::draw_object(PanelContext& context, std::vector<Setting>& settings) {
-  Setting& setting = find_setting(settings, "object.file");
+void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
   std::string& file = *std::get<std::string*>(setting.value);
-  label(context, "Object");
   const float arrow = ImGui::GetFrameHeight();
-  ImGui::SetNextItemWidth(-arrow - context.style.px(2));
+  ImGui::SetNextItemWidth(-arrow - context.style.px(24));
   ImGui::InputTextWithHint("##object.file", context.snapshot.object_name.c_str(), &file);
   const bool typed = ImGui::IsItemDeactivatedAfterEdit();
   tooltip(explanation(setting) + ". Or drop a file on the window.");
@@ -53,49 +93,55 @@ void SessionPanel::draw_object(PanelContext& context, std::vector<Setting>& sett
     }
     ImGui::EndCombo();
   }
-  if (typed || chosen) load(context);
+  if ((typed || chosen) && !file.empty()) context.call("open", file);
 }
 
-void SessionPanel::draw_sensor(PanelContext& context, std::vector<Setting>& settings) {
-  const Setting& setting = find_setting(settings, "sensor.preset");
-  label(context, "Sensor");
+void SessionPanel::draw_sensor(const PanelContext& context, const Setting& setting) {
   if (ImGui::BeginCombo("##sensor.preset", edited_.sensor_preset.c_str())) {
-    for (const std::string& name : sensor_presets()) {
-      if (!ImGui::Selectable(name.c_str(), name == edited_.sensor_preset)) continue;
-      Configuration changed = edited_;
-      apply_sensor_preset(changed, name);
-      edited_ = changed;
-      load(context);
-    }
+    for (const std::string& name : sensor_presets())
+      if (ImGui::Selectable(name.c_str(), name == edited_.sensor_preset)) context.call("set", setting.key, name);
     ImGui::EndCombo();
   }
   tooltip(explanation(setting));
 }
 
-void SessionPanel::draw(PanelContext& context, const Rectangle& rectangle) {
+void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group) {
+  ImGui::PushFont(context.style.small);
+  for (Setting& setting : settings) {
+    if (!setting.key.starts_with(group + ".")) continue;
+    const std::string unit = setting.unit.empty() ? "" : " [" + setting.unit + "]";
+    const bool narrow = name_in_group(setting).size() + unit.size() > 14;
+    if (narrow) {  // the name has a line of its own
+      ImGui::TextUnformatted((name_in_group(setting) + unit).c_str());
+      tooltip(setting.key + ": " + explanation(setting));
+    }
+    draw_setting(context, setting, narrow ? "" : (name_in_group(setting) + unit).c_str());
+  }
+  ImGui::PopFont();
+}
+
+void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Session", rectangle);
-  if (session_ != context.snapshot.session) {
-    session_ = context.snapshot.session;
+  if (seen_ != &context.snapshot && !ImGui::IsAnyItemActive()) {
+    seen_ = &context.snapshot;
     edited_ = context.snapshot.configuration;
   }
-  heading(context.style, "Session");
-  ImGui::Spacing();
+  if (defaults_.empty()) {
+    Configuration configuration;
+    for (const Setting& setting : settings(configuration)) defaults_.push_back(setting.text());
+  }
   std::vector<Setting> settings = nextview::settings(edited_);
   ImGui::BeginDisabled(!context.snapshot.loaded());
-  draw_object(context, settings);
-  for (const auto& [text, key] : {std::pair{"Gain", "planner.gain"}, {"Semantics", "planner.semantics"}}) {
-    label(context, text);
-    if (setting_control(find_setting(settings, key))) load(context);
-  }
-  draw_sensor(context, settings);
-  for (const auto& [text, key] : {std::pair{"Views", "termination.views"}, {"Seed", "seed"}}) {
-    label(context, text);
-    if (setting_control(find_setting(settings, key))) load(context);
-  }
+  for (const auto& [text, key] : {std::pair{"Object", "object.file"}, {"Gain", "planner.gain"}, {"Semantics", "planner.semantics"},
+                                  {"Sensor", "sensor.preset"}, {"Voxel [m]", "map.resolution"}, {"Views", "termination.views"}, {"Seed", "seed"}})
+    draw_setting(context, find_setting(settings, key), text);
+  small_text(context.style, "A change starts the scan over; undo brings it back.");
+  ImGui::Spacing();
+  for (const auto& [group, title] : groups)
+    if (ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
+  ImGui::Spacing();
+  command_button(context, "reset-settings", Icon::reset, "All settings back", false, ImGui::GetContentRegionAvail().x);
   ImGui::EndDisabled();
-  if (context.snapshot.loaded()) {
-    small_text(context.style, "A change starts the scan over.");
-  }
 }
 
 }  // namespace nextview

@@ -3,18 +3,21 @@
 
 namespace nextview {
 
-/// The settings that people change most. A change starts the scan over.
+/// Every setting with its unit, help, default and a way back to it: the ones that people change most, then all of them
+/// by group. A change starts the scan over.
 class SessionPanel {
  public:
-  void draw(PanelContext& context, const Rectangle& rectangle);
+  void draw(const PanelContext& context, const Rectangle& rectangle);
 
  private:
-  void draw_object(PanelContext& context, std::vector<Setting>& settings);
-  void draw_sensor(PanelContext& context, std::vector<Setting>& settings);
-  void load(PanelContext& context) const;
+  void draw_setting(const PanelContext& context, Setting& setting, const char* name);
+  void draw_object(const PanelContext& context, Setting& setting);
+  void draw_sensor(const PanelContext& context, const Setting& setting);
+  void draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group);
 
   Configuration edited_;
-  std::uint64_t session_ = 0;  ///< the one that `edited_` was taken from
+  const SessionSnapshot* seen_ = nullptr;  ///< that `edited_` was taken from
+  std::vector<std::string> defaults_;      ///< of all settings, as text
 };
 
 }  // namespace nextview

@@ -3,7 +3,7 @@
 
 namespace nextview {
 
-/// All keys and what the mouse does, over the middle of the scene. `open` becomes false when it is closed.
-void draw_shortcut_sheet(const Style& style, const Rectangle& scene, bool& open);
+/// All keys and what the mouse does, over the middle of the window.
+void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window);
 
 }  // namespace nextview

@@ -10,9 +10,8 @@ std::string last_step(const SessionSnapshot& s) {
   if (s.records.empty()) return "Nothing measured yet";
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
-  const std::string from = r.view < 0 ? "the start view" : fmt::format("candidate {}", r.view);
-  return fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats, {:.2f} s", r.step, from,
-                     r.overridden ? " (your choice)" : "", r.points, r.realised_gain, seconds);
+  return fmt::format("View {}: {} points, realised gain {:.0f} nats, {:.2f} s", r.step, r.points, r.realised_gain,
+                     seconds + r.seconds.refine);
 }
 
 std::string scanned(const SessionSnapshot& s) {
@@ -23,7 +22,7 @@ std::string scanned(const SessionSnapshot& s) {
 
 }  // namespace
 
-void draw_status_line(PanelContext& context, const Rectangle& rectangle) {
+void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Status", rectangle, ImGuiWindowFlags_NoScrollbar);
   const Style& style = context.style;
   const SessionSnapshot& s = context.snapshot;

@@ -4,6 +4,6 @@
 namespace nextview {
 
 /// What the last step did, or why the last command failed; at the right what is being scanned.
-void draw_status_line(PanelContext& context, const Rectangle& rectangle);
+void draw_status_line(const PanelContext& context, const Rectangle& rectangle);
 
 }  // namespace nextview

@@ -1,0 +1,85 @@
+#include "ui/panels/all_panels.hpp"
+
+#include "ui/panels/candidates_panel.hpp"
+#include "ui/panels/control_bar.hpp"
+#include "ui/panels/curves_panel.hpp"
+#include "ui/panels/inspector_panel.hpp"
+#include "ui/panels/layers_panel.hpp"
+#include "ui/panels/menu_bar.hpp"
+#include "ui/panels/shortcut_sheet.hpp"
+#include "ui/panels/status_line.hpp"
+#include "ui/panels/view_panel.hpp"
+
+namespace nextview {
+namespace {
+
+/// Panels leave a pixel between them.
+void draw_hairlines(const Layout& layout) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImU32 colour = to_imgui_u32(theme::hairline);
+  for (const Rectangle& r : {layout.menu, layout.left, layout.right, layout.scene, layout.bottom}) {
+    list.AddRect({float(r.x) - 1, float(r.y) - 1}, {float(r.x + r.width) + 1, float(r.y + r.height) + 1}, colour);
+  }
+}
+
+}  // namespace
+
+void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangle& rectangle) {
+  const Rectangle place = draw_tabs(context, side, rectangle);
+  switch (context.window.in_front(side)) {
+    case PanelName::session:
+      return session_.draw(context, place);
+    case PanelName::layers:
+      return draw_layers_panel(context, place);
+    case PanelName::candidates:
+      return draw_candidates_panel(context, place);
+    case PanelName::view:
+      return draw_view_panel(context, place);
+    case PanelName::inspector:
+      return draw_inspector_panel(context, place);
+    case PanelName::gibbs:
+      return gibbs_.draw(context, place);
+    case PanelName::curves:
+      return draw_curves_panel(context, place);
+    case PanelName::log:
+      return log_.draw(context, place);
+    case PanelName::count:
+      break;
+  }
+}
+
+void AllPanels::draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds) {
+  draw_menu_bar(context, layout.menu);
+  draw_control_bar(context, layout.control_bar);
+  for (const Side side : {Side::left, Side::right, Side::bottom}) draw_side(context, side, layout.of(side));
+  draw_status_line(context, layout.status);
+  draw_hairlines(layout);
+  notifications_.draw(context, layout.scene, log_count, seconds);
+  draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.status.y});
+  palette_.draw(context, layout.scene);
+}
+
+void obey_keys(const PanelContext& context) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool escape = ImGui::IsKeyPressed(static_cast<int>(Key::escape), false);
+  if (context.window.palette_open) {  // it has the keyboard; its own key closes it
+    if (io.KeyCtrl && ImGui::IsKeyPressed(static_cast<int>(key('P')), false)) context.call("palette");
+    return;
+  }
+  if (context.window.shortcuts_open && escape) return context.call("shortcuts");
+  if (io.WantTextInput) return;
+  for (const Command& command : commands()) {
+    if (!command.available(context.state())) continue;
+    for (const Shortcut& shortcut : command.shortcuts) {
+      if (shortcut.control != io.KeyCtrl || !ImGui::IsKeyPressed(static_cast<int>(shortcut.key), false)) continue;
+      if (shortcut.arguments.empty()) {
+        context.invoke(command);
+      } else {
+        context.calls.push_back({&command, shortcut.arguments});
+      }
+      return;  // play and pause share a key
+    }
+  }
+}
+
+}  // namespace nextview

@@ -1,0 +1,31 @@
+#pragma once
+#include "ui/panels/gibbs_panel.hpp"
+#include "ui/panels/log_panel.hpp"
+#include "ui/panels/notifications.hpp"
+#include "ui/panels/palette.hpp"
+#include "ui/panels/session_panel.hpp"
+
+namespace nextview {
+
+/// Every panel in its place. Needs no pixels: tests drive it without a surface.
+class AllPanels {
+ public:
+  /// `log_count`: of all entries ever; `seconds`: since the last frame.
+  void draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds);
+  /// How long the picture stays as it is if nothing happens [s].
+  double seconds_left() const { return notifications_.seconds_left(); }
+
+ private:
+  void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle);
+
+  SessionPanel session_;
+  GibbsPanel gibbs_;
+  LogPanel log_;
+  Palette palette_;
+  Notifications notifications_;
+};
+
+/// Emits the commands whose keys are pressed, unless a person is writing.
+void obey_keys(const PanelContext& context);
+
+}  // namespace nextview
