@@ -190,7 +190,7 @@ void SessionWorker::step() {
   }
   const auto progress = [this](double fraction, std::string_view what) { tell(fraction, what); };
   if (!session_->step(progress, stop)) return;
-  const PointCloud& points = session_->clouds().back();
+  const PointCloud& points = session_->scans().back()->returns;
   cloud_.insert(cloud_.end(), points.begin(), points.end());
 
   SessionSnapshot next = *snapshot();
