@@ -152,7 +152,7 @@ void prepare_output_folder(const std::filesystem::path& folder) {
 
 void write_scan(const Session& session, const std::filesystem::path& folder) {
   PointCloud cloud;
-  for (const PointCloud& part : session.clouds()) cloud.insert(cloud.end(), part.begin(), part.end());
+  for (const auto& scan : session.scans()) cloud.insert(cloud.end(), scan->returns.begin(), scan->returns.end());
   write_file(folder / "config.toml", to_toml(session.configuration()));
   write_file(folder / "steps.csv", steps_csv(session));
   write_file(folder / "scores.csv", scores_csv(session));

@@ -38,7 +38,7 @@ std::vector<Pose> views_taken(const fs::path& file, const Configuration& configu
     else if (step == 1)
       poses.push_back(configured_start_view(configuration));
     else
-      poses.push_back(Eigen::Translation3d(p) * q.normalized());
+      poses.push_back(make_pose(p, q));
   }
   if (poses.empty()) throw std::runtime_error(fmt::format("{}: holds no view", file.string()));
   return poses;

@@ -23,20 +23,20 @@ struct Material {
   const VoxelGrid& grid;
   std::span<const Voxel> voxels;
   std::optional<double> prior;  ///< if the voxels are a Gibbs map's: of a voxel being occupied
-  std::span<const Scan> scans;
+  std::vector<const Scan*> scans;
   const TriangleMesh* true_mesh;  ///< null: not known; nor are the samples then
   const SurfaceSamples* samples;
   std::span<const std::uint8_t> visible;
 };
 
 /// The returns that lie in the region: strays far off would make the cloud's lattice huge.
-std::vector<Scan> within_region(std::span<const Scan> scans, const VoxelGrid& grid) {
+std::vector<Scan> within_region(std::span<const Scan* const> scans, const VoxelGrid& grid) {
   const Eigen::AlignedBox3d region(grid.lower(), grid.upper());
   std::vector<Scan> cropped;
-  for (const Scan& scan : scans) {
+  for (const Scan* scan : scans) {
     Scan& kept = cropped.emplace_back();
-    kept.origin = scan.origin;
-    for (const Eigen::Vector3f& point : scan.returns)
+    kept.origin = scan->origin;
+    for (const Eigen::Vector3f& point : scan->returns)
       if (region.contains(point.cast<double>())) kept.returns.push_back(point);
   }
   return cropped;
@@ -121,9 +121,8 @@ Json to_json(const ScanSurface& s) {
 }  // namespace
 
 std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& progress, std::stop_token stop) {
-  std::vector<Scan> scans;
-  for (std::size_t k = 0; k < session.clouds().size(); ++k)
-    scans.push_back({session.records()[k].T_world_camera.translation(), session.clouds()[k], {}});
+  std::vector<const Scan*> scans;
+  for (const auto& scan : session.scans()) scans.push_back(scan.get());
   const KnownObject* known = session.known_object();
   return scan_surfaces(
       {session.map().grid(), session.planning_voxels(),
@@ -136,7 +135,9 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement, const Progress& progress,
                                        std::stop_token stop) {
   const RefinementTruth* truth = job.truth ? &*job.truth : nullptr;
-  return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, job.scans, truth ? truth->mesh.get() : nullptr,
+  std::vector<const Scan*> scans;
+  for (const Scan& scan : job.scans) scans.push_back(&scan);
+  return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
                         truth ? &truth->samples : nullptr,
                         truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
                        progress, stop);

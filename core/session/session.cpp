@@ -8,8 +8,8 @@
 
 #include "core/evaluation/entropy.hpp"
 #include "core/mesh/mesh_file.hpp"
-#include "core/planner/rank_correlation.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/view_planning.hpp"
 #include "core/session/visited_voxels.hpp"
 
 namespace nextview {
@@ -73,6 +73,8 @@ bool Session::step(const Progress& progress, std::stop_token stop) {
   if (next_) {
     record.gain = records_.back().candidates[*next_].gain;
     record.utility = records_.back().candidates[*next_].utility;
+  } else if (own_view_) {
+    record.gain = own_gain_;
   }
 
   tell(0.0, "taking the view");
@@ -91,12 +93,14 @@ bool Session::step(const Progress& progress, std::stop_token stop) {
   tell(0.6, "comparing with the object");
   evaluate(measurement, record);
   tell(0.7, "scoring the candidate views");
-  rank_candidates(record, {});  // ray casting (M, v_i) for all candidates left; a stop now would leave half a ranking
+  rank(record);                 // ray casting (M, v_i) for all candidates left
   next_ = record.ranking.best;  // p <- next best view
+  own_view_.reset();
   overridden_ = false;
-  clouds_.push_back(measurement.scan.returns);
+  scans_.push_back(measurement.scan);
   records_.push_back(std::move(record));
-  finished_ = termination();  // if p meets the terminal criterion, finish
+  // If p meets the terminal criterion, finish.
+  finished_ = termination(configuration_.termination, records_, map_.voxels().size());
   tell(1.0, "done");
   return true;
 }
@@ -110,11 +114,12 @@ Session::Measurement Session::measure(const Pose& T_world_camera, StepRecord& re
   }
   {
     Stopwatch watch(record.seconds.clean);
-    measurement.scan = back_project(image, T_world_camera, configuration_.sensor.max_range);
-    record.returns = measurement.scan.returns.size();
-    record.passes = measurement.scan.passes.size();
-    measurement.scan.returns = clean(measurement.scan.returns, configuration_.cloud);
-    record.points = measurement.scan.returns.size();
+    auto scan = std::make_shared<Scan>(back_project(image, T_world_camera, configuration_.sensor.max_range));
+    record.returns = scan->returns.size();
+    record.passes = scan->passes.size();
+    scan->returns = clean(scan->returns, configuration_.cloud);
+    record.points = scan->returns.size();
+    measurement.scan = std::move(scan);
   }
   if (known_object_) {
     Stopwatch watch(record.seconds.evaluate);
@@ -124,21 +129,21 @@ Session::Measurement Session::measure(const Pose& T_world_camera, StepRecord& re
 }
 
 void Session::update_map(const Measurement& measurement, StepRecord& record) {
+  const Scan& scan = *measurement.scan;
   const double max_range = configuration_.sensor.max_range;
   const std::size_t measured_before = measured_voxels(map_);
   {
     Stopwatch watch(record.seconds.insert);
     if (configuration_.map.insertion == Insertion::local_octree) {
       OccupancyMap local(map_.grid(), map_.model());
-      local.insert(measurement.scan, max_range);
-      map_.register_local(local, measurement.scan.origin);
+      local.insert(scan, max_range);
+      map_.register_local(local, scan.origin);
     } else {
-      map_.insert(measurement.scan, max_range);
+      map_.insert(scan, max_range);
     }
     if (needs_occlusion(configuration_))
-      map_.mark_occlusions(measurement.scan, max_range,
-                           0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
-    if (reference_map_) reference_map_->insert(measurement.scan.origin, measurement.scan.returns);
+      map_.mark_occlusions(scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
+    if (reference_map_) reference_map_->insert(scan.origin, scan.returns);
   }
   Stopwatch watch(record.seconds.evaluate);
   record.new_voxels = measured_voxels(map_) - measured_before;
@@ -150,7 +155,7 @@ void Session::refine_map(const Measurement& measurement, StepRecord& record, con
   const double entropy_before = records_.empty() ? untouched : records_.back().total_entropy;
   if (refinement_) {
     Stopwatch watch(record.seconds.refine);
-    refinement_->add(measurement.scan);
+    refinement_->add(*measurement.scan);
     const auto tell = [&](double fraction, std::string_view what) {
       if (progress) progress(0.5 + 0.1 * fraction, what);
     };
@@ -171,7 +176,7 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record) {
   Stopwatch watch(record.seconds.evaluate);
   const Scan ideal = back_project(measurement.ideal_image, record.T_world_camera, configuration_.sensor.max_range);
   mark_visited(map_.grid(), ideal, visited_voxels_);
-  known_object_->add_view(record.T_world_camera, measurement.scan.returns);
+  known_object_->add_view(record.T_world_camera, measurement.scan->returns);
   record.coverage = known_object_->coverage().of_all();
   record.coverage_visible = known_object_->coverage().of_visible();
   record.coverage_paper = known_object_->coverage_paper().of_all();
@@ -184,70 +189,43 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record) {
         probabilities(refinement_->voxels()), truth, TruthConvention::touch, ScoredSet::visited_band, visited_voxels_);
 }
 
-void Session::rank_candidates(StepRecord& record, std::stop_token stop) {
+void Session::rank(StepRecord& record) const {
   Stopwatch watch(record.seconds.score);
-  record.candidates.resize(candidates_.size());
-  std::vector<std::size_t> available;
-  for (std::size_t v = 0; v < candidates_.size(); ++v) {
-    Candidate& c = record.candidates[v];
-    c.cost = robot_->cost(robot_->pose(), candidates_[v]).distance;
-    c.available = !visited_[v] && !robot_->unreachable(candidates_[v]);
-    if (c.available) available.push_back(v);
-  }
   const PlanningState state{configuration_, caster(), bundle_, known_object_.get(), candidates_, taken_};
-  const auto gains = candidate_gains(state, available, stop);
-  for (std::size_t i = 0; i < available.size(); ++i) record.candidates[available[i]].gain = gains[i];
-  // Baselines stand for a policy of their own, in which the way there has no say.
-  UtilityWeights weights = configuration_.planner.weights;
-  if (is_baseline(configuration_.planner.gain)) weights = {1.0, 0.0};
-  record.ranking = rank(record.candidates, weights);
-  if (record.refinement) compare_rankings(record, available);
-}
-
-/// What the same gain would have made of the conventional map.
-void Session::compare_rankings(StepRecord& record, std::span<const std::size_t> available) const {
-  const PlanningState state{configuration_, map_rays_, bundle_, known_object_.get(), candidates_, taken_};
-  const auto gains = candidate_gains(state, available, {});
-  auto candidates = record.candidates;
-  std::vector<double> refined;
-  RefinementRecord& refinement = *record.refinement;
-  refinement.conventional_gains.assign(candidates.size(), 0.0);
-  for (std::size_t i = 0; i < available.size(); ++i) {
-    refined.push_back(candidates[available[i]].gain);
-    candidates[available[i]].gain = refinement.conventional_gains[available[i]] = gains[i];
-  }
-  refinement.rank_correlation = rank_correlation(refined, gains);
-  refinement.conventional_best = rank(candidates, configuration_.planner.weights).best;
-}
-
-std::string Session::termination() const {
-  const StepRecord& last = records_.back();
-  ScanProgress progress;
-  progress.views = static_cast<int>(records_.size());
-  progress.coverage = last.coverage_visible;
-  progress.candidates_left = last.ranking.best.has_value();
-  const auto best_gain = [](const StepRecord& r) {
-    double best = 0.0;
-    for (const Candidate& c : r.candidates)
-      if (c.available) best = std::max(best, c.gain);
-    return best;
-  };
-  progress.best_gain = best_gain(last);
-  progress.first_gain = best_gain(records_.front());
-  progress.new_voxel_share = double(last.new_voxels) / double(map_.voxels().size());
-  if (records_.size() > 1) progress.entropy_drop_share = 1.0 - last.entropy / records_[records_.size() - 2].entropy;
-  return termination_reason(configuration_.termination, progress);
+  rank_candidates(state, *robot_, visited_, record);
+  if (record.refinement)
+    compare_rankings({configuration_, map_rays_, bundle_, known_object_.get(), candidates_, taken_}, record);
 }
 
 void Session::override_next_view(std::size_t candidate) {
   const bool known = candidate < candidates_.size();
   if (!known || visited_[candidate] || robot_->unreachable(candidates_[candidate]))
     throw std::invalid_argument(fmt::format("candidate view {} is not available", candidate));
-  if (records_.empty())
-    throw std::invalid_argument("the first view is the start view; step once before choosing another");
+  require_first_step();
   overridden_ = records_.back().ranking.best != candidate;
   next_ = candidate;
+  own_view_.reset();
 }
+
+void Session::override_next_view(const Pose& T_world_camera) {
+  if (!is_rigid(T_world_camera))
+    throw std::invalid_argument("a view must be a finite position and a rotation, without scale or reflection");
+  if (const auto reason = robot_->unreachable(T_world_camera))
+    throw std::invalid_argument("the robot cannot reach the view: " + *reason);
+  require_first_step();
+  own_view_ = make_pose(T_world_camera.translation(), Eigen::Quaterniond(T_world_camera.linear()));
+  const auto expected = explain(*own_view_);
+  own_gain_ = expected ? expected->value : 0.0;
+  overridden_ = true;
+  next_.reset();
+}
+
+void Session::require_first_step() const {
+  if (records_.empty())
+    throw std::invalid_argument("the first view is the start view; step once before choosing another");
+}
+
+Pose Session::next_view() const { return own_view_ ? *own_view_ : next_ ? candidates_[*next_] : start_view_; }
 
 const RayCaster& Session::caster() const {
   if (reference_map_) return *reference_map_;
@@ -255,9 +233,13 @@ const RayCaster& Session::caster() const {
 }
 
 std::optional<ScoreExplanation> Session::explain(std::size_t candidate) const {
+  return explain(candidates_.at(candidate));
+}
+
+std::optional<ScoreExplanation> Session::explain(const Pose& T_world_camera) const {
   const PlannerConfig& planner = configuration_.planner;
   if (is_baseline(planner.gain) || planner.gain == "combined") return std::nullopt;
-  return explain_score(caster(), candidates_.at(candidate), bundle_, gain(planner.gain),
+  return explain_score(caster(), T_world_camera, bundle_, gain(planner.gain),
                        {planner.semantics, occlusion_reach(configuration_)});
 }
 

@@ -28,6 +28,10 @@ class Session {
   bool step(const Progress& progress = {}, std::stop_token stop = {});
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
   void override_next_view(std::size_t candidate);
+  /// Makes a view of the operator's own the next one. Its record has view -1, overridden, and the gain that explain()
+  /// expects of it now (0 if it has none). @throws std::invalid_argument before the first step, if the pose is not
+  /// finite and rigid (is_rigid), or if the robot cannot reach it.
+  void override_next_view(const Pose& T_world_camera);
 
   /// Why the scan is done; empty while it is not.
   const std::string& finished() const { return finished_; }
@@ -42,28 +46,32 @@ class Session {
   std::span<const Voxel> planning_voxels() const { return refinement_ ? refinement_->voxels() : map_.voxels(); }
   const std::vector<Pose>& candidates() const { return candidates_; }
   const std::vector<StepRecord>& records() const { return records_; }
-  const std::vector<PointCloud>& clouds() const { return clouds_; }                    ///< one a step, cleaned
+  const std::vector<std::shared_ptr<const Scan>>& scans() const { return scans_; }     ///< one a step, returns cleaned
   const KnownObject* known_object() const { return known_object_.get(); }              ///< null without evaluation
   const std::vector<std::uint8_t>& visited_voxels() const { return visited_voxels_; }  ///< by noise-free rays
 
-  /// The next view: a candidate; none before the first step, when it is the start view.
+  /// Where the next view is taken from. Before the first step this is the start view.
+  Pose next_view() const;
+  /// The candidate that this is; none if it is the start view, or a view of the operator's own.
   std::optional<std::size_t> next_candidate() const { return next_; }
-  Pose next_view() const { return next_ ? candidates_[*next_] : start_view_; }
+  /// Whether it is a view of the operator's own.
+  bool next_view_is_own() const { return own_view_.has_value(); }
   /// Why a candidate has its score now. Nothing for the combination and the baselines, which have no rays of their own.
   std::optional<ScoreExplanation> explain(std::size_t candidate) const;
+  /// What any other view would score now, taken apart. @pre is_rigid(T_world_camera)
+  std::optional<ScoreExplanation> explain(const Pose& T_world_camera) const;
 
  private:
   struct Measurement {
-    Scan scan;               ///< cleaned
-    DepthImage ideal_image;  ///< without noise; only with evaluation
+    std::shared_ptr<const Scan> scan;  ///< returns cleaned
+    DepthImage ideal_image;            ///< without noise; only with evaluation
   };
   Measurement measure(const Pose& T_world_camera, StepRecord& record) const;
   void update_map(const Measurement& measurement, StepRecord& record);
   void refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress);
   void evaluate(const Measurement& measurement, StepRecord& record);
-  void rank_candidates(StepRecord& record, std::stop_token stop);
-  void compare_rankings(StepRecord& record, std::span<const std::size_t> available) const;
-  std::string termination() const;
+  void rank(StepRecord& record) const;
+  void require_first_step() const;
   const RayCaster& caster() const;
 
   Configuration configuration_;
@@ -84,11 +92,13 @@ class Session {
 
   std::vector<bool> visited_;
   std::optional<std::size_t> next_;
+  std::optional<Pose> own_view_;
+  double own_gain_ = 0.0;  ///< expected of own_view_
   bool overridden_ = false;
   std::string finished_;
   std::vector<StepRecord> records_;
   std::vector<Pose> taken_;
-  std::vector<PointCloud> clouds_;
+  std::vector<std::shared_ptr<const Scan>> scans_;
   std::vector<std::uint8_t> visited_voxels_;
 };
 

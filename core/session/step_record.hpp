@@ -33,8 +33,9 @@ struct StepRecord {
   bool overridden = false;  ///< an operator chose it instead of the proposal
   Pose T_world_camera = Pose::Identity();
   MotionCost motion;  ///< of getting here
-  double gain = 0.0;  ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view
-  double utility = 0.0;
+  double gain = 0.0;  ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view, and for
+                      ///< an operator's own where the gain is not one of single views
+  double utility = 0.0;        ///< 0 for a view that is no candidate: it is a share of all candidates
   double realised_gain = 0.0;  ///< entropy that the map lost by this view [nats] (Eq. 12)
 
   std::size_t returns = 0;     ///< pixels that met a surface

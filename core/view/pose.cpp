@@ -28,6 +28,12 @@ Pose make_pose(const Vector3& position, const Eigen::Quaterniond& orientation) {
   return pose;
 }
 
+bool is_rigid(const Pose& pose) {
+  const Eigen::Matrix3d r = pose.linear();
+  return pose.matrix().allFinite() && (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
+         r.determinant() > 0.0;
+}
+
 double rotation_angle(const Pose& a, const Pose& b) {
   return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
 }

@@ -10,14 +10,14 @@ namespace {
 /// Points drawn at most: more do not show, and a software renderer feels each.
 constexpr std::size_t most_points = 150'000;
 
-PointCloud thinned(const std::vector<PointCloud>& clouds) {
+PointCloud thinned(const std::vector<std::shared_ptr<const Scan>>& scans) {
   std::size_t total = 0;
-  for (const PointCloud& cloud : clouds) total += cloud.size();
+  for (const auto& scan : scans) total += scan->returns.size();
   const std::size_t stride = total / most_points + 1;
   PointCloud points;
   std::size_t i = 0;
-  for (const PointCloud& cloud : clouds)
-    for (const Eigen::Vector3f& p : cloud)
+  for (const auto& scan : scans)
+    for (const Eigen::Vector3f& p : scan->returns)
       if (i++ % stride == 0) points.push_back(p);
   return points;
 }
@@ -52,7 +52,7 @@ StepPicture step_picture(const Session& session) {
   picture.object = session.mesh().get();
   picture.grid = session.map().grid();
   picture.voxels = session.planning_voxels();
-  picture.cloud = thinned(session.clouds());
+  picture.cloud = thinned(session.scans());
   picture.camera = session.camera().camera();
   picture.candidates = session.candidates();
   picture.chosen = session.next_candidate();

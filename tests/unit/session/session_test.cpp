@@ -17,7 +17,7 @@ TEST(Session, RunsAlgorithm2ToItsTermination) {
   EXPECT_FALSE(session.next_candidate());
   finish(session);
   ASSERT_EQ(session.records().size(), 4u);
-  EXPECT_EQ(session.clouds().size(), 4u);
+  EXPECT_EQ(session.scans().size(), 4u);
   EXPECT_NE(session.finished().find("4"), std::string::npos) << session.finished();
   EXPECT_THROW(session.step(), std::logic_error);
   std::set<int> views;
@@ -60,7 +60,7 @@ TEST(Session, RecordsAgreeWithTheMap) {
     EXPECT_EQ(r.entropy, double(session.map().voxels().size() - measured));  // Eq. 18: a bit a voxel
     EXPECT_NEAR(r.total_entropy * std::numbers::ln2, entropy, 1e-6 * entropy);
     EXPECT_NEAR(r.realised_gain, entropy_before - entropy, 1e-6 * entropy_before);  // Eq. 12
-    EXPECT_EQ(r.points, session.clouds().back().size());
+    EXPECT_EQ(r.points, session.scans().back()->returns.size());
     EXPECT_LE(r.points, r.returns);
     EXPECT_GT(r.points, 100u);
     EXPECT_LE(r.returns + r.passes, 80u * 60u);
@@ -94,7 +94,7 @@ TEST(Session, TheSameBytesOnOneThreadAndTwo) {
   c.seed = 2;
   const auto other = run(2);
   EXPECT_FALSE(same_scan(*one, *other));
-  EXPECT_NE(one->clouds()[0], other->clouds()[0]);
+  EXPECT_NE(one->scans()[0]->returns, other->scans()[0]->returns);
 }
 
 TEST(Session, LocalOctreesAndDirectInsertionGiveTheSameScan) {

@@ -58,9 +58,16 @@ inline bool same_map(const OccupancyMap& a, const OccupancyMap& b) {
                     });
 }
 
+inline bool same_scans(const Session& a, const Session& b) {
+  return std::equal(a.scans().begin(), a.scans().end(), b.scans().begin(), b.scans().end(),
+                    [](const auto& x, const auto& y) {
+                      return x->origin == y->origin && x->returns == y->returns && x->passes == y->passes;
+                    });
+}
+
 inline bool same_scan(const Session& a, const Session& b) {
   return std::equal(a.records().begin(), a.records().end(), b.records().begin(), b.records().end(), same_record) &&
-         same_map(a.map(), b.map()) && a.clouds() == b.clouds() && a.visited_voxels() == b.visited_voxels() &&
+         same_map(a.map(), b.map()) && same_scans(a, b) && a.visited_voxels() == b.visited_voxels() &&
          a.next_candidate() == b.next_candidate() && a.finished() == b.finished();
 }
 

@@ -1,0 +1,130 @@
+// Views of the operator's own, which are no candidates.
+#include <gtest/gtest.h>
+
+#include "core/session/refinement.hpp"
+#include "core/session/scan_files.hpp"
+#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/session/small_scan.hpp"
+
+namespace nextview {
+namespace {
+
+Pose own_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
+
+TEST(OwnView, IsTakenAndRecorded) {
+  Session session(small_scan());
+  session.step();
+  EXPECT_FALSE(session.next_view_is_own());
+  const ScoreExplanation expected = session.explain(own_view()).value();
+  session.override_next_view(own_view());
+  EXPECT_TRUE(session.next_view_is_own());
+  EXPECT_FALSE(session.next_candidate());
+  EXPECT_TRUE(session.next_view().isApprox(own_view(), 1e-12));
+  session.step();
+  const StepRecord r = session.records()[1];
+  EXPECT_EQ(r.view, -1);
+  EXPECT_TRUE(r.overridden);
+  EXPECT_GT(r.gain, 0.0);
+  EXPECT_NEAR(r.gain, expected.value, 1e-9 * expected.value);
+  EXPECT_EQ(r.utility, 0.0);
+  EXPECT_TRUE(r.T_world_camera.isApprox(own_view(), 1e-12));
+  EXPECT_EQ(session.scans()[1]->origin, own_view().translation());
+  EXPECT_GT(r.points, 100u);
+  for (const Candidate& c : r.candidates) EXPECT_TRUE(c.available) << "no candidate was visited";
+  EXPECT_FALSE(session.next_view_is_own());
+  session.step();
+  EXPECT_FALSE(session.records()[2].overridden);
+  EXPECT_EQ(session.records()[2].view, int(r.ranking.best.value()));
+}
+
+TEST(OwnView, ThatIsACandidatesPoseIsScoredAsThatCandidate) {
+  Session session(small_scan());
+  session.step();
+  for (const std::size_t v : {0u, 5u}) {
+    EXPECT_EQ(session.explain(session.candidates()[v])->value, session.explain(v)->value);
+    EXPECT_NEAR(session.explain(v)->value, session.records()[0].candidates[v].gain, 1e-9);
+  }
+}
+
+TEST(OwnView, ACandidateMayTakeItsPlaceAgain) {
+  Session session(small_scan());
+  session.step();
+  const std::size_t proposal = session.next_candidate().value();
+  session.override_next_view(own_view());
+  session.override_next_view(proposal);
+  EXPECT_FALSE(session.next_view_is_own());
+  session.step();
+  EXPECT_EQ(session.records()[1].view, int(proposal));
+  EXPECT_FALSE(session.records()[1].overridden);
+}
+
+TEST(OwnView, StaysTheNextOneWhenTakingItIsCancelled) {
+  Session session(small_scan());
+  session.step();
+  session.override_next_view(own_view());
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(session.step({}, stop.get_token()));
+  EXPECT_TRUE(session.next_view_is_own());
+  EXPECT_TRUE(session.step());
+  EXPECT_EQ(session.records()[1].view, -1);
+}
+
+TEST(OwnView, BadOnesAreRefusedAndChangeNothing) {
+  Session session(small_scan()), untouched(small_scan());
+  EXPECT_THROW(session.override_next_view(own_view()), std::invalid_argument) << "before the first step";
+  session.step();
+  untouched.step();
+  Pose nan = own_view(), infinite = own_view(), scaled = own_view(), mirrored = own_view(), sheared = own_view();
+  nan.translation().y() = std::nan("");
+  infinite.translation().x() = INFINITY;
+  scaled.linear() *= 1.01;
+  mirrored.linear().col(0) *= -1.0;
+  sheared.linear().col(0) += 0.01 * sheared.linear().col(1);
+  for (const Pose& bad : {nan, infinite, scaled, mirrored, sheared})
+    EXPECT_THROW(session.override_next_view(bad), std::invalid_argument);
+  EXPECT_FALSE(session.next_view_is_own());
+  session.step();
+  untouched.step();
+  EXPECT_TRUE(same_scan(session, untouched));
+}
+
+TEST(OwnView, GainsThatAreNotOfSingleViewsExpectNothing) {
+  for (const char* gain : {"random", "combined"}) {
+    Configuration c = small_scan();
+    c.planner.gain = gain;
+    Session session(c);
+    session.step();
+    EXPECT_FALSE(session.explain(own_view()));
+    session.override_next_view(own_view());
+    session.step();
+    EXPECT_EQ(session.records()[1].gain, 0.0);
+    EXPECT_EQ(session.records()[1].view, -1);
+  }
+}
+
+using OwnViewFiles = TemporaryFolder;
+TEST_F(OwnViewFiles, AreTakenAgainExactly) {
+  Session session(small_scan());
+  session.step();
+  session.override_next_view(own_view());
+  session.step();
+  session.step();
+  session.override_next_view(look_at(Vector3(-0.5, 0.4, -0.6), Vector3(0.05, 0, 0)));
+  session.step();
+  write_scan(session, folder_);
+  const RefinementJob job = refinement_job(folder_, {});
+  ASSERT_EQ(job.scans.size(), 4u);
+  OccupancyMap map(job.grid, job.model);
+  for (std::size_t k = 0; k < job.scans.size(); ++k) {
+    EXPECT_EQ(job.scans[k].origin, session.scans()[k]->origin) << k;
+    ASSERT_EQ(job.scans[k].returns.size(), session.scans()[k]->returns.size()) << k;
+    for (std::size_t i = 0; i < job.scans[k].returns.size(); ++i)
+      ASSERT_TRUE(job.scans[k].returns[i].isApprox(session.scans()[k]->returns[i], 1e-5f)) << k;
+    map.insert(job.scans[k], job.max_range);
+  }
+  EXPECT_TRUE(same_map(map, session.map()));
+}
+
+}  // namespace
+}  // namespace nextview
