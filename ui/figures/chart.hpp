@@ -14,6 +14,7 @@ namespace nextview {
 struct ChartSeries {
   std::string name;
   std::vector<double> x, y;  ///< as many of each; values that are not finite leave gaps
+  bool earlier = false;      ///< of an earlier run: pale, behind the others (panels only)
 };
 
 struct ChartContent {

@@ -2,9 +2,9 @@
 #include <optional>
 #include <vector>
 
+#include "ui/layers/styles.hpp"
 #include "ui/layers/voxel_filter.hpp"
 #include "ui/legend.hpp"
-#include "ui/layers/styles.hpp"
 
 namespace nextview {
 

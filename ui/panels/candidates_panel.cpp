@@ -123,7 +123,8 @@ void draw_degenerate(const PanelContext& context, const std::string& reason) {
 std::string next_text(const SessionSnapshot& s) {
   if (!s.finished.empty()) return "The scan is finished.";
   if (s.records.empty()) return "The first view is the start view; the candidates are ranked after it.";
-  if (s.own_next_view) return fmt::format("Next is a view of your own; proposed was view {}.", s.proposal().value_or(0));
+  if (s.own_next_view)
+    return fmt::format("Next is a view of your own; proposed was view {}.", s.proposal().value_or(0));
   if (!s.next_candidate) return "No candidate is left.";
   if (s.next_candidate == s.proposal()) return fmt::format("Next is the proposal, view {}.", *s.next_candidate);
   return fmt::format("Next is your choice, view {}; proposed was view {}.", *s.next_candidate, *s.proposal());
@@ -169,8 +170,7 @@ void draw_table(const PanelContext& context, float height) {
   if (!s.records.empty()) {
     const std::vector<Candidate>& candidates = s.records.back().candidates;
     const Largest largest(candidates);
-    for (const std::size_t i :
-         sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))
+    for (const std::size_t i : sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))
       draw_row(context, i, largest);
   }
   ImGui::EndTable();
@@ -193,7 +193,8 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
   const Panel panel("Candidates", rectangle, ImGuiWindowFlags_NoScrollbar);
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
-  small_text(context.style, fmt::format("ranked by {}, U = gain share − cost share (Eq. 13)", s.configuration.planner.gain));
+  small_text(context.style,
+             fmt::format("ranked by {}, U = gain share − cost share (Eq. 13)", s.configuration.planner.gain));
   if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty())
     draw_degenerate(context, s.records.back().ranking.degenerate);
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +

@@ -17,7 +17,8 @@ struct Curve {
   std::function<double(const StepRecord&)> value;
 };
 
-void add_curves(ChartContent& content, const SessionSnapshot& s, const std::vector<Curve>& curves, std::optional<double> at_start = {}) {
+void add_curves(ChartContent& content, const SessionSnapshot& s, const std::vector<Curve>& curves,
+                std::optional<double> at_start = {}) {
   for (const Curve& curve : curves) {
     ChartSeries series{curve.name, {}, {}};
     if (at_start) {
@@ -44,16 +45,26 @@ void add_curves(ChartContent& content, const SessionSnapshot& s, const std::vect
 
 ChartContent entropy_content(const SessionSnapshot& s) {
   ChartContent content{"Entropy of the map [Mbit]", "view", "", "entropy", "Mbit", {}, {}, true};
-  add_curves(content, s, {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }},
-                          {"total, ΣH(p)", [](const StepRecord& r) { return r.total_entropy / 1e6; }}},
+  add_curves(content, s,
+             {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }},
+              {"total, ΣH(p)", [](const StepRecord& r) { return r.total_entropy / 1e6; }}},
              double(s.grid.voxel_count()) / 1e6);
   return content;
 }
 
 ChartContent coverage_content(const SessionSnapshot& s) {
-  ChartContent content{fmt::format("Surface within {:g} mm of a point [%]", 1e3 * s.configuration.evaluation.d_reg), "view", "", "coverage", "%", {}, 100.0, true};
-  add_curves(content, s, {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }},
-                          {"of all surface", [](const StepRecord& r) { return 100 * r.coverage; }}}, 0.0);
+  ChartContent content{fmt::format("Surface within {:g} mm of a point [%]", 1e3 * s.configuration.evaluation.d_reg),
+                       "view",
+                       "",
+                       "coverage",
+                       "%",
+                       {},
+                       100.0,
+                       true};
+  add_curves(content, s,
+             {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }},
+              {"of all surface", [](const StepRecord& r) { return 100 * r.coverage; }}},
+             0.0);
   return content;
 }
 
@@ -66,18 +77,20 @@ ChartContent divergence_content(const SessionSnapshot& s) {
 ChartContent gain_content(const SessionSnapshot& s) {
   const std::string unit = s.gain_unit.empty() ? "" : fmt::format(" [{}]", s.gain_unit);
   ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
-  add_curves(content, s, {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
-                          {"predicted", [](const StepRecord& r) { return r.gain; }}});
+  add_curves(content, s,
+             {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
+              {"predicted", [](const StepRecord& r) { return r.gain; }}});
   return content;
 }
 
 ChartContent time_content(const SessionSnapshot& s) {
   ChartContent content{"Time of a step [s]", "view", "", "time", "s", {}, {}, true};
-  add_curves(content, s, {{"score", [](const StepRecord& r) { return r.seconds.score; }},
-                          {"insert", [](const StepRecord& r) { return r.seconds.insert; }},
-                          {"sense, clean", [](const StepRecord& r) { return r.seconds.sense + r.seconds.clean; }},
-                          {"evaluate", [](const StepRecord& r) { return r.seconds.evaluate; }},
-                          {"refine", [](const StepRecord& r) { return r.seconds.refine; }}});
+  add_curves(content, s,
+             {{"score", [](const StepRecord& r) { return r.seconds.score; }},
+              {"insert", [](const StepRecord& r) { return r.seconds.insert; }},
+              {"sense, clean", [](const StepRecord& r) { return r.seconds.sense + r.seconds.clean; }},
+              {"evaluate", [](const StepRecord& r) { return r.seconds.evaluate; }},
+              {"refine", [](const StepRecord& r) { return r.seconds.refine; }}});
   return content;
 }
 
@@ -94,7 +107,8 @@ void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle&
       if (!ImGui::Selectable(kind_names[i], i == now)) continue;
       auto chosen = context.window.curves;
       chosen[plot] = static_cast<CurveKind>(i);
-      context.call("curves", kind_names[static_cast<std::size_t>(chosen[0])], kind_names[static_cast<std::size_t>(chosen[1])]);
+      context.call("curves", kind_names[static_cast<std::size_t>(chosen[0])],
+                   kind_names[static_cast<std::size_t>(chosen[1])]);
     }
     ImGui::EndCombo();
   }

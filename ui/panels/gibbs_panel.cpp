@@ -42,15 +42,19 @@ void draw_traces(const PanelContext& context, const SamplerDiagnostics& d) {
 
 void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d) {
   const Colour good = theme::series[2];
-  small_text(context.style, d.stationary ? fmt::format("Stationary after {} sweeps of {} chains.", d.sweeps, d.log_posterior.size()) : d.warning,
+  small_text(context.style,
+             d.stationary ? fmt::format("Stationary after {} sweeps of {} chains.", d.sweeps, d.log_posterior.size())
+                          : d.warning,
              d.stationary ? good : theme::chosen);
   if (!ImGui::BeginTable("stationarity", 2)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(150));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   ImGui::PushFont(context.style.small);
-  table_row("R-hat", fmt::format("{:.3f} (wanted: under 1.05)", d.r_hat), "Split R-hat of the log-posterior: 1 if the chains agree");
+  table_row("R-hat", fmt::format("{:.3f} (wanted: under 1.05)", d.r_hat),
+            "Split R-hat of the log-posterior: 1 if the chains agree");
   table_row("trend |z|", fmt::format("{:.1f} (under 2.58)", d.trend), "Geweke's statistic of the log-posterior");
-  table_row("voxels that differ", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels), "Informed voxels whose mean differs by over 0.5 between two chains");
+  table_row("voxels that differ", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels),
+            "Informed voxels whose mean differs by over 0.5 between two chains");
   table_row("effective samples", fmt::format("{:.0f}", d.effective_samples), "Of the log-posterior");
   table_row("rays", fmt::format("{} of {} joined", d.joined_rays, d.measured_rays));
   table_row("time", fmt::format("{:.1f} s", d.build_seconds + d.sample_seconds));
@@ -117,7 +121,8 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
   tooltip(help_of(context, refine));
   ImGui::SameLine(0, gap);
   const bool held = context.progress.paused;
-  command_button(context, held ? "continue-refinement" : "hold-refinement", held ? Icon::play : Icon::pause, held ? "Go on" : "Hold", false, width);
+  command_button(context, held ? "continue-refinement" : "hold-refinement", held ? Icon::play : Icon::pause,
+                 held ? "Go on" : "Hold", false, width);
 }
 
 void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
@@ -133,9 +138,13 @@ void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
     }
     return;
   }
-  if (!s.gibbs) return small_text(context.style, "No Gibbs map yet. It is the mean over whole maps drawn from the posterior of all rays, without the independence assumptions of the conventional map.");
+  if (!s.gibbs)
+    return small_text(context.style,
+                      "No Gibbs map yet. It is the mean over whole maps drawn from the posterior of all rays, without "
+                      "the independence assumptions of the conventional map.");
   if (s.gibbs->views < s.records.size())
-    small_text(context.style, fmt::format("This is the map of the first {} views: refine again.", s.gibbs->views), theme::chosen);
+    small_text(context.style, fmt::format("This is the map of the first {} views: refine again.", s.gibbs->views),
+               theme::chosen);
   draw_stationarity(context, s.gibbs->posterior.diagnostics);
   draw_before_and_after(context);
   draw_changes(context, s.gibbs->change);

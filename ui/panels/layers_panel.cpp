@@ -120,7 +120,9 @@ void draw_layers_panel(const PanelContext& context, const Rectangle& rectangle) 
   });
   toggle(context, "toggle-missed", "Missed surface");
   toggle(context, "toggle-cloud", "Point cloud");
-  nested([&] { choices(context, "cloud-colour", "Coloured by", static_cast<std::size_t>(layers.cloud_colouring), clouds); });
+  nested([&] {
+    choices(context, "cloud-colour", "Coloured by", static_cast<std::size_t>(layers.cloud_colouring), clouds);
+  });
   toggle(context, "toggle-octree", "Octree");
   nested([&] { draw_octree(context); });
   toggle(context, "toggle-views", "Candidate views");

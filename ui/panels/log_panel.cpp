@@ -10,7 +10,8 @@ void draw_entry(const Style& style, const LogEntry& entry) {
   if (warning) {
     draw_icon(Icon::warning, {corner.x + size / 2, middle}, size, to_imgui_u32(colour));
   } else {
-    ImGui::GetWindowDrawList()->AddCircleFilled({corner.x + size / 2, middle}, style.px(3), to_imgui_u32(success ? colour : theme::hairline));
+    ImGui::GetWindowDrawList()->AddCircleFilled({corner.x + size / 2, middle}, style.px(3),
+                                                to_imgui_u32(success ? colour : theme::hairline));
   }
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + size + style.px(8));
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));

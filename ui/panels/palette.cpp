@@ -57,7 +57,9 @@ std::vector<const Command*> matching_commands(std::string_view text) {
         std::all_of(wanted.begin(), wanted.end(), [&](const std::string& w) { return all.find(w) != all.npos; });
     if (!matches) continue;
     const std::string first = wanted.empty() ? "" : wanted.front();
-    const int rank = command.name.starts_with(first) ? 0 : (command.name + lower_case(command.text)).find(first) != std::string::npos ? 1 : 2;
+    const int rank = command.name.starts_with(first)                                              ? 0
+                     : (command.name + lower_case(command.text)).find(first) != std::string::npos ? 1
+                                                                                                  : 2;
     found.emplace_back(rank, &command);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -102,7 +104,8 @@ void Palette::draw_commands(const PanelContext& context) {
     const bool pressed = ImGui::Selectable(fmt::format("{}##{}", command.text, command.name).c_str(), i == chosen_);
     ImGui::PopStyleColor();
     tooltip(help_of(context, command));
-    if (i == chosen_ && (ImGui::IsKeyPressed(static_cast<int>(Key::down)) || ImGui::IsKeyPressed(static_cast<int>(Key::up))))
+    if (i == chosen_ &&
+        (ImGui::IsKeyPressed(static_cast<int>(Key::down)) || ImGui::IsKeyPressed(static_cast<int>(Key::up))))
       ImGui::SetScrollHereY();
     ImGui::PushFont(style.small);
     const std::string keys = command.keys();
@@ -133,7 +136,8 @@ void Palette::draw_values(const PanelContext& context, const Command& command) {
     if (argument.choices) {
       for (const std::string& value : argument.choices(context.snapshot)) {
         if (!begun.empty() && value.find(begun) == value.npos) continue;
-        if (ImGui::Selectable(value.c_str())) put(text_.substr(0, text_.rfind(' ') + 1) + value + (at + 1 < command.arguments.size() ? " " : ""));
+        if (ImGui::Selectable(value.c_str()))
+          put(text_.substr(0, text_.rfind(' ') + 1) + value + (at + 1 < command.arguments.size() ? " " : ""));
       }
     }
   }
@@ -151,15 +155,19 @@ void Palette::draw(const PanelContext& context, const Rectangle& scene) {
   }
   if (opened || started) put(context.window.palette_text);
   const Style& style = context.style;
-  ImGui::SetNextWindowPos({float(scene.x + scene.width / 2), float(scene.y) + style.px(12)}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowPos({float(scene.x + scene.width / 2), float(scene.y) + style.px(12)}, ImGuiCond_Always,
+                          {0.5f, 0});
   ImGui::SetNextWindowSize({std::min(style.px(620), float(scene.width) - style.px(24)), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
-  ImGui::Begin("Commands", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("Commands", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
   if (opened) ImGui::SetWindowFocus();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (opened || put_) ImGui::SetKeyboardFocusHere();
-  if (ImGui::InputTextWithHint("##palette", "A command, or a line of a script", &text_, ImGuiInputTextFlags_CallbackAlways, to_end, &put_)) {
+  if (ImGui::InputTextWithHint("##palette", "A command, or a line of a script", &text_,
+                               ImGuiInputTextFlags_CallbackAlways, to_end, &put_)) {
     chosen_ = 0;
     error_.clear();
   }

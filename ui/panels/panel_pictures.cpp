@@ -39,8 +39,7 @@ void PanelPictures::upload(unsigned int texture, const Image& image) const {
 ImTextureID PanelPictures::get(const std::string& name, std::uint64_t version, const std::function<Image()>& make) {
   if (!surface_) return nullptr;
   Picture& picture = pictures_[name];
-  if (picture.texture == 0)
-    gl<void (*)(int, unsigned int*)>(*surface_, "glGenTextures")(1, &picture.texture);
+  if (picture.texture == 0) gl<void (*)(int, unsigned int*)>(*surface_, "glGenTextures")(1, &picture.texture);
   if (picture.version != version) {
     upload(picture.texture, make());
     picture.version = version;

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "ui/colour_map.hpp"
+
 namespace nextview {
 namespace {
+
+constexpr std::size_t most_dots = 40;  ///< of a series: more would be a thick line
 
 ImU32 series_colour(std::size_t index) { return to_imgui_u32(theme::series[index % theme::series.size()]); }
 
@@ -81,18 +85,23 @@ void draw_grid(const Style& style, const ChartContent& content, const Axes& axes
                content.x_label.c_str());
 }
 
-void draw_series(const Style& style, const ChartContent& content, const Axes& axes) {
+void draw_one_series(const Style& style, const ChartSeries& series, const Axes& axes, ImU32 colour) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (std::size_t s = 0; s < content.series.size(); ++s) {
-    const ChartSeries& series = content.series[s];
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
-      const ImVec2 point(axes.x(series.x[i]), axes.y(series.y[i]));
-      if (i > 0) {
-        list.AddLine({axes.x(series.x[i - 1]), axes.y(series.y[i - 1])}, point, series_colour(s), style.px(1.8f));
-      }
-      list.AddCircleFilled(point, style.px(2.6f), series_colour(s));
-    }
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const ImVec2 point(axes.x(series.x[i]), axes.y(series.y[i]));
+    if (i > 0)
+      list.AddLine({axes.x(series.x[i - 1]), axes.y(series.y[i - 1])}, point, colour,
+                   style.px(series.earlier ? 1.2f : 1.8f));
+    if (!series.earlier && series.x.size() <= most_dots) list.AddCircleFilled(point, style.px(2.6f), colour);
   }
+}
+
+void draw_series(const Style& style, const ChartContent& content, const Axes& axes) {
+  const ImU32 pale = to_imgui_u32(mix(theme::visited, theme::paper, 0.55));
+  for (const ChartSeries& series : content.series)
+    if (series.earlier) draw_one_series(style, series, axes, pale);
+  for (std::size_t s = 0; s < content.series.size(); ++s)
+    if (!content.series[s].earlier) draw_one_series(style, content.series[s], axes, series_colour(s));
 }
 
 void draw_values_at(const Style& style, const ChartContent& content, const Axes& axes, ImVec2 pointer) {
@@ -100,16 +109,17 @@ void draw_values_at(const Style& style, const ChartContent& content, const Axes&
   const auto nearest = std::min_element(xs.begin(), xs.end(), [&](double a, double b) {
     return std::abs(axes.x(a) - pointer.x) < std::abs(axes.x(b) - pointer.x);
   });
-  const auto index = static_cast<std::size_t>(nearest - xs.begin());
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float x = std::round(axes.x(*nearest));
   list.AddLine({x, axes.lower_left.y}, {x, axes.upper_right.y}, to_imgui_u32(theme::soft_ink));
   std::string text = fmt::format("{} {:g}", content.x_label, *nearest);
   for (std::size_t s = 0; s < content.series.size(); ++s) {
     const ChartSeries& series = content.series[s];
-    if (index >= series.y.size()) continue;
-    list.AddCircleFilled({x, axes.y(series.y[index])}, style.px(4.5f), series_colour(s));
-    text += fmt::format("\n{}: {:.4g} {}", series.name, series.y[index], content.y_unit);
+    const auto same_x = std::find(series.x.begin(), series.x.end(), *nearest);
+    if (same_x == series.x.end()) continue;
+    const double value = series.y[static_cast<std::size_t>(same_x - series.x.begin())];
+    if (!series.earlier) list.AddCircleFilled({x, axes.y(value)}, style.px(4.5f), series_colour(s));
+    text += fmt::format("\n{}: {:.4g} {}", series.name, value, content.y_unit);
   }
   ImGui::SetTooltip("%s", text.c_str());
 }
@@ -125,7 +135,7 @@ void draw_plot(const Style& style, const ChartContent& content, const Rectangle&
   draw_grid(style, content, axes);
   draw_series(style, content, axes);
   const ImVec2 pointer = ImGui::GetIO().MousePos;
-  if (!content.series.empty() && ImGui::IsWindowHovered() && axes.contains(pointer)) {
+  if (!content.series.empty() && !content.series[0].x.empty() && ImGui::IsWindowHovered() && axes.contains(pointer)) {
     draw_values_at(style, content, axes, pointer);
   }
 }

@@ -14,13 +14,16 @@ Vector3 centre_of(const ScoreExplanation::Voxel& voxel, double resolution) {
 }
 
 /// A row of numbers; the contribution has a bar behind it.
-void draw_row(const PanelContext& context, const ScoreExplanation::Voxel& voxel, std::size_t index, double distance, double largest) {
+void draw_row(const PanelContext& context, const ScoreExplanation::Voxel& voxel, std::size_t index, double distance,
+              double largest) {
   const SessionSnapshot& s = context.snapshot;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const Vector3 centre = centre_of(voxel, s.grid.resolution);
   const bool in_grid = s.grid.contains(s.grid.cell_at(centre));
-  if (ImGui::Selectable(fmt::format("{:.0f}##{}", 1e3 * distance, index).c_str(), false, ImGuiSelectableFlags_SpanAllColumns) && in_grid)
+  if (ImGui::Selectable(fmt::format("{:.0f}##{}", 1e3 * distance, index).c_str(), false,
+                        ImGuiSelectableFlags_SpanAllColumns) &&
+      in_grid)
     context.call("inspect-voxel", centre.x(), centre.y(), centre.z());
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(voxel.measured ? fmt::format("{:.3f}", voxel.probability).c_str() : "unseen");
@@ -30,8 +33,9 @@ void draw_row(const PanelContext& context, const ScoreExplanation::Voxel& voxel,
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
   if (largest > 0 && voxel.contribution > 0)
-    ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + width * float(voxel.contribution / largest), corner.y + height},
-                                              to_imgui_u32(mix(theme::chosen, theme::paper, 0.75)), context.style.px(2));
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        corner, {corner.x + width * float(voxel.contribution / largest), corner.y + height},
+        to_imgui_u32(mix(theme::chosen, theme::paper, 0.75)), context.style.px(2));
   ImGui::TextUnformatted(readable(voxel.contribution).c_str());
 }
 
@@ -42,7 +46,9 @@ void draw_ray_details(const PanelContext& context, const ScoreExplanation& expla
   const std::string unit = context.snapshot.gain_unit;
   heading(context.style, fmt::format("Ray {} of {}", index, explanation.rays.size()).c_str());
   const double share = explanation.value != 0 ? 100 * ray.contribution / explanation.value : 0;
-  small_text(context.style, fmt::format("It contributes {} of the view's {} {} ({:.2f} %): the sum over its {} voxels.", readable(ray.contribution), readable(explanation.value), unit, share, ray.voxels.size()));
+  small_text(context.style,
+             fmt::format("It contributes {} of the view's {} {} ({:.2f} %): the sum over its {} voxels.",
+                         readable(ray.contribution), readable(explanation.value), unit, share, ray.voxels.size()));
   if (ray.voxels.empty()) return small_text(context.style, "It misses the region of interest.");
   double largest = 0;
   for (const auto& voxel : ray.voxels) largest = std::max(largest, voxel.contribution);
@@ -53,7 +59,8 @@ void draw_ray_details(const PanelContext& context, const ScoreExplanation& expla
   ImGui::TableSetupColumn("at [mm]", ImGuiTableColumnFlags_WidthFixed, context.style.px(56));
   ImGui::TableSetupColumn("p", ImGuiTableColumnFlags_WidthFixed, context.style.px(54));
   ImGui::TableSetupColumn("visibility", ImGuiTableColumnFlags_WidthFixed, context.style.px(64));
-  ImGui::TableSetupColumn(fmt::format("adds [{}]", unit.empty() ? "1" : unit).c_str(), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(fmt::format("adds [{}]", unit.empty() ? "1" : unit).c_str(),
+                          ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   const Vector3 origin = context.inspection.view->T_world_camera.translation();
   for (std::size_t i = 0; i < ray.voxels.size(); ++i) {
@@ -62,7 +69,8 @@ void draw_ray_details(const PanelContext& context, const ScoreExplanation& expla
   }
   ImGui::PopFont();
   ImGui::EndTable();
-  small_text(context.style, "at: distance from the camera; visibility: how likely the ray gets there. Click a voxel to inspect it.");
+  small_text(context.style,
+             "at: distance from the camera; visibility: how likely the ray gets there. Click a voxel to inspect it.");
 }
 
 }  // namespace nextview

@@ -46,10 +46,10 @@ void draw_way_back(const PanelContext& context, const Setting& setting, const st
   tooltip(fmt::format("Back to the default, {}", default_text.empty() ? "nothing" : default_text));
 }
 
-constexpr std::array groups = {std::pair{"object", "Object"},       std::pair{"sensor", "Sensor"},
-                               std::pair{"cloud", "Cloud"},         std::pair{"map", "Map"},
+constexpr std::array groups = {std::pair{"object", "Object"},         std::pair{"sensor", "Sensor"},
+                               std::pair{"cloud", "Cloud"},           std::pair{"map", "Map"},
                                std::pair{"views", "Candidate views"}, std::pair{"planner", "Planner"},
-                               std::pair{"gibbs", "Gibbs sampler"}, std::pair{"termination", "Termination"},
+                               std::pair{"gibbs", "Gibbs sampler"},   std::pair{"termination", "Termination"},
                                std::pair{"evaluation", "Evaluation"}};
 
 /// "range noise [m]"
@@ -132,8 +132,13 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   }
   std::vector<Setting> settings = nextview::settings(edited_);
   ImGui::BeginDisabled(!context.snapshot.loaded());
-  for (const auto& [text, key] : {std::pair{"Object", "object.file"}, {"Gain", "planner.gain"}, {"Semantics", "planner.semantics"},
-                                  {"Sensor", "sensor.preset"}, {"Voxel [m]", "map.resolution"}, {"Views", "termination.views"}, {"Seed", "seed"}})
+  for (const auto& [text, key] : {std::pair{"Object", "object.file"},
+                                  {"Gain", "planner.gain"},
+                                  {"Semantics", "planner.semantics"},
+                                  {"Sensor", "sensor.preset"},
+                                  {"Voxel [m]", "map.resolution"},
+                                  {"Views", "termination.views"},
+                                  {"Seed", "seed"}})
     draw_setting(context, find_setting(settings, key), text);
   small_text(context.style, "A change starts the scan over; undo brings it back.");
   ImGui::Spacing();

@@ -34,12 +34,14 @@ void draw_choice(const PanelContext& context) {
   const LookedAt& view = context.window.selection.view;
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::BeginCombo("##view", title(s, view).c_str(), ImGuiComboFlags_HeightLarge)) return;
-  if (s.finished.empty() && ImGui::Selectable("The next view", view.kind == LookedAt::Kind::next)) context.call("select-next");
+  if (s.finished.empty() && ImGui::Selectable("The next view", view.kind == LookedAt::Kind::next))
+    context.call("select-next");
   for (std::size_t i = s.records.size(); i-- > 0;)
     if (ImGui::Selectable(fmt::format("View {} as taken", i + 1).c_str(), view.is(LookedAt::Kind::taken, i)))
       context.call("select-taken", i + 1);
   for (std::size_t i = 0; i < s.candidates.size(); ++i)
-    if (s.available(i) && ImGui::Selectable(fmt::format("Candidate {}", i).c_str(), view.is(LookedAt::Kind::candidate, i)))
+    if (s.available(i) &&
+        ImGui::Selectable(fmt::format("Candidate {}", i).c_str(), view.is(LookedAt::Kind::candidate, i)))
       context.call("select-view", i);
   ImGui::EndCombo();
 }
@@ -72,11 +74,13 @@ void draw_depth(const PanelContext& context, const ViewInspection& view) {
   const ExpectedView& e = view.expected;
   const bool taken = !view.measured.empty();
   const auto [near, far] = depth_range(view.measured, e.depth);
-  small_text(context.style, taken ? "depth as measured" : "depth as the map has it; striped: the way there is not known");
-  draw_picture(context, taken ? "measured" : "expected", context.inspection.number, double(e.rows) / e.columns, [&, near = near, far = far] {
-    return taken ? depth_picture(view.measured, {}, e.columns, e.rows, near, far)
-                 : depth_picture(e.depth, e.unknown, e.columns, e.rows, near, far);
-  });
+  small_text(context.style,
+             taken ? "depth as measured" : "depth as the map has it; striped: the way there is not known");
+  draw_picture(context, taken ? "measured" : "expected", context.inspection.number, double(e.rows) / e.columns,
+               [&, near = near, far = far] {
+                 return taken ? depth_picture(view.measured, {}, e.columns, e.rows, near, far)
+                              : depth_picture(e.depth, e.unknown, e.columns, e.rows, near, far);
+               });
   const auto cell = pointed_cell(e.columns, e.rows);
   if (!cell) return;
   const float depth = taken ? view.measured[*cell] : e.depth[*cell];
@@ -89,46 +93,59 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   if (!view.explanation) return small_text(context.style, view.no_explanation);
   const ScoreExplanation& e = *view.explanation;
   const PlannerConfig& planner = context.snapshot.configuration.planner;
-  const int columns = planner.semantics == Semantics::published ? planner.ray_columns : int(std::lround(std::sqrt(double(e.rays.size()))));
+  const int columns = planner.semantics == Semantics::published ? planner.ray_columns
+                                                                : int(std::lround(std::sqrt(double(e.rays.size()))));
   const int rows = int(e.rays.size()) / std::max(columns, 1);
   const std::string unit = context.snapshot.gain_unit;
-  small_text(context.style, fmt::format("what each of its {} rays contributes: up to {} {}", e.rays.size(), readable(largest_contribution(e)), unit));
+  small_text(context.style, fmt::format("what each of its {} rays contributes: up to {} {}", e.rays.size(),
+                                        readable(largest_contribution(e)), unit));
   if (columns < 1 || rows < 1) return;
   const PinholeCamera& camera = context.snapshot.camera;
-  const double aspect = planner.semantics == Semantics::published ? double(camera.height) / camera.width : double(rows) / columns;
-  const ImVec2 corner = draw_picture(context, "contributions", context.inspection.number, aspect, [&] { return contribution_picture(e, columns); });
+  const double aspect =
+      planner.semantics == Semantics::published ? double(camera.height) / camera.width : double(rows) / columns;
+  const ImVec2 corner = draw_picture(context, "contributions", context.inspection.number, aspect,
+                                     [&] { return contribution_picture(e, columns); });
   const auto cell = pointed_cell(columns, rows);
   const ImVec2 to = ImGui::GetItemRectMax();
   const auto mark = [&](std::size_t ray, const Colour& colour) {
     const float w = (to.x - corner.x) / float(columns), h = (to.y - corner.y) / float(rows);
-    const float x = corner.x + float(ray % std::size_t(columns)) * w, y = corner.y + float(ray / std::size_t(columns)) * h;
-    ImGui::GetWindowDrawList()->AddRect({x - 1, y - 1}, {x + w + 1, y + h + 1}, to_imgui_u32(colour), 0, 0, context.style.px(1.5f));
+    const float x = corner.x + float(ray % std::size_t(columns)) * w,
+                y = corner.y + float(ray / std::size_t(columns)) * h;
+    ImGui::GetWindowDrawList()->AddRect({x - 1, y - 1}, {x + w + 1, y + h + 1}, to_imgui_u32(colour), 0, 0,
+                                        context.style.px(1.5f));
   };
   if (const auto& ray = context.window.selection.ray; ray && *ray < e.rays.size()) mark(*ray, theme::ink);
   if (!cell || *cell >= e.rays.size()) return;
   mark(*cell, theme::series[0]);
-  ImGui::SetTooltip("ray %zu: %s %s\nclick to see its voxels", *cell, readable(e.rays[*cell].contribution).c_str(), unit.c_str());
+  ImGui::SetTooltip("ray %zu: %s %s\nclick to see its voxels", *cell, readable(e.rays[*cell].contribution).c_str(),
+                    unit.c_str());
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.call("inspect-ray", *cell);
 }
 
 void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
   const std::string unit = context.snapshot.gain_unit;
-  const std::string from = r.view < 0 ? (r.overridden ? "your own view" : "the start view") : fmt::format("candidate {}{}", r.view, r.overridden ? ", your choice" : "");
+  const std::string from = r.view < 0 ? (r.overridden ? "your own view" : "the start view")
+                                      : fmt::format("candidate {}{}", r.view, r.overridden ? ", your choice" : "");
   table_row("taken from", from);
-  table_row("predicted gain", r.view < 0 && !r.overridden ? "none" : fmt::format("{} {}", readable(r.gain), unit), "What the planner expected of this view, on the map before it");
-  table_row("realised gain", fmt::format("{} nats", readable(r.realised_gain)), "Entropy that the map lost by this view (Eq. 12)");
+  table_row("predicted gain", r.view < 0 && !r.overridden ? "none" : fmt::format("{} {}", readable(r.gain), unit),
+            "What the planner expected of this view, on the map before it");
+  table_row("realised gain", fmt::format("{} nats", readable(r.realised_gain)),
+            "Entropy that the map lost by this view (Eq. 12)");
   table_row("new voxels", fmt::format("{}", r.new_voxels), "Measured for the first time");
   table_row("points", fmt::format("{} of {} returns", r.points, r.returns), "Left after the cleaning of the cloud");
   table_row("beyond range", fmt::format("{} rays", r.passes));
-  table_row("way there", fmt::format("{:.2f} m, {:.0f}°", r.motion.distance, 180 / std::numbers::pi * r.motion.rotation));
+  table_row("way there",
+            fmt::format("{:.2f} m, {:.0f}°", r.motion.distance, 180 / std::numbers::pi * r.motion.rotation));
 }
 
 void draw_candidate_numbers(const PanelContext& context, const ViewInspection& view) {
   const SessionSnapshot& s = context.snapshot;
   const std::string unit = s.gain_unit;
-  const auto candidate = view.view.kind == LookedAt::Kind::next ? s.next_candidate : context.window.selection.candidate();
+  const auto candidate =
+      view.view.kind == LookedAt::Kind::next ? s.next_candidate : context.window.selection.candidate();
   if (view.explanation)
-    table_row("expected gain", fmt::format("{} {}", readable(view.explanation->value), unit), "The sum of what its rays contribute");
+    table_row("expected gain", fmt::format("{} {}", readable(view.explanation->value), unit),
+              "The sum of what its rays contribute");
   if (!candidate || s.records.empty()) return;
   const Candidate& c = s.records.back().candidates[*candidate];
   if (!c.available) return table_row("", "visited");
@@ -158,8 +175,10 @@ void draw_buttons(const PanelContext& context) {
   ImGui::SameLine(0, gap);
   command_button(context, "own-view", Icon::none, "View as I look now", false, width);
   const LookedAt::Kind kind = context.window.selection.view.kind;
-  if (kind == LookedAt::Kind::candidate) command_button(context, "take-view", Icon::none, "Take this view next", true, 2 * width + gap);
-  if (kind == LookedAt::Kind::own) command_button(context, "take-own-view", Icon::none, "Take my own view next", true, 2 * width + gap);
+  if (kind == LookedAt::Kind::candidate)
+    command_button(context, "take-view", Icon::none, "Take this view next", true, 2 * width + gap);
+  if (kind == LookedAt::Kind::own)
+    command_button(context, "take-own-view", Icon::none, "Take my own view next", true, 2 * width + gap);
 }
 
 }  // namespace

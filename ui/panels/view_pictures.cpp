@@ -28,7 +28,8 @@ Image depth_picture(std::span<const float> depth, std::span<const std::uint8_t> 
     const int column = int(i) % columns, row = int(i) / columns;
     const bool stripe = !unknown.empty() && unknown[i] && (column + row) % stripe_spacing == 0;
     const double place = far > near ? (depth[i] - near) / (far - near) : 0.5;
-    const Colour colour = depth[i] < 0 ? theme::paper : mix(theme::cloud, theme::sky, 0.1 + 0.8 * std::clamp(place, 0.0, 1.0));
+    const Colour colour =
+        depth[i] < 0 ? theme::paper : mix(theme::cloud, theme::sky, 0.1 + 0.8 * std::clamp(place, 0.0, 1.0));
     set_pixel(image, i, stripe ? mix(colour, theme::unknown, 0.8) : colour);
   }
   return image;

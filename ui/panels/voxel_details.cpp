@@ -37,7 +37,8 @@ void draw_summary(const PanelContext& context, std::uint32_t voxel) {
   table_row("conventional", text_of((*s.voxels)[voxel]), "In the occupancy map");
   if (s.gibbs) {
     const Voxel& v = s.gibbs->voxels[voxel];
-    table_row("Gibbs", v.measured ? text_of(v) : "not informed", "Posterior mean; of not informed voxels fewer than half a ray tells anything");
+    table_row("Gibbs", v.measured ? text_of(v) : "not informed",
+              "Posterior mean; of not informed voxels fewer than half a ray tells anything");
   }
   if (s.truth) table_row("truth", truth_of(*s.truth, voxel), "What the mesh says");
   ImGui::PopFont();
@@ -72,7 +73,8 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
       context.call("panel", "view");
     }
     tooltip("Click to look at this view.");
-    for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.passes), fmt::format("{:+.2f} to {:.2f}", u.log_odds_change, u.log_odds)}) {
+    for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.passes),
+                                    fmt::format("{:+.2f} to {:.2f}", u.log_odds_change, u.log_odds)}) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(text.c_str());
     }
@@ -92,8 +94,9 @@ void draw_trace(const PanelContext& context, const std::vector<std::vector<std::
     const float step = width / float(std::max<std::size_t>(chain.size(), 1));
     for (std::size_t k = 0; k < chain.size(); ++k)
       if (chain[k] > 0)
-        list.AddRectFilled({corner.x + float(k) * step, corner.y}, {corner.x + float(k + 1) * step, corner.y + height},
-                           to_imgui_u32(mix(theme::sky, theme::occupied, 0.4 + 0.6 * chain[k] / std::max(levels - 1, 1))));
+        list.AddRectFilled(
+            {corner.x + float(k) * step, corner.y}, {corner.x + float(k + 1) * step, corner.y + height},
+            to_imgui_u32(mix(theme::sky, theme::occupied, 0.4 + 0.6 * chain[k] / std::max(levels - 1, 1))));
     ImGui::Dummy({width, height});
   }
 }
@@ -103,7 +106,9 @@ void draw_conditional(const PanelContext& context, const FullConditional& condit
   const Style& style = context.style;
   ImGui::PushFont(style.small);
   for (std::size_t q = 0; q < conditional.probability.size(); ++q) {
-    const std::string name = q == 0 ? "free" : conditional.probability.size() == 2 ? "occupied" : fmt::format("level {}", q);
+    const std::string name = q == 0                                ? "free"
+                             : conditional.probability.size() == 2 ? "occupied"
+                                                                   : fmt::format("level {}", q);
     ImGui::TextDisabled("%s", name.c_str());
     ImGui::SameLine(style.px(96));
     const float p = float(conditional.probability[q]);
@@ -126,7 +131,9 @@ void draw_gibbs(const PanelContext& context, const VoxelInspection& voxel) {
     draw_trace(context, voxel.trace, s.gibbs->config.model.levels());
   }
   if (voxel.conditional) {
-    small_text(context.style, fmt::format("full conditional, given the rest of the last map of chain 1; {} rays have a say", voxel.conditional->rays.size()));
+    small_text(context.style,
+               fmt::format("full conditional, given the rest of the last map of chain 1; {} rays have a say",
+                           voxel.conditional->rays.size()));
     draw_conditional(context, *voxel.conditional);
   }
 }

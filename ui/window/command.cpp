@@ -26,7 +26,8 @@ bool parse_number(const std::string& text, double& value) {
 void check(const Command& command, const Argument& argument, const std::string& text) {
   using Kind = Argument::Kind;
   const auto wrong = [&](const std::string& wanted) {
-    return std::invalid_argument(fmt::format("{}: {} must be {}, not '{}'", command.name, upper_case(argument.name), wanted, text));
+    return std::invalid_argument(
+        fmt::format("{}: {} must be {}, not '{}'", command.name, upper_case(argument.name), wanted, text));
   };
   if (argument.kind == Kind::number || argument.kind == Kind::whole) {
     double value = 0;
@@ -94,8 +95,7 @@ std::string Command::keys() const {
 
 std::string Command::usage() const {
   std::string result = name;
-  for (const Argument& a : arguments)
-    result += fmt::format(a.optional ? " [{}]" : " {}", upper_case(a.name));
+  for (const Argument& a : arguments) result += a.optional ? " [" + upper_case(a.name) + "]" : " " + upper_case(a.name);
   return result;
 }
 

@@ -56,7 +56,9 @@ void ImguiHost::take(std::span<const InputEvent> events) {
   io.MouseWheel = 0;
   for (const InputEvent& event : events) {
     std::visit(Overloaded{
-                   [&](const input::Move& e) { io.MousePos = {float(e.x), float(e.y)}; },
+                   [&](const input::Move& e) {
+                     io.MousePos = {float(e.x), float(e.y)};
+                   },
                    [&](const input::Button& e) { io.MouseDown[static_cast<int>(e.button)] = e.down; },
                    [&](const input::Wheel& e) { io.MouseWheel = float(e.steps); },
                    [&](const input::KeyChange& e) { io.KeysDown[static_cast<int>(e.key)] = e.down; },

@@ -9,7 +9,7 @@
 namespace nextview {
 namespace {
 
-constexpr int expected_columns = 128;        ///< of the picture of a view
+constexpr int expected_columns = 128;         ///< of the picture of a view
 constexpr std::size_t most_rays_a_view = 60;  ///< through a voxel: more would only hide each other
 
 /// What the view measured, in the cells of the expected view: the nearest point of each.
@@ -84,7 +84,8 @@ ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection
   const int rows = std::max(1, expected_columns * s.camera.height / s.camera.width);
   const double threshold = s.configuration.map.model.occupancy_threshold;
   const MapRays rays = configured_rays(s.configuration, s.grid, s.planning_voxels());
-  view.expected = expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
+  view.expected =
+      expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
   if (selection.view.kind == LookedAt::Kind::taken) {
     view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera, view.expected);
     view.no_explanation = "This view has been taken: its gain was predicted on the map before it.";
@@ -109,7 +110,8 @@ void Inspector::explain(const SessionSnapshot& s, ViewInspection& view) {
   }
 }
 
-/// The rays that the planner casts. The reference semantics have a map of their own, kept from one snapshot to the next.
+/// The rays that the planner casts. The reference semantics have a map of their own, kept from one snapshot to the
+/// next.
 const RayCaster& Inspector::caster(const SessionSnapshot& s) {
   if (s.configuration.planner.semantics != Semantics::reference)
     return rays_.emplace(configured_rays(s.configuration, s.grid, s.planning_voxels()));

@@ -17,8 +17,8 @@ namespace nextview {
 struct ViewInspection {
   LookedAt view;
   Pose T_world_camera = Pose::Identity();
-  ExpectedView expected;              ///< of the map that views are planned on
-  std::vector<float> measured;        ///< depth [m] in the cells of `expected`, negative: nothing; empty: not taken yet
+  ExpectedView expected;        ///< of the map that views are planned on
+  std::vector<float> measured;  ///< depth [m] in the cells of `expected`, negative: nothing; empty: not taken yet
   std::shared_ptr<const ScoreExplanation> explanation;  ///< null: see `no_explanation`
   std::string no_explanation;
 };
@@ -26,9 +26,9 @@ struct ViewInspection {
 /// Why a voxel is as it is.
 struct VoxelInspection {
   std::uint32_t voxel = 0;
-  std::vector<VoxelUpdate> history;           ///< one a view
-  std::vector<std::vector<VoxelRay>> rays;    ///< one a view: those that touch it, some of them if there are many
-  std::optional<FullConditional> conditional; ///< given the rest of the sampler's last map; if there is a Gibbs map
+  std::vector<VoxelUpdate> history;              ///< one a view
+  std::vector<std::vector<VoxelRay>> rays;       ///< one a view: those that touch it, some of them if there are many
+  std::optional<FullConditional> conditional;    ///< given the rest of the sampler's last map; if there is a Gibbs map
   std::vector<std::vector<std::uint8_t>> trace;  ///< its level after each sweep of the mean, one a chain; may be empty
 };
 
@@ -54,7 +54,7 @@ class Inspector {
 
   std::uint64_t count_ = 0;
   std::optional<MapRays> rays_;
-  std::unique_ptr<ReferenceMap> reference_;   ///< reference semantics only
+  std::unique_ptr<ReferenceMap> reference_;                   ///< reference semantics only
   std::vector<std::shared_ptr<const Scan>> reference_scans_;  ///< that it holds
   std::uint64_t reference_session_ = 0;
 };

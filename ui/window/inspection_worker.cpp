@@ -1,5 +1,7 @@
 #include "ui/window/inspection_worker.hpp"
 
+#include <utility>
+
 namespace nextview {
 
 InspectionWorker::InspectionWorker(std::function<void()> on_news)

@@ -52,8 +52,8 @@ struct Interface::Parts {
   int width = 0, height = 0;  ///< that the layout was made for [px]
   WindowState state;
   News news;
-  std::uint64_t session = 0;                            ///< whose numbers the selection has
-  std::shared_ptr<const SessionSnapshot> asked_of;      ///< the last question
+  std::uint64_t session = 0;                        ///< whose numbers the selection has
+  std::shared_ptr<const SessionSnapshot> asked_of;  ///< the last question
   Selection asked;
   std::deque<CommandCall> script;
   bool camera_moved = false;  ///< by a person, since it was framed

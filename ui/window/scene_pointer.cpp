@@ -40,8 +40,10 @@ bool ScenePointer::follow(SceneView& view, const PanelContext& context) {
              middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   bool moved = false;
   if (over_scene && drag_ == Drag::none) {
-    if (left || middle) drag_ = left && !io.KeyShift ? Drag::orbit : Drag::pan;
-    else context.hovered = view.pick(io.MousePos.x, io.MousePos.y).candidate;
+    if (left || middle)
+      drag_ = left && !io.KeyShift ? Drag::orbit : Drag::pan;
+    else
+      context.hovered = view.pick(io.MousePos.x, io.MousePos.y).candidate;
   }
   if (drag_ != Drag::none) {
     moved = drag_camera(view);

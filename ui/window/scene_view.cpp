@@ -21,8 +21,8 @@ namespace {
 constexpr std::size_t most_points = 60'000;
 /// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
 constexpr std::size_t rays_shown = 60;
-constexpr double frustum_depth = 0.07;                          // [m] as the views layer draws them
-constexpr double frustum_reach = 14.0, ray_reach = 5.0;          // [px]
+constexpr double frustum_depth = 0.07;                   // [m] as the views layer draws them
+constexpr double frustum_reach = 14.0, ray_reach = 5.0;  // [px]
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
 /// Gibbs minus conventional, where both say something.
@@ -116,9 +116,9 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
 
 void SceneView::show_mesh(const SessionSnapshot& s, const LayerChoice& choice) {
   if (choice.missed && s.missed) {
-    scene_.mesh().show(*s.missed->mesh, MeshClasses{s.missed->observed,
-                                                    {{"missed so far", theme::missed}, {"measured", theme::object}},
-                                                    "surface"});
+    scene_.mesh().show(
+        *s.missed->mesh,
+        MeshClasses{s.missed->observed, {{"missed so far", theme::missed}, {"measured", theme::object}}, "surface"});
   } else {
     scene_.mesh().show(*s.mesh, choice.object_style);
   }
@@ -173,7 +173,8 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
       range = {std::min(range.first, candidate.utility), std::max(range.second, candidate.utility)};
     }
   }
-  const bool keep = choice_.ranges_locked && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
+  const bool keep =
+      choice_.ranges_locked && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
   if (!keep) utilities_ = range;
   picture.camera = s.camera;
   picture.candidates = s.candidates;
@@ -223,12 +224,14 @@ void SceneView::look_through(const Pose& T_world_camera) {
   camera.SetPosition(position.data());
   camera.SetFocalPoint(focus.data());
   camera.SetViewUp(up.data());
-  if (shown_) camera.SetViewAngle(2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy) * 180 / std::numbers::pi);
+  if (shown_)
+    camera.SetViewAngle(2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy) * 180 / std::numbers::pi);
 }
 
 void SceneView::move(const CameraMotion& motion) {
   if (std::holds_alternative<camera_motion::Frame>(motion)) scene_.frame();
-  if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion)) scene_.frame(ViewDirection{from->azimuth, from->elevation});
+  if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion))
+    scene_.frame(ViewDirection{from->azimuth, from->elevation});
   if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion)) look_through(through->T_world_camera);
   if (const auto* step = std::get_if<camera_motion::Zoom>(&motion)) zoom(renderer(), step->steps);
   renderer().ResetCameraClippingRange();

@@ -21,8 +21,8 @@ class SeenSurface {
 
  private:
   std::shared_ptr<const SeenCloud> cloud_ = std::make_shared<SeenCloud>();
-  std::shared_ptr<const GroundTruth> truth_;       ///< null without evaluation
-  std::unique_ptr<MeshDistance> surface_;          ///< so are these
+  std::shared_ptr<const GroundTruth> truth_;  ///< null without evaluation
+  std::unique_ptr<MeshDistance> surface_;     ///< so are these
   std::unique_ptr<MissedSurface> missed_;
   std::shared_ptr<const TriangleMesh> missed_mesh_;
   std::size_t scans_ = 0;

@@ -75,7 +75,8 @@ void draw_voxel(SceneView& view, const PanelContext& context, std::uint32_t voxe
   const auto corners = corners_of(s.grid, voxel);
   for (int from = 0; from < 8; ++from)
     for (int axis = 1; axis < 8; axis *= 2)
-      if (!(from & axis)) draw_segment(view, corners[from], corners[from | axis], to_imgui_u32(theme::chosen), 2 * width);
+      if (!(from & axis))
+        draw_segment(view, corners[from], corners[from | axis], to_imgui_u32(theme::chosen), 2 * width);
   if (const auto place = view.project(corners[7])) draw_label(context.style, at(*place), "voxel", theme::chosen);
 }
 
@@ -93,15 +94,17 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
   const double edge = context.snapshot.grid.resolution;
   Vector3 from = origin;
   for (const auto& voxel : ray.voxels) {
-    const Vector3 centre = (Vector3(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) + Vector3::Constant(0.5)) * edge;
+    const Vector3 centre =
+        (Vector3(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) + Vector3::Constant(0.5)) * edge;
     const Vector3 to = origin + ray.direction * ((centre - origin).dot(ray.direction) + 0.5 * edge);
     const double share = voxel.contribution / largest;
-    draw_segment(view, from, to, to_imgui_u32(share > 0 ? map.at(share) : theme::visited), context.style.px(share > 0 ? 4.0f : 2.0f));
+    draw_segment(view, from, to, to_imgui_u32(share > 0 ? map.at(share) : theme::visited),
+                 context.style.px(share > 0 ? 4.0f : 2.0f));
     from = to;
   }
-  if (const auto place = view.project(from)) draw_label(context.style, at(*place), fmt::format("ray {}", index), theme::chosen);
+  if (const auto place = view.project(from))
+    draw_label(context.style, at(*place), fmt::format("ray {}", index), theme::chosen);
 }
-
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 
 namespace nextview {
 
-/// Draws over the scene what a person points at or has picked: frustums, a voxel and its rays, a ray and what its voxels
-/// contribute. It costs no new picture of the scene.
+/// Draws over the scene what a person points at or has picked: frustums, a voxel and its rays, a ray and what its
+/// voxels contribute. It costs no new picture of the scene.
 void draw_selection_overlay(SceneView& view, const PanelContext& context);
 
 }  // namespace nextview

@@ -50,9 +50,8 @@ struct ForgetRuns {};
 
 }  // namespace request
 
-using SessionRequest =
-    std::variant<request::Load, request::OpenFile, request::Reset, request::Step, request::Play, request::Pause,
-                 request::TakeView, request::TakeOwnView, request::Undo, request::Redo, request::Refine,
-                 request::Export, request::ForgetRuns>;
+using SessionRequest = std::variant<request::Load, request::OpenFile, request::Reset, request::Step, request::Play,
+                                    request::Pause, request::TakeView, request::TakeOwnView, request::Undo,
+                                    request::Redo, request::Refine, request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

@@ -16,8 +16,8 @@ namespace nextview {
 class SessionRunner {
  public:
   struct Told {
-    Progress progress;                                          ///< of the job
-    std::function<void(const SamplerDiagnostics&)> sampler;     ///< how the refinement goes
+    Progress progress;                                       ///< of the job
+    std::function<void(const SamplerDiagnostics&)> sampler;  ///< how the refinement goes
     std::stop_token stop;
   };
 

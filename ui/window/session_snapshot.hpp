@@ -34,9 +34,9 @@ MapChange map_change(std::span<const Voxel> conventional, std::span<const Voxel>
 
 /// The Gibbs map of the first views of a scan.
 struct GibbsMap {
-  std::size_t views = 0;      ///< that it is made of; fewer than were taken: it is out of date
+  std::size_t views = 0;  ///< that it is made of; fewer than were taken: it is out of date
   GibbsPosterior posterior;
-  std::vector<Voxel> voxels;  ///< the posterior as the scene and the gains see it
+  std::vector<Voxel> voxels;       ///< the posterior as the scene and the gains see it
   RangeMeasurements measurements;  ///< what it was sampled from
   PosteriorSamplerConfig config;
   MapChange change;  ///< against the conventional map of the same views
@@ -50,7 +50,7 @@ struct MissedPicture {
 
 /// An earlier scan of this window, for its curves.
 struct Run {
-  std::string name;  ///< "gearbox, occlusion-aware"
+  std::string name;                 ///< "gearbox, occlusion-aware"
   std::vector<StepRecord> records;  ///< without candidates
 };
 
@@ -62,14 +62,14 @@ struct SessionSnapshot {
   std::string message;        ///< why the last request failed; empty if it did not
 
   Configuration configuration;
-  std::string object_name;                             ///< for people
-  std::shared_ptr<const TriangleMesh> mesh;            ///< null without a session; so are the next two
-  std::shared_ptr<const std::vector<Voxel>> voxels;    ///< the conventional map, one a voxel of the grid
+  std::string object_name;                           ///< for people
+  std::shared_ptr<const TriangleMesh> mesh;          ///< null without a session; so are the next two
+  std::shared_ptr<const std::vector<Voxel>> voxels;  ///< the conventional map, one a voxel of the grid
   std::shared_ptr<const SeenCloud> cloud;
-  std::shared_ptr<const GibbsMap> gibbs;               ///< null if there is none
-  std::shared_ptr<const GroundTruth> truth;            ///< null without evaluation; so is the next
+  std::shared_ptr<const GibbsMap> gibbs;     ///< null if there is none
+  std::shared_ptr<const GroundTruth> truth;  ///< null without evaluation; so is the next
   std::shared_ptr<const MissedPicture> missed;
-  std::vector<std::shared_ptr<const Scan>> scans;      ///< one a step
+  std::vector<std::shared_ptr<const Scan>> scans;  ///< one a step
   VoxelGrid grid;
   PinholeCamera camera;
   std::vector<Pose> candidates;  ///< T_world_camera
@@ -101,12 +101,12 @@ struct WorkerProgress {
   bool busy = false;
   bool playing = false;
   bool refining = false;
-  bool paused = false;     ///< refining is held
-  double fraction = 0.0;   ///< of the job, 0 to 1
+  bool paused = false;    ///< refining is held
+  double fraction = 0.0;  ///< of the job, 0 to 1
   std::string what;
-  std::size_t waiting = 0;                ///< requests behind it
-  std::optional<double> seconds_left;     ///< of the job, as it has gone so far; whole seconds
-  double pause_between_views = 0.0;       ///< while playing [s]
+  std::size_t waiting = 0;                            ///< requests behind it
+  std::optional<double> seconds_left;                 ///< of the job, as it has gone so far; whole seconds
+  double pause_between_views = 0.0;                   ///< while playing [s]
   std::shared_ptr<const SamplerDiagnostics> sampler;  ///< of the refinement that runs, up to now
 
   bool operator==(const WorkerProgress&) const = default;

@@ -209,8 +209,8 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
                                       s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
   } else if (s.records.size() > before.records.size()) {
     const StepRecord& r = s.records.back();
-    const std::string from = r.view < 0 ? r.overridden ? "your own view" : "the start view"
-                                        : fmt::format("candidate {}", r.view);
+    const std::string from =
+        r.view < 0 ? r.overridden ? "your own view" : "the start view" : fmt::format("candidate {}", r.view);
     log_.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
                                       r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
     if (!r.ranking.degenerate.empty())

@@ -92,7 +92,7 @@ struct WindowState {
   std::string palette_text;  ///< what the palette starts with
   bool quit = false;
 
-  Pose scene_camera = Pose::Identity();     ///< where the scene is looked at from; kept by the scene
+  Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene
   std::vector<CameraMotion> camera_motions;  ///< to be made
   std::optional<std::string> picture_file;   ///< the window's picture is to be written here
   std::vector<std::string> script;           ///< the commands so far, a line each
