@@ -32,7 +32,12 @@ double quantile(std::vector<double>& values, double share, double otherwise) {
 
 ChainEnsemble::ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites,
                              SamplerDiagnostics& diagnostics)
-    : config_(config), sites_(sites), diagnostics_(diagnostics), sums_(config.chains), traces_(config.chains) {
+    : config_(config),
+      sites_(sites),
+      diagnostics_(diagnostics),
+      sums_(config.chains),
+      traces_(config.chains),
+      levels_(config.chains) {
   for (int c = 0; c < config.chains; ++c) chains_.push_back(make_chain(lists, config, sites, c));
   diagnostics_.log_posterior.resize(config.chains);
   diagnostics_.changed_voxels.resize(config.chains);
@@ -51,6 +56,7 @@ void ChainEnsemble::begin_mean(int sweeps) {
   for (int c = 0; c < config_.chains; ++c) {
     sums_[c] = {std::vector<double>(voxels), std::vector<double>(voxels), std::vector<float>(voxels)};
     traces_[c].assign(traced_.size(), {});
+    levels_[c].clear();
   }
 }
 
@@ -74,13 +80,31 @@ void ChainEnsemble::sweep_into_mean(int c) {
   if (!before.empty()) note_divergence(before);
   for (std::size_t t = 0; t < traced_.size(); ++t)
     traces_[c][t].push_back(chains_[c]->map()[traced_[t]] > 0 ? 1.0 : 0.0);
+  if (config_.keep_traces) keep_levels(c);
   const int done = sums.near_sweeps;
   // What one chain alone finds reached often enough for all is settled.
   if (std::int64_t{done} * reach_samples_ / window_ > std::int64_t{done - 1} * reach_samples_ / window_)
     chains_[c]->add_reach(sums, 0.5f * static_cast<float>(reach_samples_ * config_.chains));
 }
 
+void ChainEnsemble::keep_levels(int c) {
+  const std::size_t bytes_a_sweep = std::max<std::size_t>(1, sites_.near_voxels.size()) * chains_.size();
+  auto& kept = levels_[c];
+  std::vector<std::uint8_t>& now = kept.emplace_back();
+  for (const std::uint32_t v : sites_.near_voxels) now.push_back(chains_[c]->map()[v]);
+  if (kept.size() > config_.most_trace_bytes / bytes_a_sweep) kept.pop_front();
+}
+
+LevelTraces ChainEnsemble::take_level_traces() {
+  const auto dropped = static_cast<std::size_t>(diagnostics_.sweeps - diagnostics_.burn_in) - levels_.front().size();
+  return {sites_.near_voxels, std::move(levels_), dropped};
+}
+
 void ChainEnsemble::diagnose() {
+  // A mean that was stopped early has the present maps' word for who reaches whom.
+  tbb::parallel_for(0, config_.chains, [&](int c) {
+    if (sums_[c].reach_samples == 0) chains_[c]->add_reach(sums_[c], 0.5f * static_cast<float>(config_.chains));
+  });
   SamplerDiagnostics& d = diagnostics_;
   std::vector<std::span<const double>> chains;
   for (const auto& trace : d.log_posterior) chains.push_back(std::span(trace).last(d.sweeps - d.burn_in));

@@ -26,10 +26,13 @@ class ChainEnsemble {
   bool informed(std::size_t voxel) const;
   /// Mean over the chains of PosteriorSums::occupied or ::upper. @pre the voxel is a site
   float mean(std::size_t voxel, std::vector<double> PosteriorSums::*which) const;
+  /// With PosteriorSamplerConfig::keep_traces; afterwards there are none.
+  LevelTraces take_level_traces();
 
  private:
   float chain_mean(const PosteriorSums& sums, std::size_t voxel, std::vector<double> PosteriorSums::*which) const;
   void sweep_into_mean(int chain);
+  void keep_levels(int chain);
   std::vector<float> near_means() const;
   void note_divergence(const std::vector<float>& before);
   void diagnose_voxels();
@@ -42,7 +45,8 @@ class ChainEnsemble {
   std::vector<PosteriorSums> sums_;
   std::vector<std::uint32_t> traced_;                     ///< a sample of the voxels near a return
   std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
-  int window_ = 1;                                        ///< sweeps of the mean
+  std::vector<std::deque<std::vector<std::uint8_t>>> levels_;  ///< LevelTraces::levels
+  int window_ = 1;                                             ///< sweeps of the mean
   int reach_samples_ = 2;  ///< of each chain over the mean: a tenth of the sweeps, fewer where dear
 };
 

@@ -38,6 +38,7 @@ class Schedule {
       chains_.begin_mean(window);
       sweep(window, true);
       chains_.diagnose();
+      tell();
       if (diagnostics_.stationary && config_.until_stationary) return;
       if (stop_.stop_requested() || diagnostics_.sweeps + 4 > config_.sweeps) return;
     }
@@ -47,9 +48,13 @@ class Schedule {
   void sweep(int count, bool into_mean) {
     for (int done = 0; done < count; done += sweeps_between_reports) {
       if (stop_.stop_requested() && (!into_mean || done >= 4)) return;
-      if (progress_) progress_(double(diagnostics_.sweeps) / config_.sweeps, "refining the map");
+      tell();
       chains_.sweep(std::min(sweeps_between_reports, count - done), into_mean);
     }
+  }
+
+  void tell() const {
+    if (progress_) progress_(double(diagnostics_.sweeps) / config_.sweeps, "refining the map", diagnostics_);
   }
 
   ChainEnsemble& chains_;
@@ -116,10 +121,11 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
                            std::vector<float>(voxels, 0.5f),
                            std::vector<std::uint8_t>(voxels, 0),
                            {},
+                           {},
                            {}};
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch building;
-  if (progress) progress(0.0, "listing the rays of each voxel");
+  if (progress) progress(0.0, "listing the rays of each voxel", d);
   const RayLists lists(grid, join_rays(measurements, grid, config.ray_spacing), config.model);
   const Sites sites = find_sites(lists, config, start_map);
   d.measured_rays = measurements.rays.size();
@@ -145,6 +151,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
     posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
   }
   for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
+  if (config.keep_traces) posterior.traces = chains.take_level_traces();
   d.sample_seconds = sampling.seconds();
   d.warning = warning(d, stop.stop_requested());
   return posterior;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <span>
 #include <stop_token>
@@ -36,9 +37,20 @@ struct PosteriorSamplerConfig {
   bool until_stationary = true;  ///< stop once stationary; otherwise all sweeps, burn-in left out, are the mean
   double ray_spacing = 0.6;      ///< rays this near each other at the region's centre are joined [voxel edges]; 0: none
   std::uint64_t seed = 1;
+  /// Keeps GibbsPosterior::traces. For people who look into a run: no setting of files, and no result depends on it.
+  bool keep_traces = false;
+  std::size_t most_trace_bytes = std::size_t{200} << 20;  ///< of the traces; beyond it the oldest sweeps are dropped
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;
+};
+
+/// The levels that the chains drew for the voxels near a return, sweep by sweep of the mean.
+struct LevelTraces {
+  std::vector<std::uint32_t> voxels;  ///< ascending
+  /// [chain][sweep][place in `voxels`]; as many sweeps of each chain.
+  std::vector<std::deque<std::vector<std::uint8_t>>> levels;
+  std::size_t dropped = 0;  ///< sweeps at the mean's beginning that are left out, for want of memory
 };
 
 /// The posterior of every voxel of a grid, and how it came about. What the levels mean follows from the model: of
@@ -51,12 +63,15 @@ struct GibbsPosterior {
   std::vector<std::uint8_t> informed;             ///< 1: on posterior average at least half a measured ray reaches it
   std::vector<std::vector<std::uint8_t>> states;  ///< the last map of each chain, to start from again
   SamplerDiagnostics diagnostics;
+  LevelTraces traces;  ///< with PosteriorSamplerConfig::keep_traces
 
   /// The posterior as gains, pictures and scores see a map: measured means informed.
   std::vector<Voxel> voxels(const InverseSensorModel& classes) const;
 };
 
-using SamplerProgress = std::function<void(double fraction, std::string_view what)>;
+/// Told every few sweeps how far a run has come, and how it goes: `so_far` has the traces up to now, what is worked out
+/// from them as of the last mean that was tried. It is valid during the call. Called from the thread that samples.
+using SamplerProgress = std::function<void(double fraction, std::string_view what, const SamplerDiagnostics& so_far)>;
 
 /// Draws from p(m | z). `start_map`: probabilities that StartMap::octree starts from (occupied where p >= 0.5), and
 /// that UpdatedVoxels::occupied updates; empty: all free. `warm`: states of an earlier posterior, which take the place

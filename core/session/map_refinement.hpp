@@ -18,12 +18,18 @@ class MapRefinement {
   /// Adds a view's rays, joined at once: only what the voxels can tell apart is kept.
   void add(const Scan& scan);
   /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps; `conventional` is where the first
-  /// refinement may start.
+  /// refinement may start. After a requested stop it holds the posterior as far as it was sampled, which says so, and
+  /// can be refined on.
   void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
 
   /// One a voxel of the grid; the span stays valid. Unmeasured before the first refinement.
   std::span<const Voxel> voxels() const { return voxels_; }
   const GibbsPosterior& posterior() const { return posterior_; }
+  /// The rays of all views so far, joined.
+  const RangeMeasurements& measurements() const { return measurements_; }
+  const PosteriorSamplerConfig& config() const { return config_; }
+  /// Whether the posteriors of refinements to come keep their traces.
+  void keep_traces(bool keep) { config_.keep_traces = keep; }
 
  private:
   PosteriorSamplerConfig config_;

@@ -48,7 +48,8 @@ Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_
   }
   r.posterior = sample_posterior(
       job.grid, measurements, job.sampler, probabilities(r.conventional.voxels()), {},
-      [&](double fraction, std::string_view what) { tell(0.2 + 0.7 * fraction, what); }, stop);
+      [&](double fraction, std::string_view what, const SamplerDiagnostics&) { tell(0.2 + 0.7 * fraction, what); },
+      stop);
   r.refined = r.posterior.voxels(job.model);
   tell(0.9, "scoring the candidate views");
   r.gains_before = gibbs_gains(job, r.conventional.voxels());

@@ -156,7 +156,7 @@ void Session::refine_map(const Measurement& measurement, StepRecord& record, con
   if (refinement_) {
     Stopwatch watch(record.seconds.refine);
     refinement_->add(*measurement.scan);
-    const auto tell = [&](double fraction, std::string_view what) {
+    const auto tell = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
       if (progress) progress(0.5 + 0.1 * fraction, what);
     };
     refinement_->refine(probabilities(map_.voxels()), configuration_.gibbs.view_sweeps, tell, {});

@@ -213,7 +213,7 @@ TEST(PosteriorSamplerEdges, aRequestedStopEndsEarlyAndWarns) {
   config.until_stationary = false;
   std::stop_source source;
   double last = 0.0;
-  const auto stop_soon = [&](double fraction, std::string_view what) {
+  const auto stop_soon = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
     EXPECT_GE(fraction, 0.0);
     EXPECT_LE(fraction, 1.0);
     EXPECT_FALSE(what.empty());

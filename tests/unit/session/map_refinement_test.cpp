@@ -1,0 +1,107 @@
+#include "core/session/map_refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/session/small_scan.hpp"
+
+namespace nextview {
+namespace {
+
+Configuration gibbs_scan() {
+  Configuration c = small_scan();
+  c.planner.gain = "gibbs";
+  c.termination.views = 3;
+  return c;
+}
+
+/// Two views of the box, not refined yet.
+MapRefinement two_views() {
+  const Configuration c = gibbs_scan();
+  Session session(small_scan());
+  session.step();
+  session.step();
+  MapRefinement refinement(session.map().grid(), posterior_sampler_config(c), c.map.model, c.sensor.max_range);
+  for (const auto& scan : session.scans()) refinement.add(*scan);
+  return refinement;
+}
+
+void expect_consistent(const MapRefinement& refinement) {
+  const GibbsPosterior& posterior = refinement.posterior();
+  ASSERT_EQ(posterior.occupied.size(), refinement.voxels().size());
+  for (std::size_t v = 0; v < posterior.occupied.size(); ++v) {
+    ASSERT_EQ(refinement.voxels()[v].probability, posterior.occupied[v]);
+    ASSERT_EQ(refinement.voxels()[v].measured, posterior.informed[v] != 0);
+    ASSERT_TRUE(posterior.occupied[v] >= 0.0f && posterior.occupied[v] <= 1.0f);
+  }
+  ASSERT_EQ(posterior.states.size(), std::size_t(refinement.config().chains));
+  for (const auto& state : posterior.states) ASSERT_EQ(state.size(), posterior.occupied.size());
+  const SamplerDiagnostics& d = posterior.diagnostics;
+  for (const auto& trace : d.log_posterior) EXPECT_EQ(trace.size(), std::size_t(d.sweeps));
+  EXPECT_GE(d.sweeps - d.burn_in, 4);
+  EXPECT_GT(d.informed_voxels, 1000u);
+}
+
+TEST(MapRefinement, AStopAtAnyMomentLeavesThePosteriorSoFar) {
+  const MapRefinement fresh = two_views();
+  int moments = 0;
+  {
+    MapRefinement whole = fresh;
+    whole.refine({}, 24, [&](double, std::string_view, const SamplerDiagnostics&) { ++moments; }, {});
+    expect_consistent(whole);
+    EXPECT_EQ(whole.posterior().diagnostics.sweeps, 24);
+  }
+  ASSERT_GE(moments, 6);
+  int last_sweeps = 0;
+  for (int moment = 0; moment < moments; ++moment) {
+    MapRefinement refinement = fresh;
+    std::stop_source stop;
+    int calls = 0;
+    const auto stop_there = [&](double, std::string_view, const SamplerDiagnostics&) {
+      if (calls++ == moment) stop.request_stop();
+    };
+    refinement.refine({}, 24, stop_there, stop.get_token());
+    expect_consistent(refinement);
+    const SamplerDiagnostics& d = refinement.posterior().diagnostics;
+    EXPECT_NE(d.warning.find("stopped"), std::string::npos) << d.warning;
+    EXPECT_GE(d.sweeps, last_sweeps);
+    last_sweeps = d.sweeps;
+    refinement.refine({}, 8, {}, {});  // and on it goes
+    expect_consistent(refinement);
+    EXPECT_EQ(refinement.posterior().diagnostics.sweeps, 8);
+  }
+}
+
+TEST(MapRefinement, TellsWhatItWasMadeOf) {
+  const MapRefinement refinement = two_views();
+  EXPECT_EQ(refinement.measurements().origins.size(), 2u);
+  EXPECT_EQ(refinement.measurements().max_range, gibbs_scan().sensor.max_range);
+  std::uint64_t weight = 0;
+  for (const RangeMeasurement& ray : refinement.measurements().rays) weight += ray.weight;
+  EXPECT_GT(weight, 2 * refinement.measurements().rays.size()) << "they are joined";
+  Session session(gibbs_scan());
+  session.step();
+  const std::size_t in_region = session.records()[0].refinement->diagnostics.joined_rays;
+  EXPECT_GE(session.refinement()->measurements().rays.size(), in_region);
+  EXPECT_GT(in_region, 100u);
+  EXPECT_EQ(session.refinement()->config().model.sigma, posterior_sampler_config(gibbs_scan()).model.sigma);
+}
+
+TEST(MapRefinement, KeepsTracesIfTold) {
+  MapRefinement plain = two_views(), traced = plain;
+  plain.refine({}, 12, {}, {});
+  traced.keep_traces(true);
+  traced.refine({}, 12, {}, {});
+  EXPECT_EQ(plain.posterior().occupied, traced.posterior().occupied);
+  EXPECT_TRUE(plain.posterior().traces.voxels.empty());
+  const SamplerDiagnostics& d = traced.posterior().diagnostics;
+  EXPECT_EQ(traced.posterior().traces.levels.at(0).size(), std::size_t(d.sweeps - d.burn_in));
+  Configuration c = gibbs_scan();
+  c.gibbs.sampler.keep_traces = true;
+  EXPECT_EQ(to_toml(c), to_toml(gibbs_scan())) << "no setting of files";
+  Session session(c);
+  session.step();
+  EXPECT_FALSE(session.refinement()->posterior().traces.voxels.empty());
+}
+
+}  // namespace
+}  // namespace nextview
