@@ -13,11 +13,14 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
+#include "core/file/atomic_file.hpp"
 #include "core/session/stopped.hpp"
 #include "ui/surface/headless.hpp"
 #include "ui/window/window.hpp"
 
 namespace {
+
+constexpr std::uintmax_t longest_script = std::uintmax_t{1} << 20;  // [bytes]
 
 /// Whether this command draws into memory: it is settled before anything else, as the program then starts itself again.
 bool draws_headless(const std::vector<std::string_view>& arguments) {
@@ -25,6 +28,16 @@ bool draws_headless(const std::vector<std::string_view>& arguments) {
     return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
   };
   return (has("scan") || has("refine") || has("calibrate")) && !has("--no-pictures") && !has("--help") && !has("-h");
+}
+
+/// None without a file. @throws std::runtime_error naming the file, the line and the reason.
+std::vector<nextview::CommandCall> read_script(const std::string& file) {
+  if (file.empty()) return {};
+  try {
+    return nextview::parse_script(nextview::read_file(file, longest_script));
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
+  }
 }
 
 int run(int argc, char** argv) {
@@ -50,6 +63,10 @@ int run(int argc, char** argv) {
   add_calibrate_command(program);
   CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
   options.add_to(*window);
+  std::string script;
+  window->add_option("--script", script, "does what this file says: a command a line, as in the palette (Ctrl+P)");
+  bool list_commands = false;
+  window->add_flag("--list-commands", list_commands, "prints all commands and ends");
   window->footer("Examples:\n  nextview window bunny.ply --gain area-factor\n  nextview bunny.ply");
 
   try {
@@ -61,7 +78,11 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "nextview: {}; see nextview --help\n", error.what());
     return exit_bad_input;
   }
-  return run_window(options.configuration());
+  if (list_commands) {
+    fmt::print("{}", command_table());
+    return 0;
+  }
+  return run_window(options.configuration(), read_script(script));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/evaluation/map_quality.hpp"
+#include "core/evaluation/voxel_errors.hpp"
 #include "ui/figures/session_figure.hpp"
 #include "ui/window/camera_control.hpp"
 
@@ -37,7 +38,7 @@ std::vector<float> differences(const SessionSnapshot& s) {
 std::vector<float> values_for(const SessionSnapshot& s, const LayerChoice& choice) {
   if (choice.colouring == VoxelColouring::by_difference) return differences(s);
   if (choice.colouring != VoxelColouring::by_error || !s.truth) return {};
-  return voxel_errors(chosen_voxels(s, choice.map), *s.truth, TruthConvention::touch);
+  return voxel_errors(probabilities(chosen_voxels(s, choice.map)), *s.truth, TruthConvention::touch);
 }
 
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -218,7 +219,8 @@ void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice)
 void SceneView::look_through(const Pose& T_world_camera) {
   vtkCamera& camera = *renderer().GetActiveCamera();
   const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
-  const Vector3 centre = shown_ ? 0.5 * (shown_->grid.lower() + shown_->grid.upper()) : Vector3::Zero();
+  Vector3 centre = Vector3::Zero();
+  if (shown_) centre = 0.5 * (shown_->grid.lower() + shown_->grid.upper());
   const double distance = std::max((centre - position).dot(forward), 0.1);
   const Vector3 focus = position + distance * forward, up = -T_world_camera.linear().col(1);
   camera.SetPosition(position.data());
@@ -256,7 +258,7 @@ Vector3 SceneView::direction_at(double x, double y) {
 }
 
 Pose SceneView::camera_pose() {
-  const vtkCamera& camera = *renderer().GetActiveCamera();
+  vtkCamera& camera = *renderer().GetActiveCamera();
   Pose pose = Pose::Identity();
   const Vector3 forward = Vector3(camera.GetDirectionOfProjection()).normalized();
   const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();

@@ -14,7 +14,6 @@ SeenSurface::SeenSurface(const Session& session) {
   truth_ = std::make_shared<const GroundTruth>(object->truth());
   surface_ = std::make_unique<MeshDistance>(*session.mesh());
   missed_ = std::make_unique<MissedSurface>(*session.mesh(), session.configuration().evaluation.d_reg);
-  missed_mesh_ = std::make_shared<const TriangleMesh>(missed_->mesh());
 }
 
 void SeenSurface::follow(const Session& session) {
@@ -35,7 +34,7 @@ void SeenSurface::follow(const Session& session) {
 std::shared_ptr<const MissedPicture> SeenSurface::missed() const {
   if (!missed_) return nullptr;
   return std::make_shared<MissedPicture>(
-      MissedPicture{missed_mesh_, {missed_->observed().begin(), missed_->observed().end()}});
+      MissedPicture{missed_->mesh(), {missed_->observed().begin(), missed_->observed().end()}});
 }
 
 }  // namespace nextview

@@ -24,7 +24,6 @@ class SeenSurface {
   std::shared_ptr<const GroundTruth> truth_;  ///< null without evaluation
   std::unique_ptr<MeshDistance> surface_;     ///< so are these
   std::unique_ptr<MissedSurface> missed_;
-  std::shared_ptr<const TriangleMesh> missed_mesh_;
   std::size_t scans_ = 0;
 };
 
