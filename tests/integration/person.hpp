@@ -13,16 +13,17 @@ namespace nextview {
 class Person {
  public:
   explicit Person(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
-      : surface_(width, height), interface_(surface_, worker_, scale) {
-    worker_.post(command::Load{configuration});
+      : surface_(width, height), interface_(surface_, worker_, inspector_, scale) {
+    worker_.post(request::Load{configuration});
     wait();
   }
 
-  /// Looks at frames until nothing new comes and the session worker is idle.
+  /// Looks at frames until nothing new comes and both workers are idle.
   void wait() {
     constexpr auto pause = std::chrono::milliseconds(2);
     constexpr double frame = 1.0 / 60;  // [s]
-    while (interface_.seconds_to_next_frame() == 0.0 || worker_.progress().busy) {
+    while (interface_.seconds_to_next_frame() == 0.0 || worker_.progress().busy || inspector_.busy() ||
+           !interface_.script_is_done()) {
       if (interface_.seconds_to_next_frame() > 0.0) {
         std::this_thread::sleep_for(pause);
       } else {
@@ -44,6 +45,14 @@ class Person {
     interface_.push(input::KeyChange{key, true});
     interface_.push(input::KeyChange{key, false});
   }
+  void write(const std::string& text) {
+    for (const char c : text) interface_.push(input::Text{static_cast<unsigned char>(c)});
+  }
+  /// Does the lines of a script and waits for what comes of them.
+  void run(std::string_view script) {
+    interface_.run_script(parse_script(script));
+    wait();
+  }
   void drop(const std::filesystem::path& file) { interface_.push(input::Drop{file}); }
 
   Image look() { return surface_.read_back(); }
@@ -52,11 +61,13 @@ class Person {
     return *seen_;
   }
   Interface& window() { return interface_; }
+  RenderSurface& surface() { return surface_; }
   SessionWorker& worker() { return worker_; }
 
  private:
   OffscreenSurface surface_;
   SessionWorker worker_;
+  InspectionWorker inspector_;
   Interface interface_;
   std::shared_ptr<const SessionSnapshot> seen_;
 };

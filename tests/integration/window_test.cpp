@@ -28,13 +28,9 @@ struct Point {
   double x, y;
 };
 
-Point step_button(const Layout& layout) { return {60, layout.control_bar.height / 2}; }
-Point table_row(const Layout& layout, int row) {
-  return {layout.candidates.x + 100, layout.candidates.y + 74 + 21 * row};
-}
-Point take_button(const Layout& layout) {
-  return {layout.candidates.x + 100, layout.candidates.y + layout.candidates.height - 24};
-}
+Point step_button(const Layout& layout) { return {50, layout.control_bar.y + layout.control_bar.height / 2}; }
+Point table_row(const Layout& layout, int row) { return {layout.right.x + 100, layout.right.y + 106 + 21 * row}; }
+Point take_button(const Layout& layout) { return {layout.right.x + 80, layout.right.y + layout.right.height - 24}; }
 Point middle(const Rectangle& r) { return {r.x + r.width / 2, r.y + r.height / 2}; }
 
 int count(const Image& image, const Rectangle& r, const std::function<bool(const std::uint8_t*)>& matches) {
@@ -71,7 +67,7 @@ TEST(Window, LoadsTheObjectAndStepsByKeys) {
   Person person(small_scan());
   EXPECT_EQ(person.window().title(), "Nextview - sphere - view 0 of 5");
   const Image before = person.look();
-  const Rectangle scene = person.window().layout().scene, curves = person.window().layout().curves;
+  const Rectangle scene = person.window().layout().scene, curves = person.window().layout().bottom;
   EXPECT_GT(colours(before, scene), 500u) << "the object is not there";
   person.type(key('S'));
   person.type(Key::space);
@@ -81,7 +77,7 @@ TEST(Window, LoadsTheObjectAndStepsByKeys) {
   const Image after = person.look();
   EXPECT_GT(count_blue(after, scene), count_blue(before, scene) + 1000) << "occupied voxels are not there";
   EXPECT_GT(count(after, curves, theme::series[0]), 100) << "the curves are not there";
-  EXPECT_GT(count(after, person.window().layout().candidates, theme::ink), 50) << "the candidates are not there";
+  EXPECT_GT(count(after, person.window().layout().right, theme::ink), 50) << "the candidates are not there";
 }
 
 TEST(Window, PlaysUntilTheScanIsFinished) {
@@ -112,7 +108,7 @@ TEST(Window, DrawsTheSceneOnlyWhenItChanged) {
   person.wait();
   const std::size_t drawings = person.window().scene_drawings();
   const Image drawn = person.look();
-  const Point panel = middle(person.window().layout().session), start{panel.x, panel.y + 60};
+  const Point panel = middle(person.window().layout().left), start{panel.x, panel.y + 60};
   person.move(start.x, start.y);
   person.wait();
   for (int i = 0; i < 5; ++i) person.window().draw(1.0 / 60);
@@ -145,9 +141,9 @@ TEST(Window, ADragThatBeganInTheSceneGoesOnOverPanels) {
 TEST(Window, ADragThatBeganOnAPanelLeavesTheCameraAlone) {
   Person person(small_scan());
   const Layout layout = person.window().layout();
-  const Point panel = middle(layout.layers), scene = middle(layout.scene);
+  const Point panel = middle(layout.left), scene = middle(layout.scene);
   const std::size_t drawings = person.window().scene_drawings();
-  person.move(panel.x, layout.layers.y + layout.layers.height - 8);
+  person.move(panel.x, layout.left.y + layout.left.height - 8);
   person.press();
   person.move(scene.x, scene.y);
   person.release();
@@ -232,7 +228,7 @@ TEST(Window, PanelsNeverOverlap) {
   for (const auto& [width, height, scale] :
        {std::tuple{1200, 720, 1.0}, {1280, 800, 1.0}, {2560, 1600, 2.0}, {3840, 2160, 1.5}}) {
     const Layout l(width, height, scale);
-    const std::vector<Rectangle> all{l.control_bar, l.session, l.layers, l.candidates, l.scene, l.curves, l.status};
+    const std::vector<Rectangle> all{l.menu, l.control_bar, l.left, l.right, l.bottom, l.scene, l.status};
     for (std::size_t i = 0; i < all.size(); ++i) {
       EXPECT_GE(all[i].x, 0.0);
       EXPECT_GE(all[i].y, 0.0);

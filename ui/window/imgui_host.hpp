@@ -1,19 +1,12 @@
 #pragma once
-#include <functional>
-#include <memory>
 #include <span>
 #include <string>
 
 #include "ui/panels/style.hpp"
+#include "ui/window/clipboard.hpp"
 #include "ui/window/input.hpp"
 
 namespace nextview {
-
-/// What a person copies and pastes.
-struct Clipboard {
-  std::function<std::string()> get;
-  std::function<void(const std::string&)> set;
-};
 
 /// ImGui's context, with our fonts and colours, and the input that it sees. It draws no pixels. There is one at a time.
 class ImguiHost {

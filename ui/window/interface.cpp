@@ -10,6 +10,7 @@
 #include <deque>
 
 #include "ui/panels/all_panels.hpp"
+#include "ui/window/imgui_host.hpp"
 #include "ui/window/scene_pointer.hpp"
 #include "ui/window/selection_overlay.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "ui/surface/render_surface.hpp"
+#include "ui/window/clipboard.hpp"
 #include "ui/window/command.hpp"
-#include "ui/window/imgui_host.hpp"
 #include "ui/window/inspection_worker.hpp"
 #include "ui/window/scene_view.hpp"
 

@@ -1,0 +1,13 @@
+#pragma once
+#include <functional>
+#include <string>
+
+namespace nextview {
+
+/// What a person copies and pastes.
+struct Clipboard {
+  std::function<std::string()> get;
+  std::function<void(const std::string&)> set;
+};
+
+}  // namespace nextview
