@@ -32,6 +32,7 @@ class SceneView {
   std::optional<Eigen::Vector2d> project(const Vector3& point);
   /// What is at a point of the window [px from the upper left corner].
   Picked pick(double x, double y);
+  std::size_t voxel_faces() { return scene_.octree().face_count(); }
   /// Where the scene is looked at from: T_world_camera.
   Pose camera_pose();
 
