@@ -1,13 +1,11 @@
 // Voxels with edges that stay a pixel or so wide at every zoom, and darker where other voxels keep the light away.
-// valueless_colours[2] (surface, stripes) and pixel_scale are set by ui/layers/octree_layer.cpp.
+// valueless_colours[2] (surface, stripes), nook_darkness and pixel_scale are set by ui/layers/octree_layer.cpp.
 in vec2 face_position;
-flat in vec3 face_normal;
 flat in vec4 face_colour;
 flat in vec4 face_open;
 
 const float edge_width = 0.9;  // [px] of the half of an edge that lies in this face
 const float edge_darkness = 0.4;
-const float nook_darkness = 0.45;
 const float stripe_spacing = 7.0;  // [px] of the picture, from lower left to upper right
 
 // 1 on an edge, 0 inside the face. Edges fade out where voxels are but a few pixels large, and would hide their colours.
@@ -32,6 +30,7 @@ vec3 valueless_colour() {
 }
 
 vec3 voxel_shade() {
-  vec3 colour = face_colour.a > 0.5 ? face_colour.rgb : valueless_colour();
+  vec3 colour = face_colour.rgb;
+  if (face_colour.a < 0.5) colour *= valueless_colour();
   return colour * (open() * (1.0 - edge_darkness * edge()));
 }

@@ -36,6 +36,7 @@ ColourMap ColourMap::probability() { return ColourMap({{{0.55, 0.11, 235}, {0.93
 ColourMap ColourMap::deviation() { return ColourMap({{{0.47, 0.16, 258}, {0.94, 0.0, 0}, {0.47, 0.17, 27}}}); }
 ColourMap ColourMap::uncertainty() { return ColourMap({{{0.92, 0.02, 210}, {0.64, 0.11, 325}, {0.36, 0.15, 305}}}); }
 ColourMap ColourMap::error() { return ColourMap({{{0.92, 0.02, 200}, {0.66, 0.13, 45}, {0.40, 0.16, 20}}}); }
+ColourMap ColourMap::distance() { return ColourMap({{{0.79, 0.08, 200}, {0.59, 0.14, 45}, {0.37, 0.15, 20}}}); }
 ColourMap ColourMap::height() { return ColourMap({{{0.34, 0.13, 300}, {0.57, 0.10, 215}, {0.80, 0.16, 130}}}); }
 ColourMap ColourMap::order() { return ColourMap({{{0.84, 0.15, 90}, {0.605, 0.10, 175}, {0.37, 0.15, 280}}}); }
 

@@ -15,6 +15,7 @@ class ColourMap {
   static ColourMap deviation();     ///< blue, light grey, red: below, at 0.5 even, above
   static ColourMap uncertainty();   ///< pale to deep violet: entropy
   static ColourMap error();         ///< pale to deep red: how far from the truth
+  static ColourMap distance();      ///< light teal, orange, deep red: from near to far
   static ColourMap height();        ///< deep violet, teal, light green: from low to high
   static ColourMap order();         ///< gold, green, deep blue: from the first to the last
 

@@ -86,6 +86,57 @@ Map map(const Vector3& viewer) {
   return result;
 }
 
+std::vector<float> errors(const Map& map) {
+  std::vector<float> result;
+  for (std::uint32_t i = 0; i < map.voxels.size(); ++i) {
+    const double d = distance(map.grid.centre(i)), truth = std::abs(d) < 0.0085 ? 1.0 : 0.0;
+    const bool known = map.grid.centre(i).z() > -0.17;
+    result.push_back(known ? float(std::abs(map.voxels[i].probability - truth)) : std::nanf(""));
+  }
+  return result;
+}
+
+std::vector<float> differences(const Map& map) {
+  std::vector<float> result;
+  for (std::uint32_t i = 0; i < map.voxels.size(); ++i) {
+    const Vector3 p = map.grid.centre(i);
+    const double d = distance(p), refined = 1 / (1 + std::exp((d - 0.0005) / 0.0015));
+    const double settled = 0.5 + 0.5 * std::sin(14 * p.x() + 9 * p.z());  // not everywhere is there evidence
+    result.push_back(d > 0.02 ? std::nanf("") : float(settled * (refined - map.voxels[i].probability)));
+  }
+  return result;
+}
+
+ScannedCloud scanned_cloud(const std::vector<Vector3>& viewers) {
+  ScannedCloud result;
+  for (std::size_t view = 0; view < viewers.size(); ++view) {
+    const CounterRandom random(8 + view, 903);
+    std::uint64_t i = 0;
+    for (const Eigen::Vector3f& point : cloud(viewers[view])) {
+      // Noise grows where the surface turns away, as a depth camera's does.
+      const Vector3 p = point.cast<double>();
+      const auto draw = random.uniform(i++);
+      const double away = 1 - facing(p, viewers[view]);
+      const Vector3 noisy = p + 0.03 * (draw[0] - 0.5) * away * away * (p - viewers[view]).normalized();
+      result.points.push_back(noisy.cast<float>());
+      result.views.push_back(std::uint16_t(view));
+      result.distances.push_back(draw[1] < 0.01 ? std::nanf("") : float(std::abs(distance(noisy))));
+    }
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> seen_classes(const TriangleMesh& torus, const std::vector<Vector3>& viewers) {
+  std::vector<std::uint8_t> result;
+  for (const Eigen::Vector3f& vertex : torus.vertices) {
+    const Vector3 p = vertex.cast<double>();
+    bool seen = false;
+    for (const Vector3& viewer : viewers) seen |= facing(p, viewer) > 0.1 && visible(p, viewer, 0.01);
+    result.push_back(p.z() < -0.2 ? 2 : seen ? 0 : 1);
+  }
+  return result;
+}
+
 std::vector<Pose> candidates() {
   CandidateViewsConfig config;
   config.radius = 0.9;

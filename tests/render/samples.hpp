@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
@@ -23,6 +24,22 @@ struct Map {
   std::vector<Voxel> voxels;
 };
 Map map(const Vector3& viewer);
+
+/// One value a voxel: |probability - truth|, none at the torus' foot.
+std::vector<float> errors(const Map& map);
+/// One value a voxel: what a map that knows how rays end would add to the probability, none far from the torus.
+std::vector<float> differences(const Map& map);
+
+/// The clouds of several viewers, with their views and distances to the torus; a few points have none.
+struct ScannedCloud {
+  PointCloud points;
+  std::vector<std::uint16_t> views;
+  std::vector<float> distances;  ///< [m]
+};
+ScannedCloud scanned_cloud(const std::vector<Vector3>& viewers);
+
+/// For each vertex of the torus: 0 seen from one of the viewers, 1 missed, 2 to be seen from nowhere (its foot).
+std::vector<std::uint8_t> seen_classes(const TriangleMesh& torus, const std::vector<Vector3>& viewers);
 
 std::vector<Pose> candidates();
 /// A smooth score over the candidates, largest at the side opposite of `viewer`.

@@ -69,7 +69,7 @@ Legend legend_of(const CloudPicture& picture) {
     case CloudColouring::by_distance: {
       Legend legend{"distance to the truth",
                     {},
-                    Legend::Range{ColourMap::error(), 0.0, picture.farthest * 1000.0, "mm", "", "and more"}};
+                    Legend::Range{ColourMap::distance(), 0.0, picture.farthest * 1000.0, "mm", "", "and more"}};
       if (truthless) legend.swatches.push_back({"no truth", no_truth});
       return legend;
     }

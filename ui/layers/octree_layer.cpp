@@ -34,7 +34,8 @@ float packed(const Colour& colour) {
   return result;
 }
 
-void set_uniforms(vtkUniforms& uniforms, double scale) {
+/// `darkness`: of the innermost nooks, 0 none.
+void set_uniforms(vtkUniforms& uniforms, double scale, double darkness) {
   float without[2][3];
   for (int c = 0; c < 3; ++c) {
     without[0][c] = float(valueless_voxel[c]);
@@ -42,16 +43,18 @@ void set_uniforms(vtkUniforms& uniforms, double scale) {
   }
   uniforms.SetUniform3fv("valueless_colours", 2, without);
   uniforms.SetUniformf("pixel_scale", float(scale));
+  uniforms.SetUniformf("nook_darkness", float(darkness));
 }
 
 }  // namespace
 
-OctreeLayer::OctreeLayer(vtkRenderer& renderer) : Layer(renderer), solid_(make_part()), free_(make_part()) {
+OctreeLayer::OctreeLayer(vtkRenderer& renderer) : Layer(renderer), solid_(make_part(0.45)), free_(make_part(0.0)) {
+  solid_.actor->GetProperty()->BackfaceCullingOn();
   free_.actor->GetProperty()->SetOpacity(0.16);
 }
 
-OctreeLayer::Part OctreeLayer::make_part() {
-  Part part{vtkSmartPointer<vtkOpenGLPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New(), {}, {}};
+OctreeLayer::Part OctreeLayer::make_part(double nook_darkness) {
+  Part part{vtkSmartPointer<vtkOpenGLPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New(), nook_darkness, {}, {}};
   part.mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
   for (const char* name : {"voxel_corner", "voxel_colour"})
     part.mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
@@ -59,23 +62,26 @@ OctreeLayer::Part OctreeLayer::make_part() {
   vtkShaderProperty& shaders = *part.actor->GetShaderProperty();
   shaders.AddVertexShaderReplacement("//VTK::Normal::Dec", true,
                                      "//VTK::Normal::Dec\n" + load_shader("voxels_vertex.glsl"), false);
-  shaders.AddVertexShaderReplacement("//VTK::Normal::Impl", true, "//VTK::Normal::Impl\n  pass_voxel();\n", false);
+  shaders.AddVertexShaderReplacement("//VTK::Normal::Impl", true,
+                                     "//VTK::Normal::Impl\n  pass_voxel((MCVCMatrix * vertexMC).xyz);\n", false);
   shaders.AddFragmentShaderReplacement("//VTK::Normal::Dec", true, "//VTK::Normal::Dec\n" + load_shader("voxels.glsl"),
                                        false);
-  // Instead of the normal that VTK would derive from neighbouring pixels.
-  shaders.AddFragmentShaderReplacement("//VTK::Normal::Impl", true, "vec3 normalVCVSOutput = face_normal;\n", false);
-  shaders.AddFragmentShaderReplacement("//VTK::Color::Impl", true,
-                                       "//VTK::Color::Impl\n  vec3 face_shade = voxel_shade();\n"
-                                       "  diffuseColor = 0.75 * face_shade;\n  ambientColor = 0.4 * face_shade;\n",
+  // VTK's light needs no normal any more: shaders/voxels_vertex.glsl lights the faces.
+  shaders.AddFragmentShaderReplacement("//VTK::Normal::Impl", true, "", false);
+  shaders.AddFragmentShaderReplacement("//VTK::Light::Impl", true, "fragOutput0 = vec4(voxel_shade(), opacity);\n",
                                        false);
-  set_uniforms(*shaders.GetFragmentCustomUniforms(), scale());
+  // VTK moves faces back a little, for the sake of edges on them, and discards clear pixels. There are neither, and
+  // without both the depth is known before shading: hidden faces cost next to nothing.
+  shaders.AddFragmentShaderReplacement("//VTK::Depth::Impl", true, "", false);
+  shaders.AddFragmentShaderReplacement("discard;", true, "", true);
+  set_uniforms(*shaders.GetFragmentCustomUniforms(), scale(), nook_darkness);
   add(*part.actor);
   return part;
 }
 
 void OctreeLayer::on_scale() {
   for (Part* part : {&solid_, &free_})
-    set_uniforms(*part->actor->GetShaderProperty()->GetFragmentCustomUniforms(), scale());
+    set_uniforms(*part->actor->GetShaderProperty()->GetFragmentCustomUniforms(), scale(), part->nook_darkness);
 }
 
 void OctreeLayer::show_part(Part& part, const VoxelGrid& grid, std::span<const Voxel> voxels,

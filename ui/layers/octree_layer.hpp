@@ -29,10 +29,11 @@ class OctreeLayer : public Layer {
   struct Part {
     vtkSmartPointer<vtkOpenGLPolyDataMapper> mapper;
     vtkSmartPointer<vtkActor> actor;
+    double nook_darkness;  ///< a clear shell has none
     std::vector<VoxelFace> faces;
     std::vector<Voxel> voxels;  ///< one a face
   };
-  Part make_part();
+  Part make_part(double nook_darkness);
   static void show_part(Part& part, const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter);
   /// Returns whether all voxels have a colour.
   static bool colour_part(Part& part, const VoxelPalette& palette, std::span<const float> values);

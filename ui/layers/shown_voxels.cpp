@@ -3,24 +3,52 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace nextview {
 namespace {
 
-/// Which cells along each axis the slice leaves.
-std::array<std::vector<std::uint8_t>, 3> cells_within(const VoxelGrid& grid, const std::optional<Slice>& slice) {
-  std::array<std::vector<std::uint8_t>, 3> within;
-  for (int axis = 0; axis < 3; ++axis) {
-    within[axis].assign(std::size_t(grid.size[axis]), 1);
-    if (!slice || slice->axis != axis) continue;
-    for (int i = 0; i < grid.size[axis]; ++i) {
-      const double centre = (grid.first[axis] + i + 0.5) * grid.resolution;  // as VoxelGrid::centre
-      within[axis][std::size_t(i)] = slice->holds(centre);
-    }
-  }
-  return within;
+bool within(const VoxelGrid& grid, const std::optional<Slice>& slice, int axis, int cell) {
+  if (!slice || slice->axis != axis) return true;
+  return slice->holds((grid.first[axis] + cell + 0.5) * grid.resolution);  // as VoxelGrid::centre
 }
+
+/// A bit a cell along x, whether the slice leaves it; in words as ShownVoxels has them.
+std::vector<std::uint64_t> cells_within(const VoxelGrid& grid, const std::optional<Slice>& slice, int words) {
+  std::vector<std::uint64_t> bits(std::size_t(words), 0);
+  for (int x = 0; x < grid.size.x(); ++x)
+    bits[std::size_t(x / 64)] |= std::uint64_t(within(grid, slice, 0, x)) << (x % 64);
+  return bits;
+}
+
+/// The smallest float that is not less: comparing floats with it is comparing them with `value`.
+float at_least(double value) {
+  const auto rounded = static_cast<float>(value);
+  return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+}
+
+/// VoxelFilter::shows without branches, which would be mispredicted: a voxel is shown from some value on.
+struct Threshold {
+  std::array<float, 3> from;  ///< by class: the least probability (or entropy) that is shown
+
+  explicit Threshold(const VoxelFilter& filter) {
+    constexpr float all = -1.0f, none = 2.0f;
+    from = {filter.unknown ? at_least(filter.unknown_from) : none, filter.free ? all : none,
+            filter.occupied ? all : none};
+    if (filter.uncertain) from.fill(at_least(filter.entropy_from));
+  }
+  template <float Voxel::*value>
+  std::uint64_t word(const Voxel* first, std::size_t count) const {
+    std::uint64_t bits = 0;
+    for (std::size_t i = count; i-- > 0;) {
+      const Voxel& voxel = first[i];
+      bits = bits << 1 | (unsigned(voxel.measured) & unsigned(voxel.*value >= from[std::size_t(voxel.voxel_class)]));
+    }
+    return bits;
+  }
+};
 
 }  // namespace
 
@@ -31,19 +59,19 @@ ShownVoxels::ShownVoxels(const VoxelGrid& grid, std::span<const Voxel> voxels, c
     throw std::invalid_argument("slice: the axis must be 0, 1 or 2");
   bits_.resize(std::size_t(words_) * size_.y() * size_.z());
   nothing_.resize(std::size_t(words_));
-  const auto within = cells_within(grid, filter.slice);
+  const auto cells = cells_within(grid, filter.slice, words_);
+  const Threshold threshold(filter);
   const std::size_t row_length = std::size_t(size_.x());
   tbb::parallel_for(0, size_.z(), [&](int z) {
-    for (int y = 0; y < size_.y(); ++y) {
-      if (!within[1][std::size_t(y)] || !within[2][std::size_t(z)]) continue;
+    for (int y = 0; y < size_.y() && within(grid, filter.slice, 2, z); ++y) {
+      if (!within(grid, filter.slice, 1, y)) continue;
       const std::size_t row = std::size_t(z) * size_.y() + y;
-      const Voxel* first = &voxels[row * row_length];
       for (std::size_t x = 0; x < row_length; x += 64) {
-        const std::size_t end = std::min<std::size_t>(64, row_length - x);
-        std::uint64_t word = 0;
-        for (std::size_t i = 0; i < end; ++i)
-          word |= std::uint64_t(filter.shows(first[x + i]) & (within[0][x + i] != 0)) << i;
-        bits_[row * words_ + x / 64] = word;
+        const Voxel* first = &voxels[row * row_length + x];
+        const std::size_t count = std::min<std::size_t>(64, row_length - x);
+        bits_[row * words_ + x / 64] =
+            cells[x / 64] & (filter.uncertain ? threshold.word<&Voxel::entropy>(first, count)
+                                              : threshold.word<&Voxel::probability>(first, count));
       }
     }
   });

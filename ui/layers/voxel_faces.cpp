@@ -87,6 +87,8 @@ void write_faces(const VoxelGrid& grid, const ShownVoxels& shown, int z, VoxelFa
 }  // namespace
 
 std::vector<VoxelFace> exposed_faces(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter) {
+  if (voxels.size() != grid.voxel_count()) throw std::invalid_argument("voxels: their number is not the grid's");
+  if (filter.shows_nothing()) return {};
   const ShownVoxels shown(grid, voxels, filter);
   // First how many faces each layer has, then each layer writes to its place.
   std::vector<std::size_t> first(std::size_t(grid.size.z()) + 1, 0);

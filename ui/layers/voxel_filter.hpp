@@ -38,6 +38,7 @@ struct VoxelFilter {
   bool shows(const VoxelGrid& grid, std::uint32_t index, const Voxel& voxel) const {
     return shows(voxel) && (!slice || slice->holds(grid.centre(index)[slice->axis]));
   }
+  bool shows_nothing() const { return !(occupied || unknown || free || uncertain); }
   bool operator==(const VoxelFilter&) const = default;
 };
 

@@ -18,7 +18,7 @@ std::optional<Legend::Range> range_of(VoxelColouring colouring) {
     case VoxelColouring::by_probability:
       return Legend::Range{ColourMap::probability(), 0.0, 1.0, ""};
     case VoxelColouring::by_entropy:
-      return Legend::Range{ColourMap::uncertainty(), 0.0, std::numbers::ln2, "nats", "certain", "undecided"};
+      return Legend::Range{ColourMap::uncertainty(), 0.0, std::numbers::ln2, "nats", "", "undecided"};
     case VoxelColouring::by_difference:
       return Legend::Range{ColourMap::deviation(), -1.0, 1.0, "", "freer", "fuller"};
     case VoxelColouring::by_error:
