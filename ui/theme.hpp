@@ -32,7 +32,6 @@ inline constexpr Colour free = from_hex(0x9CCBD9);
 inline constexpr Colour missed = from_hex(0xD9722E);  ///< surface that no view has seen
 
 inline constexpr Colour chosen = from_hex(0xD1401F);
-inline constexpr Colour missed = from_hex(0xB03A72);
 inline constexpr Colour visited = from_hex(0x6E7781);
 
 /// Series of a chart, in this order.
