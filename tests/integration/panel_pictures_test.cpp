@@ -26,31 +26,35 @@ TEST(PanelPictures, Candidates) {
 
 TEST(PanelPictures, View) {
   Person person(housing());
-  person.run("step\nstep\nstep\nselect-view 12\npanel view\npanel layers\n");
+  person.run("step\nstep\nstep\nselect-view 32\npanel view\npanel layers\nzoom 3\n");
   expect_screenshot("panel_view", person.look(), bound());
 }
 
 TEST(PanelPictures, InspectorOfARay) {
   Person person(housing());
-  person.run("step\nstep\nstep\nselect-view 12\ninspect-ray 470\npanel layers\n");
+  person.run("step\nstep\nstep\nselect-view 32\ninspect-ray 470\npanel layers\nzoom 3\n");
   expect_screenshot("panel_ray", person.look(), bound());
 }
 
 TEST(PanelPictures, InspectorOfAVoxel) {
   Person person(housing());
-  person.run("step\nstep\nstep\nrefine\ninspect-voxel 0.105 0.155 0.005\npanel layers\nvoxel-colour probability\n");
+  person.run("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
+  const Rectangle& scene = person.window().layout().scene;
+  person.click(scene.x + 0.45 * scene.width, scene.y + 0.5 * scene.height);
+  person.wait();
+  ASSERT_TRUE(person.window().state().selection.voxel) << "there is no voxel where the object is";
   expect_screenshot("panel_voxel", person.look(), bound());
 }
 
 TEST(PanelPictures, Gibbs) {
   Person person(housing());
-  person.run("step\nstep\nstep\nrefine\nvoxel-map gibbs\nvoxel-colour difference\npanel layers\ntoggle-rays\n");
+  person.run("step\nstep\nstep\nrefine\nvoxel-map gibbs\nvoxel-colour difference\npanel layers\ntoggle-rays\ntoggle-cloud\nzoom 5\n");
   expect_screenshot("panel_gibbs", person.look(), bound());
 }
 
 TEST(PanelPictures, LogAndMissedSurface) {
   Person person(housing());
-  person.run("step\nstep\ntake-view 20\nstep\npanel log\ntoggle-octree\ntoggle-cloud\ntoggle-missed\ntoggle-rays\n");
+  person.run("step\nstep\ntake-view 20\nstep\npanel log\ntoggle-octree\ntoggle-cloud\ntoggle-missed\ntoggle-rays\nzoom 4\n");
   expect_screenshot("panel_log", person.look(), bound());
 }
 
@@ -82,7 +86,7 @@ TEST(PanelPictures, Shortcuts) {
 
 TEST(PanelPictures, HiDpi) {
   Person person(housing(), 2560, 1600, 2.0);
-  person.run("step\nstep\nselect-view 12\npanel view\n");
+  person.run("step\nstep\nselect-view 32\npanel view\n");
   expect_screenshot("window_hidpi", person.look(), bound());
 }
 

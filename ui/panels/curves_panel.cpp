@@ -97,12 +97,12 @@ ChartContent time_content(const SessionSnapshot& s) {
 /// Which curves a plot shows; at the right of its title.
 void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle& r) {
   const Style& style = context.style;
-  ImGui::SetCursorScreenPos({float(r.x + r.width) - style.px(120), float(r.y) - style.px(3)});
-  ImGui::SetNextItemWidth(style.px(106));
+  ImGui::SetCursorScreenPos({float(r.x + r.width) - style.px(34), float(r.y) - style.px(2)});
   ImGui::PushFont(style.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(style.px(6), style.px(2)));
   const auto now = static_cast<std::size_t>(context.window.curves[plot]);
-  if (ImGui::BeginCombo(fmt::format("##curves {}", plot).c_str(), kind_names[now])) {
+  if (ImGui::BeginCombo(fmt::format("##curves {}", plot).c_str(), kind_names[now],
+                        ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
     for (std::size_t i = 0; i < kind_names.size(); ++i) {
       if (!ImGui::Selectable(kind_names[i], i == now)) continue;
       auto chosen = context.window.curves;
@@ -112,7 +112,7 @@ void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle&
     }
     ImGui::EndCombo();
   }
-  tooltip("What this plot shows.");
+  tooltip("Choose what this plot shows.");
   ImGui::PopStyleVar();
   ImGui::PopFont();
 }

@@ -47,16 +47,16 @@ void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d)
                           : d.warning,
              d.stationary ? good : theme::chosen);
   if (!ImGui::BeginTable("stationarity", 2)) return;
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(150));
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(124));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   ImGui::PushFont(context.style.small);
-  table_row("R-hat", fmt::format("{:.3f} (wanted: under 1.05)", d.r_hat),
+  table_row("R-hat", fmt::format("{:.3f} (under 1.05)", d.r_hat),
             "Split R-hat of the log-posterior: 1 if the chains agree");
   table_row("trend |z|", fmt::format("{:.1f} (under 2.58)", d.trend), "Geweke's statistic of the log-posterior");
   table_row("voxels that differ", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels),
             "Informed voxels whose mean differs by over 0.5 between two chains");
   table_row("effective samples", fmt::format("{:.0f}", d.effective_samples), "Of the log-posterior");
-  table_row("rays", fmt::format("{} of {} joined", d.joined_rays, d.measured_rays));
+  table_row("rays", fmt::format("{} joined of {}", d.joined_rays, d.measured_rays));
   table_row("time", fmt::format("{:.1f} s", d.build_seconds + d.sample_seconds));
   ImGui::PopFont();
   ImGui::EndTable();
@@ -78,9 +78,9 @@ void draw_histograms(const PanelContext& context, const MapChange& change) {
 
 void draw_changes(const PanelContext& context, const MapChange& change) {
   small_text(context.style,
-             fmt::format("{} voxels are of another class than in the conventional map; the entropy of all voxels went "
-                         "from {:.0f} to {:.0f} knats.",
-                         change.changed_class, change.entropy_before / 1e3, change.entropy_after / 1e3));
+             fmt::format("{:.0f} thousand voxels are of another class than in the conventional map; the entropy of all "
+                         "voxels went from {:.0f} to {:.0f} knats.",
+                         double(change.changed_class) / 1e3, change.entropy_before / 1e3, change.entropy_after / 1e3));
 }
 
 void draw_before_and_after(const PanelContext& context) {

@@ -90,11 +90,11 @@ void draw_octree(const PanelContext& context) {
     toggle(context, name, label);
     swatch(context, colour);
   }
-  if (layers.voxels.unknown) slider(context, "threshold", "unknown, p ≥", layers.voxels.unknown_from, 0, 1, "%.2f");
+  if (layers.voxels.unknown) slider(context, "threshold", "p from", layers.voxels.unknown_from, 0, 1, "%.2f");
   ImGui::EndDisabled();
   toggle(context, "toggle-uncertain", "uncertain only");
   if (layers.voxels.uncertain)
-    slider(context, "uncertain-from", "entropy ≥", layers.voxels.entropy_from, 0, 0.693, "%.2f nats");
+    slider(context, "uncertain-from", "from", layers.voxels.entropy_from, 0, 0.693, "%.2f nats");
   draw_slice(context);
 }
 

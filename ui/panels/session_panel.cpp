@@ -28,7 +28,7 @@ void label(const PanelContext& context, const std::string& text, const std::stri
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   tooltip(help);
-  ImGui::SameLine(context.style.px(104));
+  ImGui::SameLine(context.style.px(86));
   ImGui::SetNextItemWidth(-context.style.px(22));
 }
 
@@ -142,8 +142,12 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
     draw_setting(context, find_setting(settings, key), text);
   small_text(context.style, "A change starts the scan over; undo brings it back.");
   ImGui::Spacing();
+  ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
+  ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));
+  ImGui::PushStyleColor(ImGuiCol_HeaderActive, to_imgui(theme::sky));
   for (const auto& [group, title] : groups)
     if (ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
+  ImGui::PopStyleColor(3);
   ImGui::Spacing();
   command_button(context, "reset-settings", Icon::reset, "All settings back", false, ImGui::GetContentRegionAvail().x);
   ImGui::EndDisabled();

@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::array mouse = {
     std::pair{"Left drag", "turn the scene"},
-    std::pair{"Middle drag, Shift + left drag", "move it"},
+    std::pair{"Middle or Shift + left drag", "move it"},
     std::pair{"Wheel", "nearer, farther"},
     std::pair{"Click a frustum", "look at this view"},
     std::pair{"Click a voxel", "inspect it"},
     std::pair{"Click a ray", "inspect it"},
     std::pair{"Point at a candidate", "see its frustum"},
-    std::pair{"Drop a file", "scan this object, or with these settings (.toml)"},
+    std::pair{"Drop a file", "scan it; .toml: with its settings"},
 };
 
 void draw_row(std::string_view keys, std::string_view help) {
@@ -26,17 +26,30 @@ void draw_row(std::string_view keys, std::string_view help) {
   ImGui::TextUnformatted(help.data(), help.data() + help.size());
 }
 
-void draw_keys(const PanelContext& context) {
-  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit, {context.style.px(330), 0})) return;
-  for (const Command& command : commands())
-    if (const std::string keys = command.keys(); !keys.empty()) draw_row(keys, command.text);
-  for (const Shortcut& shortcut : find_command("panel").shortcuts)
-    draw_row(shortcut.text(), "Show panel: " + shortcut.arguments.front());
+void draw_heading(const Style& style, const char* text) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::Dummy({0, style.px(4)});
+  heading(style, text);
+}
+
+/// The keys of some menus' commands, menu by menu.
+void draw_menus(const PanelContext& context, std::initializer_list<const char*> wanted) {
+  if (!ImGui::BeginTable(*wanted.begin(), 2, ImGuiTableFlags_SizingFixedFit)) return;
+  for (const char* menu : wanted) {
+    draw_heading(context.style, menu);
+    for (const Command& command : commands())
+      if (const std::string keys = command.keys(); command.menu == menu && !keys.empty()) draw_row(keys, command.text);
+  }
   ImGui::EndTable();
 }
 
-void draw_mouse(const PanelContext& context) {
-  if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_SizingFixedFit, {context.style.px(430), 0})) return;
+void draw_panels_and_mouse(const PanelContext& context) {
+  if (!ImGui::BeginTable("panels and mouse", 2, ImGuiTableFlags_SizingFixedFit)) return;
+  draw_heading(context.style, "Panels");
+  for (const Shortcut& shortcut : find_command("panel").shortcuts)
+    draw_row(shortcut.text(), shortcut.arguments.front());
+  draw_heading(context.style, "Mouse");
   for (const auto& [gesture, help] : mouse) draw_row(gesture, help);
   ImGui::EndTable();
 }
@@ -55,14 +68,16 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
-  heading(style, "Keys and mouse");
-  ImGui::Spacing();
   ImGui::PushFont(style.small);
-  if (ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingFixedFit)) {
+  if (ImGui::BeginTable("sheet", 3, ImGuiTableFlags_SizingFixedFit)) {
+    for (const float width : {280.0f, 300.0f, 380.0f})
+      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, style.px(width));
     ImGui::TableNextColumn();
-    draw_keys(context);
+    draw_menus(context, {"File", "Scan", "Gibbs", "Window"});
     ImGui::TableNextColumn();
-    draw_mouse(context);
+    draw_menus(context, {"Select", "Scene"});
+    ImGui::TableNextColumn();
+    draw_panels_and_mouse(context);
     ImGui::EndTable();
   }
   ImGui::PopFont();

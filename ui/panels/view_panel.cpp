@@ -46,27 +46,35 @@ void draw_choice(const PanelContext& context) {
   ImGui::EndCombo();
 }
 
-/// A picture as wide as the panel, or its place while there is none. Returns its upper left corner.
-ImVec2 draw_picture(const PanelContext& context, const char* name, std::uint64_t version, double aspect,
+/// A picture with words at its right, or its place while there is none. Returns its corners.
+ImVec4 draw_picture(const PanelContext& context, const char* name, double aspect, const std::string& words,
                     const std::function<Image()>& make) {
-  const float width = ImGui::GetContentRegionAvail().x;
-  const ImVec2 size(width, std::round(width * float(aspect)));
+  const Style& style = context.style;
+  const ImVec2 size(style.px(196), std::round(style.px(196) * float(aspect)));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  if (const ImTextureID texture = context.pictures.get(name, version, make)) {
+  ImGui::BeginGroup();
+  if (const ImTextureID texture = context.pictures.get(name, context.inspection.number, make)) {
     ImGui::Image(texture, size);
   } else {
     ImGui::Dummy(size);
   }
-  ImGui::GetWindowDrawList()->AddRect(corner, {corner.x + size.x, corner.y + size.y}, to_imgui_u32(theme::hairline));
-  return corner;
+  ImGui::EndGroup();
+  const ImVec4 place(corner.x, corner.y, corner.x + size.x, corner.y + size.y);
+  ImGui::GetWindowDrawList()->AddRect(corner, {place.z, place.w}, to_imgui_u32(theme::hairline));
+  ImGui::SameLine(0, style.px(10));
+  ImGui::BeginGroup();
+  small_text(style, words);
+  ImGui::EndGroup();
+  return place;
 }
 
-/// Cell of a picture of the last item that is pointed at.
-std::optional<std::size_t> pointed_cell(int columns, int rows) {
-  if (!ImGui::IsItemHovered()) return std::nullopt;
-  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax(), at = ImGui::GetIO().MousePos;
-  const int column = std::clamp(int((at.x - from.x) / (to.x - from.x) * float(columns)), 0, columns - 1);
-  const int row = std::clamp(int((at.y - from.y) / (to.y - from.y) * float(rows)), 0, rows - 1);
+/// The cell of a picture that is pointed at.
+std::optional<std::size_t> pointed_cell(const ImVec4& place, int columns, int rows) {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  if (!ImGui::IsWindowHovered() || at.x < place.x || at.y < place.y || at.x >= place.z || at.y >= place.w)
+    return std::nullopt;
+  const int column = std::clamp(int((at.x - place.x) / (place.z - place.x) * float(columns)), 0, columns - 1);
+  const int row = std::clamp(int((at.y - place.y) / (place.w - place.y) * float(rows)), 0, rows - 1);
   return std::size_t(row) * columns + column;
 }
 
@@ -74,18 +82,33 @@ void draw_depth(const PanelContext& context, const ViewInspection& view) {
   const ExpectedView& e = view.expected;
   const bool taken = !view.measured.empty();
   const auto [near, far] = depth_range(view.measured, e.depth);
-  small_text(context.style,
-             taken ? "depth as measured" : "depth as the map has it; striped: the way there is not known");
-  draw_picture(context, taken ? "measured" : "expected", context.inspection.number, double(e.rows) / e.columns,
-               [&, near = near, far = far] {
-                 return taken ? depth_picture(view.measured, {}, e.columns, e.rows, near, far)
-                              : depth_picture(e.depth, e.unknown, e.columns, e.rows, near, far);
-               });
-  const auto cell = pointed_cell(e.columns, e.rows);
+  const std::string words =
+      taken ? "Depth as measured." : "Depth as the map has it. Striped: the way there is not known.";
+  const std::string range = fmt::format("\n\nDark {:.0f} mm, pale {:.0f} mm; white: nothing.", 1e3 * near, 1e3 * far);
+  const ImVec4 place = draw_picture(context, taken ? "measured" : "expected", double(e.rows) / e.columns, words + range,
+                                    [&, near = near, far = far] {
+                                      const auto& depth = taken ? view.measured : e.depth;
+                                      const auto unknown = taken ? std::vector<std::uint8_t>() : e.unknown;
+                                      return depth_picture(depth, unknown, e.columns, e.rows, near, far);
+                                    });
+  const auto cell = pointed_cell(place, e.columns, e.rows);
   if (!cell) return;
   const float depth = taken ? view.measured[*cell] : e.depth[*cell];
   const std::string way = !taken && e.unknown[*cell] ? "\nthe way there is not known" : "";
   ImGui::SetTooltip("%s", ((depth < 0 ? "nothing met" : fmt::format("{:.0f} mm", 1e3 * depth)) + way).c_str());
+}
+
+/// How many rays a row of the picture has.
+int ray_columns(const PlannerConfig& planner, const ScoreExplanation& explanation) {
+  return planner.semantics == Semantics::published ? planner.ray_columns
+                                                   : int(std::lround(std::sqrt(double(explanation.rays.size()))));
+}
+
+void mark_cell(const ImVec4& place, std::size_t cell, int columns, int rows, const Colour& colour, float width) {
+  const float w = (place.z - place.x) / float(columns), h = (place.w - place.y) / float(rows);
+  const float x = place.x + float(cell % std::size_t(columns)) * w,
+              y = place.y + float(cell / std::size_t(columns)) * h;
+  ImGui::GetWindowDrawList()->AddRect({x - 1, y - 1}, {x + w + 1, y + h + 1}, to_imgui_u32(colour), 0, 0, width);
 }
 
 /// Which ray contributes what; a click inspects the ray.
@@ -93,32 +116,24 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   if (!view.explanation) return small_text(context.style, view.no_explanation);
   const ScoreExplanation& e = *view.explanation;
   const PlannerConfig& planner = context.snapshot.configuration.planner;
-  const int columns = planner.semantics == Semantics::published ? planner.ray_columns
-                                                                : int(std::lround(std::sqrt(double(e.rays.size()))));
-  const int rows = int(e.rays.size()) / std::max(columns, 1);
-  const std::string unit = context.snapshot.gain_unit;
-  small_text(context.style, fmt::format("what each of its {} rays contributes: up to {} {}", e.rays.size(),
-                                        readable(largest_contribution(e)), unit));
-  if (columns < 1 || rows < 1) return;
   const PinholeCamera& camera = context.snapshot.camera;
-  const double aspect =
-      planner.semantics == Semantics::published ? double(camera.height) / camera.width : double(rows) / columns;
-  const ImVec2 corner = draw_picture(context, "contributions", context.inspection.number, aspect,
-                                     [&] { return contribution_picture(e, columns); });
-  const auto cell = pointed_cell(columns, rows);
-  const ImVec2 to = ImGui::GetItemRectMax();
-  const auto mark = [&](std::size_t ray, const Colour& colour) {
-    const float w = (to.x - corner.x) / float(columns), h = (to.y - corner.y) / float(rows);
-    const float x = corner.x + float(ray % std::size_t(columns)) * w,
-                y = corner.y + float(ray / std::size_t(columns)) * h;
-    ImGui::GetWindowDrawList()->AddRect({x - 1, y - 1}, {x + w + 1, y + h + 1}, to_imgui_u32(colour), 0, 0,
-                                        context.style.px(1.5f));
-  };
-  if (const auto& ray = context.window.selection.ray; ray && *ray < e.rays.size()) mark(*ray, theme::ink);
+  const std::string& unit = context.snapshot.gain_unit;
+  const int columns = ray_columns(planner, e), rows = columns > 0 ? int(e.rays.size()) / columns : 0;
+  if (rows < 1) return;
+  const bool whole_image = planner.semantics == Semantics::published;
+  const std::string words = fmt::format(
+      "What each of its {} rays adds to the gain.\n\nDark {} {}, pale little, white nothing. Click a ray to see why.",
+      e.rays.size(), readable(largest_contribution(e)), unit);
+  const ImVec4 place = draw_picture(context, "contributions",
+                                    whole_image ? double(camera.height) / camera.width : double(rows) / columns, words,
+                                    [&] { return contribution_picture(e, columns); });
+  const float width = context.style.px(1.5f);
+  if (const auto& ray = context.window.selection.ray; ray && *ray < e.rays.size())
+    mark_cell(place, *ray, columns, rows, theme::ink, width);
+  const auto cell = pointed_cell(place, columns, rows);
   if (!cell || *cell >= e.rays.size()) return;
-  mark(*cell, theme::series[0]);
-  ImGui::SetTooltip("ray %zu: %s %s\nclick to see its voxels", *cell, readable(e.rays[*cell].contribution).c_str(),
-                    unit.c_str());
+  mark_cell(place, *cell, columns, rows, theme::series[0], width);
+  ImGui::SetTooltip("ray %zu: %s %s", *cell, readable(e.rays[*cell].contribution).c_str(), unit.c_str());
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.call("inspect-ray", *cell);
 }
 

@@ -23,7 +23,9 @@ std::string text_of(const Voxel& voxel) {
 std::string truth_of(const GroundTruth& truth, std::uint32_t voxel) {
   if (truth.hidden(voxel)) return "inside the object, out of sight";
   if (truth.touch[voxel]) return "the surface touches it";
-  return fmt::format("free, {} voxels from the surface", int(truth.surface_distance[voxel]));
+  const int distance = truth.surface_distance[voxel];
+  return distance >= 255 ? "free, far from the surface"
+                         : fmt::format("free, {} voxel{} from the surface", distance, distance == 1 ? "" : "s");
 }
 
 void draw_summary(const PanelContext& context, std::uint32_t voxel) {
@@ -110,11 +112,18 @@ void draw_conditional(const PanelContext& context, const FullConditional& condit
                              : conditional.probability.size() == 2 ? "occupied"
                                                                    : fmt::format("level {}", q);
     ImGui::TextDisabled("%s", name.c_str());
-    ImGui::SameLine(style.px(96));
     const float p = float(conditional.probability[q]);
-    ImGui::ProgressBar(p, {-FLT_MIN, ImGui::GetTextLineHeight()}, fmt::format("{:.4f}", p).c_str());
+    ImGui::SameLine(style.px(84));
+    ImGui::TextUnformatted(fmt::format("{:.4f}", p).c_str());
+    ImGui::SameLine(style.px(138));
+    ImGui::ProgressBar(p, {-FLT_MIN, ImGui::GetTextLineHeight()}, "");
   }
   ImGui::PopFont();
+  double speaks_for = 0, against = 0;
+  for (const RayEvidence& ray : conditional.rays) (ray.log_ratio > 0 ? speaks_for : against) += ray.log_ratio;
+  small_text(style, fmt::format("Of log odds {:+.2f}: prior {:+.2f}, rays for it {:+.2f}, against it {:+.2f}.",
+                                conditional.log_prior_odds + speaks_for + against, conditional.log_prior_odds,
+                                speaks_for, against));
 }
 
 void draw_gibbs(const PanelContext& context, const VoxelInspection& voxel) {

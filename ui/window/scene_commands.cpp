@@ -18,7 +18,7 @@ const Names axes = {"none", "x", "y", "z"};
 Command toggle(const char* layer, const char* text, char key_name, bool LayerChoice::*shown) {
   return {std::string("toggle-") + layer,
           "Scene",
-          text,
+          std::string("Show ") + text,
           std::string("Shows or hides ") + text + ".",
           {},
           {{key(key_name)}},
@@ -45,7 +45,7 @@ Command choose(const char* name, const char* text, const char* help, const char*
                Enum LayerChoice::*member) {
   return {name,
           "Scene",
-          text,
+          std::string("Show ") + text,
           help,
           {choice(argument, help, names)},
           {},
