@@ -96,6 +96,14 @@ void Scene::set_scale(double scale) {
   for (Layer* layer : layers()) layer->set_scale(scale);
 }
 
+void Scene::set_moving(bool moving) {
+  vtkRenderWindow* window = renderer_->GetRenderWindow();
+  if (!window || moving == moving_) return;
+  if (moving) samples_at_rest_ = window->GetMultiSamples();
+  window->SetMultiSamples(moving ? 0 : samples_at_rest_);
+  moving_ = moving;
+}
+
 void Scene::annotate() {
   overlay_->item->legends.clear();
   overlay_->item->labels.clear();

@@ -47,6 +47,9 @@ class Scene {
   /// Pixels of the display a pixel of the design: 2 on a HiDPI display, 1 unless told otherwise. Lines, points, text
   /// and legends become as much larger.
   void set_scale(double scale);
+  /// While the camera moves, edges may be rough: drawing in software then takes a third of the time. Holds for the
+  /// whole surface, from the next drawing on. Does nothing without a surface.
+  void set_moving(bool moving);
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }
 
@@ -66,7 +69,8 @@ class Scene {
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
-  bool legends_ = true;
+  bool legends_ = true, moving_ = false;
+  int samples_at_rest_ = 0;  ///< of a pixel, while moving
   vtkSmartPointer<vtkRenderer> renderer_;
   std::unique_ptr<MeshLayer> mesh_;
   std::unique_ptr<CloudLayer> cloud_;

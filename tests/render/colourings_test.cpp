@@ -52,7 +52,7 @@ RENDER_TEST(missed_surface, 960, 600, {
   scene.mesh().show(
       mesh, MeshClasses{
                 classes, {{"seen", theme::object}, {"missed", theme::missed}, {"cannot be seen", hidden}}, "surface"});
-  scene.frame({12, -16});
+  scene.frame({32, -12});
 })
 
 /// All layers, ranges locked, a view of one's own.

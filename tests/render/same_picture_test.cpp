@@ -1,5 +1,6 @@
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
+#include "ui/surface/offscreen_surface.hpp"
 
 /// Ways to say the same must draw the same. These need no screenshots, and so none can be wrong.
 namespace nextview {
@@ -68,6 +69,22 @@ TEST(SamePicture, AnotherColouringIsAnotherPicture) {
     });
   };
   EXPECT_NE(draw(VoxelColouring::by_class), draw(VoxelColouring::by_probability));
+}
+
+TEST(SamePicture, RoughEdgesWhileMovingAreSmoothAgainAtRest) {
+  OffscreenSurface surface(320, 200);
+  Scene scene;
+  scene.attach(surface);
+  show_map(scene, VoxelColouring::by_class);
+  scene.frame();
+  const auto draw = [&](bool moving) {
+    scene.set_moving(moving);
+    surface.render();
+    return surface.read_back();
+  };
+  const Image at_rest = draw(false), moving = draw(true), again = draw(false);
+  EXPECT_NE(at_rest, moving);
+  EXPECT_EQ(at_rest, again);
 }
 
 TEST(SamePicture, TheLayersRefuseWhatDoesNotFit) {

@@ -1,0 +1,232 @@
+#include <gmock/gmock.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/render/render_test.hpp"
+#include "tests/render/samples.hpp"
+#include "ui/scene_overlay.hpp"
+#include "ui/surface/offscreen_surface.hpp"
+
+/// What the layers' colours and legends say, by pixels and by words.
+namespace nextview {
+namespace {
+
+const Vector3 viewer(0.5, -0.8, 0.4);
+const float none = std::nanf("");
+
+Voxel voxel(float p) { return {p, float(entropy(p)), InverseSensorModel{}.classify(p), true, 0}; }
+
+void expect_near(const Colour& a, const Colour& b) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.01);
+}
+
+TEST(VoxelPalette, ColoursFollowTheirMaps) {
+  const VoxelPalette entropies(VoxelColouring::by_entropy), differences(VoxelColouring::by_difference),
+      errors(VoxelColouring::by_error), probabilities(VoxelColouring::by_probability),
+      classes(VoxelColouring::by_class);
+  expect_near(*entropies.colour(voxel(0.5f), none), ColourMap::uncertainty().at(1.0));
+  expect_near(*entropies.colour(voxel(0.97f), none), ColourMap::uncertainty().at(entropy(0.97) / std::numbers::ln2));
+  expect_near(*differences.colour(voxel(0.9f), -1.0f), ColourMap::deviation().at(0.0));
+  expect_near(*differences.colour(voxel(0.9f), 0.5f), ColourMap::deviation().at(0.75));
+  expect_near(*errors.colour(voxel(0.1f), 0.25f), ColourMap::error().at(0.25));
+  expect_near(*errors.colour(voxel(0.1f), 7.0f), ColourMap::error().at(1.0));
+  expect_near(*probabilities.colour(voxel(0.3f), none), ColourMap::probability().at(0.3));
+  expect_near(*classes.colour(voxel(0.1f), none), theme::free);
+  expect_near(*classes.colour(voxel(0.5f), none), theme::unknown);
+  EXPECT_FALSE(errors.colour(voxel(0.1f), none).has_value());
+}
+
+TEST(OctreeLayer, LegendsSayWhatTheEndsMeanAndWhatHasNoValue) {
+  draw_scene(64, 64, [](Scene& scene) {
+    const auto map = samples::map(viewer);
+    std::vector<float> values(map.voxels.size(), 0.2f);
+    const auto legend = [&](VoxelColouring colouring) {
+      scene.octree().set_colouring(colouring, values);
+      return scene.octree().legends()[0];
+    };
+    scene.octree().show(map.grid, map.voxels);
+    EXPECT_NEAR(legend(VoxelColouring::by_entropy).range->high, std::numbers::ln2, 1e-12);
+    EXPECT_EQ(legend(VoxelColouring::by_entropy).range->unit, "nats");
+    EXPECT_EQ(legend(VoxelColouring::by_difference).range->low, -1.0);
+    EXPECT_TRUE(legend(VoxelColouring::by_difference).swatches.empty()) << "all have values";
+    values.assign(values.size(), none);
+    EXPECT_EQ(legend(VoxelColouring::by_difference).swatches.at(0).name, "no value");
+    EXPECT_EQ(legend(VoxelColouring::by_error).swatches.at(0).name, "no truth");
+    EXPECT_TRUE(legend(VoxelColouring::by_entropy).swatches.empty()) << "needs no values";
+    values.pop_back();
+    EXPECT_THROW(legend(VoxelColouring::by_error), std::invalid_argument);
+    EXPECT_THROW(scene.octree().show(map.grid, map.voxels, {}, VoxelColouring::by_error, values),
+                 std::invalid_argument);
+  });
+}
+
+TEST(OctreeLayer, OtherValuesLaterDrawTheSameAsAtOnce) {
+  const auto map = samples::map(viewer);
+  const auto errors = samples::errors(map), differences = samples::differences(map);
+  const auto draw = [&](bool later) {
+    return draw_scene(320, 200, [&](Scene& scene) {
+      scene.octree().show(map.grid, map.voxels, {true, true, true}, VoxelColouring::by_error,
+                          later ? differences : errors);
+      if (later) {
+        scene.frame();
+        scene.octree().set_colouring(VoxelColouring::by_difference, differences);
+        scene.octree().set_colouring(VoxelColouring::by_error, errors);
+      }
+      scene.frame();
+    });
+  };
+  EXPECT_EQ(draw(false), draw(true));
+}
+
+TEST(CloudLayer, LegendsAndRefusals) {
+  draw_scene(64, 64, [](Scene& scene) {
+    const std::vector<Eigen::Vector3f> points{{0, 0, 0.1f}, {0, 0.1f, 0.3f}, {0.1f, 0, 0.2f}};
+    const std::vector<std::uint16_t> views{0, 2, 6};
+    const std::vector<float> distances{0.001f, 0.2f, none};
+    CloudPicture picture{points, views, distances, CloudColouring::by_view};
+    const auto legend = [&] {
+      scene.cloud().show(picture);
+      return scene.cloud().legends()[0];
+    };
+    EXPECT_EQ(legend().range->high, 7.0) << "people count views from 1";
+    picture.colouring = CloudColouring::by_height;
+    EXPECT_NEAR(legend().range->low, 0.1, 1e-6);
+    EXPECT_FALSE(legend().locked);
+    picture.heights = ValueRange{0.0, 0.25};
+    EXPECT_TRUE(legend().locked);
+    EXPECT_EQ(legend().range->high_name, "and more");
+    picture.colouring = CloudColouring::by_distance;
+    EXPECT_EQ(legend().range->high, 5.0);
+    EXPECT_EQ(legend().range->unit, "mm");
+    EXPECT_EQ(legend().swatches.at(0).name, "no truth");
+    picture.distances = {};
+    EXPECT_THROW(legend(), std::invalid_argument) << "nothing to colour by";
+    picture.colouring = CloudColouring::by_view;
+    picture.views = std::span(views).first(2);
+    EXPECT_THROW(legend(), std::invalid_argument) << "too few";
+  });
+}
+
+TEST(ViewsLayer, ALockedRangeKeepsItsColoursAndSaysSo) {
+  draw_scene(64, 64, [](Scene& scene) {
+    const auto candidates = samples::candidates();
+    const std::vector<double> scores(candidates.size(), 30.0);
+    ViewsPicture picture;
+    picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
+    picture.candidates = candidates;
+    picture.scores = scores;
+    picture.own_view = look_at(viewer, Vector3::Zero());
+    scene.views().show(picture);
+    EXPECT_FALSE(scene.views().legends()[0].locked);
+    EXPECT_EQ(scene.views().legends()[1].swatches.at(0).name, "own view");
+    EXPECT_EQ(scene.views().labels()[0].text, "own view");
+    picture.range = ValueRange{0.0, 20.0};
+    scene.views().show(picture);
+    EXPECT_TRUE(scene.views().legends()[0].locked);
+    EXPECT_EQ(scene.views().legends()[0].range->high, 20.0);
+    EXPECT_EQ(scene.views().legends()[0].range->high_name, "and more");
+    picture.range = ValueRange{1.0, 1.0};
+    EXPECT_THROW(scene.views().show(picture), std::invalid_argument);
+    scene.rays().show(samples::rays(*picture.own_view), {"entropy", "nats", 0.1});
+    EXPECT_TRUE(scene.rays().legends()[0].locked);
+    EXPECT_EQ(scene.rays().legends()[0].range->high, 0.1);
+  });
+}
+
+/// A square that fills the picture, its corners of these classes, and how many pixels have which colour.
+std::map<std::array<int, 3>, int> colours_of_square(const std::vector<std::uint8_t>& classes) {
+  const Image image = draw_scene(300, 300, [&](Scene& scene) {
+    const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
+    scene.set_axes(false, false);
+    scene.set_legends(false);
+    scene.mesh().show(square, MeshClasses{classes, {{"a", {0.8, 0.2, 0.2}}, {"b", {0.2, 0.8, 0.2}}, {"c", {0, 0, 1}}}});
+    scene.frame({-90, 0});
+  });
+  std::map<std::array<int, 3>, int> result;
+  for (int y = 60; y < 240; ++y) {
+    for (int x = 60; x < 240; ++x) {
+      const std::uint8_t* pixel = &image.rgba[(std::size_t(y) * 300 + x) * 4];
+      ++result[{pixel[0], pixel[1], pixel[2]}];
+    }
+  }
+  return result;
+}
+
+TEST(MeshLayer, ClassesDoNotMix) {
+  std::vector<std::array<int, 3>> pure;
+  for (const std::uint8_t one : {0, 1, 2}) {
+    const auto colours = colours_of_square({one, one, one, one});
+    ASSERT_EQ(colours.size(), 1u) << "flat and lit evenly";
+    pure.push_back(colours.begin()->first);
+  }
+  const auto colours = colours_of_square({0, 1, 2, 0});
+  int clear = 0;
+  for (const auto& [colour, pixels] : colours)
+    if (std::find(pure.begin(), pure.end(), colour) != pure.end()) clear += pixels;
+  EXPECT_GT(clear, 0.97 * 180 * 180) << "all but the pixels on the borders";
+  for (const auto& colour : pure) EXPECT_GT(colours.at(colour), 0.1 * 180 * 180);
+}
+
+TEST(MeshLayer, ClassesThatDoNotFitAreRefused) {
+  draw_scene(64, 64, [](Scene& scene) {
+    const auto mesh = samples::torus();
+    std::vector<std::uint8_t> classes(mesh.vertices.size(), 1);
+    EXPECT_THROW(scene.mesh().show(mesh, MeshClasses{classes, {{"one", theme::object}}}), std::invalid_argument);
+    EXPECT_THROW(scene.mesh().show(mesh, MeshClasses{classes, {}}), std::invalid_argument);
+    scene.mesh().show(mesh, MeshClasses{classes, {{"one", theme::object}, {"two", theme::missed}}});
+    ASSERT_EQ(scene.mesh().legends()[0].swatches.size(), 1u) << "only what there is";
+    EXPECT_EQ(scene.mesh().legends()[0].swatches[0].name, "two");
+    classes.pop_back();
+    EXPECT_THROW(scene.mesh().show(mesh, MeshClasses{classes, {{"one", theme::object}, {"two", theme::missed}}}),
+                 std::invalid_argument);
+  });
+}
+
+/// The right 250 pixels of a picture with legends, and with a label that belongs where they are.
+std::vector<std::uint8_t> beside_legends(const std::vector<Label>& labels) {
+  OffscreenSurface surface(675, 490);
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  vtkNew<vtkContextActor> actor;
+  vtkNew<SceneOverlay> overlay;
+  overlay->renderer = renderer;
+  overlay->axes = overlay->scale_bar = false;
+  for (int i = 0; i < 6; ++i)
+    overlay->legends.push_back({"legend", {{"one", theme::free}}, Legend::Range{ColourMap::score(), 0, 1, "m"}});
+  overlay->labels = labels;
+  actor->GetScene()->AddItem(overlay);
+  actor->GetScene()->SetRenderer(renderer);
+  renderer->AddActor(actor);
+  surface.window().AddRenderer(renderer);
+  surface.render();
+  const Image image = surface.read_back();
+  actor->GetScene()->SetRenderer(nullptr);
+  surface.window().RemoveRenderer(renderer);
+  std::vector<std::uint8_t> strip;
+  for (int y = 0; y < 490; ++y)
+    for (int x = 675 - 188; x < 675; ++x) strip.push_back(image.rgba[(std::size_t(y) * 675 + x) * 4]);
+  return strip;
+}
+
+TEST(SceneOverlay, LabelsKeepClearOfLegends) {
+  const auto clear = beside_legends({});
+  for (const double across : {0.1, 0.2, 0.3}) {  // from the middle towards the legends; the camera is 1 m away
+    const Label label{{Vector3(across, 0.05, 0)}, "region of interest, 1.28 m", theme::chosen};
+    EXPECT_EQ(beside_legends({label}), clear) << across;
+  }
+  const Label within{{Vector3(0.3, 0.05, 0)},
+                     "a label that is far too long to stand beside the legends anywhere in "
+                     "the picture, whatever is done about it",
+                     theme::chosen};
+  EXPECT_NE(beside_legends({within}), clear) << "this test sees a label over the legends";
+}
+
+}  // namespace
+}  // namespace nextview
