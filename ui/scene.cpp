@@ -104,6 +104,8 @@ void Scene::set_moving(bool moving) {
   moving_ = moving;
 }
 
+void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
+
 void Scene::annotate() {
   overlay_->item->legends.clear();
   overlay_->item->labels.clear();

@@ -12,6 +12,8 @@ class vtkRenderer;
 
 namespace nextview {
 
+class Painter;
+
 /// The flat part of a 3D scene: caption, orientation axes, scale bar, legends. Follows the renderer's camera.
 class SceneOverlay : public vtkContextItem {
  public:
@@ -22,12 +24,16 @@ class SceneOverlay : public vtkContextItem {
   bool Paint(vtkContext2D* context) override;
 
   vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
+  bool backed = false;                        ///< paper lies behind axes, scale bar and legends
   std::string caption;                        ///< upper left
   std::vector<Legend> legends;                ///< upper right, from top to bottom
   std::vector<Label> labels;                  ///< beside their places
   Vector3 scale_reference = Vector3::Zero();  ///< where the scale bar is true [m, world]
   bool axes = true, scale_bar = true;
   double scale = 1.0;  ///< pixels of the display a pixel of the design
+
+ private:
+  void paint_backing(Painter& painter, const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
 };
 
 }  // namespace nextview

@@ -34,7 +34,8 @@ class Window {
     settle();
   }
   void settle() {
-    while (interface_.seconds_to_next_frame() == 0 || worker_.progress().busy || inspector_.busy() || !interface_.script_is_done())
+    while (interface_.seconds_to_next_frame() == 0 || worker_.progress().busy || inspector_.busy() ||
+           !interface_.script_is_done())
       interface_.draw(frame_interval);
   }
 
@@ -49,7 +50,8 @@ class Window {
       interface_.draw(frame_interval);
       const double seconds = seconds_since(start);
       if (interface_.scene_drawings() == drawings) times.push_back(1e3 * seconds);
-      if (seconds < frame_interval) std::this_thread::sleep_for(std::chrono::duration<double>(frame_interval - seconds));
+      if (seconds < frame_interval)
+        std::this_thread::sleep_for(std::chrono::duration<double>(frame_interval - seconds));
     }
     settle();
     return times;
@@ -88,8 +90,8 @@ void report(const char* what, std::vector<double> times) {
   std::sort(times.begin(), times.end());
   const auto at = [&](double share) { return times[std::size_t(share * double(times.size() - 1))]; };
   const auto slow = std::count_if(times.begin(), times.end(), [](double t) { return t > 1000.0 / 30; });
-  fmt::print("{:<44} {:>5} frames: p50 {:5.1f}  p90 {:5.1f}  p99 {:5.1f}  max {:5.1f} ms; over 33.3 ms: {:.1f} %\n", what,
-             times.size(), at(0.5), at(0.9), at(0.99), times.back(), 100.0 * double(slow) / double(times.size()));
+  fmt::print("{:<44} {:>5} frames: p50 {:5.1f}  p90 {:5.1f}  p99 {:5.1f}  max {:5.1f} ms; over 33.3 ms: {:.1f} %\n",
+             what, times.size(), at(0.5), at(0.9), at(0.99), times.back(), 100.0 * double(slow) / double(times.size()));
 }
 
 void measure() {

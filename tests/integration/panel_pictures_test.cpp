@@ -16,6 +16,19 @@ Configuration housing() {
   return c;
 }
 
+/// The centre of the occupied voxel that is nearest to the viewer: nothing hides it.
+Vector3 nearest_voxel(Person& person) {
+  const SessionSnapshot& s = person.session();
+  const Vector3 viewer = person.window().scene().camera_pose().translation();
+  Vector3 nearest = Vector3::Constant(1e3);
+  for (std::uint32_t v = 0; v < s.voxels->size(); ++v) {
+    const Vector3 centre = s.grid.centre(v);
+    const bool shown = (*s.voxels)[v].voxel_class == VoxelClass::occupied;
+    if (shown && (centre - viewer).norm() < (nearest - viewer).norm()) nearest = centre;
+  }
+  return nearest;
+}
+
 PictureBound bound() { return {0.03, 255, "times and progress differ from run to run"}; }
 
 TEST(PanelPictures, Candidates) {
@@ -39,8 +52,9 @@ TEST(PanelPictures, InspectorOfARay) {
 TEST(PanelPictures, InspectorOfAVoxel) {
   Person person(housing());
   person.run("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
-  const Rectangle& scene = person.window().layout().scene;
-  person.click(scene.x + 0.45 * scene.width, scene.y + 0.5 * scene.height);
+  const auto pixel = person.window().scene().project(nearest_voxel(person));
+  person.click(pixel->x(), pixel->y());
+  person.move(5, 790);
   person.wait();
   ASSERT_TRUE(person.window().state().selection.voxel) << "there is no voxel where the object is";
   expect_screenshot("panel_voxel", person.look(), bound());
@@ -48,13 +62,16 @@ TEST(PanelPictures, InspectorOfAVoxel) {
 
 TEST(PanelPictures, Gibbs) {
   Person person(housing());
-  person.run("step\nstep\nstep\nrefine\nvoxel-map gibbs\nvoxel-colour difference\npanel layers\ntoggle-rays\ntoggle-cloud\nzoom 5\n");
+  person.run(
+      "step\nstep\nstep\nrefine\nvoxel-map gibbs\nvoxel-colour difference\npanel "
+      "layers\ntoggle-rays\ntoggle-cloud\nzoom 5\n");
   expect_screenshot("panel_gibbs", person.look(), bound());
 }
 
 TEST(PanelPictures, LogAndMissedSurface) {
   Person person(housing());
-  person.run("step\nstep\ntake-view 20\nstep\npanel log\ntoggle-octree\ntoggle-cloud\ntoggle-missed\ntoggle-rays\nzoom 4\n");
+  person.run(
+      "step\nstep\ntake-view 20\nstep\npanel log\ntoggle-octree\ntoggle-cloud\ntoggle-missed\ntoggle-rays\nzoom 4\n");
   expect_screenshot("panel_log", person.look(), bound());
 }
 

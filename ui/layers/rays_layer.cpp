@@ -40,7 +40,9 @@ void RaysLayer::show(std::span<const RaySegment> segments, const RayValues& valu
   const ColourMap map = ColourMap::contribution();
   for (const RaySegment& segment : segments) {
     const double share = high > 0 ? std::clamp(segment.value / high, 0.0, 1.0) : 0.0;
-    geometry.add_line(segment.from, segment.to, map.at(share), faintest + (1 - faintest) * std::sqrt(share));
+    // Mixed with the background, not translucent: VTK smooths the edges of opaque lines only.
+    geometry.add_line(segment.from, segment.to,
+                      mix(theme::sky, map.at(share), faintest + (1 - faintest) * std::sqrt(share)));
   }
   mapper_->SetInputDataObject(geometry.polydata());
   std::vector<Legend> legends;

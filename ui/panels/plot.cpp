@@ -15,6 +15,8 @@ constexpr std::size_t most_dots = 40;  ///< of a series: more would be a thick l
 
 ImU32 series_colour(std::size_t index) { return to_imgui_u32(theme::series[index % theme::series.size()]); }
 
+ImU32 earlier_colour() { return to_imgui_u32(mix(theme::visited, theme::paper, 0.55)); }
+
 /// What is drawn where: data coordinates and the pixels of the plot's area.
 struct Axes {
   std::vector<double> x_ticks, y_ticks;
@@ -27,7 +29,8 @@ struct Axes {
       for (const double y : series.y) y_low = std::min(y_low, y);
       for (const double y : series.y) y_high = std::max(y_high, y);
     }
-    x_ticks = round_ticks(0.0, x_high, 10, content.whole_x);
+    x_ticks = round_ticks(0.0, x_high, std::clamp(int((to.x - from.x) / (2.4f * ImGui::GetFontSize())), 2, 10),
+                          content.whole_x);
     y_ticks = round_ticks(y_low, y_high, 4, false);
   }
 
@@ -44,20 +47,26 @@ struct Axes {
   }
 };
 
+/// Height of the title, if there is one.
+float title_height(const Style& style, const ChartContent& content) {
+  return content.title.empty() ? 0.0f : style.semi_bold->FontSize + style.px(4);
+}
+
 void draw_captions(const Style& style, const ChartContent& content, ImVec2 corner) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(theme::ink), content.title.c_str());
   float x = corner.x;
-  const float y = corner.y + style.semi_bold->FontSize + style.px(4), size = style.small->FontSize;
-  const std::size_t named = std::min<std::size_t>(content.series.size(), 4);  // more have no room
-  for (std::size_t i = 0; i < named; ++i) {
-    if (content.series[i].earlier) break;
-    const char* name = content.series[i].name.c_str();
-    list.AddLine({x, y + size / 2}, {x + style.px(16), y + size / 2}, series_colour(i), style.px(2));
-    list.AddCircleFilled({x + style.px(8), y + size / 2}, style.px(3), series_colour(i));
+  const float y = corner.y + title_height(style, content), size = style.small->FontSize;
+  const auto caption = [&](const char* name, ImU32 colour, bool dot) {
+    list.AddLine({x, y + size / 2}, {x + style.px(16), y + size / 2}, colour, style.px(2));
+    if (dot) list.AddCircleFilled({x + style.px(8), y + size / 2}, style.px(3), colour);
     list.AddText(style.small, size, {x + style.px(21), y}, to_imgui_u32(theme::soft_ink), name);
-    x += style.px(37) + style.small->CalcTextSizeA(size, FLT_MAX, 0, name).x;
-  }
+    x += style.px(35) + style.small->CalcTextSizeA(size, FLT_MAX, 0, name).x;
+  };
+  const std::size_t named = std::min<std::size_t>(content.series.size(), 5);  // more have no room
+  for (std::size_t i = 0; i < named && !content.series[i].earlier; ++i)
+    caption(content.series[i].name.c_str(), series_colour(i), true);
+  if (!content.series.empty() && content.series.back().earlier) caption("earlier", earlier_colour(), false);
 }
 
 void draw_grid(const Style& style, const ChartContent& content, const Axes& axes) {
@@ -97,9 +106,8 @@ void draw_one_series(const Style& style, const ChartSeries& series, const Axes& 
 }
 
 void draw_series(const Style& style, const ChartContent& content, const Axes& axes) {
-  const ImU32 pale = to_imgui_u32(mix(theme::visited, theme::paper, 0.55));
   for (const ChartSeries& series : content.series)
-    if (series.earlier) draw_one_series(style, series, axes, pale);
+    if (series.earlier) draw_one_series(style, series, axes, earlier_colour());
   for (std::size_t s = 0; s < content.series.size(); ++s)
     if (!content.series[s].earlier) draw_one_series(style, content.series[s], axes, series_colour(s));
 }
@@ -128,7 +136,7 @@ void draw_values_at(const Style& style, const ChartContent& content, const Axes&
 
 void draw_plot(const Style& style, const ChartContent& content, const Rectangle& r) {
   draw_captions(style, content, {float(r.x), float(r.y)});
-  const float top = style.semi_bold->FontSize + style.small->FontSize + style.px(16);
+  const float top = title_height(style, content) + style.small->FontSize + style.px(12);
   const float left = style.px(34), right = style.px(48), bottom = style.small->FontSize + style.px(4);
   const Axes axes(content, {float(r.x) + left, float(r.y + r.height) - bottom},
                   {float(r.x + r.width) - right, float(r.y) + top});

@@ -28,7 +28,7 @@ void label(const PanelContext& context, const std::string& text, const std::stri
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   tooltip(help);
-  ImGui::SameLine(context.style.px(86));
+  ImGui::SameLine(context.style.px(92));
   ImGui::SetNextItemWidth(-context.style.px(22));
 }
 

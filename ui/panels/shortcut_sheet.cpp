@@ -70,7 +70,7 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::PushFont(style.small);
   if (ImGui::BeginTable("sheet", 3, ImGuiTableFlags_SizingFixedFit)) {
-    for (const float width : {280.0f, 300.0f, 380.0f})
+    for (const float width : {270.0f, 340.0f, 370.0f})
       ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, style.px(width));
     ImGui::TableNextColumn();
     draw_menus(context, {"File", "Scan", "Gibbs", "Window"});

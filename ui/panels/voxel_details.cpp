@@ -63,7 +63,9 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
   ImGui::Dummy({float(place.width), float(place.height)});
   if (!ImGui::BeginTable("history", 4, ImGuiTableFlags_BordersInnerH)) return;
   ImGui::PushFont(context.style.small);
-  for (const char* name : {"view", "hits", "passes", "log-odds"}) ImGui::TableSetupColumn(name);
+  for (const auto& [name, width] : {std::pair{"view", 40.0f}, {"hits", 40.0f}, {"passes", 56.0f}})
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, context.style.px(width));
+  ImGui::TableSetupColumn("log-odds", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   for (std::size_t k = 0; k < voxel.history.size(); ++k) {
     const VoxelUpdate& u = voxel.history[k];

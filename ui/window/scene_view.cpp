@@ -73,6 +73,7 @@ std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) {
 SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
   scene_.attach(surface);
   scene_.set_scale(scale);
+  scene_.set_backed(true);
 }
 
 void SceneView::place(const Rectangle& rectangle) {

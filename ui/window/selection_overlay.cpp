@@ -67,10 +67,12 @@ void draw_voxel(SceneView& view, const PanelContext& context, std::uint32_t voxe
   const SessionSnapshot& s = context.snapshot;
   const float width = context.style.px(1);
   if (const auto& inspected = context.inspection.voxel; inspected && inspected->voxel == voxel) {
-    for (std::size_t k = 0; k < inspected->rays.size() && k < s.records.size(); ++k)
-      for (const VoxelRay& ray : inspected->rays[k])
-        draw_segment(view, s.records[k].T_world_camera.translation(), ray.end.cast<double>(),
-                     ray.hit ? to_imgui_u32(theme::series[0], 0.45) : to_imgui_u32(theme::visited, 0.22), width);
+    for (const bool hit : {false, true})  // those that ended in it above the others
+      for (std::size_t k = 0; k < inspected->rays.size() && k < s.records.size(); ++k)
+        for (const VoxelRay& ray : inspected->rays[k])
+          if (ray.hit == hit)
+            draw_segment(view, s.records[k].T_world_camera.translation(), ray.end.cast<double>(),
+                         hit ? to_imgui_u32(theme::series[0], 0.7) : to_imgui_u32(theme::visited, 0.16), width);
   }
   const auto corners = corners_of(s.grid, voxel);
   for (int from = 0; from < 8; ++from)
