@@ -95,7 +95,7 @@ struct CommandCall {
 
 /// @throws std::invalid_argument in one line: no such command, too many or too few values, or what a value must be.
 CommandCall make_call(std::string_view name, std::vector<std::string> arguments = {});
-/// A line of a script: a command's name and its values, those with spaces in double quotes.
+/// A line of a script: a command's name and its values, those with spaces in double quotes (in which "" means one).
 CommandCall parse_call(std::string_view line);
 /// The calls of a script: a line each; what follows a # is a comment. @throws std::invalid_argument "line 3: …"
 std::vector<CommandCall> parse_script(std::string_view text);
