@@ -72,6 +72,7 @@ struct Command {
   std::function<void(CommandTarget&, const Arguments&)> run;
   std::function<std::string(const CommandState&)> why_not = {};  ///< it cannot be done now; empty: it can
   std::function<bool(const WindowState&)> on = {};               ///< of what is switched on and off
+  bool adds_up = false;                                          ///< doing it twice is more than doing the last alone
 
   bool available(const CommandState& state) const { return !why_not || why_not(state).empty(); }
   std::string keys() const;   ///< "S, Space"; empty if it has none
