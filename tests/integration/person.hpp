@@ -18,12 +18,15 @@ class Person {
     wait();
   }
 
-  /// Looks at frames until nothing new comes and both workers are idle.
+  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is held.
   void wait() {
     constexpr auto pause = std::chrono::milliseconds(2);
     constexpr double frame = 1.0 / 60;  // [s]
-    while (interface_.seconds_to_next_frame() == 0.0 || worker_.progress().busy || inspector_.busy() ||
-           !interface_.script_is_done()) {
+    const auto works = [&] {
+      const WorkerProgress progress = worker_.progress();
+      return (progress.busy && !progress.paused) || inspector_.busy();
+    };
+    while (interface_.seconds_to_next_frame() == 0.0 || works() || !interface_.script_is_done()) {
       if (interface_.seconds_to_next_frame() > 0.0) {
         std::this_thread::sleep_for(pause);
       } else {

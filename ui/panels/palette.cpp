@@ -57,9 +57,10 @@ std::vector<const Command*> matching_commands(std::string_view text) {
         std::all_of(wanted.begin(), wanted.end(), [&](const std::string& w) { return all.find(w) != all.npos; });
     if (!matches) continue;
     const std::string first = wanted.empty() ? "" : wanted.front();
-    const int rank = command.name.starts_with(first)                                              ? 0
-                     : (command.name + lower_case(command.text)).find(first) != std::string::npos ? 1
-                                                                                                  : 2;
+    const int rank = command.name == first                                                        ? 0
+                     : command.name.starts_with(first)                                            ? 1
+                     : (command.name + lower_case(command.text)).find(first) != std::string::npos ? 2
+                                                                                                  : 3;
     found.emplace_back(rank, &command);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

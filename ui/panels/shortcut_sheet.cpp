@@ -61,6 +61,7 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
   const Style& style = context.style;
   ImGui::SetNextWindowPos({float(window.x + window.width / 2), float(window.y + window.height / 2)}, ImGuiCond_Always,
                           {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {float(window.width), float(window.height) - style.px(12)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(20), style.px(16)));

@@ -85,6 +85,7 @@ Style apply_style(float scale) {
   style.PopupBorderSize = 1;
   style.DisabledAlpha = 0.45f;
   style.ScaleAllSizes(scale);
+  style.WindowMinSize = {1, 1};  // the menu and the status line are lower than ImGui's 32 pixels
   Style result;
   result.scale = scale;
   result.regular = add_font(TextWeight::regular, text_size * scale);

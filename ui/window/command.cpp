@@ -39,8 +39,22 @@ void check(const Command& command, const Argument& argument, const std::string& 
     const auto choices = argument.choices({});
     if (std::find(choices.begin(), choices.end(), text) == choices.end())
       throw wrong(fmt::format("one of {}", fmt::join(choices, ", ")));
-  } else if (text.empty()) {
+  } else if (argument.kind == Kind::file && text.empty()) {
     throw wrong("given");
+  }
+}
+
+/// What stands between double quotes, in which two of them mean one. `begin` is behind the first, and in the end behind
+/// the last.
+std::string quoted_word(std::string_view line, std::size_t& begin) {
+  std::string word;
+  for (;;) {
+    const std::size_t end = line.find('"', begin);
+    if (end == line.npos) throw std::invalid_argument("a double quote is not closed");
+    word += line.substr(begin, end - begin);
+    begin = end + 1;
+    if (begin == line.size() || line[begin] != '"') return word;
+    word += line[begin++];
   }
 }
 
@@ -52,10 +66,7 @@ std::vector<std::string> words(std::string_view line) {
     } else if (line[i] == '#') {
       break;
     } else if (line[i] == '"') {
-      const std::size_t end = line.find('"', i + 1);
-      if (end == line.npos) throw std::invalid_argument("a double quote is not closed");
-      result.emplace_back(line.substr(i + 1, end - i - 1));
-      i = end + 1;
+      result.push_back(quoted_word(line, ++i));
     } else {
       const std::size_t end = std::min(line.find_first_of(" \t\r", i), line.size());
       result.emplace_back(line.substr(i, end - i));
@@ -66,7 +77,10 @@ std::vector<std::string> words(std::string_view line) {
 }
 
 std::string quoted(const std::string& text) {
-  return text.empty() || text.find_first_of(" \t#\"") != text.npos ? '"' + text + '"' : text;
+  if (!text.empty() && text.find_first_of(" \t\r\v\f#\"") == text.npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
 }
 
 }  // namespace

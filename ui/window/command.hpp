@@ -72,6 +72,7 @@ struct Command {
   std::function<void(CommandTarget&, const Arguments&)> run;
   std::function<std::string(const CommandState&)> why_not = {};  ///< it cannot be done now; empty: it can
   std::function<bool(const WindowState&)> on = {};               ///< of what is switched on and off
+  bool adds_up = false;                                          ///< doing it twice is more than doing the last alone
 
   bool available(const CommandState& state) const { return !why_not || why_not(state).empty(); }
   std::string keys() const;   ///< "S, Space"; empty if it has none
@@ -95,7 +96,7 @@ struct CommandCall {
 
 /// @throws std::invalid_argument in one line: no such command, too many or too few values, or what a value must be.
 CommandCall make_call(std::string_view name, std::vector<std::string> arguments = {});
-/// A line of a script: a command's name and its values, those with spaces in double quotes.
+/// A line of a script: a command's name and its values, those with spaces in double quotes (in which "" means one).
 CommandCall parse_call(std::string_view line);
 /// The calls of a script: a line each; what follows a # is a comment. @throws std::invalid_argument "line 3: …"
 std::vector<CommandCall> parse_script(std::string_view text);

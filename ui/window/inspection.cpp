@@ -1,5 +1,6 @@
 #include "ui/window/inspection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/gibbs/full_conditional.hpp"
@@ -31,7 +32,7 @@ std::vector<float> measured_depth(const Scan& scan, const Pose& T_world_camera, 
 }
 
 std::vector<VoxelRay> thinned(const std::vector<VoxelRay>& rays) {
-  const std::size_t stride = rays.size() / most_rays_a_view + 1;
+  const std::size_t stride = std::max<std::size_t>(1, (rays.size() + most_rays_a_view - 1) / most_rays_a_view);
   std::vector<VoxelRay> result;
   for (std::size_t i = 0; i < rays.size(); i += stride) result.push_back(rays[i]);
   return result;

@@ -34,6 +34,15 @@ struct News {
   bool operator==(const News&) const = default;
 };
 
+/// Whether `call` makes the line of a script before it needless: the same with other values, as of a slider.
+bool replaces(const CommandCall& call, const std::string& line) {
+  const Command& command = *call.command;
+  if (call.arguments.empty() || command.arguments.front().kind != Argument::Kind::number || command.adds_up)
+    return false;
+  const CommandCall before = parse_call(line);
+  return before.command == &command && before.arguments.size() == call.arguments.size();
+}
+
 }  // namespace
 
 struct Interface::Parts {
@@ -63,7 +72,7 @@ struct Interface::Parts {
   int settling = frames_to_settle;
 
   News latest() const { return {worker.snapshot(), worker.progress(), inspector.answer(), worker.log().entries()}; }
-  bool script_may_go_on() const { return !worker.progress().busy && !inspector.busy(); }
+  bool script_may_go_on() const;
   void take_news();
   void take_input();
   void follow_size();
@@ -105,8 +114,7 @@ std::size_t Interface::scene_drawings() const { return parts_->scene_drawings; }
 double Interface::seconds_to_next_frame() const {
   const Parts& p = *parts_;
   const bool resized = p.width != p.surface.width() || p.height != p.surface.height();
-  const bool script = !p.script.empty() && p.script_may_go_on();
-  if (p.settling > 0 || !p.queue.empty() || resized || script || !(p.news == p.latest())) return 0.0;
+  if (p.settling > 0 || !p.queue.empty() || resized || p.script_may_go_on() || !(p.news == p.latest())) return 0.0;
   const double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
 }
@@ -116,6 +124,17 @@ std::string Interface::title() const {
   if (!s.loaded()) return "Nextview";
   return fmt::format("Nextview - {} - view {} of {}", s.object_name, s.records.size(),
                      s.configuration.termination.views);
+}
+
+/// A script waits until nothing runs and the news of that are here. What can only be done while something runs, such as
+/// to pause it, does not wait.
+bool Interface::Parts::script_may_go_on() const {
+  if (script.empty()) return false;
+  const Command& next = *script.front().command;
+  const WorkerProgress rest;
+  if (next.available({*news.snapshot, news.progress, state}) && !next.available({*news.snapshot, rest, state}))
+    return true;
+  return (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy();
 }
 
 void Interface::Parts::take_news() {
@@ -170,7 +189,7 @@ void Interface::Parts::draw_interface(double seconds) {
   panels.draw(context, layout, worker.log().count(), seconds);
   draw_selection_overlay(view, context);
   ImGui::Render();
-  if (!script.empty() && calls.empty() && script_may_go_on()) {
+  if (calls.empty() && script_may_go_on()) {
     calls.push_back(std::move(script.front()));
     script.pop_front();
   }
@@ -192,10 +211,7 @@ void Interface::Parts::do_call(const CommandCall& call) {
     return worker.log().add(LogEntry::Level::warning, error.what());
   }
   if (call.command->name == "palette" || call.command->name == "shortcuts") return;
-  const std::string& name = call.command->name;
-  const bool replaces = !call.arguments.empty() && call.command->arguments.front().kind == Argument::Kind::number &&
-                        !state.script.empty() && state.script.back().starts_with(name + " ");
-  if (replaces) state.script.pop_back();
+  if (!state.script.empty() && replaces(call, state.script.back())) state.script.pop_back();
   state.script.push_back(call.text());
 }
 

@@ -146,7 +146,10 @@ std::vector<Command> camera_commands() {
        {},
        [](CommandTarget& t, const Arguments& a) {
          t.window.camera_motions.push_back(camera_motion::Zoom{a.number(0)});
-       }},
+       },
+       {},
+       {},
+       true},
   };
 }
 

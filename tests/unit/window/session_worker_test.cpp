@@ -6,23 +6,10 @@
 #include <condition_variable>
 #include <fstream>
 
+#include "tests/unit/window/small_scan.hpp"
+
 namespace nextview {
 namespace {
-
-/// A scan that takes a moment only.
-Configuration small_scan() {
-  Configuration c;
-  c.object.file = "sphere";
-  c.sensor.width = 80;
-  c.sensor.height = 60;
-  c.map.resolution = 0.04;
-  c.views.count = 8;
-  c.planner.ray_columns = 8;
-  c.planner.ray_rows = 6;
-  c.evaluation.surface_samples = 500;
-  c.termination.views = 4;
-  return c;
-}
 
 /// Steps of this one take a moment longer than it takes to cancel them.
 Configuration slow_scan() {
@@ -44,7 +31,7 @@ class SessionWorkerTest : public testing::Test {
     wait_until([&] { return !worker_.progress().busy; });
   }
   void load(const Configuration& configuration) {
-    worker_.post(command::Load{configuration});
+    worker_.post(request::Load{configuration});
     wait_until_idle();
   }
 
@@ -59,9 +46,9 @@ class SessionWorkerTest : public testing::Test {
 
 TEST_F(SessionWorkerTest, StartsWithoutASession) {
   EXPECT_FALSE(worker_.snapshot()->loaded());
-  worker_.post(command::Step{});
-  worker_.post(command::Play{});
-  worker_.post(command::TakeView{0});
+  worker_.post(request::Step{});
+  worker_.post(request::Play{});
+  worker_.post(request::TakeView{0});
   wait_until_idle();
   EXPECT_FALSE(worker_.snapshot()->loaded());
   EXPECT_EQ(worker_.snapshot()->message, "");
@@ -77,14 +64,14 @@ TEST_F(SessionWorkerTest, LoadsReadyToStep) {
   EXPECT_EQ(s->voxels->size(), s->grid.voxel_count());
   EXPECT_EQ(s->candidates.size(), 8u);
   EXPECT_TRUE(s->records.empty());
-  EXPECT_TRUE(s->cloud->empty());
+  EXPECT_TRUE(s->cloud->points.empty());
   EXPECT_FALSE(s->next_candidate.has_value()) << "the first view is the start view";
   EXPECT_GT(news_count_, 0);
 }
 
 TEST_F(SessionWorkerTest, DoesWhatASessionDoes) {
   load(small_scan());
-  for (int i = 0; i < 3; ++i) worker_.post(command::Step{});
+  for (int i = 0; i < 3; ++i) worker_.post(request::Step{});
   wait_until_idle();
   Session session(small_scan());
   std::size_t points = 0;
@@ -99,7 +86,7 @@ TEST_F(SessionWorkerTest, DoesWhatASessionDoes) {
     EXPECT_EQ(s->records[i].entropy, session.records()[i].entropy);
   }
   EXPECT_EQ(s->next_candidate, session.next_candidate());
-  EXPECT_EQ(s->cloud->size(), points);
+  EXPECT_EQ(s->cloud->points.size(), points);
   const auto voxels = session.map().voxels();
   for (std::size_t v = 0; v < voxels.size(); ++v) ASSERT_EQ((*s->voxels)[v].probability, voxels[v].probability);
   ASSERT_NE(s->explanation, nullptr);
@@ -110,7 +97,7 @@ TEST_F(SessionWorkerTest, ASnapshotNeverChanges) {
   load(small_scan());
   const auto before = worker_.snapshot();
   const std::vector<Voxel> voxels = *before->voxels;
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   EXPECT_NE(worker_.snapshot(), before);
   EXPECT_NE(worker_.snapshot()->map, before->map);
@@ -120,12 +107,12 @@ TEST_F(SessionWorkerTest, ASnapshotNeverChanges) {
 
 TEST_F(SessionWorkerTest, PlaysUntilFinishedAndIgnoresStepsThen) {
   load(small_scan());
-  worker_.post(command::Play{});
+  worker_.post(request::Play{});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->records.size(), 4u);
   EXPECT_FALSE(worker_.snapshot()->finished.empty());
   EXPECT_FALSE(worker_.progress().playing);
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->records.size(), 4u);
   EXPECT_EQ(worker_.snapshot()->message, "");
@@ -136,41 +123,41 @@ TEST_F(SessionWorkerTest, PauseFinishesTheStepThatRuns) {
   endless.views.count = 200;
   endless.termination.views = 200;
   load(endless);
-  worker_.post(command::Play{});
+  worker_.post(request::Play{});
   wait_until([&] { return worker_.snapshot()->records.size() >= 2; });
-  worker_.post(command::Pause{});
+  worker_.post(request::Pause{});
   wait_until_idle();
   const std::size_t steps = worker_.snapshot()->records.size();
   EXPECT_LT(steps, 200u);
   EXPECT_FALSE(worker_.progress().playing);
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->records.size(), steps + 1);
 }
 
 TEST_F(SessionWorkerTest, ResetStartsOver) {
   load(small_scan());
-  worker_.post(command::Step{});
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   const auto before = worker_.snapshot();
-  worker_.post(command::Reset{});
+  worker_.post(request::Reset{});
   wait_until_idle();
   const auto after = worker_.snapshot();
   EXPECT_TRUE(after->records.empty());
-  EXPECT_TRUE(after->cloud->empty());
+  EXPECT_TRUE(after->cloud->points.empty());
   EXPECT_GT(after->session, before->session);
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->records[0].entropy, before->records[0].entropy);
 }
 
 TEST_F(SessionWorkerTest, ALoadTakesThePlaceOfWhatWaits) {
   load(small_scan());
-  for (int i = 0; i < 4; ++i) worker_.post(command::Step{});
+  for (int i = 0; i < 4; ++i) worker_.post(request::Step{});
   Configuration other = small_scan();
   other.object.file = "box";
-  worker_.post(command::Load{other});
+  worker_.post(request::Load{other});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->object_name, "box");
   EXPECT_TRUE(worker_.snapshot()->records.empty());
@@ -179,15 +166,15 @@ TEST_F(SessionWorkerTest, ALoadTakesThePlaceOfWhatWaits) {
 
 TEST_F(SessionWorkerTest, CancelLeavesAWholeSession) {
   load(slow_scan());
-  worker_.post(command::Step{});
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
+  worker_.post(request::Step{});
   wait_until([&] { return worker_.progress().what == "taking the view"; });
   worker_.cancel();
   wait_until_idle();
   const auto s = worker_.snapshot();
   EXPECT_LE(s->records.size(), 1u) << "what waited was not dropped";
   EXPECT_EQ(s->message, "");
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   Session session(slow_scan());
   session.step();
@@ -196,33 +183,33 @@ TEST_F(SessionWorkerTest, CancelLeavesAWholeSession) {
   }
 }
 
-TEST_F(SessionWorkerTest, ABadCommandIsAMessageAndTheSessionStays) {
+TEST_F(SessionWorkerTest, ABadRequestIsAMessageAndTheSessionStays) {
   load(small_scan());
-  worker_.post(command::Step{});
-  worker_.post(command::OpenFile{"/no/such/file.stl"});
+  worker_.post(request::Step{});
+  worker_.post(request::OpenFile{"/no/such/file.stl"});
   wait_until_idle();
   EXPECT_NE(worker_.snapshot()->message.find("/no/such/file.stl"), std::string::npos);
   Configuration bad = small_scan();
   bad.map.resolution = -1;
-  worker_.post(command::Load{bad});
+  worker_.post(request::Load{bad});
   wait_until_idle();
   EXPECT_NE(worker_.snapshot()->message.find("map.resolution"), std::string::npos) << worker_.snapshot()->message;
-  worker_.post(command::TakeView{1000});
+  worker_.post(request::TakeView{1000});
   wait_until_idle();
   EXPECT_NE(worker_.snapshot()->message.find("1000"), std::string::npos) << worker_.snapshot()->message;
   EXPECT_EQ(worker_.snapshot()->object_name, "sphere");
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->message, "");
 }
 
 TEST_F(SessionWorkerTest, TakesTheViewThatAPersonChose) {
   load(small_scan());
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   const auto before = worker_.snapshot();
   const std::size_t other = *before->proposal() == 2 ? 3 : 2;
-  worker_.post(command::TakeView{other});
+  worker_.post(request::TakeView{other});
   wait_until_idle();
   const auto chosen = worker_.snapshot();
   EXPECT_EQ(chosen->next_candidate, other);
@@ -230,7 +217,7 @@ TEST_F(SessionWorkerTest, TakesTheViewThatAPersonChose) {
   EXPECT_EQ(chosen->map, before->map) << "choosing a view measures nothing";
   EXPECT_EQ(chosen->voxels, before->voxels);
   EXPECT_TRUE(chosen->next_view.isApprox(chosen->candidates[other]));
-  worker_.post(command::Step{});
+  worker_.post(request::Step{});
   wait_until_idle();
   EXPECT_EQ(worker_.snapshot()->records.back().view, int(other));
   EXPECT_TRUE(worker_.snapshot()->records.back().overridden);
@@ -240,7 +227,7 @@ TEST_F(SessionWorkerTest, OpensAConfigurationFile) {
   load(small_scan());
   const auto file = std::filesystem::path(testing::TempDir()) / "nextview-worker-test.toml";
   std::ofstream(file) << "[planner]\ngain = \"farthest\"\n";
-  worker_.post(command::OpenFile{file});
+  worker_.post(request::OpenFile{file});
   wait_until_idle();
   std::filesystem::remove(file);
   EXPECT_EQ(worker_.snapshot()->message, "");
@@ -253,8 +240,8 @@ TEST(SessionWorkerLife, EndsWhileItPlays) {
   endless.views.count = 200;
   endless.termination.views = 200;
   SessionWorker worker;
-  worker.post(command::Load{endless});
-  worker.post(command::Play{});
+  worker.post(request::Load{endless});
+  worker.post(request::Play{});
   while (worker.snapshot()->records.empty()) std::this_thread::yield();
 }
 
@@ -271,7 +258,7 @@ TEST_F(SessionWorkerTest, AnswersFromManyThreads) {
     });
   }
   load(small_scan());
-  worker_.post(command::Play{});
+  worker_.post(request::Play{});
   wait_until_idle();
   end = true;
   EXPECT_EQ(worker_.snapshot()->records.size(), 4u);

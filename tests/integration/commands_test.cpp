@@ -1,0 +1,320 @@
+// Every command in the whole window, by script and at random.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "core/file/atomic_file.hpp"
+#include "tests/integration/person.hpp"
+#include "tests/integration/random_calls.hpp"
+#include "tests/unit/map/temporary_folder.hpp"
+
+namespace nextview {
+namespace {
+
+// The window of 1280 x 800 at half its size: a software renderer takes its time for each pixel.
+constexpr int width = 640, height = 400;
+constexpr double scale = 0.5;
+
+Configuration tiny_scan() {
+  Configuration c;
+  c.object.file = "sphere";
+  c.sensor.width = 80;
+  c.sensor.height = 60;
+  c.map.resolution = 0.04;
+  c.views.count = 8;
+  c.planner.ray_columns = 8;
+  c.planner.ray_rows = 6;
+  c.gibbs.sampler.sweeps = 40;
+  c.evaluation.surface_samples = 500;
+  c.termination.views = 6;
+  return c;
+}
+
+/// A camera, a map or a sampler that would keep the tests waiting.
+bool is_large(const Configuration& c) {
+  return c.sensor.width * c.sensor.height > 100 * 80 || c.map.region_edge / c.map.resolution > 40 ||
+         c.views.count > 30 || c.gibbs.sampler.sweeps > 60 || c.evaluation.surface_samples > 1000;
+}
+
+void expect_record(const SessionSnapshot& s, std::size_t k) {
+  const StepRecord& r = s.records[k];
+  EXPECT_EQ(r.step, int(k) + 1);
+  EXPECT_GE(r.view, -1);
+  EXPECT_LT(r.view, int(s.candidates.size()));
+  EXPECT_EQ(r.candidates.size(), s.candidates.size());
+  EXPECT_TRUE(r.T_world_camera.matrix().allFinite());
+  EXPECT_TRUE(std::isfinite(r.entropy) && std::isfinite(r.realised_gain) && std::isfinite(r.gain));
+  EXPECT_TRUE(!r.ranking.best || *r.ranking.best < s.candidates.size());
+  EXPECT_EQ(s.scans[k]->returns.size(), r.points);
+}
+
+void expect_gibbs(const SessionSnapshot& s) {
+  if (!s.gibbs) return;
+  EXPECT_LE(s.gibbs->views, s.records.size());
+  EXPECT_GT(s.gibbs->views, 0u);
+  EXPECT_EQ(s.gibbs->voxels.size(), s.grid.voxel_count());
+  for (const Voxel& v : s.gibbs->voxels) ASSERT_TRUE(v.probability >= 0 && v.probability <= 1);
+}
+
+/// What is true of every snapshot.
+void expect_valid(const SessionSnapshot& s) {
+  ASSERT_TRUE(s.loaded());
+  ASSERT_TRUE(s.mesh && s.voxels && s.cloud);
+  EXPECT_NO_THROW(s.configuration.validate());
+  EXPECT_EQ(s.voxels->size(), s.grid.voxel_count());
+  for (const Voxel& v : *s.voxels) ASSERT_TRUE(v.probability >= 0 && v.probability <= 1);
+  EXPECT_EQ(s.cloud->points.size(), s.cloud->views.size());
+  EXPECT_EQ(s.cloud->distances.size(), s.configuration.evaluation.enabled ? s.cloud->points.size() : 0);
+  for (const std::uint16_t view : s.cloud->views) ASSERT_LT(view, s.records.size());
+  ASSERT_EQ(s.scans.size(), s.records.size());
+  EXPECT_LE(s.records.size(), std::size_t(s.configuration.termination.views));
+  for (std::size_t k = 0; k < s.records.size(); ++k) expect_record(s, k);
+  EXPECT_FALSE(s.candidates.empty());
+  if (s.next_candidate) {
+    EXPECT_LT(*s.next_candidate, s.candidates.size());
+    EXPECT_TRUE(s.available(*s.next_candidate) || !s.finished.empty());
+  }
+  EXPECT_FALSE(s.next_candidate && s.own_next_view);
+  EXPECT_TRUE(s.next_view.matrix().allFinite());
+  EXPECT_EQ(s.truth != nullptr, s.configuration.evaluation.enabled);
+  EXPECT_EQ(s.missed != nullptr, s.configuration.evaluation.enabled);
+  if (s.missed) {
+    EXPECT_EQ(s.missed->observed.size(), s.missed->mesh->vertices.size());
+  }
+  EXPECT_TRUE(!s.earlier_runs || s.earlier_runs->size() <= 6u);
+  EXPECT_EQ(s.message.find('\n'), std::string::npos) << s.message;
+  expect_gibbs(s);
+}
+
+/// What is true of every state of the window.
+void expect_valid(const WindowState& window, const SessionSnapshot& s) {
+  const LookedAt& view = window.selection.view;
+  if (view.kind == LookedAt::Kind::candidate) {
+    EXPECT_LT(view.index, s.candidates.size());
+  }
+  if (view.kind == LookedAt::Kind::taken) {
+    EXPECT_LT(view.index, s.records.size());
+  }
+  if (view.kind == LookedAt::Kind::own) {
+    EXPECT_TRUE(window.selection.own_view);
+  }
+  if (window.selection.voxel) {
+    EXPECT_LT(*window.selection.voxel, s.grid.voxel_count());
+  }
+  for (const Side side : {Side::left, Side::right, Side::bottom}) EXPECT_EQ(side_of(window.in_front(side)), side);
+  if (const auto& slice = window.layers.voxels.slice) {
+    EXPECT_TRUE(slice->axis >= 0 && slice->axis < 3);
+    EXPECT_LE(slice->low, slice->high);
+  }
+  EXPECT_TRUE(window.camera_motions.empty());
+  EXPECT_TRUE(window.scene_camera.matrix().allFinite());
+  std::string script;
+  for (const std::string& line : window.script) script += line + "\n";
+  EXPECT_NO_THROW(EXPECT_EQ(parse_script(script).size(), window.script.size()));
+}
+
+/// Words that people are not to see.
+void expect_words_for_people(const SessionLog::Entries& log) {
+  for (const LogEntry& entry : log) {
+    EXPECT_FALSE(entry.text.empty());
+    for (const char* word : {"std::", "basic_", "bad_", "vector", "optional", "map::", "_M_", "nullptr", "\n", "stoi",
+                             "assert", "Assertion", " nan", "variant", "stopped"})
+      EXPECT_EQ(entry.text.find(word), std::string::npos) << entry.text;
+  }
+}
+
+/// A candidate that is left, but not the next view.
+std::size_t another(const SessionSnapshot& s) {
+  std::size_t candidate = 0;
+  while (!s.available(candidate) || candidate == s.next_candidate) ++candidate;
+  return candidate;
+}
+
+class Commands : public TemporaryFolder {
+ protected:
+  Commands() { write_file(folder_ / "tiny scan.toml", to_toml(tiny_scan())); }
+  std::filesystem::path file(const char* name) const { return folder_ / name; }
+
+  /// Does these lines, each of which must be done, and looks at the window.
+  void walk(Person& person, const std::string& lines) {
+    SCOPED_TRACE(lines);
+    const std::size_t before = person.worker().log().count();
+    for (const CommandCall& call : parse_script(lines)) walked_.insert(call.command->name);
+    person.run(lines);
+    const auto log = *person.worker().log().entries();
+    for (std::size_t i = log.size() - (person.worker().log().count() - before); i < log.size(); ++i)
+      for (const CommandCall& call : parse_script(lines))
+        EXPECT_FALSE(log[i].text.starts_with(call.command->name + ": ")) << log[i].text;
+    EXPECT_EQ(person.session().message, "");
+    EXPECT_EQ(person.surface().gl_error(), 0u);
+    expect_valid(person.session());
+    expect_valid(person.window().state(), person.session());
+  }
+
+  std::set<std::string> walked_;
+};
+
+TEST_F(Commands, EachIsDoneByAScript) {
+  Person person(tiny_scan(), width, height, scale);
+  const auto path = [&](const char* name) { return '"' + file(name).string() + '"'; };
+  walk(person, "frame\nlook-from 30 20\nzoom 2\nstep\nstep\n");
+  for (const char* lines : {"take-view",
+                            "take-proposal",
+                            "own-view",
+                            "own-view 0.6 -0.6 0.5 0 0 0",
+                            "take-own-view",
+                            "look-through",
+                            "select-next",
+                            "select-taken 1",
+                            "inspect-voxel 0.01 0.02 0.03",
+                            "inspect-ray 5",
+                            "clear-selection",
+                            "step",
+                            "undo",
+                            "redo",
+                            "refine 2 20",
+                            "refine",
+                            "refine 1 2000\nhold-refinement\ncontinue-refinement\ncancel",
+                            "toggle-object",
+                            "toggle-cloud",
+                            "toggle-octree",
+                            "toggle-views",
+                            "toggle-rays",
+                            "toggle-region",
+                            "toggle-missed",
+                            "toggle-object",
+                            "toggle-cloud",
+                            "toggle-octree",
+                            "toggle-views",
+                            "toggle-rays",
+                            "toggle-region",
+                            "toggle-occupied",
+                            "toggle-unknown",
+                            "toggle-free",
+                            "toggle-uncertain",
+                            "toggle-free",
+                            "threshold 0.4",
+                            "uncertain-from 0.3",
+                            "slice-axis y",
+                            "slice-at 0.05",
+                            "slice-at 0 0.1",
+                            "slice-axis none",
+                            "lock-ranges",
+                            "panel log",
+                            "sort gain ascending",
+                            "palette",
+                            "palette",
+                            "palette \"two words\"",
+                            "palette",
+                            "shortcuts",
+                            "shortcuts"}) {
+    if (std::string(lines) == "take-view") walk(person, fmt::format("select-view {}", another(person.session())));
+    walk(person, lines);
+  }
+  for (const char* command : {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel"})
+    for (const std::string& value : find_command(command).arguments.front().choices({}))
+      walk(person, fmt::format("{} {}", command, value));
+  for (const char* kind : {"entropy", "coverage", "divergence", "gain", "time"})
+    walk(person, fmt::format("curves {} entropy", kind));
+  walk(person, "export " + path("a scan") + "\n");
+  walk(person, "save-picture " + path("a picture.png") + "\n");
+  EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
+  EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
+  walk(person, "reset\nspeed 0\nplay\npause\n");
+  walk(person, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
+  walk(person, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
+  walk(person, "save-script " + path("a script.txt") + "\n");
+  EXPECT_NO_THROW(parse_script(read_file(file("a script.txt"))));
+  walked_.insert("reset-settings");  // a large scan: it has a test of its own
+  walked_.insert("quit");
+  EXPECT_FALSE(person.window().wants_to_quit());
+  person.run("quit\n");
+  EXPECT_TRUE(person.window().wants_to_quit());
+  for (const Command& command : commands()) EXPECT_TRUE(walked_.contains(command.name)) << command.name;
+  expect_words_for_people(*person.worker().log().entries());
+}
+
+TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
+  Person person(tiny_scan(), width, height, scale);
+  person.run("reset-settings\n");
+  Configuration expected;
+  expected.object = tiny_scan().object;
+  EXPECT_EQ(to_toml(person.session().configuration), to_toml(expected));
+  person.run("undo\n");
+  EXPECT_EQ(to_toml(person.session().configuration), to_toml(tiny_scan()));
+}
+
+TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
+  const std::string script = '"' + file("script.txt").string() + '"';
+  Person first(tiny_scan(), width, height, scale);
+  first.run(
+      "step\nstep\nselect-view 3\nzoom 1\nzoom 1\nslice-axis x\nslice-at 0.1 0.2\nslice-at 0.05\n"
+      "set planner.combined_weights \"\"\nstep\nown-view 0.6 -0.6 0.5 0 0 0\ntake-own-view\nstep\nundo\nstep\n"
+      "inspect-ray 3\ninspect-voxel 0 0 0\nsave-script " +
+      script + "\n");
+  const std::string saved = read_file(file("script.txt"));
+  Person second(tiny_scan(), width, height, scale);
+  second.run(saved);
+  expect_valid(second.session());
+  ASSERT_EQ(second.session().records.size(), first.session().records.size());
+  for (std::size_t k = 0; k < first.session().records.size(); ++k) {
+    EXPECT_EQ(first.session().records[k].view, second.session().records[k].view);
+    EXPECT_EQ(first.session().records[k].entropy, second.session().records[k].entropy);
+  }
+  EXPECT_EQ(first.window().state().selection, second.window().state().selection);
+  EXPECT_EQ(first.window().state().layers.voxels, second.window().state().layers.voxels);
+  EXPECT_TRUE(first.window().scene().camera_pose().isApprox(second.window().scene().camera_pose(), 1e-9)) << saved;
+}
+
+TEST_F(Commands, AThousandAtRandomLeaveAValidSession) {
+  Person person(tiny_scan(), width, height, scale);
+  // Other commands: --gtest_random_seed.
+  RandomCalls random(20240229 + std::uint64_t(GTEST_FLAG_GET(random_seed)), folder_, file("tiny scan.toml"));
+  std::size_t done = 0, refused = 0, views = 0;
+  while (done + refused < 1000) {
+    for (std::size_t batch = 1 + random.below(12); batch-- > 0;) {
+      const auto [command, values] = random.next(person.session());
+      const bool key = random.below(5) == 0 && !command->shortcuts.empty();
+      // The default scan is a large one.
+      if (command->name.starts_with("reset-setting") && random.below(6) != 0) continue;
+      try {
+        CommandCall call = make_call(command->name, values);
+        ++done;
+        if (key) {
+          const Shortcut& shortcut = command->shortcuts.front();
+          if (shortcut.control) person.window().push(input::KeyChange{Key::control, true});
+          person.type(shortcut.key);
+          if (shortcut.control) person.window().push(input::KeyChange{Key::control, false});
+        } else {
+          person.window().run_script({std::move(call)});
+        }
+      } catch (const std::invalid_argument& error) {
+        ++refused;
+        EXPECT_THAT(error.what(), testing::HasSubstr(command->name));
+      }
+    }
+    person.wait();
+    const SessionSnapshot& s = person.session();
+    SCOPED_TRACE(fmt::format("after {} commands", done + refused));
+    expect_valid(s);
+    expect_valid(person.window().state(), s);
+    EXPECT_EQ(person.surface().gl_error(), 0u);
+    ASSERT_FALSE(person.window().wants_to_quit());
+    views += s.records.size();
+    if (is_large(s.configuration)) person.run("open \"" + file("tiny scan.toml").string() + "\"\n");
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(refused, 20u);
+  EXPECT_GT(views, 50u) << "there was hardly ever anything to work on";
+  expect_words_for_people(*person.worker().log().entries());
+  person.run("open \"" + file("tiny scan.toml").string() + "\"\nstep\n");
+  EXPECT_EQ(person.session().records.size(), 1u);
+  EXPECT_EQ(person.session().message, "");
+  EXPECT_EQ(person.surface().gl_error(), 0u);
+}
+
+}  // namespace
+}  // namespace nextview

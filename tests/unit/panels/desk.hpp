@@ -1,0 +1,124 @@
+#pragma once
+#include <imgui_internal.h>
+
+#include <memory>
+#include <set>
+
+#include "tests/unit/window/small_scan.hpp"
+#include "ui/panels/all_panels.hpp"
+#include "ui/window/imgui_host.hpp"
+#include "ui/window/session_runner.hpp"
+
+namespace nextview {
+
+/// All panels in front of somebody with a mouse and a keyboard, and no pixels.
+class Desk {
+ public:
+  explicit Desk(int width = 1280, int height = 800, double scale = 1.0)
+      : host_(scale), layout_(width, height, scale), width_(width), height_(height) {
+    unsigned char* pixels = nullptr;
+    int columns = 0, rows = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &columns, &rows);
+  }
+
+  /// A frame; returns what was emitted. What opens and closes palette, sheet and panels is done.
+  std::vector<CommandCall> frame() {
+    host_.take(queue_.take_frame());
+    host_.begin_frame(width_, height_, 1.0 / 60);
+    std::vector<CommandCall> calls;
+    std::optional<std::size_t> hovered;
+    const PanelContext context{*snapshot, progress, window, inspection, log, host_.style(), pictures_, calls, hovered};
+    obey_keys(context);
+    panels_.draw(context, layout_, log.size(), 1.0 / 60);
+    ImGui::Render();
+    for (const CommandCall& call : calls) {
+      CommandTarget target{worker_, window, *snapshot, progress};
+      if (call.command->menu == "Window" && call.command->name != "forget-runs") execute(call, target);
+    }
+    return calls;
+  }
+  /// Frames until all input was seen and windows have settled.
+  std::vector<CommandCall> frames() {
+    std::vector<CommandCall> all;
+    for (int settled = 0; settled < 3; settled = queue_.empty() ? settled + 1 : 0)
+      for (CommandCall& call : frame()) all.push_back(std::move(call));
+    return all;
+  }
+
+  void move(double x, double y) { queue_.push(input::Move{x, y}); }
+  void click(double x, double y) {
+    move(x, y);
+    queue_.push(input::Button{PointerButton::left, true});
+    queue_.push(input::Button{PointerButton::left, false});
+  }
+  void type(Key key) {
+    queue_.push(input::KeyChange{key, true});
+    queue_.push(input::KeyChange{key, false});
+  }
+  void type_with(Key key, bool control) {
+    if (control) queue_.push(input::KeyChange{Key::control, true});
+    type(key);
+    if (control) queue_.push(input::KeyChange{Key::control, false});
+  }
+  void write(const std::string& text) {
+    for (const char c : text) queue_.push(input::Text{static_cast<unsigned char>(c)});
+  }
+
+  CommandState state() const { return {*snapshot, progress, window}; }
+  const Layout& layout() const { return layout_; }
+
+  std::shared_ptr<const SessionSnapshot> snapshot = std::make_shared<SessionSnapshot>();
+  WorkerProgress progress;
+  WindowState window;
+  Inspection inspection;
+  SessionLog::Entries log;
+
+ private:
+  ImguiHost host_;
+  AllPanels panels_;
+  PanelPictures pictures_;
+  InputQueue queue_;
+  Layout layout_;
+  SessionWorker worker_;
+  int width_, height_;
+};
+
+/// A scan after some steps.
+inline std::shared_ptr<const SessionSnapshot> scanned(const Configuration& configuration, int steps,
+                                                      bool refined = false) {
+  const SessionRunner::Told told{[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
+  SessionRunner runner;
+  runner.load(configuration, told);
+  for (int i = 0; i < steps; ++i) runner.step(told);
+  if (refined) runner.refine(2, 20, told);
+  return runner.snapshot();
+}
+
+/// A scan and a window in which all can be done that needs nothing to run.
+inline void open_all_ways(Desk& desk) {
+  auto s = std::make_shared<SessionSnapshot>(*scanned(small_scan(), 2));
+  s->can_undo = s->can_redo = true;
+  s->earlier_runs = std::make_shared<const std::vector<Run>>(1, Run{"sphere, random", s->records});
+  s->next_candidate = *s->proposal() == 0 ? 1 : 0;
+  desk.snapshot = s;
+  desk.window.selection.view = {LookedAt::Kind::candidate, *s->proposal()};
+  desk.window.selection.own_view = Pose::Identity();
+  desk.window.layers.voxels.slice = Slice{0, -0.1, 0.1};
+}
+
+/// What may be under way: nothing, playing, refining, a refinement that is held.
+inline std::vector<WorkerProgress> all_progress() {
+  std::vector<WorkerProgress> all(4);
+  for (std::size_t i = 1; i < 4; ++i) {
+    all[i].busy = true;
+    all[i].what = "doing what it does";
+    all[i].fraction = 0.4;
+    all[i].seconds_left = 12;
+    all[i].playing = i == 1;
+    all[i].refining = i > 1;
+    all[i].paused = i == 3;
+  }
+  return all;
+}
+
+}  // namespace nextview

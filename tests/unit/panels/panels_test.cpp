@@ -1,0 +1,176 @@
+// Every panel in every state of a scan, at several sizes: it is drawn in its place and nothing of it is cut off.
+#include <gtest/gtest.h>
+
+#include "tests/unit/panels/desk.hpp"
+
+namespace nextview {
+namespace {
+
+struct State {
+  const char* name;
+  std::shared_ptr<const SessionSnapshot> snapshot;
+};
+
+std::shared_ptr<const SessionSnapshot> with_gain(const char* gain) {
+  Configuration c = small_scan();
+  c.planner.gain = gain;
+  return scanned(c, 2);
+}
+
+std::shared_ptr<const SessionSnapshot> with_candidates(int count) {
+  Configuration c = small_scan();
+  c.views.count = count;
+  return scanned(c, 1);
+}
+
+const std::vector<State>& states() {
+  static const std::vector<State> all = [] {
+    Configuration blind = small_scan();
+    blind.evaluation.enabled = false;
+    auto failed = std::make_shared<SessionSnapshot>(*scanned(small_scan(), 1));
+    failed->message = "cannot read '/a/rather/long/way/to/a/file/that/is/not/there.ply': no such file or directory";
+    return std::vector<State>{{"empty", std::make_shared<SessionSnapshot>()},
+                              {"before the first step", scanned(small_scan(), 0)},
+                              {"after steps", scanned(small_scan(), 2)},
+                              {"refined", scanned(small_scan(), 2, true)},
+                              {"finished", scanned(small_scan(), 4)},
+                              {"without evaluation", scanned(blind, 2, true)},
+                              {"combined", with_gain("combined")},
+                              {"random", with_gain("random")},
+                              {"one candidate", with_candidates(1)},
+                              {"500 candidates", with_candidates(500)},
+                              {"failed", failed}};
+  }();
+  return all;
+}
+
+bool is_within(const ImRect& r, const Rectangle& place) {
+  return r.Min.x >= place.x - 1 && r.Min.y >= place.y - 1 && r.Max.x <= place.x + place.width + 1 &&
+         r.Max.y <= place.y + place.height + 1;
+}
+
+bool overlap(const ImRect& a, const ImRect& b) {
+  return a.Min.x < b.Max.x && b.Min.x < a.Max.x && a.Min.y < b.Max.y && b.Min.y < a.Max.y;
+}
+
+/// Windows with a place of their own, as opposed to what opens above them.
+std::vector<const ImGuiWindow*> placed_windows() {
+  std::vector<const ImGuiWindow*> result;
+  for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
+    const int above = ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip;
+    const bool over_scene = std::string(w->Name).find("otif") != std::string::npos;
+    if (w->WasActive && !w->Hidden && !(w->Flags & above) && !over_scene && !w->IsFallbackWindow) result.push_back(w);
+  }
+  return result;
+}
+
+void expect_in_place(const Layout& layout) {
+  const auto windows = placed_windows();
+  EXPECT_GE(windows.size(), 9u);
+  for (const ImGuiWindow* w : windows) {
+    int places = 0;
+    for (const Rectangle& place :
+         {layout.menu, layout.control_bar, layout.left, layout.right, layout.bottom, layout.status})
+      places += is_within(w->Rect(), place);
+    EXPECT_EQ(places, 1) << w->Name << " is in no place of the layout";
+    for (const ImGuiWindow* other : windows)
+      if (other != w) {
+        EXPECT_FALSE(overlap(w->Rect(), other->Rect())) << w->Name << " over " << other->Name;
+      }
+  }
+}
+
+/// Of what cannot be scrolled nothing may lie outside.
+void expect_nothing_cut_off() {
+  for (const ImGuiWindow* w : placed_windows()) {
+    const float right = w->DC.CursorMaxPos.x - w->InnerRect.Max.x, below = w->DC.CursorMaxPos.y - w->InnerRect.Max.y;
+    EXPECT_LE(right, 1) << w->Name << " is too narrow for what it shows";
+    if (w->Flags & ImGuiWindowFlags_NoScrollbar) {
+      EXPECT_LE(below, 1) << w->Name << " is too low for what it shows";
+    }
+  }
+}
+
+void expect_triangles_clipped(const Layout& layout) {
+  const ImDrawData* data = ImGui::GetDrawData();
+  EXPECT_GT(data->TotalVtxCount, 500);
+  for (int i = 0; i < data->CmdListsCount; ++i)
+    for (const ImDrawCmd& command : data->CmdLists[i]->CmdBuffer) {
+      EXPECT_GE(command.ClipRect.z, command.ClipRect.x);
+      EXPECT_LE(command.ClipRect.z, layout.menu.width + 1);
+    }
+}
+
+class Panels : public testing::TestWithParam<std::tuple<int, int, double>> {};
+
+TEST_P(Panels, AreDrawnInTheirPlacesInEveryState) {
+  const auto [width, height, scale] = GetParam();
+  Desk desk(width, height, scale);
+  Inspector inspector;
+  for (const State& state : states()) {
+    for (std::size_t panel = 0; panel < std::size_t(PanelName::count); ++panel) {
+      SCOPED_TRACE(std::string(state.name) + ", panel " + panel_names()[panel]);
+      desk.snapshot = state.snapshot;
+      desk.window = {};
+      desk.window.bring_to_front(PanelName(panel));
+      desk.log.assign(3,
+                      {LogEntry::Level::warning, "something that went wrong in a way that takes a line or two to say"});
+      for (const LookedAt view : {LookedAt{}, LookedAt{LookedAt::Kind::candidate, 0}, {LookedAt::Kind::taken, 0}}) {
+        desk.window.selection.view = view;
+        desk.window.selection.voxel = view.kind == LookedAt::Kind::taken ? std::optional(500u) : std::nullopt;
+        desk.window.selection.ray =
+            view.kind == LookedAt::Kind::candidate ? std::optional<std::size_t>(3) : std::nullopt;
+        if (view.kind == LookedAt::Kind::taken && state.snapshot->records.empty()) continue;
+        desk.inspection = inspector.inspect(desk.snapshot, desk.window.selection);
+        EXPECT_TRUE(desk.frames().empty()) << "a panel did something by itself";
+        expect_in_place(desk.layout());
+        expect_nothing_cut_off();
+        expect_triangles_clipped(desk.layout());
+      }
+    }
+  }
+}
+
+TEST_P(Panels, AreDrawnWhileSomethingRuns) {
+  const auto [width, height, scale] = GetParam();
+  Desk desk(width, height, scale);
+  desk.snapshot = states()[3].snapshot;
+  for (WorkerProgress progress : all_progress()) {
+    if (progress.refining)
+      progress.sampler = std::make_shared<const SamplerDiagnostics>(desk.snapshot->gibbs->posterior.diagnostics);
+    desk.progress = progress;
+    desk.window.bring_to_front(PanelName::gibbs);
+    EXPECT_TRUE(desk.frames().empty());
+    expect_in_place(desk.layout());
+    expect_nothing_cut_off();
+  }
+}
+
+TEST_P(Panels, SheetAndPaletteStayInTheWindow) {
+  const auto [width, height, scale] = GetParam();
+  Desk desk(width, height, scale);
+  desk.snapshot = states()[2].snapshot;
+  desk.window.shortcuts_open = true;
+  desk.frames();
+  for (const char* name : {"Keys and mouse", "Commands"}) {
+    desk.window.shortcuts_open = std::string(name) != "Commands";
+    desk.window.palette_open = !desk.window.shortcuts_open;
+    desk.frames();
+    const ImGuiWindow* w = ImGui::FindWindowByName(name);
+    ASSERT_NE(w, nullptr) << name;
+    EXPECT_TRUE(is_within(w->Rect(), {0, 0, double(width), double(height)}))
+        << name << ": " << w->Pos.x << ", " << w->Pos.y << ", " << w->Size.x << " x " << w->Size.y;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Panels,
+                         testing::Values(std::tuple(1280, 800, 1.0), std::tuple(2560, 1600, 2.0),
+                                         std::tuple(1200, 720, 1.0)));
+
+/// To clear a text in the session panel once threw out of the frame.
+TEST(SessionPanel, ATextCanBeCleared) {
+  EXPECT_EQ(make_call("set", {"planner.combined_weights", ""}).text(), "set planner.combined_weights \"\"");
+}
+
+}  // namespace
+}  // namespace nextview

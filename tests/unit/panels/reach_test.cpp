@@ -1,0 +1,158 @@
+// Every command by mouse, by palette and by script.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/unit/panels/desk.hpp"
+
+namespace nextview {
+namespace {
+
+/// The command that calls stand for: itself, or the one that the palette asks values for.
+void note(const std::vector<CommandCall>& calls, std::set<std::string>& reached) {
+  for (const CommandCall& call : calls) {
+    const bool asks = call.command->name == "palette" && !call.arguments.empty();
+    reached.insert(asks ? call.arguments.front().substr(0, call.arguments.front().find(' ')) : call.command->name);
+  }
+}
+
+/// The menu that is open, if one is.
+const ImGuiWindow* open_menu() {
+  const auto& stack = ImGui::GetCurrentContext()->OpenPopupStack;
+  return stack.Size > 0 ? stack[0].Window : nullptr;
+}
+
+/// Clicks everything in the menu that opens at `x`.
+void click_menu(Desk& desk, double x, std::set<float>& menus, std::set<std::string>& reached) {
+  const double y = desk.layout().menu.height / 2;
+  const WindowState before = desk.window;
+  desk.click(x, y);
+  desk.frames();
+  const ImGuiWindow* menu = open_menu();
+  if (!menu) return;
+  const ImRect r = menu->Rect();
+  const bool again = !menus.insert(r.Min.x).second;
+  EXPECT_GE(r.Min.x, 0) << "a menu is outside of the window";
+  EXPECT_LE(r.Max.y, desk.layout().status.y + desk.layout().status.height) << "a menu is outside of the window";
+  for (float at = r.Min.y; at < r.Max.y && !again; at += 8) {
+    if (!open_menu()) desk.click(x, y);
+    desk.frames();
+    desk.click(r.Min.x + 20, at);
+    note(desk.frames(), reached);
+    desk.window = before;
+  }
+  if (open_menu()) desk.click(r.Max.x + 200, r.Max.y + 100);
+  desk.frames();
+  desk.window = before;
+}
+
+TEST(Reach, EveryCommandByMouseThroughTheMenu) {
+  std::set<std::string> reached;
+  for (const WorkerProgress& progress : all_progress()) {
+    Desk desk;
+    open_all_ways(desk);
+    desk.progress = progress;
+    std::set<float> menus;
+    for (double x = 10; x < 500; x += 15) click_menu(desk, x, menus, reached);
+    EXPECT_EQ(menus.size(), nextview::menus().size());
+  }
+  for (const Command& command : commands()) EXPECT_TRUE(reached.contains(command.name)) << command.name;
+}
+
+std::string valid_value(const Argument& argument, const SessionSnapshot& snapshot) {
+  if (argument.choices) return argument.choices(snapshot).front();
+  if (argument.kind == Argument::Kind::text) return "0.5";
+  if (argument.kind == Argument::Kind::file) return "a_file";
+  return std::to_string(int(std::ceil(argument.low)));
+}
+
+/// Nothing, or what must run for this command.
+WorkerProgress progress_for(const Command& command, Desk& desk) {
+  for (const WorkerProgress& progress : all_progress()) {
+    desk.progress = progress;
+    if (command.available(desk.state())) return progress;
+  }
+  ADD_FAILURE() << command.name << " can never be done";
+  return {};
+}
+
+TEST(Reach, EveryCommandThroughThePalette) {
+  Desk desk;
+  open_all_ways(desk);
+  const WindowState before = desk.window;
+  for (const Command& command : commands()) {
+    desk.progress = progress_for(command, desk);
+    desk.window = before;
+    desk.window.palette_open = true;
+    desk.frames();
+    desk.write(command.name);
+    desk.type(Key::enter);
+    std::vector<CommandCall> calls = desk.frames();
+    std::string values;
+    const bool asks = !command.arguments.empty() && !command.arguments.front().optional;
+    if (asks) {
+      EXPECT_TRUE(calls.empty()) << command.name << " was done without its values";
+      for (const Argument& argument : command.arguments)
+        if (!argument.optional) values += (values.empty() ? "" : " ") + valid_value(argument, *desk.snapshot);
+      desk.write(values);
+      desk.type(Key::enter);
+      calls = desk.frames();
+    }
+    ASSERT_FALSE(calls.empty()) << command.name << " " << values;
+    EXPECT_EQ(calls.front().text(), command.name + (values.empty() ? "" : " " + values));
+    desk.window = before;
+    desk.frames();
+  }
+}
+
+TEST(Reach, ThePaletteSaysWhatIsWrongAndStays) {
+  Desk desk;
+  open_all_ways(desk);
+  for (const std::string text : {"select-view x", "nothing of the kind", "set planner.gain", "export \"x"}) {
+    desk.window.palette_open = true;
+    desk.frames();
+    desk.write(text);
+    desk.type(Key::enter);
+    EXPECT_TRUE(desk.frames().empty()) << text;
+    EXPECT_TRUE(desk.window.palette_open) << text;
+    desk.type(Key::escape);
+    desk.frames();
+    EXPECT_FALSE(desk.window.palette_open) << text;
+    desk.frames();
+  }
+}
+
+TEST(Reach, EveryKeyDoesItsCommand) {
+  Desk desk;
+  open_all_ways(desk);
+  const WindowState before = desk.window;
+  for (const Command& command : commands())
+    for (const Shortcut& shortcut : command.shortcuts) {
+      desk.progress = progress_for(command, desk);
+      desk.window = before;
+      desk.frames();
+      const ImGuiIO& io = ImGui::GetIO();
+      EXPECT_FALSE(io.WantTextInput);
+      std::set<std::string> reached;
+      desk.type_with(shortcut.key, shortcut.control);
+      note(desk.frames(), reached);
+      EXPECT_EQ(reached, std::set<std::string>{command.name}) << shortcut.text();
+      desk.window = before;
+      desk.frames();
+    }
+}
+
+TEST(Reach, EveryCommandByAScript) {
+  Desk desk;
+  open_all_ways(desk);
+  for (const Command& command : commands()) {
+    std::string line = command.name;
+    for (const Argument& argument : command.arguments) line += " " + valid_value(argument, *desk.snapshot);
+    const auto calls = parse_script(line + "\n");
+    ASSERT_EQ(calls.size(), 1u) << line;
+    EXPECT_EQ(calls.front().text(), line);
+  }
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,21 @@
+#pragma once
+#include "core/session/configuration.hpp"
+
+namespace nextview {
+
+/// A scan that takes a moment only.
+inline Configuration small_scan() {
+  Configuration c;
+  c.object.file = "sphere";
+  c.sensor.width = 80;
+  c.sensor.height = 60;
+  c.map.resolution = 0.04;
+  c.views.count = 8;
+  c.planner.ray_columns = 8;
+  c.planner.ray_rows = 6;
+  c.evaluation.surface_samples = 500;
+  c.termination.views = 4;
+  return c;
+}
+
+}  // namespace nextview
