@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "core/file/atomic_file.hpp"
+
 namespace nextview {
 namespace {
 
@@ -252,6 +254,11 @@ TEST(Commands, TheTableHasARowForEach) {
     const std::string line = table.substr(at, table.find('\n', at) - at);
     EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 4) << line;
   }
+}
+
+TEST(CommandTable, StandsInTheReadme) {
+  const std::string readme = read_file(NEXTVIEW_SOURCE_DIR "/README.md");
+  EXPECT_NE(readme.find(command_table()), readme.npos) << "put what `nextview window --list-commands` prints there";
 }
 
 }  // namespace
