@@ -1,16 +1,21 @@
-// The window for real: on a display (Xvfb), by a mouse (xdotool), from the first view to the twentieth.
+// The window for real: on a display (Xvfb), by a mouse and a keyboard (xdotool).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <optional>
+#include <sstream>
 #include <thread>
 
 #include "core/file/atomic_file.hpp"
 #include "tests/render/render_test.hpp"
+#include "ui/window/layout.hpp"
 
 namespace nextview {
 namespace {
@@ -58,36 +63,143 @@ Image read_screen(const std::filesystem::path& file) {
   return image;
 }
 
-TEST(Display, TheWindowStepsToTwentyViewsByClicks) {
-  std::string name = (std::filesystem::temp_directory_path() / "nextview-display-XXXXXX").string();
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  const std::filesystem::path folder = name;
-  {
-    Background server(fmt::format("Xvfb -displayfd 1 -screen 0 1280x800x24 -fbdir {} -nolisten tcp 2>/dev/null", name));
-    const std::string display = ":" + server.line();
-    ASSERT_NE(display, ":") << "Xvfb does not start; install xvfb";
-    const Background program(fmt::format("env DISPLAY={} '{}' 2>/dev/null", display, NEXTVIEW_PROGRAM));
-    const auto xdotool = [&](const std::string& words) {
-      return std::system(fmt::format("DISPLAY={} timeout 60 xdotool {} >/dev/null 2>&1", display, words).c_str()) == 0;
-    };
-    const auto titled = [&](const std::string& title) {
-      for (int tenths = 0; tenths < 1200; ++tenths) {
-        if (xdotool(fmt::format("search --name '{}'", title))) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      }
-      return false;
-    };
-    ASSERT_TRUE(titled("view 0 of 20")) << "the window does not come up with the default object";
-    for (int view = 1; view <= 20; ++view) {
-      ASSERT_TRUE(xdotool("mousemove 50 28 click 1"));  // the Step button
-      ASSERT_TRUE(titled(fmt::format("view {} of 20", view))) << "no step " << view;
-    }
-    xdotool("mousemove 640 785");  // away from what would answer
-    std::this_thread::sleep_for(std::chrono::seconds(2));
-    const PictureBound bound(0.03, 255, "the status line tells seconds, and a display has its own library versions");
-    expect_screenshot("window", read_screen(folder / "Xvfb_screen0"), bound);
+/// The program in front of somebody with a mouse and a keyboard.
+class Display : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "nextview-display-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    server_ = std::make_unique<Background>(
+        fmt::format("Xvfb -displayfd 1 -screen 0 1280x800x24 -fbdir {} -nolisten tcp 2>/dev/null", name));
+    display_ = ":" + server_->line();
+    ASSERT_NE(display_, ":") << "Xvfb does not start; install xvfb";
   }
-  std::filesystem::remove_all(folder);
+  void TearDown() override {
+    program_.reset();
+    server_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  void start(const std::string& arguments = "") {
+    program_ = std::make_unique<Background>(
+        fmt::format("env DISPLAY={} '{}' {} 2>/dev/null", display_, NEXTVIEW_PROGRAM, arguments));
+  }
+
+  bool xdotool(const std::string& words) const {
+    return std::system(fmt::format("DISPLAY={} timeout 60 xdotool {} >/dev/null 2>&1", display_, words).c_str()) == 0;
+  }
+  bool click(double x, double y) const { return xdotool(fmt::format("mousemove {:.0f} {:.0f} click 1", x, y)); }
+  bool key(const std::string& name) const { return xdotool("key " + name); }
+  /// Waits until `good` for two minutes at most.
+  template <class Predicate>
+  static bool wait_until(Predicate good) {
+    for (int tenths = 0; tenths < 1200; ++tenths) {
+      if (good()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return false;
+  }
+  bool titled(const std::string& title) const {
+    return wait_until([&] { return xdotool(fmt::format("search --name '{}'", title)); });
+  }
+  static void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(1500)); }
+
+  std::filesystem::path folder_;
+  std::string display_;
+  std::unique_ptr<Background> server_, program_;
+};
+
+TEST_F(Display, TheWindowStepsToTwentyViewsByClicks) {
+  start();
+  ASSERT_TRUE(titled("view 0 of 20")) << "the window does not come up with the default object";
+  for (int view = 1; view <= 20; ++view) {
+    ASSERT_TRUE(xdotool("mousemove 50 28 click 1"));  // the Step button
+    ASSERT_TRUE(titled(fmt::format("view {} of 20", view))) << "no step " << view;
+  }
+  xdotool("mousemove 640 785");  // away from what would answer
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  const PictureBound bound(0.03, 255, "the status line tells seconds, and a display has its own library versions");
+  expect_screenshot("window", read_screen(folder_ / "Xvfb_screen0"), bound);
+}
+
+/// How many of the lines begin with this word.
+int count_lines(const std::string& script, const std::string& word) {
+  int count = 0;
+  std::istringstream lines(script);
+  for (std::string line; std::getline(lines, line);) count += line == word || line.starts_with(word + " ");
+  return count;
+}
+
+/// A pixel in the midst of the blue of occupied voxels: at their rim there are points alone.
+std::optional<Eigen::Vector2d> blue_pixel(const Image& image, const Rectangle& r) {
+  std::vector<Eigen::Vector2d> blue;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int y = int(r.y); y < int(r.y + r.height); ++y)
+    for (int x = int(r.x); x < int(r.x + r.width); ++x) {
+      const std::uint8_t* p = &image.rgba[(std::size_t(y) * image.width + x) * 4];
+      if (p[2] <= p[0] + 40 || p[2] <= p[1] + 15) continue;
+      blue.emplace_back(x, y);
+      sum += blue.back();
+    }
+  if (blue.size() < 100) return std::nullopt;
+  const Eigen::Vector2d middle = sum / double(blue.size());
+  return *std::min_element(blue.begin(), blue.end(), [&](const auto& a, const auto& b) {
+    return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+  });
+}
+
+/// A voxel and a ray are inspected, a view is overridden, and the scan is stepped to its end; what was done is read
+/// from the script that the window saves.
+TEST_F(Display, AVoxelAndARayAreInspectedAndAViewIsOverridden) {
+  const Layout l(1280, 800, 1.0);
+  const double middle_x = l.scene.x + l.scene.width / 2, middle_y = l.scene.y + l.scene.height / 2;
+  start("window --object.file sphere --sensor.width 320 --sensor.height 240 --termination.views 5");
+  ASSERT_TRUE(titled("sphere - view 0 of 5"));
+  ASSERT_TRUE(click(50, l.control_bar.y + l.control_bar.height / 2));  // the Step button
+  ASSERT_TRUE(titled("view 1 of 5"));
+  ASSERT_TRUE(xdotool(fmt::format("mousemove {:.0f} {:.0f}", middle_x, middle_y)));
+  ASSERT_TRUE(key("s"));
+  ASSERT_TRUE(titled("view 2 of 5"));
+  pause();
+  ASSERT_TRUE(key("4"));  // without frustums and rays, which are in front of the object
+  ASSERT_TRUE(key("5"));
+  pause();
+  const Rectangle inner{l.scene.x + l.scene.width / 4, l.scene.y + l.scene.height / 4, l.scene.width / 2,
+                        l.scene.height / 2};  // without the legend
+  const auto voxel = blue_pixel(read_screen(folder_ / "Xvfb_screen0"), inner);
+  ASSERT_TRUE(voxel) << "no occupied voxels are shown";
+  ASSERT_TRUE(click(voxel->x(), voxel->y()));
+  pause();
+  ASSERT_TRUE(key("F5"));  // the View panel
+  pause();
+  ASSERT_TRUE(click(l.right.x + 150, l.right.y + l.right.height - 80));  // what the rays contribute
+  pause();
+  ASSERT_TRUE(key("F4"));  // the candidates
+  pause();
+  ASSERT_TRUE(click(l.right.x + 100, l.right.y + l.right.height / 2));  // one of them
+  pause();
+  ASSERT_TRUE(key("t"));
+  pause();
+  for (int view = 3; view <= 5; ++view) {
+    ASSERT_TRUE(key("s"));
+    ASSERT_TRUE(titled(fmt::format("view {} of 5", view)));
+    pause();
+  }
+  const std::filesystem::path file = folder_ / "script.txt";
+  ASSERT_TRUE(key("ctrl+p"));
+  pause();
+  ASSERT_TRUE(xdotool(fmt::format("type --delay 30 'save-script {}'", file.string())));
+  ASSERT_TRUE(key("Return"));
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file); })) << "no script was saved by the palette";
+  const std::string script = read_file(file);
+  EXPECT_EQ(count_lines(script, "step"), 5) << script;
+  EXPECT_EQ(count_lines(script, "inspect-voxel"), 1) << script;
+  EXPECT_EQ(count_lines(script, "inspect-ray"), 1) << script;
+  EXPECT_EQ(count_lines(script, "select-view"), 1) << script;
+  EXPECT_EQ(count_lines(script, "take-view"), 1) << script;
+  const auto select = script.find("select-view"), take = script.find("take-view");
+  EXPECT_LT(select, take) << script;
+  EXPECT_LT(take, script.rfind("step")) << script;
 }
 
 }  // namespace

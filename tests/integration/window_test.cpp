@@ -214,6 +214,30 @@ TEST(Window, APersonCanTakeAnotherView) {
   EXPECT_EQ(person.session().records.back().view, int(chosen.value()));
 }
 
+TEST(Window, WhereAVoxelIsDrawnAClickInspectsIt) {
+  Person person(small_scan());
+  person.run("step\nstep\ntoggle-views\ntoggle-rays\ntoggle-cloud\ntoggle-object\n");
+  const Rectangle scene = person.window().layout().scene;
+  const Image image = person.look();
+  int blue = 0, voxels = 0, occupied = 0;
+  for (double y = scene.y + 5; y < scene.y + scene.height - 5; y += 7)
+    for (double x = scene.x + 5; x < scene.x + scene.width - 5; x += 7) {
+      if (count_blue(image, {x - 3, y - 3, 7, 7}) < 49) continue;
+      ++blue;
+      const auto picked = person.window().scene().pick(x, y);
+      voxels += picked.voxel.has_value();
+      if (voxels == 3) {
+        person.click(x, y);
+        person.wait();
+        EXPECT_EQ(person.window().state().selection.voxel, picked.voxel) << "the click did not inspect it";
+      }
+      if (picked.voxel) occupied += (*person.session().voxels)[*picked.voxel].voxel_class == VoxelClass::occupied;
+    }
+  EXPECT_GT(blue, 15);
+  EXPECT_GE(voxels, 0.95 * blue);
+  EXPECT_GE(occupied, 0.95 * blue);
+}
+
 TEST(Window, ControlQQuits) {
   Person person(small_scan());
   person.type(key('Q'));
