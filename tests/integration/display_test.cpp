@@ -110,10 +110,11 @@ class Display : public testing::Test {
 };
 
 TEST_F(Display, TheWindowStepsToTwentyViewsByClicks) {
+  const Layout l(1280, 800, 1.0);
   start();
   ASSERT_TRUE(titled("view 0 of 20")) << "the window does not come up with the default object";
   for (int view = 1; view <= 20; ++view) {
-    ASSERT_TRUE(xdotool("mousemove 50 28 click 1"));  // the Step button
+    ASSERT_TRUE(click(50, l.control_bar.y + l.control_bar.height / 2));  // the Step button
     ASSERT_TRUE(titled(fmt::format("view {} of 20", view))) << "no step " << view;
   }
   xdotool("mousemove 640 785");  // away from what would answer
@@ -172,7 +173,7 @@ TEST_F(Display, AVoxelAndARayAreInspectedAndAViewIsOverridden) {
   pause();
   ASSERT_TRUE(key("F5"));  // the View panel
   pause();
-  ASSERT_TRUE(click(l.right.x + 150, l.right.y + l.right.height - 80));  // what the rays contribute
+  ASSERT_TRUE(click(l.right.x + 100, l.right.y + 460));  // what the rays contribute
   pause();
   ASSERT_TRUE(key("F4"));  // the candidates
   pause();
