@@ -109,7 +109,7 @@ TEST(Window, DrawsTheSceneOnlyWhenItChanged) {
   const std::size_t drawings = person.window().scene_drawings();
   const Image drawn = person.look();
   const Rectangle left = person.window().layout().left;
-  const Point start{left.x + left.width / 2, left.y + left.height - 8};  // where nothing answers to the pointer
+  const Point start{middle(left).x, left.y + left.height - 20};  // where nothing answers
   person.move(start.x, start.y);
   person.wait();
   for (int i = 0; i < 5; ++i) person.window().draw(1.0 / 60);
