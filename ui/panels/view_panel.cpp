@@ -98,16 +98,9 @@ void draw_depth(const PanelContext& context, const ViewInspection& view) {
   ImGui::SetTooltip("%s", ((depth < 0 ? "nothing met" : fmt::format("{:.0f} mm", 1e3 * depth)) + way).c_str());
 }
 
-/// How many rays a row of the picture has.
-int ray_columns(const PlannerConfig& planner, const ScoreExplanation& explanation) {
-  return planner.semantics == Semantics::published ? planner.ray_columns
-                                                   : int(std::lround(std::sqrt(double(explanation.rays.size()))));
-}
-
-void mark_cell(const ImVec4& place, std::size_t cell, int columns, int rows, const Colour& colour, float width) {
-  const float w = (place.z - place.x) / float(columns), h = (place.w - place.y) / float(rows);
-  const float x = place.x + float(cell % std::size_t(columns)) * w,
-              y = place.y + float(cell / std::size_t(columns)) * h;
+void mark_ray(const ImVec4& place, std::size_t ray, const RayGrid& grid, const Colour& colour, float width) {
+  const float w = (place.z - place.x) / float(grid.columns), h = (place.w - place.y) / float(grid.rows);
+  const float x = place.x + float(grid.column(ray)) * w, y = place.y + float(grid.row(ray)) * h;
   ImGui::GetWindowDrawList()->AddRect({x - 1, y - 1}, {x + w + 1, y + h + 1}, to_imgui_u32(colour), 0, 0, width);
 }
 
@@ -115,26 +108,24 @@ void mark_cell(const ImVec4& place, std::size_t cell, int columns, int rows, con
 void draw_contributions(const PanelContext& context, const ViewInspection& view) {
   if (!view.explanation) return small_text(context.style, view.no_explanation);
   const ScoreExplanation& e = *view.explanation;
-  const PlannerConfig& planner = context.snapshot.configuration.planner;
   const PinholeCamera& camera = context.snapshot.camera;
   const std::string& unit = context.snapshot.gain_unit;
-  const int columns = ray_columns(planner, e), rows = columns > 0 ? int(e.rays.size()) / columns : 0;
-  if (rows < 1) return;
-  const bool whole_image = planner.semantics == Semantics::published;
+  const RayGrid grid(context.snapshot.configuration.planner, camera);
+  if (grid.cells() == 0 || grid.cells() != e.rays.size()) return;
   const std::string words = fmt::format(
       "What each of its {} rays adds to the gain.\n\nDark {} {}, pale little, white nothing. Click a ray to see why.",
       e.rays.size(), readable(largest_contribution(e)), unit);
-  const ImVec4 place = draw_picture(context, "contributions",
-                                    whole_image ? double(camera.height) / camera.width : double(rows) / columns, words,
-                                    [&] { return contribution_picture(e, columns); });
+  const ImVec4 place = draw_picture(context, "contributions", double(camera.height) / camera.width, words,
+                                    [&] { return contribution_picture(e, grid); });
   const float width = context.style.px(1.5f);
   if (const auto& ray = context.window.selection.ray; ray && *ray < e.rays.size())
-    mark_cell(place, *ray, columns, rows, theme::ink, width);
-  const auto cell = pointed_cell(place, columns, rows);
-  if (!cell || *cell >= e.rays.size()) return;
-  mark_cell(place, *cell, columns, rows, theme::series[0], width);
-  ImGui::SetTooltip("ray %zu: %s %s", *cell, readable(e.rays[*cell].contribution).c_str(), unit.c_str());
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.call("inspect-ray", *cell);
+    mark_ray(place, *ray, grid, theme::ink, width);
+  const auto cell = pointed_cell(place, grid.columns, grid.rows);
+  if (!cell) return;
+  const std::size_t ray = grid.ray(int(*cell) % grid.columns, int(*cell) / grid.columns);
+  mark_ray(place, ray, grid, theme::series[0], width);
+  ImGui::SetTooltip("ray %zu: %s %s", ray, readable(e.rays[ray].contribution).c_str(), unit.c_str());
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.call("inspect-ray", ray);
 }
 
 void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/session/session_parts.hpp"
 #include "ui/colour_map.hpp"
 
 namespace nextview {
@@ -52,14 +53,28 @@ double largest_contribution(const ScoreExplanation& explanation) {
   return largest;
 }
 
-Image contribution_picture(const ScoreExplanation& explanation, int columns) {
-  const int rows = int(explanation.rays.size()) / columns;
+RayGrid::RayGrid(const PlannerConfig& planner, const PinholeCamera& camera)
+    : columns(planner.ray_columns), rows(planner.ray_rows) {
+  if (planner.semantics != Semantics::reference) return;
+  column_by_column = true;
+  Configuration configuration;
+  configuration.planner = planner;
+  const RayBundle bundle = scoring_rays(configuration, camera);
+  const auto same_column = [&](const Vector3& a) {
+    return std::abs(a.x() / a.z() - bundle.directions[0].x() / bundle.directions[0].z()) < 1e-9;
+  };
+  rows = int(std::count_if(bundle.directions.begin(), bundle.directions.end(), same_column));
+  columns = int(bundle.directions.size()) / std::max(rows, 1);
+}
+
+Image contribution_picture(const ScoreExplanation& explanation, const RayGrid& grid) {
   const double largest = largest_contribution(explanation);
   const ColourMap map = ColourMap::contribution();
-  Image image = blank(columns, rows);
-  for (std::size_t i = 0; i < std::size_t(columns) * rows; ++i) {
-    const double value = explanation.rays[i].contribution;
-    set_pixel(image, i, value > 0 ? map.at(value, 0, largest) : theme::paper);
+  Image image = blank(grid.columns, grid.rows);
+  for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
+    const int column = int(cell) % grid.columns, row = int(cell) / grid.columns;
+    const double value = explanation.rays[grid.ray(column, row)].contribution;
+    set_pixel(image, cell, value > 0 ? map.at(value, 0, largest) : theme::paper);
   }
   return image;
 }

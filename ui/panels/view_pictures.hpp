@@ -3,6 +3,7 @@
 
 #include "core/gain/expected_view.hpp"
 #include "core/gain/view_score.hpp"
+#include "core/session/configuration.hpp"
 #include "ui/surface/image.hpp"
 
 namespace nextview {
@@ -15,8 +16,22 @@ Image depth_picture(std::span<const float> depth, std::span<const std::uint8_t> 
 /// The nearest and the farthest depth of both [m].
 std::pair<double, double> depth_range(std::span<const float> a, std::span<const float> b);
 
-/// A pixel a ray, coloured by what it contributes; `columns` rays a row.
-Image contribution_picture(const ScoreExplanation& explanation, int columns);
+/// How the rays of a score lie in the image: which ray a cell has.
+struct RayGrid {
+  int columns = 0, rows = 0;
+  bool column_by_column = false;  ///< the reference bundle's order; otherwise row by row
+
+  RayGrid(const PlannerConfig& planner, const PinholeCamera& camera);
+  std::size_t cells() const { return std::size_t(columns) * rows; }
+  std::size_t ray(int column, int row) const {
+    return column_by_column ? std::size_t(column) * rows + row : std::size_t(row) * columns + column;
+  }
+  int column(std::size_t ray) const { return int(column_by_column ? ray / rows : ray % columns); }
+  int row(std::size_t ray) const { return int(column_by_column ? ray % rows : ray / columns); }
+};
+
+/// A pixel a ray, coloured by what it contributes. @pre there is a ray for each cell
+Image contribution_picture(const ScoreExplanation& explanation, const RayGrid& grid);
 
 /// The most that a ray contributes; at least a little over 0.
 double largest_contribution(const ScoreExplanation& explanation);
