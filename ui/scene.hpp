@@ -50,8 +50,8 @@ class Scene {
   /// While the camera moves, edges may be rough: drawing in software then takes a third of the time. Holds for the
   /// whole surface, from the next drawing on. Does nothing without a surface.
   void set_moving(bool moving);
-  /// Whether paper lies behind axes, scale bar and legends: for scenes that people move, where anything may come to lie
-  /// there. It does not unless told otherwise.
+  /// Whether paper lies behind the legends: for scenes that people move, where anything may come to lie there. It does
+  /// not unless told otherwise.
   void set_backed(bool backed);
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }

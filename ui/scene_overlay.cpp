@@ -156,9 +156,8 @@ double SceneOverlay::legends_height() const {
 }
 
 /// Paper behind what must be legible whatever lies there.
-void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const {
+void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& size) const {
   constexpr double opacity = 0.72;
-  painter.box(0, 0, corner.x(), corner.y(), theme::ground, opacity);
   if (legends.empty()) return;
   double width = 0;
   for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
@@ -170,7 +169,7 @@ void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& corner
 bool SceneOverlay::Paint(vtkContext2D* context) {
   Painter painter(*context, scale);
   const Eigen::Vector2d size = picture_size(*renderer, scale);
-  if (backed) paint_backing(painter, corner_size(axes, scale_bar), size);
+  if (backed) paint_backing(painter, size);
   if (axes) paint_axes(painter, *renderer->GetActiveCamera());
   if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference);
   double width = 0;

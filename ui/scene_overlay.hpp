@@ -24,7 +24,7 @@ class SceneOverlay : public vtkContextItem {
   bool Paint(vtkContext2D* context) override;
 
   vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
-  bool backed = false;                        ///< paper lies behind axes, scale bar and legends
+  bool backed = false;                        ///< paper lies behind the legends
   std::string caption;                        ///< upper left
   std::vector<Legend> legends;                ///< upper right, from top to bottom
   std::vector<Label> labels;                  ///< beside their places
@@ -33,7 +33,7 @@ class SceneOverlay : public vtkContextItem {
   double scale = 1.0;  ///< pixels of the display a pixel of the design
 
  private:
-  void paint_backing(Painter& painter, const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
+  void paint_backing(Painter& painter, const Eigen::Vector2d& size) const;
 };
 
 }  // namespace nextview

@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "ui/window/overloaded.hpp"
+
 namespace nextview {
 namespace {
-
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
 
 constexpr std::pair<ImGuiKey, Key> keys[] = {
     {ImGuiKey_Tab, Key::tab},       {ImGuiKey_LeftArrow, Key::left}, {ImGuiKey_RightArrow, Key::right},

@@ -1,4 +1,5 @@
 #include "ui/window/command_list.hpp"
+#include "ui/window/inspection.hpp"
 
 namespace nextview {
 namespace {
@@ -58,15 +59,6 @@ void own_view(CommandTarget& t, const Arguments& a) {
   t.window.bring_to_front(PanelName::view);
 }
 
-Pose looked_at_pose(const CommandTarget& t) {
-  const Selection& selection = t.window.selection;
-  const std::size_t i = selection.view.index;
-  if (selection.view.kind == Kind::candidate && i < t.session.candidates.size()) return t.session.candidates[i];
-  if (selection.view.kind == Kind::taken && i < t.session.records.size()) return t.session.records[i].T_world_camera;
-  if (selection.view.kind == Kind::own && selection.own_view) return *selection.own_view;
-  return t.session.next_view;
-}
-
 }  // namespace
 
 std::vector<Command> selection_commands() {
@@ -119,7 +111,8 @@ std::vector<Command> selection_commands() {
        {},
        {{key('C')}},
        [](CommandTarget& t, const Arguments&) {
-         t.window.camera_motions.push_back(camera_motion::LookThrough{looked_at_pose(t)});
+         t.window.camera_motions.push_back(
+             camera_motion::LookThrough{looked_at_pose(t.session, t.window.selection).value_or(t.session.next_view)});
        },
        needs_session},
       {"inspect-voxel",

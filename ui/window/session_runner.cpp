@@ -10,16 +10,12 @@
 #include "core/session/session_parts.hpp"
 #include "core/session/stopped.hpp"
 #include "ui/window/known_objects.hpp"
+#include "ui/window/overloaded.hpp"
 
 namespace nextview {
 namespace {
 
 constexpr std::size_t most_runs = 6;  ///< that stay for their curves
-
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
 
 /// A part of a job, from `begin` to `end` of the whole.
 Progress part(const Progress& whole, double begin, double end) {

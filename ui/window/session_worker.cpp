@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "core/session/stopped.hpp"
+#include "ui/window/overloaded.hpp"
 
 namespace nextview {
 namespace {
@@ -15,11 +16,6 @@ namespace {
 constexpr double least_progress = 0.01;
 /// Nobody needs to be told how long a shorter job will take [s].
 constexpr double least_to_estimate = 1.0;
-
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
 
 template <class Request>
 bool is(const SessionRequest& request) {
