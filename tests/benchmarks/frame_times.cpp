@@ -1,10 +1,17 @@
-// How long frames of the window take, drawn by a software renderer (OSMesa): while a step or the Gibbs sampler runs and
-// the scene stays as it is, and while the scene is turned. A distribution each, not a mean.
+// How long frames of the window take, drawn by a software renderer (OSMesa) at 1280 x 800: while nothing happens, while
+// the pointer moves over a panel, while a step or the Gibbs sampler runs and the scene stays as it is, and while the
+// scene is turned. A distribution each, not a mean. A frame ends when its pixels are in memory.
+//
+// Wall time is what a person feels; it grows with whatever else the machine does. Processor time is of the thread that
+// draws and of the renderer's own threads, without the workers': what the frame costs, also on a busy machine.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 #include <vector>
 
@@ -20,6 +27,32 @@ using Clock = std::chrono::steady_clock;
 constexpr double frame_interval = 1.0 / 60;  // [s] of a display
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Processor time of drawing so far [s]: this thread's, and that of the renderer's threads, which llvmpipe names after
+/// itself.
+double processor_seconds() {
+  timespec own{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
+  double result = double(own.tv_sec) + 1e-9 * double(own.tv_nsec);
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::string name;
+    double nanoseconds = 0;
+    std::getline(std::ifstream(thread.path() / "comm"), name);
+    if (name.starts_with("llvmpipe") && std::ifstream(thread.path() / "schedstat") >> nanoseconds)
+      result += 1e-9 * nanoseconds;
+  }
+  return result;
+}
+
+/// Of each frame [ms].
+struct FrameTimes {
+  std::vector<double> wall, processor;
+};
+
+void append(FrameTimes& times, const FrameTimes& more) {
+  times.wall.insert(times.wall.end(), more.wall.begin(), more.wall.end());
+  times.processor.insert(times.processor.end(), more.processor.begin(), more.processor.end());
+}
 
 class Window {
  public:
@@ -39,39 +72,68 @@ class Window {
       interface_.draw(frame_interval);
   }
 
-  /// Frames of the kept scene while what the script starts is under way [ms].
-  std::vector<double> frames_while(std::string_view script) {
+  /// Frames of the kept scene while what the script starts is under way.
+  FrameTimes frames_while(std::string_view script) {
     interface_.run_script(parse_script(script));
     interface_.draw(frame_interval);
-    std::vector<double> times;
+    FrameTimes times;
     while (worker_.progress().busy) {
       const auto start = Clock::now();
+      FrameTimes frame;
       const std::size_t drawings = interface_.scene_drawings();
-      interface_.draw(frame_interval);
-      const double seconds = seconds_since(start);
-      if (interface_.scene_drawings() == drawings) times.push_back(1e3 * seconds);
-      if (seconds < frame_interval)
-        std::this_thread::sleep_for(std::chrono::duration<double>(frame_interval - seconds));
+      draw_frame(frame);
+      if (interface_.scene_drawings() == drawings) append(times, frame);
+      const double left = frame_interval - seconds_since(start);
+      if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
     }
     settle();
     return times;
   }
 
-  /// Frames while the scene is turned by the pointer [ms].
-  std::vector<double> frames_turning(int count) {
+  FrameTimes frames_idle(int count) {
+    FrameTimes times;
+    for (int i = 0; i < count; ++i) draw_frame(times);
+    return times;
+  }
+
+  /// Frames while the pointer moves over the panel on the right.
+  FrameTimes frames_hovering(int count) {
+    const Rectangle& panel = interface_.layout().right;
+    FrameTimes times;
+    for (int i = 0; i < count; ++i) {
+      interface_.push(input::Move{panel.x + panel.width / 2, panel.y + panel.height * i / count});
+      draw_frame(times);
+    }
+    settle();
+    return times;
+  }
+
+  /// Frames while the scene is turned by the pointer.
+  FrameTimes frames_turning(int count) {
     const Rectangle& scene = interface_.layout().scene;
     const double x = scene.x + 30, y = scene.y + scene.height / 2;
     interface_.push(input::Move{x, y});
     interface_.push(input::Button{PointerButton::left, true});
     for (int i = 0; i < 3; ++i) interface_.draw(frame_interval);
-    std::vector<double> times;
+    FrameTimes times;
     for (int i = 0; i < count; ++i) {
       interface_.push(input::Move{x + 3 * i, y});
-      const auto start = Clock::now();
-      interface_.draw(frame_interval);
-      times.push_back(1e3 * seconds_since(start));
+      draw_frame(times);
     }
     interface_.push(input::Button{PointerButton::left, false});
+    settle();
+    interface_.draw(1.0);
+    settle();
+    return times;
+  }
+
+  /// Frames that draw the scene in full quality.
+  FrameTimes frames_zooming(int count) {
+    FrameTimes times;
+    for (int i = 0; i < count; ++i) {
+      interface_.run_script(parse_script(i % 2 ? "zoom 1\n" : "zoom -1\n"));
+      draw_frame(times);
+    }
     settle();
     return times;
   }
@@ -79,43 +141,65 @@ class Window {
   std::size_t faces() { return interface_.scene().voxel_faces(); }
 
  private:
+  void draw_frame(FrameTimes& times) {
+    const auto start = Clock::now();
+    const double processor = processor_seconds();
+    interface_.draw(frame_interval);
+    reinterpret_cast<void (*)()>(surface_.gl_function("glFinish"))();
+    times.wall.push_back(1e3 * seconds_since(start));
+    times.processor.push_back(1e3 * (processor_seconds() - processor));
+  }
+
   OffscreenSurface surface_;
   SessionWorker worker_;
   InspectionWorker inspector_;
   Interface interface_;
 };
 
-void report(const char* what, std::vector<double> times) {
-  if (times.empty()) return fmt::print("{:<44} no frames\n", what);
-  std::sort(times.begin(), times.end());
-  const auto at = [&](double share) { return times[std::size_t(share * double(times.size() - 1))]; };
-  const auto slow = std::count_if(times.begin(), times.end(), [](double t) { return t > 1000.0 / 30; });
-  fmt::print("{:<44} {:>5} frames: p50 {:5.1f}  p90 {:5.1f}  p99 {:5.1f}  max {:5.1f} ms; over 33.3 ms: {:.1f} %\n",
-             what, times.size(), at(0.5), at(0.9), at(0.99), times.back(), 100.0 * double(slow) / double(times.size()));
+void report(const std::string& what, FrameTimes times) {
+  if (times.wall.empty()) return fmt::print("{:<36} no frames\n", what);
+  const auto slow = std::count_if(times.wall.begin(), times.wall.end(), [](double t) { return t > 1000.0 / 30; });
+  fmt::print("{:<36} {:>5}", what, times.wall.size());
+  for (std::vector<double>* sorted : {&times.wall, &times.processor}) {
+    std::sort(sorted->begin(), sorted->end());
+    for (const double share : {0.5, 0.9, 0.99, 1.0})
+      fmt::print(" {:7.1f}", (*sorted)[std::size_t(share * double(sorted->size() - 1))]);
+    fmt::print("  ");
+  }
+  fmt::print("{:6.1f} %\n", 100.0 * double(slow) / double(times.wall.size()));
 }
 
 void measure() {
+  fmt::print("{:<36} {:>5} {:^33} {:^33} {:>8}\n", "", "", "wall time [ms]", "processor time [ms]", "wall");
+  fmt::print("{:<36} {:>5}", "", "count");
+  for (int i = 0; i < 2; ++i) fmt::print(" {:>7} {:>7} {:>7} {:>7}  ", "p50", "p90", "p99", "max");
+  fmt::print("{:>8}\n", "> 33 ms");
   Window window;
   window.load({});
   window.run("step\nstep\n");
-  for (const char* panels : {"panel candidates", "panel view\npanel layers"}) {
-    window.run(panels);
-    std::vector<double> times;
-    for (int i = 0; i < 6; ++i) {
-      const auto more = window.frames_while("step\n");
-      times.insert(times.end(), more.begin(), more.end());
-    }
-    report(fmt::format("steps, {}", panels).substr(0, 40).c_str(), times);
+  report("nothing happens", window.frames_idle(200));
+  report("pointer moves over a panel", window.frames_hovering(200));
+  for (const char* panel : {"candidates", "view"}) {
+    window.run(fmt::format("panel {}", panel));
+    FrameTimes times;
+    for (int i = 0; i < 6; ++i) append(times, window.frames_while("step\n"));
+    report(fmt::format("steps, panel {}", panel), times);
   }
   report("Gibbs run", window.frames_while("refine\n"));
-  report(fmt::format("turning, {} faces", window.faces()).c_str(), window.frames_turning(100));
+  report(fmt::format("turning, {} faces", window.faces()), window.frames_turning(100));
   Configuration fine;
   fine.map.resolution = 0.004;
   fine.map.region_edge = 0.8;
   fine.object.longest_side = 0.7;
   window.load(fine);
   window.run("step\nstep\nstep\nstep\nstep\nstep\n");
-  report(fmt::format("turning, {} faces", window.faces()).c_str(), window.frames_turning(60));
+  report(fmt::format("turning, {} faces", window.faces()), window.frames_turning(60));
+  report("  by keys, in full quality", window.frames_zooming(20));
+  for (const char* layer : {"cloud", "object", "views", "rays", "region", "octree"}) {
+    window.run(fmt::format("toggle-{}\n", layer));
+    report(fmt::format("  without {}", layer), window.frames_turning(20));
+  }
+  window.run("toggle-cloud\ntoggle-object\ntoggle-views\ntoggle-rays\ntoggle-region\ntoggle-octree\n");
   report("a step on that map", window.frames_while("step\n"));
 }
 

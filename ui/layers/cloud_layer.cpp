@@ -114,6 +114,8 @@ CloudLayer::CloudLayer(vtkRenderer& renderer)
   add(*actor_);
 }
 
+void CloudLayer::set_flat(bool flat) { actor_->GetProperty()->SetRenderPointsAsSpheres(!flat); }
+
 void CloudLayer::show(const PointCloud& cloud, double point_size) {
   CloudPicture picture;
   picture.points = cloud;

@@ -31,6 +31,8 @@ class CloudLayer : public Layer {
   /// @throws std::invalid_argument if there are views or distances but not one a point, none though the points are to
   ///         be coloured by them, or a range is empty.
   void show(const CloudPicture& picture);
+  /// Points are flat squares rather than spheres, which a software renderer draws faster.
+  void set_flat(bool flat);
 
  private:
   vtkSmartPointer<vtkPolyDataMapper> mapper_;

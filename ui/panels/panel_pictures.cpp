@@ -43,6 +43,7 @@ ImTextureID PanelPictures::get(const std::string& name, std::uint64_t version, c
   if (picture.version != version) {
     upload(picture.texture, make());
     picture.version = version;
+    ++uploads_;
   }
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture));
 }

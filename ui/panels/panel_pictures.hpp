@@ -23,6 +23,8 @@ class PanelPictures {
 
   /// `make` is called if the picture of this name was of another `version`. Null without a surface.
   ImTextureID get(const std::string& name, std::uint64_t version, const std::function<Image()>& make);
+  /// How often a picture was new or changed.
+  std::size_t uploads() const { return uploads_; }
 
  private:
   struct Picture {
@@ -33,6 +35,7 @@ class PanelPictures {
 
   RenderSurface* surface_;
   std::map<std::string, Picture> pictures_;
+  std::size_t uploads_ = 0;
 };
 
 }  // namespace nextview

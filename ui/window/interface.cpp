@@ -3,13 +3,12 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
 #include <imgui.h>
-#include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkOpenGLState.h>
 
 #include <algorithm>
 #include <deque>
 
 #include "ui/panels/all_panels.hpp"
+#include "ui/window/frame_composer.hpp"
 #include "ui/window/imgui_host.hpp"
 #include "ui/window/scene_pointer.hpp"
 #include "ui/window/selection_overlay.hpp"
@@ -22,7 +21,8 @@ constexpr int frames_to_settle = 3;
 /// The remaining time of a job is told in whole seconds.
 constexpr double longest_wait_while_busy = 1.0;
 
-constexpr unsigned int gl_draw_framebuffer = 0x8CA9, gl_back = 0x0405;
+/// The camera is at rest when it did not move for so long [s].
+constexpr double rest = 0.15;
 
 /// What is drawn in one frame; the next one may have other news.
 struct News {
@@ -47,7 +47,7 @@ bool replaces(const CommandCall& call, const std::string& line) {
 
 struct Interface::Parts {
   Parts(RenderSurface& s, SessionWorker& w, InspectionWorker& i, double scale)
-      : surface(s), worker(w), inspector(i), host(scale), view(s, scale), pictures(&s), layout(1, 1, 1) {}
+      : surface(s), worker(w), inspector(i), host(scale), view(s, scale), pictures(&s), composer(s), layout(1, 1, 1) {}
 
   RenderSurface& surface;
   SessionWorker& worker;
@@ -57,6 +57,7 @@ struct Interface::Parts {
   SceneView view;
   ScenePointer pointer;
   PanelPictures pictures;
+  FrameComposer composer;
   AllPanels panels;
   Layout layout;
   int width = 0, height = 0;  ///< that the layout was made for [px]
@@ -67,6 +68,7 @@ struct Interface::Parts {
   Selection asked;
   std::deque<CommandCall> script;
   bool camera_moved = false;  ///< by a person, since it was framed
+  double motion_left = 0;     ///< until the camera is at rest [s]; 0: it is
   bool scene_is_old = true;
   std::size_t scene_drawings = 0;
   int settling = frames_to_settle;
@@ -80,9 +82,11 @@ struct Interface::Parts {
   void draw_interface(double seconds);
   void do_calls(std::vector<CommandCall> calls);
   void do_call(const CommandCall& call);
+  void follow_pointer(const PanelContext& context, double seconds);
   void move_camera();
+  void bring_to_rest();
   void ask_inspector();
-  void draw_scene();
+  bool draw_scene();
   void write_picture();
 };
 
@@ -110,12 +114,14 @@ const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
 SceneView& Interface::scene() { return parts_->view; }
 std::size_t Interface::scene_drawings() const { return parts_->scene_drawings; }
+std::size_t Interface::pixels_drawn() const { return parts_->composer.drawn().pixels(); }
 
 double Interface::seconds_to_next_frame() const {
   const Parts& p = *parts_;
   const bool resized = p.width != p.surface.width() || p.height != p.surface.height();
   if (p.settling > 0 || !p.queue.empty() || resized || p.script_may_go_on() || !(p.news == p.latest())) return 0.0;
-  const double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
+  double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
+  if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
 }
 
@@ -149,8 +155,10 @@ void Interface::Parts::take_input() {
   const std::vector<InputEvent> events = queue.take_frame();
   if (!events.empty()) settling = frames_to_settle;
   host.take(events);
-  for (const InputEvent& event : events)
+  for (const InputEvent& event : events) {
+    if (std::holds_alternative<input::Expose>(event)) composer.forget();
     if (const auto* drop = std::get_if<input::Drop>(&event)) do_call(make_call("open", {drop->file.string()}));
+  }
 }
 
 void Interface::Parts::follow_size() {
@@ -185,7 +193,7 @@ void Interface::Parts::draw_interface(double seconds) {
                              host.style(),   pictures,      calls, hovered};
   state.scene_camera = view.camera_pose();
   obey_keys(context);
-  if (pointer.follow(view, context)) camera_moved = scene_is_old = true;
+  follow_pointer(context, seconds);
   panels.draw(context, layout, worker.log().count(), seconds);
   draw_selection_overlay(view, context);
   ImGui::Render();
@@ -215,11 +223,27 @@ void Interface::Parts::do_call(const CommandCall& call) {
   state.script.push_back(call.text());
 }
 
+void Interface::Parts::follow_pointer(const PanelContext& context, double seconds) {
+  if (pointer.follow(view, context)) {
+    camera_moved = scene_is_old = true;
+    motion_left = rest;
+    view.set_in_motion(true);
+  } else if (motion_left > 0 && (motion_left -= seconds) <= 0) {
+    bring_to_rest();
+  }
+}
+
+void Interface::Parts::bring_to_rest() {
+  motion_left = 0;
+  view.set_in_motion(false);
+  scene_is_old = true;
+}
+
 void Interface::Parts::move_camera() {
   for (const CameraMotion& motion : state.camera_motions) {
     view.move(motion);
     camera_moved = !std::holds_alternative<camera_motion::Frame>(motion);
-    scene_is_old = true;
+    bring_to_rest();
   }
   state.camera_motions.clear();
 }
@@ -231,23 +255,19 @@ void Interface::Parts::ask_inspector() {
   inspector.ask(asked_of, asked);
 }
 
-void Interface::Parts::draw_scene() {
+/// Returns whether it was drawn anew.
+bool Interface::Parts::draw_scene() {
   scene_is_old |= view.show(news.snapshot, state, news.inspection);
-  vtkGenericOpenGLRenderWindow& window = surface.window();
-  if (scene_is_old) {
-    surface.render();
-    ++scene_drawings;
-  }
-  surface.make_current();
-  vtkOpenGLState& gl_state = *window.GetState();
-  gl_state.vtkglBindFramebuffer(gl_draw_framebuffer, 0);
-  gl_state.vtkglDrawBuffer(gl_back);
-  if (!scene_is_old) window.BlitDisplayFramebuffer();
+  if (!scene_is_old) return false;
+  surface.render();
+  ++scene_drawings;
   scene_is_old = false;
+  return true;
 }
 
 void Interface::Parts::write_picture() {
   const std::string file = *std::exchange(state.picture_file, std::nullopt);
+  composer.fill_back_buffer();
   try {
     write_png(surface.read_back(), file);
     worker.log().add(LogEntry::Level::success, "Picture written to " + file);
@@ -256,7 +276,7 @@ void Interface::Parts::write_picture() {
   }
 }
 
-void Interface::draw(double seconds) {
+bool Interface::draw(double seconds) {
   Parts& p = *parts_;
   p.host.make_current();
   p.surface.make_current();
@@ -265,12 +285,14 @@ void Interface::draw(double seconds) {
   p.follow_session();
   p.take_input();
   p.follow_size();
+  const std::size_t pictures = p.pictures.uploads();
   p.draw_interface(seconds);
   p.move_camera();
   p.ask_inspector();
-  p.draw_scene();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  const auto new_scene = p.draw_scene() ? std::optional(p.layout.scene) : std::nullopt;
+  const bool new_frame = p.composer.compose(*ImGui::GetDrawData(), new_scene, p.pictures.uploads() != pictures);
   if (p.state.picture_file) p.write_picture();
+  return new_frame;
 }
 
 }  // namespace nextview

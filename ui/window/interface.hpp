@@ -28,9 +28,9 @@ class Interface {
   bool script_is_done() const;
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
   double seconds_to_next_frame() const;
-  /// Draws a frame into the surface's back buffer, `seconds` after the last one. The scene is drawn anew only if it
-  /// changed.
-  void draw(double seconds);
+  /// Draws a frame into the surface's back buffer, `seconds` after the last one, and returns whether it differs from
+  /// the last one; if not, the back buffer is left alone. The scene is drawn anew only if it changed.
+  bool draw(double seconds);
 
   bool wants_to_quit() const;
   /// "Nextview - gearbox - view 3 of 20"
@@ -41,6 +41,8 @@ class Interface {
   SceneView& scene();
   /// How often the scene was drawn.
   std::size_t scene_drawings() const;
+  /// How much of the window was drawn again in the last frame [px].
+  std::size_t pixels_drawn() const;
 
  private:
   struct Parts;

@@ -240,6 +240,11 @@ void SceneView::move(const CameraMotion& motion) {
   renderer().ResetCameraClippingRange();
 }
 
+void SceneView::set_in_motion(bool in_motion) {
+  scene_.set_moving(in_motion);
+  scene_.cloud().set_flat(in_motion);
+}
+
 std::optional<Eigen::Vector2d> SceneView::project(const Vector3& point) {
   vtkMatrix4x4* projection =
       renderer().GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer().GetTiledAspectRatio(), -1, 1);

@@ -25,6 +25,8 @@ class SceneView {
   bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
             std::shared_ptr<const Inspection> inspection);
   void move(const CameraMotion& motion);
+  /// While the camera follows the pointer the picture is coarser, so that it follows at once.
+  void set_in_motion(bool in_motion);
 
   const Rectangle& rectangle() const { return rectangle_; }
   vtkRenderer& renderer() { return scene_.renderer(); }

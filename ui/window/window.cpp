@@ -127,9 +127,8 @@ void run(WindowSurface& surface, Interface& interface) {
     surface.follow_size();
     if (seconds_left() > 0) continue;
     const double now = glfwGetTime();
-    interface.draw(now - last);
+    if (interface.draw(now - last)) surface.present();
     last = now;
-    surface.present();
     if (interface.title() != title) glfwSetWindowTitle(window, (title = interface.title()).c_str());
   }
 }

@@ -1,0 +1,178 @@
+#include <backends/imgui_impl_opengl3.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
+
+#include "tests/integration/person.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double frame = 1.0 / 60;  // [s]
+constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA9, gl_back = 0x0405,
+                       gl_color_buffer_bit = 0x4000, gl_nearest = 0x2600;
+
+Configuration small_scan() {
+  Configuration c;
+  c.object.file = "sphere";
+  c.sensor.width = 160;
+  c.sensor.height = 120;
+  c.map.resolution = 0.02;
+  c.views.count = 12;
+  c.planner.ray_columns = 16;
+  c.planner.ray_rows = 12;
+  c.evaluation.surface_samples = 2000;
+  c.termination.views = 5;
+  return c;
+}
+
+/// What the last frame shows, all of it drawn at once: the scene's picture, then every panel. In a framebuffer of its
+/// own, whose rows are in the other order than the back buffer's: a renderer may round otherwise there.
+Image drawn_whole(RenderSurface& surface) {
+  surface.make_current();
+  vtkGenericOpenGLRenderWindow& window = surface.window();
+  vtkOpenGLState& state = *window.GetState();
+  vtkNew<vtkOpenGLFramebufferObject> whole;
+  whole->SetContext(&window);
+  whole->PopulateFramebuffer(surface.width(), surface.height(), true, 1, VTK_UNSIGNED_CHAR, false, 0, 0);
+  whole->Bind(gl_draw_framebuffer);
+  window.BlitDisplayFramebuffer();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  whole->Bind(gl_read_framebuffer);
+  state.vtkglBindFramebuffer(gl_draw_framebuffer, 0);
+  state.vtkglDrawBuffer(gl_back);
+  state.vtkglBlitFramebuffer(0, 0, surface.width(), surface.height(), 0, 0, surface.width(), surface.height(),
+                             gl_color_buffer_bit, gl_nearest);
+  state.vtkglBindFramebuffer(gl_read_framebuffer, 0);
+  whole->ReleaseGraphicsResources(&window);
+  return surface.read_back();
+}
+
+/// Looks at frames one by one and compares each with one that is drawn whole.
+class Comparison : public ::testing::Test {
+ protected:
+  void look(const char* what, int frames = 1) {
+    for (int i = 0; i < frames && !HasFailure(); ++i) {
+      const bool differs = person_.window().draw(frame);
+      drawn_partly_ += differs && person_.window().pixels_drawn() < pixels() / 2;
+      const Image seen = person_.look();
+      ASSERT_TRUE(seen == drawn_whole(person_.surface())) << what << ", frame " << i;
+    }
+  }
+  /// While the session's worker is busy, and until nothing new comes.
+  void look_until_done(const char* what) {
+    do look(what);
+    while (!HasFailure() && (person_.worker().progress().busy || person_.window().seconds_to_next_frame() == 0.0));
+  }
+  void hover(double x, double y) {
+    person_.move(x, y);
+    look("hovering");
+  }
+  std::size_t pixels() { return std::size_t(person_.surface().width()) * std::size_t(person_.surface().height()); }
+
+  Person person_{small_scan()};
+  const Layout layout_ = person_.window().layout();
+  int drawn_partly_ = 0;
+};
+
+TEST_F(Comparison, StepsAndPanels) {
+  person_.type(key('S'));
+  look_until_done("a step");
+  for (const char* script : {"panel view\n", "panel layers\n", "select-view 3\n", "select-view 4\n",
+                             "panel inspector\n", "panel log\n", "panel candidates\n", "panel curves\n", "palette\n"}) {
+    person_.window().run_script(parse_script(script));
+    look_until_done(script);
+  }
+  person_.write("vi");
+  look_until_done("a text in the palette");
+  person_.type(Key::escape);
+  look_until_done("the palette is closed");
+  EXPECT_GT(drawn_partly_, 10);
+}
+
+TEST_F(Comparison, PointerOverEverything) {
+  person_.type(key('S'));
+  person_.wait();
+  for (int i = 0; i <= 40; ++i) hover(1279 * i / 40.0, 12 + 780 * (i * 7 % 41) / 40.0);
+  for (const Rectangle& r : {layout_.left, layout_.right, layout_.bottom, layout_.scene}) {
+    hover(r.x + r.width / 2, r.y + r.height / 2);
+    for (const double steps : {-1, -1, 1, 1}) {
+      person_.window().push(input::Wheel{steps});
+      look("scrolling", 2);
+    }
+    look("after scrolling", 15);
+  }
+  hover(50, layout_.control_bar.y + 25);
+  look("a tooltip", 60);
+  for (double x = 10; x < 300; x += 40) {
+    person_.click(x, 12);
+    look("a menu", 5);
+    hover(x + 20, 60);
+    hover(x + 20, 90);
+    person_.type(Key::escape);
+    look("a menu is closed", 3);
+  }
+  EXPECT_GT(drawn_partly_, 40);
+}
+
+TEST_F(Comparison, TurningAndResizing) {
+  person_.run("step\nselect-view 3\n");
+  const Rectangle& scene = layout_.scene;
+  hover(scene.x + 40, scene.y + 100);
+  person_.press();
+  for (int i = 0; i < 12; ++i) {
+    person_.move(scene.x + 40 + 9 * i, scene.y + 100 + 4 * i);
+    look("turning");
+  }
+  person_.release();
+  look("the camera comes to rest", 20);
+  EXPECT_GT(drawn_partly_, 10);
+  for (const auto& [width, height] : {std::pair{1200, 720}, {1240, 760}, {1280, 800}}) {
+    person_.surface().window().SetSize(width, height);
+    look("another size", 4);
+  }
+}
+
+TEST_F(Comparison, DrawsOnlyWhatIsNew) {
+  person_.type(key('S'));
+  person_.wait();
+  EXPECT_FALSE(person_.window().draw(frame)) << "nothing happened";
+  const Rectangle& panel = layout_.right;
+  hover(panel.x + 100, panel.y + 106);
+  person_.move(panel.x + 100, panel.y + 106 + 42);
+  EXPECT_TRUE(person_.window().draw(frame));
+  EXPECT_LT(person_.window().pixels_drawn(), pixels() / 2) << "another row is lit";
+  person_.wait();
+  person_.window().push(input::Expose{});
+  EXPECT_TRUE(person_.window().draw(frame)) << "the display lost its picture";
+  EXPECT_EQ(person_.window().pixels_drawn(), pixels());
+}
+
+TEST_F(Comparison, EdgesAreSmoothAgainWhenTheCameraIsAtRest) {
+  const Rectangle& scene = layout_.scene;
+  person_.move(scene.x + 60, scene.y + 100);
+  person_.press();
+  person_.move(scene.x + 100, scene.y + 100);
+  person_.wait();
+  const Image in_motion = person_.look();
+  EXPECT_GT(person_.window().seconds_to_next_frame(), 0.0);
+  EXPECT_LE(person_.window().seconds_to_next_frame(), 0.15) << "the still picture is late";
+  person_.window().draw(0.1);
+  person_.window().draw(0.1);
+  person_.wait();
+  const Image at_rest = person_.look();
+  EXPECT_FALSE(at_rest == in_motion);
+  EXPECT_GT(person_.window().seconds_to_next_frame(), 0.15) << "it is drawn once";
+  person_.run("toggle-region\ntoggle-region\n");
+  EXPECT_TRUE(person_.look() == at_rest);
+  person_.run("zoom 1\n");
+  const Image zoomed = person_.look();
+  person_.window().draw(0.2);
+  EXPECT_TRUE(person_.look() == zoomed) << "a script's camera does not follow the pointer";
+}
+
+}  // namespace
+}  // namespace nextview
