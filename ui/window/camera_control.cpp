@@ -55,4 +55,26 @@ void zoom(vtkRenderer& renderer, double steps) {
   renderer.ResetCameraClippingRange();
 }
 
+Pose camera_pose(vtkRenderer& renderer) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  Pose pose = Pose::Identity();
+  const Vector3 forward = Vector3(camera.GetDirectionOfProjection()).normalized();
+  const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
+  pose.linear() << right, forward.cross(right), forward;
+  pose.translation() = Vector3(camera.GetPosition());
+  return pose;
+}
+
+void look_through(vtkRenderer& renderer, const Pose& T_world_camera, const Vector3& target, double vertical_angle) {
+  constexpr double least_distance = 0.1;  // [m]
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
+  const Vector3 focus = position + std::max((target - position).dot(forward), least_distance) * forward;
+  const Vector3 up = -T_world_camera.linear().col(1);
+  camera.SetPosition(position.data());
+  camera.SetFocalPoint(focus.data());
+  camera.SetViewUp(up.data());
+  camera.SetViewAngle(vertical_angle);
+}
+
 }  // namespace nextview

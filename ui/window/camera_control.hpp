@@ -1,4 +1,5 @@
 #pragma once
+#include "core/view/pose.hpp"
 
 class vtkRenderer;
 
@@ -12,5 +13,10 @@ void orbit(vtkRenderer& renderer, double x, double y);
 void pan(vtkRenderer& renderer, double x, double y);
 /// Nearer for positive steps.
 void zoom(vtkRenderer& renderer, double steps);
+
+/// Where the scene is looked at from: T_world_camera.
+Pose camera_pose(vtkRenderer& renderer);
+/// Looks from there, at what is as far away as `target` [m, world], and `vertical_angle` [deg] wide.
+void look_through(vtkRenderer& renderer, const Pose& T_world_camera, const Vector3& target, double vertical_angle);
 
 }  // namespace nextview

@@ -10,10 +10,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/evaluation/map_quality.hpp"
-#include "core/evaluation/voxel_errors.hpp"
 #include "ui/figures/session_figure.hpp"
 #include "ui/window/camera_control.hpp"
+#include "ui/window/chosen_voxels.hpp"
 
 namespace nextview {
 namespace {
@@ -24,22 +23,6 @@ constexpr std::size_t most_points = 60'000;
 constexpr std::size_t rays_shown = 60;
 constexpr double frustum_depth = 0.07;                   // [m] as the views layer draws them
 constexpr double frustum_reach = 14.0, ray_reach = 5.0;  // [px]
-constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
-
-/// Gibbs minus conventional, where both say something.
-std::vector<float> differences(const SessionSnapshot& s) {
-  std::vector<float> values(s.voxels->size(), no_value);
-  if (!s.gibbs) return values;
-  for (std::size_t v = 0; v < values.size(); ++v)
-    if (s.gibbs->voxels[v].measured) values[v] = s.gibbs->voxels[v].probability - (*s.voxels)[v].probability;
-  return values;
-}
-
-std::vector<float> values_for(const SessionSnapshot& s, const LayerChoice& choice) {
-  if (choice.colouring == VoxelColouring::by_difference) return differences(s);
-  if (choice.colouring != VoxelColouring::by_error || !s.truth) return {};
-  return voxel_errors(probabilities(chosen_voxels(s, choice.map)), *s.truth, TruthConvention::touch);
-}
 
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -65,10 +48,6 @@ std::shared_ptr<const ScoreExplanation> explanation_of(const SessionSnapshot& s,
 }
 
 }  // namespace
-
-std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) {
-  return map == MapChoice::gibbs && s.gibbs ? std::span<const Voxel>(s.gibbs->voxels) : *s.voxels;
-}
 
 SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
   scene_.attach(surface);
@@ -150,7 +129,7 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
 }
 
 void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice, bool new_voxels) {
-  const auto values = values_for(s, choice);
+  const auto values = chosen_values(s, choice);
   if (new_voxels) {
     scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.voxels, choice.colouring, values);
   } else {
@@ -217,25 +196,15 @@ void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice)
   scene_.annotate();
 }
 
-void SceneView::look_through(const Pose& T_world_camera) {
-  vtkCamera& camera = *renderer().GetActiveCamera();
-  const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
-  Vector3 centre = Vector3::Zero();
-  if (shown_) centre = 0.5 * (shown_->grid.lower() + shown_->grid.upper());
-  const double distance = std::max((centre - position).dot(forward), 0.1);
-  const Vector3 focus = position + distance * forward, up = -T_world_camera.linear().col(1);
-  camera.SetPosition(position.data());
-  camera.SetFocalPoint(focus.data());
-  camera.SetViewUp(up.data());
-  if (shown_)
-    camera.SetViewAngle(2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy) * 180 / std::numbers::pi);
-}
-
 void SceneView::move(const CameraMotion& motion) {
   if (std::holds_alternative<camera_motion::Frame>(motion)) scene_.frame();
   if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion))
     scene_.frame(ViewDirection{from->azimuth, from->elevation});
-  if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion)) look_through(through->T_world_camera);
+  if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion); through && shown_) {
+    const Vector3 centre = 0.5 * (shown_->grid.lower() + shown_->grid.upper());
+    const double angle = 2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy);  // all that the camera sees
+    look_through(renderer(), through->T_world_camera, centre, angle * 180 / std::numbers::pi);
+  }
   if (const auto* step = std::get_if<camera_motion::Zoom>(&motion)) zoom(renderer(), step->steps);
   renderer().ResetCameraClippingRange();
 }
@@ -263,15 +232,7 @@ Vector3 SceneView::direction_at(double x, double y) {
   return pose.linear() * Vector3(u * right, v * up, 1);
 }
 
-Pose SceneView::camera_pose() {
-  vtkCamera& camera = *renderer().GetActiveCamera();
-  Pose pose = Pose::Identity();
-  const Vector3 forward = Vector3(camera.GetDirectionOfProjection()).normalized();
-  const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
-  pose.linear() << right, forward.cross(right), forward;
-  pose.translation() = Vector3(camera.GetPosition());
-  return pose;
-}
+Pose SceneView::camera_pose() { return nextview::camera_pose(renderer()); }
 
 Picked SceneView::pick(double x, double y) {
   Picked picked;

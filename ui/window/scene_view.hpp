@@ -45,7 +45,6 @@ class SceneView {
   void show_views(const SessionSnapshot& snapshot, const WindowState& window);
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
   void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
-  void look_through(const Pose& T_world_camera);
   /// Direction into the scene at a point of the window; of any length.
   Vector3 direction_at(double x, double y);
 
@@ -62,8 +61,5 @@ class SceneView {
   ValueRange utilities_{0, 1}, heights_{0, 1};
   double most_contribution_ = 0;
 };
-
-/// The map's voxels that are chosen: conventional, or Gibbs if there is one.
-std::span<const Voxel> chosen_voxels(const SessionSnapshot& snapshot, MapChoice map);
 
 }  // namespace nextview
