@@ -7,6 +7,7 @@
 #include <vtkOpenGLState.h>
 
 #include "tests/integration/person.hpp"
+#include "tests/integration/small_scan.hpp"
 
 namespace nextview {
 namespace {
@@ -14,20 +15,6 @@ namespace {
 constexpr double frame = 1.0 / 60;  // [s]
 constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA9, gl_back = 0x0405,
                        gl_color_buffer_bit = 0x4000, gl_nearest = 0x2600;
-
-Configuration small_scan() {
-  Configuration c;
-  c.object.file = "sphere";
-  c.sensor.width = 160;
-  c.sensor.height = 120;
-  c.map.resolution = 0.02;
-  c.views.count = 12;
-  c.planner.ray_columns = 16;
-  c.planner.ray_rows = 12;
-  c.evaluation.surface_samples = 2000;
-  c.termination.views = 5;
-  return c;
-}
 
 /// What the last frame shows, all of it drawn at once: the scene's picture, then every panel. In a framebuffer of its
 /// own, whose rows are in the other order than the back buffer's: a renderer may round otherwise there.

@@ -4,25 +4,11 @@
 #include <set>
 
 #include "tests/integration/person.hpp"
+#include "tests/integration/small_scan.hpp"
 #include "ui/theme.hpp"
 
 namespace nextview {
 namespace {
-
-/// A scan that is small enough to be quick: 2 cm voxels, 12 candidates, a coarse camera.
-Configuration small_scan() {
-  Configuration c;
-  c.object.file = "sphere";
-  c.sensor.width = 160;
-  c.sensor.height = 120;
-  c.map.resolution = 0.02;
-  c.views.count = 12;
-  c.planner.ray_columns = 16;
-  c.planner.ray_rows = 12;
-  c.evaluation.surface_samples = 2000;
-  c.termination.views = 5;
-  return c;
-}
 
 struct Point {
   double x, y;

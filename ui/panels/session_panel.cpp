@@ -70,10 +70,7 @@ void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, c
   } else if (setting_control(setting)) {
     context.call("set", setting.key, setting.text());
   }
-  Configuration untouched;
-  const auto all = settings(untouched);
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == setting.key; });
-  draw_way_back(context, setting, defaults_[static_cast<std::size_t>(found - all.begin())]);
+  draw_way_back(context, setting, defaults_.at(setting.key));
 }
 
 void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
@@ -128,7 +125,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   }
   if (defaults_.empty()) {
     Configuration configuration;
-    for (const Setting& setting : settings(configuration)) defaults_.push_back(setting.text());
+    for (const Setting& setting : settings(configuration)) defaults_[setting.key] = setting.text();
   }
   std::vector<Setting> settings = nextview::settings(edited_);
   ImGui::BeginDisabled(!context.snapshot.loaded());

@@ -1,4 +1,7 @@
 #pragma once
+#include <map>
+#include <string>
+
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
@@ -16,8 +19,8 @@ class SessionPanel {
   void draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group);
 
   Configuration edited_;
-  const SessionSnapshot* seen_ = nullptr;  ///< that `edited_` was taken from
-  std::vector<std::string> defaults_;      ///< of all settings, as text
+  const SessionSnapshot* seen_ = nullptr;        ///< that `edited_` was taken from
+  std::map<std::string, std::string> defaults_;  ///< of each setting by its key, as text
 };
 
 }  // namespace nextview

@@ -1,0 +1,21 @@
+#pragma once
+#include "core/session/configuration.hpp"
+
+namespace nextview {
+
+/// A scan that is small enough to be quick: 2 cm voxels, 12 candidates, a coarse camera.
+inline Configuration small_scan() {
+  Configuration c;
+  c.object.file = "sphere";
+  c.sensor.width = 160;
+  c.sensor.height = 120;
+  c.map.resolution = 0.02;
+  c.views.count = 12;
+  c.planner.ray_columns = 16;
+  c.planner.ray_rows = 12;
+  c.evaluation.surface_samples = 2000;
+  c.termination.views = 5;
+  return c;
+}
+
+}  // namespace nextview
