@@ -47,6 +47,7 @@ void ConfigurationOptions::add_to(CLI::App& app) {
 }
 
 void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes) {
+  prefixes_ = prefixes;
   app.add_option("--config", files_,
                  "configuration file (TOML), or paper or calibrated; may be given several times: later ones override, "
                  "options all")
@@ -54,8 +55,7 @@ void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std:
       ->allow_extra_args(false);
   static Configuration defaults;
   for (const Setting& setting : settings(defaults)) {
-    const auto begins = [&](const std::string& prefix) { return setting.key.starts_with(prefix); };
-    if (std::none_of(prefixes.begin(), prefixes.end(), begins)) continue;
+    if (!takes(setting.key)) continue;
     std::string names = "--" + setting.key;
     std::string group = "Settings";
     for (const auto& [name, key] : short_names)
@@ -71,6 +71,11 @@ void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std:
   }
 }
 
+bool ConfigurationOptions::takes(const std::string& key) const {
+  const auto begins = [&](const std::string& prefix) { return key.starts_with(prefix); };
+  return std::any_of(prefixes_.begin(), prefixes_.end(), begins);
+}
+
 Configuration ConfigurationOptions::configuration() const {
   Configuration configuration;
   apply_to(configuration);
@@ -80,7 +85,11 @@ Configuration ConfigurationOptions::configuration() const {
 }
 
 void ConfigurationOptions::apply_to(Configuration& configuration) const {
-  for (const std::string& file : files_) configuration = read_configuration(find_configuration(file), configuration);
+  Configuration read = configuration;
+  for (const std::string& file : files_) read = read_configuration(find_configuration(file), read);
+  auto from = settings(read), to = settings(configuration);
+  for (std::size_t i = 0; i < to.size(); ++i)
+    if (takes(to[i].key)) to[i].set(from[i].text());
   if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
     apply_sensor_preset(configuration, preset->second);
   auto list = settings(configuration);

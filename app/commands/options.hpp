@@ -15,7 +15,8 @@ class ConfigurationOptions {
   /// Adds OBJECT, --config, an option for every setting (`--sensor.range_noise 0.001`), and the short names of the
   /// common ones.
   void add_to(CLI::App& app);
-  /// Adds --config and an option for each setting whose key begins with one of the prefixes.
+  /// Adds --config and an option for each setting whose key begins with one of the prefixes. Of a file, too, only such
+  /// settings are taken.
   void add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes);
 
   /// @throws std::runtime_error, std::invalid_argument with one line for people.
@@ -24,6 +25,9 @@ class ConfigurationOptions {
   void apply_to(Configuration& configuration) const;
 
  private:
+  bool takes(const std::string& key) const;
+
+  std::vector<std::string> prefixes_ = {""};
   std::vector<std::string> files_;  ///< later ones override earlier ones
   std::string object_;
   std::map<std::string, std::string> given_;  ///< key -> text

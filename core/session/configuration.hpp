@@ -32,9 +32,9 @@ struct MapConfig {
 };
 
 struct PlannerConfig {
-  std::string gain = "occlusion-aware";  ///< one of gain_names()
+  std::string gain = "proximity-count";  ///< one of gain_names()
   Semantics semantics = Semantics::published;
-  UtilityWeights weights;
+  UtilityWeights weights = {1.0, 0.3};   ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
   std::string combined_weights;  ///< `gain=weight,gain=weight`; empty: the pre-release weights
   int ray_columns = 38;          ///< rays that score a view
   int ray_rows = 25;
