@@ -23,7 +23,7 @@ struct ScanArguments {
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = gain_unit(c.planner.gain);
-  fmt::print("{}: {}\n", session.object_file().filename().string(), topology(*session.mesh()).summary());
+  fmt::print("{}: {}\n", session.object_file().filename().string(), session.object_topology().summary());
   fmt::print("{} candidate views, ranked by {}{} ({} semantics)\n\n", session.candidates().size(), c.planner.gain,
              unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");

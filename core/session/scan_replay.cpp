@@ -66,7 +66,7 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
 RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views, const Progress& progress,
                              std::stop_token stop) {
   const fs::path object = resolve_object(c.object.file);
-  PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side});
+  PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side}, stop);
   require_within_region(mesh.mesh, c, object);
   const RayScene scene(mesh.mesh);
   const DepthCamera camera(c.sensor);

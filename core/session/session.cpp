@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "core/evaluation/entropy.hpp"
-#include "core/mesh/mesh_file.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/view_planning.hpp"
 #include "core/session/visited_voxels.hpp"
@@ -37,8 +36,8 @@ std::size_t measured_voxels(const OccupancyMap& map) {
 Session::Session(Configuration configuration, const Progress& progress, std::stop_token stop)
     : configuration_(validated(std::move(configuration))),
       object_file_(resolve_object(configuration_.object.file)),
-      mesh_(std::make_shared<TriangleMesh>(load_mesh(object_file_, {configuration_.object.longest_side}))),
-      scene_(*mesh_),
+      object_(std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, {configuration_.object.longest_side}, stop))),
+      scene_(object_->mesh),
       camera_(configuration_.sensor),
       candidates_(candidate_views(configuration_.views, Vector3::Zero())),
       start_view_(configured_start_view(configuration_)),
@@ -51,11 +50,11 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
       visited_(candidates_.size()),
       visited_voxels_(map_.grid().voxel_count()) {
-  require_within_region(*mesh_, configuration_, object_file_);
+  require_within_region(object_->mesh, configuration_, object_file_);
   const EvaluationConfig& e = configuration_.evaluation;
   if (e.enabled)
-    known_object_ = std::make_unique<KnownObject>(*mesh_, scene_, camera_, candidates_, map_.grid(), e.surface_samples,
-                                                  e.d_reg, configuration_.seed, progress, stop);
+    known_object_ = std::make_unique<KnownObject>(object_->mesh, scene_, camera_, candidates_, map_.grid(),
+                                                  e.surface_samples, e.d_reg, configuration_.seed, progress, stop);
 }
 
 /// One turn of Algorithm 2.

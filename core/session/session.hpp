@@ -6,6 +6,7 @@
 #include "core/gain/map_rays.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/map/occupancy_map.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "core/session/candidate_gains.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/known_object.hpp"
@@ -17,7 +18,7 @@ namespace nextview {
 /// A scan of one object: Algorithm 2, step by step. Not safe to use from two threads at once.
 class Session {
  public:
-  /// Loads the object and prepares the truth. A requested stop throws std::runtime_error.
+  /// Loads the object and prepares the truth. A requested stop throws Stopped.
   /// @throws std::invalid_argument, std::runtime_error for settings and files.
   explicit Session(Configuration configuration, const Progress& progress = {}, std::stop_token stop = {});
   Session(const Session&) = delete;
@@ -38,7 +39,8 @@ class Session {
 
   const Configuration& configuration() const { return configuration_; }
   const std::filesystem::path& object_file() const { return object_file_; }
-  std::shared_ptr<const TriangleMesh> mesh() const { return mesh_; }
+  std::shared_ptr<const TriangleMesh> mesh() const { return {object_, &object_->mesh}; }
+  const MeshTopology& object_topology() const { return object_->topology; }  ///< as its file has it
   const DepthCamera& camera() const { return camera_; }
   const OccupancyMap& map() const { return map_; }
   const MapRefinement* refinement() const { return refinement_.get(); }  ///< null unless the gain needs it
@@ -76,7 +78,7 @@ class Session {
 
   Configuration configuration_;
   std::filesystem::path object_file_;
-  std::shared_ptr<const TriangleMesh> mesh_;
+  std::shared_ptr<const PlacedMesh> object_;
   RayScene scene_;
   DepthCamera camera_;
   std::vector<Pose> candidates_;
