@@ -4,6 +4,9 @@
 
 #include <cstdio>
 
+#include "core/file/printable.hpp"
+#include "core/file/read_file.hpp"
+
 namespace nextview {
 
 namespace fs = std::filesystem;
@@ -19,15 +22,17 @@ void RangeScanOptions::add_to(CLI::App& app) {
 
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
                            const RangeScanOptions& range_scans, const Progress& progress, std::stop_token stop) {
-  if (!fs::exists(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
-  if (fs::exists(input / "config.toml"))
+  if (!is_there(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
+  if (is_there(input / "config.toml"))
     return refinement_job(
         input, [&](Configuration& c) { options.apply_to(c); }, progress, stop);
   const RecordedScene scene = fs::is_directory(input)
                                   ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution)
                                   : read_recorded_scene(input);
   const Configuration configuration = options.configuration();
-  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
+  const auto warn = [&](const std::string& text) {
+    fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
+  };
   try {
     RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
     job.name = fs::absolute(input).lexically_normal().stem().string();

@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/printable.hpp"
 #include "core/planner/next_best_view.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/scene_scores.hpp"
@@ -63,7 +64,9 @@ int run(const ScoreArguments& arguments) {
   const Semantics semantics = arguments.semantics == "reference" ? Semantics::reference : Semantics::published;
   const auto gains = wanted_gains(arguments.gain, semantics);
   const RecordedScene scene = read_recorded_scene(arguments.scene);
-  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", arguments.scene, text); };
+  const auto warn = [&](const std::string& text) {
+    fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", arguments.scene, text)));
+  };
   SceneScores scores;
   try {
     scores = score_scene(scene, semantics, gains, warn);

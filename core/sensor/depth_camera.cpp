@@ -19,7 +19,7 @@ constexpr double largest_noise = 7.0;
 void require(double value, double lowest, double highest, const char* field, const char* unit) {
   if (!(value >= lowest && value <= highest))
     throw std::invalid_argument(
-        fmt::format("depth camera: {} = {} must lie between {} and {}{}", field, value, lowest, highest, unit));
+        fmt::format("depth camera: {} must be from {} to {}{}, not {}", field, lowest, highest, unit, value));
 }
 
 /// Four rows of an image, or what is left of it. Taken column by column, 16 pixels in a row are a block of 4 x 4: rays

@@ -116,19 +116,9 @@ RecordedScan read_scan(LineReader& reader) {
   return scan;
 }
 
-/// A pipe would be waited for without end, and a device may never end.
-void require_regular_file(const std::filesystem::path& file) {
-  std::error_code ignored;  // what does not exist is told by who reads it
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  throw std::runtime_error(fmt::format("{}: is a {}; scans are read from a regular file", file.string(),
-                                       std::filesystem::is_directory(status) ? "directory" : "pipe, socket or device"));
-}
-
 }  // namespace
 
 RecordedScene read_recorded_scene(const std::filesystem::path& file) {
-  require_regular_file(file);
   const std::string text = read_file(file);
   if (text.empty()) throw std::runtime_error(fmt::format("{}: is empty", file.string()));
   LineReader reader(file, text);

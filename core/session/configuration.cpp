@@ -41,8 +41,12 @@ std::string value_text(const Setting& setting, const toml::node& node) {
 class TomlReader {
  public:
   /// With `only`, keys outside of that section are errors.
-  TomlReader(const fs::path& file, Configuration& configuration, std::string only = "")
-      : file_(file), only_(std::move(only)), configuration_(configuration), settings_(settings(configuration)) {
+  TomlReader(const fs::path& file, Configuration& configuration, SettingSources& sources, std::string only = "")
+      : file_(file),
+        only_(std::move(only)),
+        configuration_(configuration),
+        sources_(sources),
+        settings_(settings(configuration)) {
     for (const Setting& s : settings_) keys_.push_back(s.key);
   }
 
@@ -55,7 +59,7 @@ class TomlReader {
     }
     // The preset first: what else the file says of the sensor overrides it.
     if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty()) try {
-        apply_sensor_preset(configuration_, preset->get());
+        apply_sensor_preset(configuration_, preset->get(), &sources_);
       } catch (const std::runtime_error& error) {
         throw failure(preset->source().begin.line, error.what());
       }
@@ -79,25 +83,70 @@ class TomlReader {
         throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
       try {
         setting->set(value_text(*setting, node));
+        sources_[key] = place(line);
       } catch (const std::invalid_argument& error) {
         throw failure(line, error.what());
       }
     }
   }
 
+  std::string place(std::uint32_t line) const { return fmt::format("{}:{}", file_.string(), line); }
   std::runtime_error failure(std::uint32_t line, const std::string& reason) const {
-    return std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line, reason));
+    return std::runtime_error(place(line) + ": " + reason);
   }
 
   fs::path file_;
   std::string only_;
   Configuration& configuration_;
+  SettingSources& sources_;
   std::vector<Setting> settings_;
   std::vector<std::string> keys_;
 };
 
 void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
+}
+
+/// What a part says of its fields, "room: field must be …", said of the settings of this section: "map.hit must be …".
+template <class Part>
+void validate_section(const Part& part, const std::string& section) {
+  try {
+    part.validate();
+  } catch (const std::invalid_argument& error) {
+    const std::string reason = error.what();
+    if (reason.starts_with(section)) throw;
+    const auto room = reason.find(": ");
+    throw std::invalid_argument(section + reason.substr(room == reason.npos ? 0 : room + 2));
+  }
+}
+
+/// Empty if all is well.
+std::string complaint(const Configuration& configuration) {
+  try {
+    configuration.validate();
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+bool begins_with_key(const std::string& reason, const std::string& key) { return reason.starts_with(key + " "); }
+
+/// The setting whose default would make a complaint go away; the end if there is none.
+SettingSources::const_iterator culprit(const Configuration& configuration, const std::string& reason,
+                                       const SettingSources& sources) {
+  const auto named = std::find_if(sources.begin(), sources.end(),
+                                  [&](const auto& source) { return begins_with_key(reason, source.first); });
+  if (named != sources.end()) return named;
+  Configuration defaults, other;
+  const auto of_defaults = settings(defaults);
+  auto of_other = settings(other);
+  return std::find_if(sources.begin(), sources.end(), [&](const auto& source) {
+    other = configuration;
+    for (std::size_t i = 0; i < of_other.size(); ++i)
+      if (of_other[i].key == source.first) of_other[i].set(of_defaults[i].text());
+    return complaint(other) != reason;
+  });
 }
 
 }  // namespace
@@ -139,12 +188,12 @@ PosteriorSamplerConfig posterior_sampler_config(const Configuration& c) {
 }
 
 void Configuration::validate() const {
-  sensor.validate();
-  cloud.validate();
-  views.validate();
-  termination.validate();
-  map.model.validate();
-  gibbs.validate();
+  validate_section(sensor, "sensor.");
+  validate_section(cloud, "cloud.");
+  validate_section(views, "views.");
+  validate_section(termination, "termination.");
+  validate_section(map.model, "map.");
+  validate_section(gibbs, "gibbs.");
   const auto in = [](double value, double low, double high, const char* key, const char* unit) {
     require(value >= low && value <= high,
             fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
@@ -179,10 +228,24 @@ void Configuration::validate() const {
   parse_combined_weights(planner.combined_weights);
 }
 
-Configuration read_configuration(const fs::path& file, const Configuration& base) {
+std::string complaint_about(const std::string& key, const std::string& source, const std::string& reason) {
+  if (!source.starts_with("--") || !begins_with_key(reason, key)) return source + ": " + reason;
+  return (source == "--" + key ? source : fmt::format("{} ({})", source, key)) + reason.substr(key.size());
+}
+
+Configuration read_configuration(const fs::path& file, const Configuration& base, SettingSources* sources) {
   Configuration configuration = base;
-  TomlReader(file, configuration).read(read_file(file, largest_file));
+  SettingSources of_file;
+  TomlReader(file, configuration, sources ? *sources : of_file).read(read_file(file, largest_file));
+  if (!sources) validate(configuration, of_file);
   return configuration;
+}
+
+void validate(const Configuration& configuration, const SettingSources& sources) {
+  const std::string reason = complaint(configuration);
+  if (reason.empty()) return;
+  const auto source = culprit(configuration, reason, sources);
+  throw std::runtime_error(source == sources.end() ? reason : complaint_about(source->first, source->second, reason));
 }
 
 std::string to_toml(const Configuration& configuration) {
@@ -204,10 +267,10 @@ std::string to_toml(const Configuration& configuration) {
   return text;
 }
 
-void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
+void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources) {
   fs::path file = assets_folder() / "sensors" / (preset + ".toml");
-  if (!fs::exists(file)) file = preset;
-  if (!fs::exists(file)) {
+  if (!is_there(file)) file = preset;
+  if (!is_there(file)) {
     std::vector<std::string> known;
     for (const auto& entry : fs::directory_iterator(assets_folder() / "sensors")) known.push_back(entry.path().stem());
     std::sort(known.begin(), known.end());
@@ -215,7 +278,9 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
         fmt::format("there is no sensor '{}'; there are {}, or give a file", preset, fmt::join(known, ", ")));
   }
   configuration.sensor = {};
-  TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));
+  SettingSources of_file;
+  if (sources) std::erase_if(*sources, [](const auto& source) { return source.first.starts_with("sensor."); });
+  TomlReader(file, configuration, sources ? *sources : of_file, "sensor.").read(read_file(file, largest_file));
   configuration.sensor_preset = preset;
 }
 
@@ -231,12 +296,12 @@ fs::path default_object() {
 
 fs::path resolve_object(const std::string& name) {
   if (name.empty()) return default_object();
-  if (fs::exists(name)) return name;
+  if (is_there(name)) return name;
   if (name == "gearbox") return default_object();
   if (name == "bunny") return "/usr/share/glmark2/models/bunny.obj";
   for (const char* ending : {"", ".ply"}) {
     const fs::path file = assets_folder() / "objects" / (name + ending);
-    if (fs::exists(file)) return file;
+    if (is_there(file)) return file;
   }
   throw std::runtime_error(
       fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -100,14 +101,27 @@ struct Setting {
 /// The settings of `configuration`, which must outlive them.
 std::vector<Setting> settings(Configuration& configuration);
 
+/// Where each setting was given: key -> "config.toml:3", or an option of the command line, "--seed".
+using SettingSources = std::map<std::string, std::string>;
+
+/// What is wrong with a setting and where it was given: "config.toml:3: seed must be …", "--views
+/// (termination.views) must be …". `reason` begins with the key, or tells of it otherwise.
+std::string complaint_about(const std::string& key, const std::string& source, const std::string& reason);
+
 /// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the
-/// nearest known one.
+/// nearest known one. With `sources`, notes there what the file gives, and leaves it to the caller to validate what
+/// becomes of it.
 /// @throws std::runtime_error "file:line: reason".
-Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration());
+Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration(),
+                                 SettingSources* sources = nullptr);
+/// Configuration::validate(), also telling where what is wrong was given.
+/// @throws std::runtime_error
+void validate(const Configuration& configuration, const SettingSources& sources);
 std::string to_toml(const Configuration& configuration);
 
-/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path. @throws std::runtime_error
-void apply_sensor_preset(Configuration& configuration, const std::string& preset);
+/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path; notes in `sources` what that gives.
+/// @throws std::runtime_error
+void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources = nullptr);
 
 /// Files that come with the program. NEXTVIEW_ASSETS in the environment overrides where they are.
 std::filesystem::path assets_folder();

@@ -147,7 +147,7 @@ void prepare_output_folder(const std::filesystem::path& folder) {
   if (error || !std::filesystem::is_directory(folder))
     throw std::runtime_error(fmt::format("{}: cannot be made a folder: {}", folder.string(),
                                          error ? error.message() : "there is a file of this name"));
-  AtomicFile probe(folder / "writable");  // never committed: leaves nothing behind
+  require_writable_folder(folder);
 }
 
 void write_scan(const Session& session, const std::filesystem::path& folder) {

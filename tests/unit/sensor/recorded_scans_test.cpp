@@ -61,7 +61,7 @@ TEST(RecordedScans, whatIsNoFileSaysWhy) {
   const TemporaryFolder folder;
   EXPECT_THAT(complaint(folder / "nowhere.txt"), HasSubstr("No such file"));
   std::filesystem::create_directory(folder / "folder");
-  EXPECT_THAT(complaint(folder / "folder"), HasSubstr("is a directory"));
+  EXPECT_THAT(complaint(folder / "folder"), HasSubstr("Is a directory"));
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(complaint(folder / "pipe"), HasSubstr("is a pipe")) << "nobody writes to it: reading it would not end";
   EXPECT_THAT(complaint("/dev/zero"), HasSubstr("device"));
