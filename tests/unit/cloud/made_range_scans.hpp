@@ -72,7 +72,8 @@ inline RangeImage range_image(const Placed& scan) {
   image.ply = fmt::format(
       "ply\nformat ascii 1.0\nobj_info is_cyberware_data 1\nobj_info is_mesh 0\nobj_info is_warped 0\n"
       "obj_info is_interlaced 1\nobj_info num_cols {}\nobj_info num_rows {}\nobj_info echo_rgb_offset_x 0.013000\n"
-      "obj_info echo_rgb_offset_y 0.153600\nobj_info echo_rgb_offset_z 0.172000\nobj_info echo_rgb_frontfocus 0.930000\n"
+      "obj_info echo_rgb_offset_y 0.153600\nobj_info echo_rgb_offset_z 0.172000\nobj_info echo_rgb_frontfocus "
+      "0.930000\n"
       "obj_info echo_rgb_backfocus 0.012660\nobj_info echo_rgb_pixelsize 0.000010\nobj_info echo_rgb_centerpixel 232\n"
       "obj_info echo_frames 512\nobj_info echo_lgincr 0.000500\nelement vertex {}\nproperty float x\nproperty float y\n"
       "property float z\nelement range_grid {}\nproperty list uchar int vertex_indices\nend_header\n{}{}",

@@ -1,3 +1,5 @@
+#include "tests/data/conformance.hpp"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -9,7 +11,6 @@
 #include "core/gain/map_rays.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/sensor/recorded_scans.hpp"
-#include "tests/data/conformance.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -106,9 +107,7 @@ void expect_the_same_on_one_thread(const ReferenceMap& map, std::span<const Pose
 
 class Conformance : public testing::TestWithParam<const char*> {
  protected:
-  void SetUp() override {
-    scene_file_ = unpack_conformance_scene(GetParam(), folder_ / "");
-  }
+  void SetUp() override { scene_file_ = unpack_conformance_scene(GetParam(), folder_ / ""); }
   const TemporaryFolder folder_;
   fs::path scene_file_;
 };

@@ -1,6 +1,8 @@
 // The chains of one run: independent of each other, each with numbers of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/gibbs/posterior_sampler.hpp"
@@ -27,11 +29,18 @@ PosteriorSamplerConfig config_for(const Toy& toy, ForwardModel kind) {
   return config;
 }
 
+bool all_differ(const std::vector<std::vector<std::uint8_t>>& states) {
+  for (std::size_t a = 0; a < states.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (std::equal(states[a].begin(), states[a].end(), states[b].begin())) return false;
+  return states.size() == 4;
+}
+
 // From one start: what differs is what each chain drew.
 TEST(Chains, FromOneStartDifferAfterASweep) {
   const Toy toy = room();
-  for (const ForwardModel kind : {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
-                                  ForwardModel::attenuation})
+  for (const ForwardModel kind :
+       {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation})
     for (const StartMap start : {StartMap::free, StartMap::occupied})
       for (const Sampler sampler : {Sampler::exact, Sampler::algorithm1}) {
         PosteriorSamplerConfig config = config_for(toy, kind);
@@ -42,8 +51,7 @@ TEST(Chains, FromOneStartDifferAfterASweep) {
         std::set<double> after_one_sweep;
         for (const auto& trace : d.log_posterior) after_one_sweep.insert(trace.at(0));
         EXPECT_EQ(after_one_sweep.size(), 4u) << name(kind) << ": chains drew the same numbers";
-        const std::set<std::vector<std::uint8_t>> states(posterior.states.begin(), posterior.states.end());
-        EXPECT_EQ(states.size(), 4u) << name(kind);
+        EXPECT_TRUE(all_differ(posterior.states)) << name(kind);
       }
 }
 
@@ -53,8 +61,7 @@ TEST(Chains, FromOneWarmMapDifferAfterASweep) {
   const PosteriorSamplerConfig config = config_for(toy, ForwardModel::attenuation);
   const std::vector<std::vector<std::uint8_t>> warm(4, std::vector<std::uint8_t>(toy.grid.voxel_count(), 1));
   const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config, {}, warm);
-  const std::set<std::vector<std::uint8_t>> states(posterior.states.begin(), posterior.states.end());
-  EXPECT_EQ(states.size(), 4u);
+  EXPECT_TRUE(all_differ(posterior.states));
 }
 
 // A chain draws the same whatever chains run beside it, and every sweep anew.

@@ -24,51 +24,45 @@ Series series(std::size_t count, double rho, std::uint32_t index, Drift drift) {
   return values;
 }
 
-constexpr auto flat = [](double) { return 0.0; };
-constexpr auto rising = [](double t) { return 2.0 * t; };
-constexpr auto falling = [](double t) { return -2.0 * t; };
-constexpr auto hump = [](double t) { return std::sin(3.0 * t); };
-constexpr auto settling = [](double t) { return -3.0 * std::exp(-12.0 * t); };
-
-template <class Drift>
-void expect_geweke(const char* what, double rho, Drift drift) {
-  for (std::uint32_t index = 0; index < 20; ++index) {
-    const Series x = series(20'000, rho, index, drift);
-    const double expected = plain::geweke(x, rho == 0.0 ? 0 : 100);
-    // Standard errors are estimated in different ways: within a fifth of each other, as n grows.
-    EXPECT_NEAR(geweke_z(x), expected, 0.15 + 0.2 * std::abs(expected)) << what << ", rho " << rho;
-  }
-}
+/// A level for the first tenth, one for what follows, and one for the last half.
+struct Levels {
+  double head, between, tail;
+  double operator()(double t) const { return t < 0.1 ? head : t < 0.5 ? between : tail; }
+};
 
 TEST(Geweke, IsThatOfTheTextbook) {
-  for (const double rho : {0.0, 0.5, 0.8}) {
-    expect_geweke("flat", rho, flat);
-    expect_geweke("hump", rho, [](double t) { return 0.2 * hump(t); });
-    expect_geweke("settling", rho, [](double t) { return 0.3 * settling(t); });
-  }
+  for (const double rho : {0.0, 0.5, 0.8})
+    for (const Levels levels : {Levels{0, 0, 0}, {0.1, 0, 0}, {0, 3, 0}, {-0.3, -2, 0.1}, {0.2, 0, 0.5}})
+      for (std::uint32_t index = 0; index < 5; ++index) {
+        const Series x = series(100'000, rho, index, levels);
+        const double expected = plain::geweke(x, rho == 0.0 ? 0 : 100);
+        // Both estimate the standard errors, in different ways.
+        EXPECT_NEAR(geweke_z(x), expected, 0.15 + 0.15 * std::abs(expected)) << "rho " << rho;
+      }
 }
 
-/// Noise whose only feature lies between two places [shares of its length].
-double z_of_step(double from, double to) {
-  return geweke_z(series(10'000, 0.0, 3, [&](double t) { return t >= from && t < to ? 1.0 : 0.0; }));
+/// What a small step between two places [shares of the length] adds to the z of noise.
+double added_by_step(double from, double to) {
+  const auto z = [&](double size) {
+    return geweke_z(series(40'000, 0.0, 3, [&](double t) { return t >= from && t < to ? size : 0.0; }));
+  };
+  return z(0.1) - z(0.0);
 }
 
 // What lies in the first tenth counts, and in the last half; what lies between does not.
 TEST(Geweke, LooksAtTheFirstTenthAndTheLastHalf) {
-  EXPECT_GT(z_of_step(0.0, 0.1), 20.0);
-  EXPECT_LT(std::abs(z_of_step(0.1, 0.5)), 2.0);
-  EXPECT_LT(z_of_step(0.5, 0.9), -10.0) << "the tail is a half, not a tenth";
-  EXPECT_LT(z_of_step(0.5, 1.0), -20.0);
-  EXPECT_LT(z_of_step(0.9, 1.0), -2.0);
-  const double quarter = z_of_step(0.0, 0.025), half = z_of_step(0.0, 0.05);
-  EXPECT_GT(quarter, 4.0);
-  EXPECT_GT(half, 1.5 * quarter) << "a part of the head counts by its share";
+  const double standard_error = std::sqrt(1.0 / 4'000 + 1.0 / 20'000), all = 0.1 / standard_error;
+  EXPECT_NEAR(added_by_step(0.0, 0.1), all, 0.1 * all);
+  EXPECT_NEAR(added_by_step(0.0, 0.05), 0.5 * all, 0.1 * all);
+  EXPECT_NEAR(added_by_step(0.1, 0.5), 0.0, 1e-9);
+  EXPECT_NEAR(added_by_step(0.5, 0.9), -0.8 * all, 0.1 * all) << "the tail is a half, not a tenth";
+  EXPECT_NEAR(added_by_step(0.9, 1.0), -0.2 * all, 0.1 * all);
 }
 
 TEST(Geweke, IsPositiveWhereTheSeriesFalls) {
   for (std::uint32_t index = 0; index < 5; ++index) {
-    EXPECT_GT(geweke_z(series(2'000, 0.3, index, falling)), 4.0);
-    EXPECT_LT(geweke_z(series(2'000, 0.3, index, rising)), -4.0);
+    EXPECT_GT(geweke_z(series(2'000, 0.3, index, [](double t) { return -2.0 * t; })), 3.0);
+    EXPECT_LT(geweke_z(series(2'000, 0.3, index, [](double t) { return 2.0 * t; })), -3.0);
   }
 }
 

@@ -155,8 +155,7 @@ TEST_F(OctreeFile, LargeLeavesAreFilled) {
 
 /// A real building; and the same as a full octree, after a million random updates.
 void write_building(const fs::path& folder) {
-  write_file(folder / "building.bt",
-             read_gzip_file(fs::path(NEXTVIEW_SOURCE_DIR) / "tests/data/maps/geb079.bt.gz"));
+  write_file(folder / "building.bt", read_gzip_file(fs::path(NEXTVIEW_SOURCE_DIR) / "tests/data/maps/geb079.bt.gz"));
   const auto tree = read_by_octomap(folder / "building.bt");
   ASSERT_TRUE(tree);
   std::vector<octomap::OcTreeKey> keys;
