@@ -130,6 +130,9 @@ std::string next_text(const SessionSnapshot& s) {
   return fmt::format("Next is your choice, view {}; proposed was view {}.", *s.next_candidate, *s.proposal());
 }
 
+/// "0.3 " before what it weighs; nothing for 1.
+std::string factor(double weight) { return weight == 1.0 ? "" : fmt::format("{:g} ", weight); }
+
 /// A column's name; a click sorts by it, another one the other way round.
 void draw_header(const PanelContext& context, CandidateColumn column, const std::string& name) {
   constexpr std::array columns = {"view", "gain", "cost", "utility"};
@@ -194,7 +197,8 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
   small_text(context.style,
-             fmt::format("ranked by {}, U = gain share − cost share (Eq. 13)", s.configuration.planner.gain));
+             fmt::format("ranked by {}, U = {}gain share − {}cost share (Eq. 13)", s.configuration.planner.gain,
+                         factor(s.configuration.planner.weights.gain), factor(s.configuration.planner.weights.cost)));
   if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty())
     draw_degenerate(context, s.records.back().ranking.degenerate);
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +

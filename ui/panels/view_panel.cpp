@@ -157,7 +157,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   if (!c.available) return table_row("", "visited");
   table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
   table_row("way there", fmt::format("{:.2f} m", c.cost));
-  table_row("utility", fmt::format("{:.4f}", c.utility), "U = gain share - cost share (Eq. 13)");
+  table_row("utility", fmt::format("{:.4f}", c.utility), "U = gain share - cost share, each with its weight (Eq. 13)");
 }
 
 void draw_numbers(const PanelContext& context, const ViewInspection& view) {

@@ -82,6 +82,7 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const bool new_voxels = new_map || choice.map != choice_.map || choice.voxels != choice_.voxels;
   if (new_voxels || choice.colouring != choice_.colouring) show_voxels(s, choice, new_voxels);
   explanation_ = explanation;
+  keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
   if (const auto pose = looked_at_pose(s, window.selection); new_rays || new_snapshot)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
@@ -154,8 +155,7 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
       range = {std::min(range.first, candidate.utility), std::max(range.second, candidate.utility)};
     }
   }
-  const bool keep =
-      choice_.ranges_locked && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
+  const bool keep = keep_ranges_ && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
   if (!keep) utilities_ = range;
   picture.camera = s.camera;
   picture.candidates = s.candidates;
@@ -180,7 +180,7 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
   if (explanation) rays_ = ray_segments(*explanation, origin, s.grid.resolution, rays_shown);
   double most = 0;
   for (const RaySegment& ray : rays_) most = std::max(most, ray.value);
-  if (!choice_.ranges_locked || most_contribution_ <= 0) most_contribution_ = most;
+  if (!keep_ranges_ || most_contribution_ <= 0) most_contribution_ = most;
   RayValues values{"contribution of a ray", s.gain_unit};
   if (choice_.ranges_locked && most_contribution_ > 0) values.high = most_contribution_;
   scene_.rays().show(rays_, values);

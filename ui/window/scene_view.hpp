@@ -35,6 +35,8 @@ class SceneView {
   /// What is at a point of the window [px from the upper left corner].
   Picked pick(double x, double y);
   std::size_t voxel_faces() { return scene_.octree().face_count(); }
+  /// What is shown; tests look here for what its colours mean.
+  Scene& layers() { return scene_; }
   /// Where the scene is looked at from: T_world_camera.
   Pose camera_pose();
 
@@ -60,6 +62,7 @@ class SceneView {
   // Colour ranges, kept while they are locked.
   ValueRange utilities_{0, 1}, heights_{0, 1};
   double most_contribution_ = 0;
+  bool keep_ranges_ = false;  ///< they were locked in the picture before, too
 };
 
 }  // namespace nextview

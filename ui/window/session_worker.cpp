@@ -32,6 +32,16 @@ Configuration with_file(Configuration configuration, const std::filesystem::path
   return configuration;
 }
 
+/// How a refinement went; of one that was cancelled, what is left of it.
+LogEntry refined(const GibbsMap& gibbs, bool cancelled) {
+  using Level = LogEntry::Level;
+  const SamplerDiagnostics& d = gibbs.posterior.diagnostics;
+  const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
+  if (cancelled) return {Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps)};
+  if (d.stationary) return {Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps)};
+  return {Level::warning, fmt::format("{}: {}", map, d.warning)};
+}
+
 }  // namespace
 
 SessionWorker::SessionWorker(std::function<void()> on_news)
@@ -216,10 +226,8 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
   }
   if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs) {
-    const SamplerDiagnostics& d = s.gibbs->posterior.diagnostics;
-    log_.add(d.stationary ? Level::success : Level::warning,
-             d.stationary ? fmt::format("Gibbs map of {} views: stationary after {} sweeps", s.gibbs->views, d.sweeps)
-                          : fmt::format("Gibbs map of {} views: {}", s.gibbs->views, d.warning));
+    auto [level, text] = refined(*s.gibbs, told().stop.stop_requested());
+    log_.add(level, std::move(text));
   }
   if (const auto* e = std::get_if<request::Export>(&request))
     log_.add(Level::success, "Scan written to " + e->folder.string());
