@@ -93,6 +93,7 @@ void ConfigurationOptions::apply_to(Configuration& configuration) const {
   auto from = settings(read), to = settings(configuration);
   for (std::size_t i = 0; i < to.size(); ++i)
     if (takes(to[i].key)) to[i].set(from[i].text());
+  configuration.read_from = read.read_from;
   if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
     apply_sensor_preset(configuration, preset->second.text, &sources);
   for (Setting& setting : to)

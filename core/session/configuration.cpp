@@ -24,6 +24,13 @@ constexpr std::array baselines = {"random", "farthest", "fixed-order", "covering
 /// Files are small: toml++ takes a table apart by recursion, and a larger one could nest deeper than the stack.
 constexpr std::uintmax_t largest_file = 1 << 15;
 
+/// Where a file says that another one is: beside it, if there is one, or as it stands.
+std::string beside(const fs::path& file, const std::string& said) {
+  const fs::path there = file.parent_path() / said;
+  std::error_code ignored;
+  return !said.empty() && fs::path(said).is_relative() && fs::is_regular_file(there, ignored) ? there.string() : said;
+}
+
 /// A TOML value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
 std::string value_text(const Setting& setting, const toml::node& node) {
   const bool takes_text =
@@ -59,14 +66,22 @@ class TomlReader {
     }
     // The preset first: what else the file says of the sensor overrides it.
     if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty()) try {
-        apply_sensor_preset(configuration_, preset->get(), &sources_);
+        apply_sensor_preset(configuration_, located("sensor.preset", preset->get()), &sources_);
       } catch (const std::runtime_error& error) {
         throw failure(preset->source().begin.line, error.what());
       }
     apply(table, "");
+    configuration_.read_from.push_back(file_);
   }
 
  private:
+  /// The text of a setting: what names a file is looked for beside this one.
+  std::string located(const std::string& key, const std::string& text) const {
+    const bool names_file =
+        key == "object.file" || key == "views.file" || (key == "sensor.preset" && !is_there(named_sensor(text)));
+    return names_file ? beside(file_, text) : text;
+  }
+
   void apply(const toml::table& table, const std::string& prefix) {
     for (const auto& [name, node] : table) {
       const std::string key = prefix + std::string(name.str());
@@ -82,7 +97,7 @@ class TomlReader {
       if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
         throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
       try {
-        setting->set(value_text(*setting, node));
+        setting->set(located(key, value_text(*setting, node)));
         sources_[key] = place(line);
       } catch (const std::invalid_argument& error) {
         throw failure(line, error.what());
@@ -268,7 +283,7 @@ std::string to_toml(const Configuration& configuration) {
 }
 
 void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources) {
-  fs::path file = assets_folder() / "sensors" / (preset + ".toml");
+  fs::path file = named_sensor(preset);
   if (!is_there(file)) file = preset;
   if (!is_there(file)) {
     std::vector<std::string> known;
@@ -282,29 +297,6 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
   if (sources) std::erase_if(*sources, [](const auto& source) { return source.first.starts_with("sensor."); });
   TomlReader(file, configuration, sources ? *sources : of_file, "sensor.").read(read_file(file, largest_file));
   configuration.sensor_preset = preset;
-}
-
-fs::path assets_folder() {
-  const char* folder = std::getenv("NEXTVIEW_ASSETS");
-  return folder ? folder : NEXTVIEW_ASSETS_DIR;
-}
-
-fs::path default_object() {
-  const fs::path gearbox = "/usr/share/opencascade/data/stl/TR12J_OCC.stl";
-  return fs::exists(gearbox) ? gearbox : assets_folder() / "objects" / "slotted_housing.ply";
-}
-
-fs::path resolve_object(const std::string& name) {
-  if (name.empty()) return default_object();
-  if (is_there(name)) return name;
-  if (name == "gearbox") return default_object();
-  if (name == "bunny") return "/usr/share/glmark2/models/bunny.obj";
-  for (const char* ending : {"", ".ply"}) {
-    const fs::path file = assets_folder() / "objects" / (name + ending);
-    if (is_there(file)) return file;
-  }
-  throw std::runtime_error(
-      fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
 }
 
 }  // namespace nextview

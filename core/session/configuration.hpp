@@ -35,9 +35,9 @@ struct MapConfig {
 struct PlannerConfig {
   std::string gain = "proximity-count";  ///< one of gain_names()
   Semantics semantics = Semantics::published;
-  UtilityWeights weights = {1.0, 0.3};   ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
-  std::string combined_weights;  ///< `gain=weight,gain=weight`; empty: the pre-release weights
-  int ray_columns = 38;          ///< rays that score a view
+  UtilityWeights weights = {1.0, 0.3};  ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
+  std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
+  int ray_columns = 38;                 ///< rays that score a view
   int ray_rows = 25;
   double ray_length = 1.5;        ///< [m]
   double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
@@ -63,6 +63,7 @@ struct Configuration {
   PlannerConfig planner;
   TerminationConfig termination;
   EvaluationConfig evaluation;
+  std::vector<std::filesystem::path> read_from;  ///< the files it comes from, no setting: nothing may replace them
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;
@@ -109,8 +110,8 @@ using SettingSources = std::map<std::string, std::string>;
 std::string complaint_about(const std::string& key, const std::string& source, const std::string& reason);
 
 /// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the
-/// nearest known one. With `sources`, notes there what the file gives, and leaves it to the caller to validate what
-/// becomes of it.
+/// nearest known one. Relative paths in it are relative to its folder; what is not there, to the working folder. With
+/// `sources`, notes there what the file gives, and leaves it to the caller to validate what becomes of it.
 /// @throws std::runtime_error "file:line: reason".
 Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration(),
                                  SettingSources* sources = nullptr);
@@ -118,6 +119,9 @@ Configuration read_configuration(const std::filesystem::path& file, const Config
 /// @throws std::runtime_error
 void validate(const Configuration& configuration, const SettingSources& sources);
 std::string to_toml(const Configuration& configuration);
+/// As a file in `folder` says it, so that it can be read from anywhere: a path is relative to the folder if its target
+/// lies inside, absolute otherwise.
+std::string to_toml(const Configuration& configuration, const std::filesystem::path& folder);
 
 /// Sets the sensor to a preset: the name of a file in assets/sensors, or a path; notes in `sources` what that gives.
 /// @throws std::runtime_error
@@ -125,10 +129,12 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
 
 /// Files that come with the program. NEXTVIEW_ASSETS in the environment overrides where they are.
 std::filesystem::path assets_folder();
+/// The file of a sensor that comes with the program, if there is one of this name.
+std::filesystem::path named_sensor(const std::string& preset);
 /// The gearbox housing of Debian's occt-misc, or, where that is not installed, the slotted housing of assets/objects.
 std::filesystem::path default_object();
-/// What `object.file` means: a path; else a name in assets/objects, with or without .ply; "bunny" and "gearbox"; empty:
-/// the default.
+/// What `object.file` means: the path of a file; else a name in assets/objects, with or without .ply; "bunny" and
+/// "gearbox"; empty: the default.
 /// @throws std::runtime_error if it is none of these.
 std::filesystem::path resolve_object(const std::string& name);
 

@@ -41,9 +41,10 @@ TEST_F(Refine, WritesMapsNumbersAndPictures) {
   for (const char* file :
        {"posterior.ot", "posterior.bt", "conventional.ot", "scores.csv", "trace.csv", "metrics.json", "config.toml",
         "timings.csv", "refinement.png", "sensor_models.png", "surface_posterior.ply", "surface_posterior.stl",
-        "surface_posterior.png", "surface_cloud.ply", "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
+        "surface_posterior.png", "surface_posterior_unseen.stl", "manifest.json", "surface_cloud.ply",
+        "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
     EXPECT_GT(fs::file_size(fs::path(out("refined")) / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(out("refined")), fs::directory_iterator{}), 17)
+  EXPECT_EQ(std::distance(fs::directory_iterator(out("refined")), fs::directory_iterator{}), 19)
       << "something else was left behind";
   // The views are taken again exactly: the conventional map is that of the scan.
   EXPECT_TRUE(read_file(fs::path(out("refined")) / "conventional.ot") == read_file(fs::path(scan()) / "map.ot"));

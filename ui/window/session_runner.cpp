@@ -128,14 +128,18 @@ void SessionRunner::refine(int chains, int sweeps, const Told& told) {
   publish(std::move(next));
 }
 
-void SessionRunner::write(const std::filesystem::path& folder, const Told& told) const {
+std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const Told& told) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
-  prepare_output_folder(folder);
+  OutputFolder out(folder, input_files(session_->configuration()), "");
+  out.begin("scan", session_->object_file());
   told.progress(0.0, "writing the scan");
-  write_scan(*session_, folder);
+  write_scan(*session_, out);
   const auto surfaces = scan_surfaces(*session_, part(told.progress, 0.2, 0.9), told.stop);
   if (told.stop.stop_requested()) throw Stopped();
-  write_surfaces(surfaces, folder);
+  write_surfaces(surfaces, out);
+  std::vector<std::string> summaries;
+  for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
+  return summaries;
 }
 
 void SessionRunner::forget_runs() {

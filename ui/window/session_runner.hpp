@@ -35,7 +35,8 @@ class SessionRunner {
   void undo(const Told& told);
   void redo(const Told& told);
   void refine(int chains, int sweeps, const Told& told);
-  void write(const std::filesystem::path& folder, const Told& told) const;
+  /// Writes what `nextview scan` writes. Returns a line for people on each surface.
+  std::vector<std::string> write(const std::filesystem::path& folder, const Told& told) const;
   void forget_runs();
   /// Shown until the next thing that works.
   void set_message(const std::string& message);

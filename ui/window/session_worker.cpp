@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 
+#include "core/session/setup_warnings.hpp"
 #include "core/session/stopped.hpp"
 #include "ui/window/overloaded.hpp"
 
@@ -200,7 +201,10 @@ void SessionWorker::execute(const SessionRequest& request) {
                    }
                    runner_.refine(r.chains, r.sweeps, told());
                  },
-                 [&](const request::Export& r) { runner_.write(r.folder, told()); },
+                 [&](const request::Export& r) {
+                   for (const std::string& line : runner_.write(r.folder, told()))
+                     log_.add(LogEntry::Level::note, line);
+                 },
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },
              request);
@@ -213,6 +217,8 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   if (s.session != before.session) {
     log_.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", s.object_name,
                                       s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
+    for (const std::string& warning : setup_warnings(s.configuration, *s.mesh, s.candidates))
+      log_.add(Level::warning, warning);
   } else if (s.records.size() > before.records.size()) {
     const StepRecord& r = s.records.back();
     const std::string from =
