@@ -8,6 +8,7 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/recorded_input.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/diagnostics_text.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/scan_files.hpp"
@@ -70,7 +71,8 @@ void print(const RefinementJob& job, const Refinement& r) {
   const SamplerDiagnostics& d = r.posterior.diagnostics;
   fmt::print(
       "{}: {} views, {} rays joined to {}, {} voxels informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
-      job.name, job.scans.size(), d.measured_rays, d.joined_rays, d.informed_voxels, d.build_seconds, d.sample_seconds);
+      printable(job.name), job.scans.size(), d.measured_rays, d.joined_rays, d.informed_voxels, d.build_seconds,
+      d.sample_seconds);
   fmt::print("model {}: {}\n\n", name(job.sampler.model.kind), diagnostics_line(d));
   fmt::print("{:<36} {:>14} {:>14}\n", "", "conventional", "Gibbs");
   for (const RefinementNumber& n : numbers(r))
@@ -124,7 +126,7 @@ int run(const RefineArguments& arguments) {
   } else {
     remove_surfaces(out);
   }
-  fmt::print("\n{}/\n", out.string());
+  fmt::print("\n{}/\n", printable(out.string()));
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");
   fmt::print("{}", surface_files);
   fmt::print(

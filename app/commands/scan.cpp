@@ -7,6 +7,7 @@
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/scan_files.hpp"
 #include "ui/figures/session_figure.hpp"
 #include "ui/window/known_objects.hpp"
@@ -23,7 +24,7 @@ struct ScanArguments {
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = gain_unit(c.planner.gain);
-  fmt::print("{}: {}\n", session.object_file().filename().string(), topology(*session.mesh()).summary());
+  fmt::print("{}: {}\n", printable(session.object_file().filename().string()), topology(*session.mesh()).summary());
   fmt::print("{} candidate views, ranked by {}{} ({} semantics)\n\n", session.candidates().size(), c.planner.gain,
              unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
@@ -58,7 +59,7 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
         1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
         100.0 * session.records().back().coverage_paper);
-  fmt::print("\n{}/\n", out.string());
+  fmt::print("\n{}/\n", printable(out.string()));
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
       "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
@@ -66,7 +67,7 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
       "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
-      surfaces, out.string());
+      surfaces, printable(out.string()));
 }
 
 int run(const ScanArguments& arguments) {
