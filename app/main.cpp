@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error as a full disk is
   end_on_interrupt();
   try {
-    const CommandLine line = command_line({argv, argv + argc});
+    CommandLine line = command_line({argv, argv + argc});
     if (line.draws_headless) ensure_headless(argc, argv);
     return end(run(static_cast<int>(line.arguments.size()), line.arguments.data()));
   } catch (const Stopped&) {

@@ -11,6 +11,7 @@
 #include "app/commands/recorded_input.hpp"
 #include "app/commands/shell_text.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/counted.hpp"
 #include "core/session/map_calibration.hpp"
 #include "core/session/output_folder.hpp"
@@ -60,7 +61,7 @@ std::vector<std::string> held_out_inputs(const CalibrateArguments& arguments) {
     if (std::none_of(fitted.begin(), fitted.end(), same))
       inputs.push_back(input);
     else if (arguments.held_out_given)
-      fmt::print(stderr, "{}: is fitted to, and so not held out\n", input);
+      fmt::print(stderr, "{}: is fitted to, and so not held out\n", printable(input));
   }
   return inputs;
 }
@@ -115,12 +116,12 @@ void print(const MapCalibration& calibration) {
   };
   for (const ExampleScores& e : calibration.examples)
     fmt::print("{:<24} {:>6}   {:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n",
-               e.name + (e.held_out ? "" : " (fitted)"), e.views, number(e.cross_entropy_before),
+               printable(e.name) + (e.held_out ? "" : " (fitted)"), e.views, number(e.cross_entropy_before),
                number(e.cross_entropy_after), number(e.gibbs_entropy), log_loss(e.before), log_loss(e.after),
                log_loss(e.gibbs), open(e.before), open(e.after), open(e.gibbs));
   for (const ExampleScores& e : calibration.examples)
     if (!e.gibbs_stationary)
-      fmt::print("! The Gibbs map of {} from {} is not stationary; raise gibbs.sweeps.\n", e.name,
+      fmt::print("! The Gibbs map of {} from {} is not stationary; raise gibbs.sweeps.\n", printable(e.name),
                  counted(e.views, "view"));
   fmt::print("* within 3 voxels of the true surface, touch truth. ** of slots and bores, centre truth.\n");
 }
@@ -130,8 +131,8 @@ std::string remark(const CalibrateArguments& arguments, const MapCalibration& ca
       "The inverse sensor model that nextview calibrate fitted to the Gibbs maps of {}: cross entropy {:.4f}, before\n"
       "{:.4f} nats a voxel. For voxels of {} m{}.\n"
       "Use it with --config: nextview scan --config sensor_model.toml",
-      fmt::join(arguments.fitted, ", "), calibration.fit.cross_entropy, calibration.fit.cross_entropy_before,
-      resolution,
+      printable(fmt::format("{}", fmt::join(arguments.fitted, ", "))), calibration.fit.cross_entropy,
+      calibration.fit.cross_entropy_before, resolution,
       is_recorded(arguments.fitted.front()) && !fs::exists(fs::path(arguments.fitted.front()) / "config.toml")
           ? ""
           : " and the sensor of the config.toml beside it");
@@ -185,7 +186,7 @@ int run(const CalibrateArguments& arguments) {
   fmt::print(
       "\n{}/\n  sensor_model.toml   the fitted model: nextview scan --config {} --out {}\n"
       "{}  calibration.json, descent.csv, scores.csv, config.toml   the numbers\n",
-      out.path().string(), shell_text(out.path() / "sensor_model.toml"), shell_text(free_folder("out")),
+      printable(out.path().string()), shell_text(out.path() / "sensor_model.toml"), shell_text(free_folder("out")),
       arguments.no_pictures ? "" : "  calibration.png     the picture\n");
   return 0;
 }

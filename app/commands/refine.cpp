@@ -8,6 +8,7 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/recorded_input.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/counted.hpp"
 #include "core/session/diagnostics_text.hpp"
 #include "core/session/refinement.hpp"
@@ -67,8 +68,8 @@ std::size_t best(const std::vector<double>& gains) {
 
 void print(const RefinementJob& job, const Refinement& r) {
   const SamplerDiagnostics& d = r.posterior.diagnostics;
-  fmt::print("{}: {}, {} joined to {}, {} informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n", job.name,
-             counted(job.scans.size(), "view"), counted(d.measured_rays, "ray"), d.joined_rays,
+  fmt::print("{}: {}, {} joined to {}, {} informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
+             printable(job.name), counted(job.scans.size(), "view"), counted(d.measured_rays, "ray"), d.joined_rays,
              counted(d.informed_voxels, "voxel"), d.build_seconds, d.sample_seconds);
   fmt::print("model {}: {}\n\n", name(job.sampler.model.kind), diagnostics_line(d));
   fmt::print("{:<36} {:>14} {:>14}\n", "", "conventional", "Gibbs");
@@ -124,7 +125,7 @@ int run(const RefineArguments& arguments) {
     progress.clear();
     surface_files = write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
   }
-  fmt::print("\n{}/\n", out.path().string());
+  fmt::print("\n{}/\n", printable(out.path().string()));
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");
   fmt::print("{}", surface_files);
   fmt::print(

@@ -8,6 +8,7 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/shell_text.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/counted.hpp"
 #include "core/session/scan_files.hpp"
 #include "core/session/setup_warnings.hpp"
@@ -26,7 +27,7 @@ struct ScanArguments {
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = gain_unit(c.planner.gain);
-  fmt::print("{}: {}\n", session.object_file().filename().string(), session.object_topology().summary());
+  fmt::print("{}: {}\n", printable(session.object_file().filename().string()), session.object_topology().summary());
   fmt::print("{}, ranked by {}{} ({} semantics)\n\n", counted(session.candidates().size(), "candidate view"),
              c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
@@ -61,7 +62,7 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
         1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
         100.0 * session.records().back().coverage_paper);
-  fmt::print("\n{}/\n", out.string());
+  fmt::print("\n{}/\n", printable(out.string()));
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
       "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"

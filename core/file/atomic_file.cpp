@@ -34,7 +34,7 @@ TemporaryFile open_for_writing(const fs::path& file, const OutputTarget& target)
   clean_up_once(folder);
   try {
     constexpr mode_t nobody_else = 0600, all_that_the_umask_allows = 0666;
-    return make_temporary_file(folder, target.permissions ? nobody_else : all_that_the_umask_allows);
+    return make_temporary_file(folder, target.standing ? nobody_else : all_that_the_umask_allows);
   } catch (const std::system_error& error) {
     throw file_error(file, "written", error.code().value());
   }
@@ -63,7 +63,10 @@ void AtomicFile::commit() {
   if (const int error = buffer_.flush()) throw file_error(file_, "written", error);
   if (target_.is_stream) return temporary_.descriptor.close();
   const int descriptor = temporary_.descriptor.get();
-  if (target_.permissions && ::fchmod(descriptor, *target_.permissions) != 0) throw file_error(file_, "written", errno);
+  if (const auto& old = target_.standing) {
+    [[maybe_unused]] const int given_back = ::fchown(descriptor, old->owner, old->group);  // as far as that is allowed
+    if (::fchmod(descriptor, old->permissions) != 0) throw file_error(file_, "written", errno);
+  }
   if (const int error = reach_the_disk(descriptor)) throw file_error(file_, "written", error);
   if (::rename(temporary_.file.c_str(), target_.file.c_str()) != 0) throw file_error(file_, "written", errno);
   temporary_.file.clear();

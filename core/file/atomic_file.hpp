@@ -12,8 +12,8 @@ namespace nextview {
 
 /// A file that appears whole or not at all: written beside its final place under a name of its own, then renamed over
 /// it by commit(). Without commit() nothing is left behind; a process that is killed leaves a temporary file that the
-/// next one removes. A file that is replaced keeps its permissions. Links are followed, and streams (pipes, devices)
-/// written to as it comes; see OutputTarget.
+/// next one removes. A file that is replaced keeps its permissions and owner. Links are followed, and streams (pipes,
+/// devices) written to as it comes; see OutputTarget.
 class AtomicFile {
  public:
   /// @throws std::runtime_error naming the file if it or its folder cannot be written to.

@@ -44,7 +44,7 @@ OutputTarget output_target(const fs::path& file) {
   if (!S_ISREG(status.st_mode)) throw std::runtime_error(file.string() + ": cannot be written: is a disk or a socket");
   // Renaming over a file asks for its folder's permission only; that a file is read-only means something, too.
   if (::faccessat(AT_FDCWD, target.file.c_str(), W_OK, AT_EACCESS) != 0) throw file_error(file, "written", errno);
-  target.permissions = status.st_mode & 0777;
+  target.standing = {status.st_mode & 0777, status.st_uid, status.st_gid};
   return target;
 }
 

@@ -12,7 +12,12 @@ struct OutputTarget {
   std::filesystem::path file;  ///< behind all links; need not exist
   /// A pipe, a terminal or another device, or an open file of this process (/dev/stdout): written to, never replaced.
   bool is_stream = false;
-  std::optional<mode_t> permissions;  ///< of the regular file that is there
+  struct Standing {
+    mode_t permissions;
+    uid_t owner;
+    gid_t group;
+  };
+  std::optional<Standing> standing;  ///< of the regular file that is there
 };
 
 /// @throws std::runtime_error naming the file and the reason: a folder, a disk, a socket, links in a circle, a file

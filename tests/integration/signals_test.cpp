@@ -30,7 +30,7 @@ class Signals : public ::testing::Test {
   Result signalled(const std::string& arguments, const std::string& condition, const std::string& signals,
                    const std::string& handling = "--default-signal=INT,TERM,HUP") const {
     return nextview_behind(
-        fmt::format(R"(sh -c 'env {0} timeout --foreground --preserve-status --signal=KILL 90 "$0" "$@" > "{1}" & )"
+        fmt::format(R"(sh -c 'timeout --foreground --preserve-status --signal=KILL 90 env {0} "$0" "$@" > "{1}" & )"
                     R"(nextview=$!; for i in $(seq 600); do {2} && break; sleep 0.1; done; {3}; wait $nextview')",
                     handling, in("printed"), condition, signals),
         arguments);
@@ -59,15 +59,16 @@ TEST_F(Signals, WhatIsIgnoredStaysIgnored) {
 }
 
 TEST_F(Signals, WhatHasNothingToKeepEndsWithTheSameCode) {
+  ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);  // nobody reads from it: writing to it does not end
   for (const char* signal : {"INT", "TERM", "HUP"}) {
-    const Result run =
-        signalled("posterior --toy slot --sweeps 1000000000", "sleep 1", fmt::format("kill -{} $nextview", signal));
+    const Result run = signalled("posterior --toy slot --sweeps 4 --csv " + in("pipe"), "sleep 3",
+                                 fmt::format("kill -{} $nextview", signal));
     EXPECT_EQ(run.exit_code, 130) << signal;
     EXPECT_EQ(run.err, "nextview: stopped\n") << signal;
   }
 }
 
-// Nobody reads from the pipe that it writes to: to stop in good order it would have to wait.
+// To stop in good order it would have to wait until somebody reads from the pipe.
 TEST_F(Signals, ASecondOneEndsAtOnce) {
   ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
   std::ofstream(in("scene.txt")) << "scan 0 0 0 0 0 0 1 1\n0 0 0.3\nview 0 0 0 0 0 0 1\n";

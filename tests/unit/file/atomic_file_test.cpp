@@ -248,7 +248,8 @@ TEST_F(AtomicFileTest, WhatAKilledWriterLeavesIsRemovedAndNothingElse) {
   EXPECT_EQ(reason([&] { read_file(abandoned); }), "");
   // Names that look alike, and a link of the very name, are somebody else's.
   const std::string letters(32, 'a');
-  for (const std::string& name : {".nextview-123.part", ".nextview-" + letters + ".par", "b.part"})
+  for (const std::string& name :
+       {std::string(".nextview-123.part"), ".nextview-" + letters + ".par", std::string("b.part")})
     std::ofstream(mine / name) << "kept";
   std::ofstream(folder_ / "victim") << "kept";
   fs::create_symlink(folder_ / "victim", mine / (".nextview-" + letters + ".part"));
