@@ -1,4 +1,6 @@
 // `nextview score` against the numbers of the reference code.
+#include "tests/data/conformance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "core/file/atomic_file.hpp"
-#include "tests/data/conformance.hpp"
 #include "tests/integration/program.hpp"
 
 namespace nextview {

@@ -14,8 +14,8 @@
 namespace nextview {
 namespace {
 
-/// Real range scans, ten of the Stanford bunny, where they are at hand: their licence keeps them out of this repository.
-/// MadeRangeScans proves the reader without them.
+/// Real range scans, ten of the Stanford bunny, where they are at hand: their licence keeps them out of this
+/// repository. MadeRangeScans proves the reader without them.
 class StanfordBunny : public testing::Test {
  protected:
   void SetUp() override {
