@@ -1,20 +1,21 @@
 // The worker's queue: what waits behind a job that is held, what is dropped and when.
 #include <gmock/gmock.h>
 
-#include "tests/unit/map/temporary_folder.hpp"
+#include <filesystem>
+
 #include "tests/unit/window/gated_worker.hpp"
 
 namespace nextview {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::StartsWith;
 
 class WorkerQueue : public GatedWorker {};
 
 TEST_F(WorkerQueue, CancelEmptiesIt) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "nextview-never-written";
+  std::filesystem::remove_all(folder);
   load();
   begin_step();
   for (int i = 0; i < 3; ++i) worker_.post(request::Step{});
@@ -28,7 +29,7 @@ TEST_F(WorkerQueue, CancelEmptiesIt) {
   wait_until_idle();
   EXPECT_TRUE(now()->records.empty());
   EXPECT_EQ(now()->gibbs, nullptr);
-  EXPECT_FALSE(std::filesystem::exists(folder));
+  EXPECT_EQ(std::filesystem::remove_all(folder), 0u) << "it was written";
   EXPECT_EQ(now()->message, "");
   EXPECT_THAT(log(), ElementsAre(StartsWith("sphere: "))) << "what was dropped was done";
   step();
