@@ -86,7 +86,13 @@ int run(int argc, char** argv) {
   CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
   options.add_to(*window);
   std::string script;
-  window->add_option("--script", script, "does what this file says: a command a line, as in the palette (Ctrl+P)");
+  CLI::Option* script_option =
+      window->add_option("--script", script,
+                         "does what this file says: a command a line, as in the palette (Ctrl+P); a line that fails is "
+                         "told as FILE:LINE, the others are done, and the exit code is 2");
+  bool stop_on_error = false;
+  window->add_flag("--stop-on-error", stop_on_error, "ends the program at the first line of the script that fails")
+      ->needs(script_option);
   bool list_commands = false;
   window->add_flag("--list-commands", list_commands, "prints all commands and ends");
   window->footer("Examples:\n  nextview window bunny.ply --gain area-factor\n  nextview bunny.ply");
@@ -103,7 +109,7 @@ int run(int argc, char** argv) {
     fmt::print("{}", command_table());
     return 0;
   }
-  return run_window(options.configuration(), read_script(script));
+  return run_window(options.configuration(), {script, read_script(script), stop_on_error});
 }
 
 }  // namespace

@@ -219,6 +219,12 @@ void Session::override_next_view(const Pose& T_world_camera) {
   next_.reset();
 }
 
+void Session::set_termination(const TerminationConfig& config) {
+  config.validate();
+  configuration_.termination = config;
+  if (!records_.empty()) finished_ = termination(config, records_, map_.voxels().size());
+}
+
 void Session::require_first_step() const {
   if (records_.empty())
     throw std::invalid_argument("the first view is the start view; step once before choosing another");

@@ -34,6 +34,10 @@ class Session {
   /// finite and rigid (is_rigid), or if the robot cannot reach it.
   void override_next_view(const Pose& T_world_camera);
 
+  /// Changes when the scan is done, and keeps all else; a finished scan may go on by it.
+  /// @throws std::invalid_argument if it is not valid.
+  void set_termination(const TerminationConfig& config);
+
   /// Why the scan is done; empty while it is not.
   const std::string& finished() const { return finished_; }
 

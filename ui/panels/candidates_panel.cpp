@@ -193,7 +193,9 @@ void draw_take_buttons(const PanelContext& context) {
 }  // namespace
 
 void draw_candidates_panel(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("Candidates", rectangle, ImGuiWindowFlags_NoScrollbar);
+  const bool low = rectangle.height < context.style.px(250);  // the table keeps some rows, and the panel scrolls
+  const Panel panel("Candidates", rectangle, low ? 0 : ImGuiWindowFlags_NoScrollbar,
+                    context.style.px(right_panel_width));
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
   small_text(context.style,
@@ -204,11 +206,12 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +
                       3 * ImGui::GetStyle().ItemSpacing.y;
   ImGui::PushFont(context.style.small);
-  draw_table(context, ImGui::GetContentRegionAvail().y - below);
+  draw_table(context, low ? context.style.px(110) : ImGui::GetContentRegionAvail().y - below);
   ImGui::PopFont();
   small_text(context.style, next_text(s));
-  ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
-                       context.style.px(4));
+  if (!low)
+    ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
+                         context.style.px(4));
   draw_take_buttons(context);
 }
 

@@ -67,7 +67,8 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(20), style.px(16)));
   ImGui::Begin("Keys and mouse", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_HorizontalScrollbar);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::PushFont(style.small);
   if (ImGui::BeginTable("sheet", 3, ImGuiTableFlags_SizingFixedFit)) {

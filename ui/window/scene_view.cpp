@@ -69,7 +69,8 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
   const bool new_rays = explanation != explanation_;
   const bool new_own_view = selection_.own_view.has_value() != window.selection.own_view.has_value();
-  if (!new_snapshot && !new_choice && !new_rays && !new_own_view) return false;
+  const auto eye = eye_of_a_view(*snapshot, window);
+  if (!new_snapshot && !new_choice && !new_rays && !new_own_view && eye == eye_) return false;
 
   const SessionSnapshot& s = *snapshot;
   const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
@@ -84,6 +85,7 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   explanation_ = explanation;
   keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
+  eye_ = eye;
   if (const auto pose = looked_at_pose(s, window.selection); new_rays || new_snapshot)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
@@ -171,8 +173,19 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   }
   if (!picture.own_view && !picture.chosen && window.selection.own_view) picture.own_view = window.selection.own_view;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
+  picture.eye = eye_;
   picture.reach = (s.next_view.translation() - target).norm();
   scene_.views().show(picture);
+}
+
+std::optional<Vector3> SceneView::eye_of_a_view(const SessionSnapshot& s, const WindowState& window) {
+  const Vector3 eye = camera_pose().translation();
+  const auto is_here = [&](const Pose& T_world_camera) { return stands_at(eye, T_world_camera.translation()); };
+  const bool here = std::any_of(s.candidates.begin(), s.candidates.end(), is_here) || is_here(s.next_view) ||
+                    (window.selection.own_view && is_here(*window.selection.own_view)) ||
+                    std::any_of(s.records.begin(), s.records.end(),
+                                [&](const StepRecord& record) { return is_here(record.T_world_camera); });
+  return here ? std::optional(eye) : std::nullopt;
 }
 
 void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* explanation, const Vector3& origin) {

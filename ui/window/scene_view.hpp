@@ -46,6 +46,8 @@ class SceneView {
   void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_voxels);
   void show_views(const SessionSnapshot& snapshot, const WindowState& window);
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
+  /// Where the scene's camera is, if a view that is drawn is from there.
+  std::optional<Vector3> eye_of_a_view(const SessionSnapshot& snapshot, const WindowState& window);
   void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
   /// Direction into the scene at a point of the window; of any length.
   Vector3 direction_at(double x, double y);
@@ -56,6 +58,7 @@ class SceneView {
   std::shared_ptr<const SessionSnapshot> shown_;
   LayerChoice choice_;
   Selection selection_;
+  std::optional<Vector3> eye_;  ///< what is from there is not drawn
   std::shared_ptr<const ScoreExplanation> explanation_;
   std::vector<RaySegment> rays_;
 

@@ -182,6 +182,7 @@ void SessionWorker::execute(const SessionRequest& request) {
   std::visit(Overloaded{
                  [&](const request::Load& r) { runner_.load(r.configuration, told()); },
                  [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), told()); },
+                 [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
                  [&](request::Reset) { runner_.load(runner_.configuration(), told()); },
                  [&](request::Step) { runner_.step(told()); },
                  [&](request::Play) {
@@ -215,6 +216,13 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   using Level = LogEntry::Level;
   const SessionSnapshot& s = *runner_.snapshot();
   if (s.session != before.session) {
+    if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
+      log_.add(is<request::Load>(request) ? Level::warning : Level::note,
+               fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
+                           is<request::Load>(request)       ? "This setting"
+                           : is<request::OpenFile>(request) ? "Another file"
+                                                            : "Start over",
+                           views == 1 ? "view" : fmt::format("{} views", views)));
     log_.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", s.object_name,
                                       s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
     for (const std::string& warning : setup_warnings(s.configuration, *s.mesh, s.candidates))
@@ -228,6 +236,10 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     if (!r.ranking.degenerate.empty())
       log_.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
     if (!s.finished.empty()) log_.add(Level::success, "The scan is finished: " + s.finished);
+  } else if (is<request::SetTermination>(request)) {
+    if (s.finished != before.finished)
+      log_.add(s.finished.empty() ? Level::note : Level::success,
+               s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
   } else if (s.map != before.map && !is<request::Refine>(request)) {
     log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
   }
