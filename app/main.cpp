@@ -13,6 +13,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
+#include "app/commands/scarcity.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/session/stopped.hpp"
 #include "ui/surface/headless.hpp"
@@ -90,6 +91,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace nextview;
   try {
+    prepare_for_scarcity();
     std::vector<char*> arguments(argv, argv + argc);
     // `nextview FILE --gain …` and a bare `nextview` mean the window.
     static char window[] = "window";
@@ -103,6 +105,9 @@ int main(int argc, char** argv) {
   } catch (const Stopped&) {
     fmt::print(stderr, "{}nextview: stopped\n", ::isatty(STDERR_FILENO) ? "\r\033[K" : "");  // over the progress line
     return exit_stopped;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "nextview: {}\n", out_of_memory_line());
+    return exit_bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "nextview: {}\n", error.what());
     return exit_bad_input;

@@ -23,11 +23,11 @@ RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& op
   if (fs::exists(input / "config.toml"))
     return refinement_job(
         input, [&](Configuration& c) { options.apply_to(c); }, progress, stop);
+  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
   const RecordedScene scene = fs::is_directory(input)
-                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution)
+                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution, warn)
                                   : read_recorded_scene(input);
   const Configuration configuration = options.configuration();
-  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
   try {
     RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
     job.name = fs::absolute(input).lexically_normal().stem().string();

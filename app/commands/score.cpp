@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/planner/next_best_view.hpp"
 #include "core/session/configuration.hpp"
@@ -64,9 +65,12 @@ int run(const ScoreArguments& arguments) {
   const auto gains = wanted_gains(arguments.gain, semantics);
   const RecordedScene scene = read_recorded_scene(arguments.scene);
   const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", arguments.scene, text); };
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
   SceneScores scores;
   try {
-    scores = score_scene(scene, semantics, gains, warn);
+    scores = score_scene(scene, semantics, gains, warn, progress, stop.token());
+    progress.clear();
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", arguments.scene, error.what()));
   }
