@@ -19,6 +19,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/scarcity.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/session/stopped.hpp"
@@ -120,12 +121,15 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error as a full disk is
   end_on_interrupt();
   try {
+    prepare_for_scarcity();
     CommandLine line = command_line({argv, argv + argc});
     if (line.draws_headless) ensure_headless(argc, argv);
     return end(run(static_cast<int>(line.arguments.size()), line.arguments.data()));
   } catch (const Stopped&) {
     fmt::print(stderr, "{}nextview: stopped\n", ::isatty(STDERR_FILENO) ? "\r\033[K" : "");  // over the progress line
     return exit_stopped;
+  } catch (const std::bad_alloc&) {
+    return fail(out_of_memory_line());
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {

@@ -42,13 +42,13 @@ RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& op
   if (const auto manifest = fs::is_directory(input) ? read_manifest(input) : std::nullopt)
     throw std::runtime_error(fmt::format("{}: holds no finished scan: its {} was ended before its views were written",
                                          input.string(), manifest->command));
-  const RecordedScene scene = fs::is_directory(input)
-                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution)
-                                  : read_recorded_scene(input);
-  const Configuration configuration = options.configuration();
   const auto warn = [&](const std::string& text) {
     fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
   };
+  const RecordedScene scene = fs::is_directory(input)
+                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution, warn)
+                                  : read_recorded_scene(input);
+  const Configuration configuration = options.configuration();
   try {
     RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
     job.name = fs::absolute(input).lexically_normal().stem().string();

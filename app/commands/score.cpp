@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/planner/next_best_view.hpp"
@@ -71,9 +72,12 @@ int run(const ScoreArguments& arguments) {
   const auto warn = [&](const std::string& text) {
     fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", arguments.scene, text)));
   };
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
   SceneScores scores;
   try {
-    scores = score_scene(scene, semantics, gains, warn);
+    scores = score_scene(scene, semantics, gains, warn, progress, stop.token());
+    progress.clear();
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", arguments.scene, error.what()));
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -78,6 +79,7 @@ constexpr const char* param_form = "param NAME VALUE";
 constexpr const char* scan_form = "scan px py pz qx qy qz qw N";
 constexpr const char* view_form = "view px py pz qx qy qz qw";
 constexpr const char* point_form = "x y z";
+constexpr double farthest_point = 1e6;  // along each axis [m]; rays to there are still told apart
 
 Pose read_pose(LineReader& reader, const char* form) {
   double v[7];
@@ -111,6 +113,8 @@ RecordedScan read_scan(LineReader& reader) {
       throw reader.failure(fmt::format("the file ends after {} of {} points", scan.points.size(), count));
     const double x = reader.number(point_form), y = reader.number(point_form), z = reader.number(point_form);
     reader.end_of_line(point_form);
+    if (!(std::max({std::abs(x), std::abs(y), std::abs(z)}) <= farthest_point))
+      throw reader.failure(fmt::format("the point lies beyond {:g} m from the sensor; remove it", farthest_point));
     scan.points.emplace_back(x, y, z);
   }
   return scan;

@@ -86,13 +86,14 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   return job;
 }
 
-RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views, const Progress& progress,
+RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views, const Progress& progress,
                              std::stop_token stop) {
+  const Configuration c = affordable(configuration);
   const fs::path object = resolve_object(c.object.file);
   PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side}, stop);
   require_within_region(mesh.mesh, c, object);
-  const RayScene scene(mesh.mesh);
-  const DepthCamera camera(c.sensor);
+  const RayScene scene(mesh.mesh, stop);
+  const DepthCamera camera(c.sensor, stop);
 
   RefinementJob job;
   job.name = object.stem().string();
@@ -108,13 +109,14 @@ RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views
   job.inputs = input_files(c);
   std::vector<std::uint8_t> visited(job.grid.voxel_count());
   for (std::size_t k = 0; k < views.size(); ++k) {
-    if (stop.stop_requested()) throw Stopped();
     if (progress) progress(double(k) / double(views.size()), "taking the views");
-    Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1)), views[k],
-                             c.sensor.max_range);
-    scan.returns = clean(scan.returns, c.cloud);
+    throw_if_stopped(stop);
+    Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1), stop), views[k],
+                             c.sensor.max_range, stop);
+    scan.returns = clean(scan.returns, c.cloud, stop);
     job.scans.push_back(std::move(scan));
-    mark_visited(job.grid, back_project(camera.sense_ideal(scene, views[k]), views[k], c.sensor.max_range), visited);
+    const DepthImage ideal = camera.sense_ideal(scene, views[k], stop);
+    mark_visited(job.grid, back_project(ideal, views[k], c.sensor.max_range, stop), visited, stop);
   }
   const KnownObject known(mesh.mesh, scene, camera, job.candidates, job.grid, c.evaluation.surface_samples,
                           c.evaluation.d_reg, c.seed, progress, stop);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/planner/rank_correlation.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -24,7 +25,7 @@ double best_gain(const StepRecord& record) {
 }  // namespace
 
 void rank_candidates(const PlanningState& state, const Robot& robot, const std::vector<bool>& visited,
-                     StepRecord& record) {
+                     StepRecord& record, const std::stop_token& stop) {
   record.candidates.assign(state.candidates.size(), {});
   for (std::size_t v = 0; v < record.candidates.size(); ++v) {
     Candidate& c = record.candidates[v];
@@ -32,16 +33,18 @@ void rank_candidates(const PlanningState& state, const Robot& robot, const std::
     c.available = !visited[v] && !robot.unreachable(state.candidates[v]);
   }
   const auto left = available(record.candidates);
-  const auto gains = candidate_gains(state, left, {});  // a stop now would leave half a ranking
+  const auto gains = candidate_gains(state, left, stop);
+  throw_if_stopped(stop);  // or the ranking would be half one
   for (std::size_t i = 0; i < left.size(); ++i) record.candidates[left[i]].gain = gains[i];
   // Baselines stand for a policy of their own, in which the way there has no say.
   const PlannerConfig& planner = state.configuration.planner;
   record.ranking = rank(record.candidates, is_baseline(planner.gain) ? UtilityWeights{1.0, 0.0} : planner.weights);
 }
 
-void compare_rankings(const PlanningState& conventional, StepRecord& record) {
+void compare_rankings(const PlanningState& conventional, StepRecord& record, const std::stop_token& stop) {
   const auto left = available(record.candidates);
-  const auto gains = candidate_gains(conventional, left, {});
+  const auto gains = candidate_gains(conventional, left, stop);
+  throw_if_stopped(stop);
   auto candidates = record.candidates;
   std::vector<double> refined;
   RefinementRecord& refinement = *record.refinement;

@@ -131,7 +131,8 @@ TEST_F(PlyFile, EveryWayToBeBrokenHasItsReason) {
   expect(ascii + "element vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n", "lack x, y or z");
   expect(ascii + "element vertex 1\nproperty quad x\nend_header\n1\n", "unknown type 'quad'");
   expect(ascii + "property float x\nend_header\n", "before the first element");
-  expect(ascii + "vertices 3\nend_header\n", "unknown line 'vertices 3'");
+  expect(ascii + "vertices 3\nend_header\n", "no element 'vertex'");
+  expect(ascii + std::string(1 << 21, '\n') + "end_header\n", "its header exceeds 1048576 bytes");
   expect(ascii + "element vertex 2\n" + xyz + "end_header\n1 2 3\n4 five 6\n", "vertex 2 of 2 is cut off");
   expect(ascii + "element vertex 2\n" + xyz + "end_header\n1.00000 2.0000 3.00000\n4 5\n", "vertex 2 of 2 is cut off");
   expect(ascii + "element vertex 1\n" + xyz + "end_header\n1 nan 3\n", "vertex 1 of 1 is not finite");

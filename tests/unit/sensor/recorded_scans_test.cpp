@@ -154,5 +154,17 @@ TEST(RecordedScans, theConformanceScenesAreReadWhole) {
   }
 }
 
+// Single precision cannot hold it, and a map was walked without end in search of it.
+TEST(RecordedScans, pointsAtTheEndOfTheWorldAreRefused) {
+  const TemporaryFolder folder;
+  const std::string head = "scan 0 0 0 0 0 0 1 2\n0 0 1\n";
+  for (const char* point : {"1e39 0 0", "0 -1e39 0", "0 0 1e308", "0 1.1e6 0", "-1e19 1e19 0"})
+    EXPECT_THAT(complaint(folder.write("scene.txt", head + point + "\n")),
+                HasSubstr(":3: the point lies beyond 1e+06 m from the sensor"))
+        << point;
+  for (const char* point : {"1e6 0 0", "-0.0 4.9e-324 0", "1e-300 -0 1e-45"})
+    EXPECT_EQ(read_recorded_scene(folder.write("scene.txt", head + point + "\n")).scans[0].points.size(), 2u) << point;
+}
+
 }  // namespace
 }  // namespace nextview
