@@ -35,9 +35,9 @@ struct MapConfig {
 struct PlannerConfig {
   std::string gain = "proximity-count";  ///< one of gain_names()
   Semantics semantics = Semantics::published;
-  UtilityWeights weights = {1.0, 0.3};   ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
-  std::string combined_weights;  ///< `gain=weight,gain=weight`; empty: the pre-release weights
-  int ray_columns = 38;          ///< rays that score a view
+  UtilityWeights weights = {1.0, 0.3};  ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
+  std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
+  int ray_columns = 38;                 ///< rays that score a view
   int ray_rows = 25;
   double ray_length = 1.5;        ///< [m]
   double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
