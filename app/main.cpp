@@ -47,7 +47,8 @@ void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   // What cannot be printed is not to end a run before it has written its files: it shows at the end.
-  if (!::isatty(STDOUT_FILENO)) std::setvbuf(stdout, nullptr, _IOFBF, 1 << 20);
+  static std::array<char, 1 << 20> held;
+  if (!::isatty(STDOUT_FILENO)) std::setvbuf(stdout, held.data(), _IOFBF, held.size());
 }
 
 int fail(std::string_view reason) {
@@ -59,8 +60,9 @@ int fail(std::string_view reason) {
 int end(int exit_code) {
   errno = 0;
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
-  return fail(
-      fmt::format("standard output: cannot be written: {}", errno ? std::strerror(errno) : "part of it is lost"));
+  // An earlier flush has failed and not said why; the next byte fails likewise.
+  if (errno == 0 && ::write(STDOUT_FILENO, "\n", 1) == 1) return fail("standard output: a part of it is lost");
+  return fail(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 int run(int argc, char** argv) {

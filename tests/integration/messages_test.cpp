@@ -50,7 +50,7 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   EXPECT_EQ(with("[planner]\nray_rows = 0\n"), line(file + ":2: planner.ray_rows must be from 1 to 2000, not 0"));
   // The bound that is not kept is of another setting than the one that the file gives.
   EXPECT_EQ(with("[sensor]\nmax_range = 0.01\n"),
-            line(file + ":2: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.05"));
+            line(file + ":2: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.2"));
   EXPECT_EQ(with("[map]\nregion_edge = 100\n"),
             line(file + ":2: map.region_edge / map.resolution must be from 1 to 512 voxels, not 10000"));
 }
@@ -76,7 +76,7 @@ TEST_F(Messages, ARangeErrorOnTheCommandLineNamesTheOption) {
             line("--views (termination.views) must be from 1 to 10000, not 0"));
   EXPECT_EQ(complaint(scan() + "--views many"), line("--views (termination.views) takes a whole number, not 'many'"));
   EXPECT_EQ(complaint(scan() + "--sensor.max_range 0.01"),
-            line("--sensor.max_range: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.05"));
+            line("--sensor.max_range: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.2"));
   // The option is wrong, not the file that it overrides.
   EXPECT_EQ(
       complaint(scan() + "--config " + write("c.toml", "[sensor]\nrange_noise = 0.1\n") + " --sensor.range_noise 5"),

@@ -51,7 +51,7 @@ TEST_F(OutputFiles, WhatCannotBePrintedIsAFailure) {
 
 TEST_F(OutputFiles, AScanWritesItsFilesAlsoIfItCannotPrint) {
   for (const char* redirection : {">/dev/full", ">&-"}) {
-    expect_failure(quick_scan(in("out")) + " --no-pictures", redirection, "standard output: cannot be written");
+    expect_failure(quick_scan(in("out")) + " --no-pictures", redirection, "standard output: cannot be written: ");
     EXPECT_TRUE(fs::exists(in("out/surfaces.json"))) << redirection;
     EXPECT_THAT(read_file(in("out/steps.csv")), ::testing::StartsWith("step,")) << redirection;
     fs::remove_all(in("out"));
