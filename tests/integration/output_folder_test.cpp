@@ -222,7 +222,7 @@ TEST_F(OutputFolder, AChangedObjectIsNoticed) {
   copy("box.ply", "part.ply");
   expect_done("scan part.ply --out out" + quick);
   fs::copy_file(NEXTVIEW_SOURCE_DIR "/assets/objects/sphere.ply", in("part.ply"), fs::copy_options::overwrite_existing);
-  expect_refused("refine out --out refined --no-pictures", {"part.ply", "out was scanned of", "scan it again"});
+  expect_refused("refine out --out refined --no-pictures", {"part.ply", "has changed since out was scanned", "scan it again"});
   expect_refused("calibrate out --out calibrated --no-pictures", {"part.ply"});
   EXPECT_FALSE(fs::exists(in("refined")));
 }

@@ -99,7 +99,7 @@ TEST_F(SetupWarningFiles, ViewsThatLookPastTheObject) {
   c.views.layout = ViewLayout::file;
   c.views.file = (folder_ / "views.txt").string();
   EXPECT_THAT(of_the_sphere(c),
-              ElementsAre(AllOf(HasSubstr("1 of 4 views"), HasSubstr("look past"), HasSubstr("views.file"))));
+              ElementsAre(AllOf(HasSubstr("1 of 4 views"), HasSubstr("looks past"), HasSubstr("views.file"))));
 }
 
 TEST(SetupWarnings, AreALineEach) {
