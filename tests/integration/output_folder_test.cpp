@@ -101,7 +101,7 @@ TEST_F(OutputFolder, AConfigurationThatIsReadStaysAndTheHintRepeatsTheScan) {
   expect_done(hint + " --no-pictures");
   auto again = contents("a folder's/out-2");
   for (const auto& [name, text] : before)
-    if (name != "timings.csv") EXPECT_TRUE(again[name] == text) << name;
+    EXPECT_TRUE(name == "timings.csv" || again[name] == text) << name;
   EXPECT_EQ(again.size(), before.size());
 }
 
