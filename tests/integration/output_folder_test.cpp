@@ -235,7 +235,7 @@ TEST_F(OutputFolder, AnUnrelatedFileBesideTheObjectIsNoFault) {
     const Result result = run("refine out --out refined --no-pictures --no-surfaces --gibbs.sweeps 20");
     EXPECT_EQ(result.exit_code, 0) << text << result.err;
     EXPECT_THAT(result.err, AllOf(HasSubstr("notice: "), HasSubstr("part.json"))) << text;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.err.find("notice: "), result.err.rfind("notice: ")) << result.err;
   }
   ASSERT_EQ(std::system(("rm '" + in("part.json").string() + "' && mkfifo '" + in("part.json").string() + "'").c_str()),
             0);
@@ -252,7 +252,7 @@ TEST_F(OutputFolder, SenselessSetupsAreToldBeforeTheFirstView) {
   const Result blind = run("scan box --out out --sensor.max_range 0.3" + quick);
   EXPECT_EQ(blind.exit_code, 0);
   EXPECT_THAT(blind.err, AllOf(HasSubstr("warning: 7 of 7 views"), HasSubstr("sensor.max_range (0.3 m)")));
-  EXPECT_EQ(run("scan box --out out" + quick).err, "");
+  EXPECT_THAT(run("scan box --out out" + quick).err, Not(HasSubstr("warning")));
 }
 
 }  // namespace
