@@ -121,8 +121,7 @@ void require_same_object(const fs::path& folder, const fs::path& object) {
   const std::optional<Manifest> manifest = read_manifest(folder);
   if (!manifest || !manifest->object || manifest->object->hash == file_hash(object)) return;
   throw std::runtime_error(
-      fmt::format("{}: is not the object any more that {} was scanned of (its bytes differ); scan it again, or put the "
-                  "object back as it was",
+      fmt::format("{}: has changed since {} was scanned of it; scan it again, or put the object back as it was",
                   object.string(), folder.string()));
 }
 

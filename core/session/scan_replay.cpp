@@ -55,7 +55,7 @@ std::vector<Opening> known_openings(const fs::path& object, const MeshPlacement&
   try {
     for (const Opening& opening : read_openings(file)) openings.push_back(placed(opening, placement));
   } catch (const std::runtime_error& error) {
-    notices.push_back(fmt::format("{}; it is taken for no list of the object's openings", error.what()));
+    notices.push_back(fmt::format("{}; ignored, as it is no list of the object's openings", error.what()));
     openings.clear();
   }
   return openings;

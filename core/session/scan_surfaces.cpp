@@ -151,7 +151,9 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
 
 std::string closedness(const Surface& surface, std::span<const BoundaryLoop> openings) {
   const SeenArea area = seen_area(surface);
-  if (!(area.unseen > 0.0)) return fmt::format("{}, all of it seen: {}", summary(openings), area.text(area.seen));
+  if (!(area.unseen > 0.0))
+    return fmt::format("{}, {}: {}", summary(openings), openings.empty() ? "all of it seen" : "only what was seen",
+                       area.text(area.seen));
   return fmt::format("{}, {}{} of it was seen: {} seen, {} is the hull of what no view saw",
                      openings.empty() ? "closed" : summary(openings), area.seen < area.unseen ? "but only " : "",
                      area.percent_seen(), area.text(area.seen), area.text(area.unseen));

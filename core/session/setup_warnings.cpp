@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/evaluation/signed_distance.hpp"
 #include "core/mesh/surface_samples.hpp"
-#include "core/session/counted.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
@@ -95,20 +96,20 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
   std::vector<std::string> warnings;
   const auto warn = [&](std::size_t count, const std::string& text) {
     if (count > 0)
-      warnings.push_back(fmt::format("{} of {} (the start view among them) {}", count, counted(s.views, "view"), text));
+      warnings.push_back(fmt::format("{} of {} views (candidates and start view): {}", count, s.views, text));
   };
-  warn(s.inside, fmt::format("stand inside the object, where nothing of its outside is seen; it reaches {} from its "
-                             "centre: change {} ({}), or scale it with object.longest_side",
+  warn(s.inside, fmt::format("inside the object, where nothing of its outside is seen; it reaches {} from its centre: "
+                             "change {} ({}), or scale it with object.longest_side",
                              metres(reach), stand, from_file ? c.views.file : metres(c.views.radius)));
-  warn(s.near, fmt::format("stand nearer to the object than sensor.min_range ({}), which gives no range; the nearest "
-                           "is {} off: lower sensor.min_range, or change {}",
+  warn(s.near, fmt::format("nearer to the object than sensor.min_range ({}), which gives no range; the nearest is {} "
+                           "off: lower sensor.min_range, or change {}",
                            metres(c.sensor.min_range), metres(s.nearest), stand));
-  warn(s.far, fmt::format("stand farther from the object than sensor.max_range ({}) and see nothing; the farthest is "
+  warn(s.far, fmt::format("farther from the object than sensor.max_range ({}), where nothing is seen; the farthest is "
                           "{} off: raise sensor.max_range, or change {}",
                           metres(c.sensor.max_range), metres(s.farthest), stand));
   if (!is_baseline(c.planner.gain))
-    warn(s.beyond_rays, fmt::format("are scored by rays that end before the object: planner.ray_length is {}, and it "
-                                    "is up to {} off: raise planner.ray_length",
+    warn(s.beyond_rays, fmt::format("scored by rays that end before the object: planner.ray_length is {}, and it is up "
+                                    "to {} off: raise planner.ray_length",
                                     metres(c.planner.ray_length), metres(s.farthest)));
   if (s.inside < s.views && s.most_in_image < least_in_image)
     warnings.push_back(
@@ -116,7 +117,7 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
                     "sensor.field_of_view ({:g} deg), or change {}",
                     std::ceil(100.0 * s.most_in_image), c.sensor.field_of_view, stand));
   else
-    warn(s.past, fmt::format("have nothing of the object in their image: they look past it; change {}, or widen "
+    warn(s.past, fmt::format("nothing of the object in the image, which looks past it: change {}, or widen "
                              "sensor.field_of_view ({:g} deg)",
                              stand, c.sensor.field_of_view));
   if (longest < least_voxels * c.map.resolution)

@@ -101,7 +101,7 @@ TEST_F(OutputFolder, AConfigurationThatIsReadStaysAndTheHintRepeatsTheScan) {
   expect_done(hint + " --no-pictures");
   auto again = contents("a folder's/out-2");
   for (const auto& [name, text] : before)
-    if (name != "timings.csv") EXPECT_TRUE(again[name] == text) << name;
+    EXPECT_TRUE(name == "timings.csv" || again[name] == text) << name;
   EXPECT_EQ(again.size(), before.size());
 }
 
@@ -222,7 +222,7 @@ TEST_F(OutputFolder, AChangedObjectIsNoticed) {
   copy("box.ply", "part.ply");
   expect_done("scan part.ply --out out" + quick);
   fs::copy_file(NEXTVIEW_SOURCE_DIR "/assets/objects/sphere.ply", in("part.ply"), fs::copy_options::overwrite_existing);
-  expect_refused("refine out --out refined --no-pictures", {"part.ply", "out was scanned of", "scan it again"});
+  expect_refused("refine out --out refined --no-pictures", {"part.ply", "has changed since out was scanned", "scan it again"});
   expect_refused("calibrate out --out calibrated --no-pictures", {"part.ply"});
   EXPECT_FALSE(fs::exists(in("refined")));
 }
@@ -235,7 +235,7 @@ TEST_F(OutputFolder, AnUnrelatedFileBesideTheObjectIsNoFault) {
     const Result result = run("refine out --out refined --no-pictures --no-surfaces --gibbs.sweeps 20");
     EXPECT_EQ(result.exit_code, 0) << text << result.err;
     EXPECT_THAT(result.err, AllOf(HasSubstr("notice: "), HasSubstr("part.json"))) << text;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.err.find("notice: "), result.err.rfind("notice: ")) << result.err;
   }
   ASSERT_EQ(std::system(("rm '" + in("part.json").string() + "' && mkfifo '" + in("part.json").string() + "'").c_str()),
             0);
@@ -252,7 +252,7 @@ TEST_F(OutputFolder, SenselessSetupsAreToldBeforeTheFirstView) {
   const Result blind = run("scan box --out out --sensor.max_range 0.3" + quick);
   EXPECT_EQ(blind.exit_code, 0);
   EXPECT_THAT(blind.err, AllOf(HasSubstr("warning: 7 of 7 views"), HasSubstr("sensor.max_range (0.3 m)")));
-  EXPECT_EQ(run("scan box --out out" + quick).err, "");
+  EXPECT_THAT(run("scan box --out out" + quick).err, Not(HasSubstr("warning")));
 }
 
 }  // namespace
