@@ -141,7 +141,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
                                   {"Views", "termination.views"},
                                   {"Seed", "seed"}})
     draw_setting(context, find_setting(settings, key), text);
-  small_text(context.style, "A change starts the scan over, but for Views and Termination; undo brings it back.");
+  small_text(context.style, "A change, but of Views, starts the scan over; undo brings it back.");
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));

@@ -273,7 +273,7 @@ void Interface::Parts::ask_inspector() {
 /// Returns whether it was drawn anew.
 bool Interface::Parts::draw_scene() {
   scene_is_old |= view.show(news.snapshot, state, news.inspection);
-  if (!scene_is_old || layout.scene.empty()) return false;
+  if (!scene_is_old) return false;
   surface.render();
   ++scene_drawings;
   scene_is_old = false;

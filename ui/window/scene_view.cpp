@@ -57,7 +57,12 @@ SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
 
 void SceneView::place(const Rectangle& rectangle) {
   rectangle_ = rectangle;
-  const Viewport viewport = rectangle.in(surface_.width(), surface_.height());
+  Rectangle drawn = rectangle;  // at least a pixel: what is not drawn at all has no framebuffer to compose from
+  drawn.x = std::min(drawn.x, surface_.width() - 1.0);
+  drawn.y = std::min(drawn.y, surface_.height() - 1.0);
+  drawn.width = std::max(drawn.width, 1.0);
+  drawn.height = std::max(drawn.height, 1.0);
+  const Viewport viewport = drawn.in(surface_.width(), surface_.height());
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 

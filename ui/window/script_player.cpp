@@ -33,7 +33,7 @@ std::vector<CommandCall> ScriptPlayer::go_on(const SessionSnapshot& session) {
 }
 
 void ScriptPlayer::refused(const CommandCall& call, const std::string& reason) {
-  if (playing_ && call.command->name == last_) fail(reason);
+  if (playing_ && call.command->name == last_) fail(reason.starts_with(last_ + ": ") ? reason : last_ + ": " + reason);
 }
 
 void ScriptPlayer::give_up(const std::string& reason) {

@@ -66,17 +66,19 @@ PlacedView within_sight(const SessionSnapshot& s, const Pose& T_world_camera) {
   PlacedView placed{T_world_camera};
   if (!s.mesh || !s.surface_points || why_empty(s, T_world_camera).empty()) return placed;
   const Eigen::AlignedBox3d box = s.mesh->bounding_box();
-  const Vector3 forward = T_world_camera.linear().col(2);
-  const double to_middle = (box.center() - T_world_camera.translation()).dot(forward);
-  // The operator's candidates are where the sensor is of use; else as near as the object is out of its way.
+  const Vector3 forward = T_world_camera.linear().col(2), to_object = box.center() - T_world_camera.translation();
+  // From as far as the next view, which is where the sensor is of use; else as near as the sensor allows.
   const DepthCameraConfig& sensor = s.configuration.sensor;
   const double radius = 0.5 * box.diagonal().norm(), reach = 0.9 * sensor.max_range;
   const double usual = (s.next_view.translation() - box.center()).norm();
-  for (const double distance : {std::min(usual, reach), std::min(sensor.min_range + radius, reach)}) {
-    Pose moved = T_world_camera;
-    moved.translation() += (to_middle - distance) * forward;
-    if (!why_empty(s, moved).empty()) continue;
-    return {moved, to_middle - distance};
+  // Along the axis; else, if the object is so far from it that it leaves the picture, towards the object.
+  for (const Vector3& direction : {forward, Vector3(to_object.normalized())}) {
+    for (const double distance : {std::min(usual, reach), std::min(sensor.min_range + radius, reach)}) {
+      const double by = to_object.dot(direction) - distance;
+      Pose moved = T_world_camera;
+      moved.translation() += by * direction;
+      if (why_empty(s, moved).empty()) return {moved, by};
+    }
   }
   return placed;
 }

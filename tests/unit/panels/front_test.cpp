@@ -16,8 +16,8 @@ std::vector<std::string> names(const std::vector<CommandCall>& calls) {
 
 int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 
-/// The File menu and a list of a panel.
 void open_menu(Desk& desk) {
+  desk.frames();
   desk.click(20, desk.layout().menu.height / 2);
   desk.frames();
   ASSERT_EQ(open_popups(), 1) << "no menu opened";
