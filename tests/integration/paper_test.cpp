@@ -49,6 +49,8 @@ TEST_F(Paper, RefineTakesOfAConfigurationTheSamplerAndTheSeedOnly) {
   run(coarse + "--config paper --seed 6 --out " + in("paper"));
   const Sections scanned = configuration("scan"), paper = configuration("paper");
   ASSERT_NE(scanned.gibbs, paper.gibbs);
+  for (const char* line : {"\nmodel = 'paper' ", "\nsampler = 'algorithm1' ", "\nsweeps = 20 ", "\nchains = 1 "})
+    ASSERT_THAT(paper.gibbs, ::testing::HasSubstr(line));
   ASSERT_NE(scanned.rest, paper.rest) << "gain and cost weight, at least";
   const std::string refine = "refine " + in("scan") + " --no-pictures --no-surfaces --out " + in("refined");
 

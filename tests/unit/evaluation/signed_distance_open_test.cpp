@@ -23,7 +23,8 @@ TriangleMesh sides(const std::vector<std::pair<int, float>>& which) {
   return mesh;
 }
 
-constexpr std::pair<int, float> left{0, -1.0f}, right{0, 1.0f}, front{1, -1.0f}, back{1, 1.0f}, floor_{2, -1.0f};
+constexpr std::pair<int, float> left{0, -1.0f}, right{0, 1.0f}, front{1, -1.0f}, back{1, 1.0f}, floor_{2, -1.0f},
+    lid{2, 1.0f};
 const Eigen::Vector3f middle(0.1f, 0.2f, 0.3f);
 
 TEST(SignedDistanceOpen, APlateHasNoInside) {
@@ -38,9 +39,11 @@ TEST(SignedDistanceOpen, TwoWallsAndAFloorHaveNoInside) {  // three of six
   EXPECT_NEAR(distance({0.0f, 0.0f, -0.9f}), 0.1, 1e-6);
 }
 
-TEST(SignedDistanceOpen, ATubeHasAnInside) {  // four of six
+TEST(SignedDistanceOpen, ATubeHasAnInside) {  // four of six, whichever axis it is open along
   const SignedDistance distance(sides({left, right, front, back}));
   EXPECT_NEAR(distance(middle), -0.8, 1e-6);
+  EXPECT_NEAR(SignedDistance(sides({front, back, floor_, lid}))(middle), -0.7, 1e-6);
+  EXPECT_NEAR(SignedDistance(sides({left, right, floor_, lid}))(middle), -0.7, 1e-6);
   EXPECT_GT(distance({0.0f, 0.0f, 1.5f}), 0.0) << "past its end";
   EXPECT_GT(distance({1.5f, 0.0f, 0.0f}), 0.0) << "beside it";
 }
