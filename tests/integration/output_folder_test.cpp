@@ -164,11 +164,12 @@ TEST_F(OutputFolder, AStoppedOrKilledRunLeavesARightList) {
     fs::remove_all(in("out"));
     // bash -m: a shell's background jobs would not hear Ctrl+C otherwise.
     const std::string command = "bash -mc \"" + scan + " >/dev/null 2>&1 & while kill -0 \\$! 2>/dev/null && ! [ -e '" +
-                                list + "' ]; do sleep 0.05; done; kill -" + signal + " \\$!; wait \\$!\"";
+                                list + "' ]; do sleep 0.05; done; kill -" + signal + " \\$!; wait \\$!\" 2>/dev/null";
     EXPECT_NE(std::system(command.c_str()), 0) << signal << ": it was not stopped";
     ASSERT_TRUE(fs::exists(list)) << signal;
     std::vector<std::string> names = file_names(in("out"));
-    for (const std::string file : nlohmann::json::parse(read_file(list))["files"]) std::erase(names, file);
+    const auto manifest = nlohmann::json::parse(read_file(list));
+    for (const std::string file : manifest["files"]) std::erase(names, file);
     std::erase_if(names, [](const std::string& name) { return name.ends_with(".part"); });  // killed while writing it
     EXPECT_EQ(names, (std::vector<std::string>{"manifest.json"})) << signal;
     if (!fs::exists(in("out/config.toml")))
