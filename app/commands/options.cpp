@@ -34,8 +34,10 @@ std::string describe(const Setting& setting) {
 /// A file, or the name of one that comes with the program.
 std::filesystem::path find_configuration(const std::string& name) {
   const auto named = assets_folder() / "configurations" / (name + ".toml");
-  return !std::filesystem::is_regular_file(name) && std::filesystem::exists(named) ? named
-                                                                                   : std::filesystem::path(name);
+  std::error_code ignored;  // a link to itself is for its reader to refuse
+  return !std::filesystem::is_regular_file(name, ignored) && std::filesystem::exists(named)
+             ? named
+             : std::filesystem::path(name);
 }
 
 }  // namespace
