@@ -22,7 +22,7 @@
 #include "app/commands/scarcity.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
-#include "core/session/stopped.hpp"
+#include "core/progress/stopped.hpp"
 #include "ui/surface/headless.hpp"
 #include "ui/window/window.hpp"
 

@@ -7,10 +7,10 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/planner/next_best_view.hpp"
 #include "core/session/configuration.hpp"
-#include "core/session/counted.hpp"
 #include "core/session/scene_scores.hpp"
 
 namespace nextview {

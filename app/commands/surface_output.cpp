@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/session/counted.hpp"
+#include "core/file/counted.hpp"
 #include "core/surface/seen_part.hpp"
 #include "ui/figures/inspection_figure.hpp"
 

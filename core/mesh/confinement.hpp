@@ -5,6 +5,14 @@
 
 namespace nextview {
 
+/// Sanitizers map terabytes for their own use, and look at memory through pipes that they open: what is built with them
+/// bounds no memory and filters no calls.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool can_confine = false;
+#else
+inline constexpr bool can_confine = true;
+#endif
+
 /// What reading one mesh file may take. A small file can ask for any amount (a count in it, nodes that share their
 /// children, an archive of zeros), so what it gets follows from its size.
 struct ReadingLimits {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "core/mesh/counted.hpp"
+#include "core/file/counted.hpp"
 
 namespace nextview {
 namespace {

@@ -7,23 +7,10 @@
 
 #include <assimp/IOSystem.hpp>
 
+#include "core/file/descriptor.hpp"
+
 namespace nextview {
 namespace {
-
-/// An open file of the operating system.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// Goes down name by name, so that no link in between leads elsewhere. @return a descriptor; -1 if this is no regular
 /// file below the folder
@@ -36,7 +23,7 @@ int open_below(int folder, std::string_view name) {
     name.remove_prefix(std::min(name.size(), part.size() + 1));
     if (part == "..") return -1;
     const int kind = name.empty() ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
-    at = ::openat(here.number(), part.empty() ? "." : part.c_str(), kind | O_NOFOLLOW | O_CLOEXEC);
+    at = ::openat(here.get(), part.empty() ? "." : part.c_str(), kind | O_NOFOLLOW | O_CLOEXEC);
   }
   return at;
 }
@@ -65,11 +52,11 @@ class ServingSystem : public Assimp::IOSystem {
    public:
     Companion(const ServingSystem& system, const char* name)
         : file_(system.files_.folder < 0 ? -1 : open_below(system.files_.folder, name)) {
-      known_ = file_.number() >= 0 && ::fstat(file_.number(), &about_) == 0;
+      known_ = file_.get() >= 0 && ::fstat(file_.get(), &about_) == 0;
     }
     bool regular() const { return known_ && S_ISREG(about_.st_mode); }
     std::uint64_t size() const { return static_cast<std::uint64_t>(about_.st_size); }
-    int number() const { return file_.number(); }
+    int number() const { return file_.get(); }
 
    private:
     Descriptor file_;

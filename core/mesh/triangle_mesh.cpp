@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/mesh/counted.hpp"
+#include "core/file/counted.hpp"
 #include "core/mesh/edge_uses.hpp"
 #include "core/mesh/weld.hpp"
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
-#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {

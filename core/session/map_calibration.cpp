@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/session/stopped.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {

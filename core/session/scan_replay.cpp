@@ -6,9 +6,9 @@
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/session_parts.hpp"
-#include "core/session/stopped.hpp"
 #include "core/session/visited_voxels.hpp"
 
 namespace nextview {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
-#include "core/session/counted.hpp"
+#include "core/file/counted.hpp"
 #include "core/surface/cloud_surface.hpp"
 #include "core/surface/map_surface.hpp"
 #include "core/surface/seen_part.hpp"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "core/map/occupancy_map.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/scene_parameters.hpp"
-#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {

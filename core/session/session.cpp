@@ -8,8 +8,8 @@
 
 #include "core/evaluation/entropy.hpp"
 #include "core/memory/available_memory.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/session_parts.hpp"
-#include "core/session/stopped.hpp"
 #include "core/session/view_planning.hpp"
 #include "core/session/visited_voxels.hpp"
 

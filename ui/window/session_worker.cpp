@@ -6,8 +6,8 @@
 #include <cmath>
 #include <exception>
 
+#include "core/progress/stopped.hpp"
 #include "core/session/setup_warnings.hpp"
-#include "core/session/stopped.hpp"
 #include "ui/window/overloaded.hpp"
 
 namespace nextview {

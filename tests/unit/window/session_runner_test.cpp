@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "core/file/atomic_file.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/scan_files.hpp"
-#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {

@@ -10,4 +10,9 @@ inline std::string counted(std::uint64_t count, std::string_view one, std::strin
   return std::to_string(count) + " " + std::string(count == 1 ? one : many);
 }
 
+/// "1 view", "2 views".
+inline std::string counted(std::uint64_t count, std::string_view one) {
+  return counted(count, one, std::string(one) + "s");
+}
+
 }  // namespace nextview
