@@ -9,7 +9,7 @@
 #include "tests/integration/person.hpp"
 #include "tests/integration/random_calls.hpp"
 #include "tests/integration/valid_session.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -52,7 +52,7 @@ std::size_t another(const SessionSnapshot& s) {
   return candidate;
 }
 
-class Commands : public TemporaryFolder {
+class Commands : public InTemporaryFolder {
  protected:
   Commands() { write_file(folder_ / "tiny scan.toml", to_toml(tiny_scan())); }
   std::filesystem::path file(const char* name) const { return folder_ / name; }

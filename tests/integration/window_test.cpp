@@ -6,7 +6,7 @@
 #include "core/file/atomic_file.hpp"
 #include "tests/integration/person.hpp"
 #include "tests/integration/small_scan.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "ui/theme.hpp"
 
 namespace nextview {
@@ -240,7 +240,7 @@ TEST(Window, ControlQQuits) {
 std::string bytes_of(const std::filesystem::path& file) { return read_file(file); }
 
 /// What the window's script says, in a folder of its own.
-class WindowFiles : public TemporaryFolder {
+class WindowFiles : public InTemporaryFolder {
  protected:
   std::string file(const char* name) const { return (folder_ / name).string(); }
 };

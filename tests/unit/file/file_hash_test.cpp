@@ -5,12 +5,12 @@
 #include <sys/stat.h>
 
 #include "core/file/atomic_file.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 
 namespace nextview {
 namespace {
 
-using FileHashes = TemporaryFolder;
+using FileHashes = InTemporaryFolder;
 
 // The check value that every description of CRC-32 gives.
 TEST_F(FileHashes, AreTheCrcOfAllBytes) {

@@ -6,14 +6,14 @@
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
 #include "tests/unit/map/random_scans.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
 
-class HostileOctreeFile : public TemporaryFolder {
+class HostileOctreeFile : public InTemporaryFolder {
  protected:
   /// Why the bytes are refused: one line that names the file. Empty if they are read.
   std::string reason(const std::string& bytes, const char* name) const {

@@ -12,7 +12,7 @@
 #include "core/file/gzip_file.hpp"
 #include "tests/unit/map/octomap_twin.hpp"
 #include "tests/unit/map/random_scans.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using octomap::OcTree;
 
-using OctreeFile = TemporaryFolder;
+using OctreeFile = InTemporaryFolder;
 
 /// Scans whose rays stay in the region, so that the tree and the map hold the same voxels; enough to prune.
 struct MapAndTree {

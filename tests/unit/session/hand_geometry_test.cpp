@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/file/atomic_file.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -31,7 +31,7 @@ struct Plates {
   }
 };
 
-class HandGeometry : public TemporaryFolder {
+class HandGeometry : public InTemporaryFolder {
  protected:
   Configuration plates(const Plates& plates) const {
     Configuration c = small_scan();

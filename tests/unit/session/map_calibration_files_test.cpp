@@ -4,7 +4,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/map_calibration.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/session/begun.hpp"
 
 namespace nextview {
@@ -13,8 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class SensorModelToml : public TemporaryFolder {};
-class MapCalibrationFiles : public TemporaryFolder {
+class SensorModelToml : public InTemporaryFolder {};
+class MapCalibrationFiles : public InTemporaryFolder {
  protected:
   void expect_whole_rows(const MapCalibration& calibration) const {
     OutputFolder out = begun(folder_);

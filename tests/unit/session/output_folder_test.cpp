@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/session/begun.hpp"
 
 namespace nextview {
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-class OutputFolders : public TemporaryFolder {
+class OutputFolders : public InTemporaryFolder {
  protected:
   fs::path write(const fs::path& name, const std::string& content = "mine") const {
     fs::create_directories((folder_ / name).parent_path());

@@ -3,7 +3,7 @@
 
 #include "core/session/refinement.hpp"
 #include "core/session/scan_files.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/session/begun.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
@@ -104,7 +104,7 @@ TEST(OwnView, GainsThatAreNotOfSingleViewsExpectNothing) {
   }
 }
 
-using OwnViewFiles = TemporaryFolder;
+using OwnViewFiles = InTemporaryFolder;
 TEST_F(OwnViewFiles, AreTakenAgainExactly) {
   Session session(small_scan());
   session.step();

@@ -5,7 +5,8 @@
 #include "core/file/atomic_file.hpp"
 #include "core/session/map_calibration.hpp"
 #include "core/session/refinement.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
+#include "tests/unit/session/begun.hpp"
 #include "tests/unit/session/csv_table.hpp"
 
 namespace nextview {
@@ -58,7 +59,7 @@ void expect_scores(const nlohmann::json& json, const MapScores& s) {
   EXPECT_EQ(json["openings_centre"]["leaks"], double(s.openings.leaking_rows) / 1000);
 }
 
-class RefinementFiles : public TemporaryFolder {
+class RefinementFiles : public InTemporaryFolder {
  protected:
   RefinementFiles() {
     SamplerDiagnostics& d = refinement.posterior.diagnostics;
@@ -77,8 +78,9 @@ class RefinementFiles : public TemporaryFolder {
     refinement.scores_before = scores(next), refinement.scores_after = scores(next);
     refinement.posterior.grid = job.grid;
     refinement.posterior.occupied = {0.125f, 0.875f}, refinement.posterior.informed = {1, 1};
-    job.name = "thing", job.scans.resize(7), job.configuration = "seed = 3\n";
-    write_refinement(job, refinement, folder_);
+    job.name = "thing", job.scans.resize(7), job.configuration.seed = 3;
+    OutputFolder out = begun(folder_);
+    write_refinement(job, refinement, out);
   }
   static RefinementJob job_of_two_voxels() {
     RefinementJob job;
@@ -148,10 +150,10 @@ TEST_F(RefinementFiles, TimingsAndConfiguration) {
   const CsvTable timings(folder_ / "timings.csv");
   EXPECT_EQ(timings.number(0, "lists[s]"), 1.5);
   EXPECT_EQ(timings.number(0, "sweeps[s]"), 2.25);
-  EXPECT_EQ(read_file(folder_ / "config.toml"), "seed = 3\n");
+  EXPECT_TRUE(read_file(folder_ / "config.toml").starts_with("seed = 3"));
 }
 
-class CalibrationFiles : public TemporaryFolder {};
+class CalibrationFiles : public InTemporaryFolder {};
 
 TEST_F(CalibrationFiles, ScoresAndDescentHaveEachNumberUnderItsName) {
   Different next;
@@ -171,7 +173,8 @@ TEST_F(CalibrationFiles, ScoresAndDescentHaveEachNumberUnderItsName) {
   e.cross_entropy_before = next.share(), e.cross_entropy_after = next.share(), e.gibbs_entropy = next.share();
   e.before = scores(next), e.after = scores(next), e.gibbs = scores(next);
   calibration.examples = {e};
-  write_map_calibration(calibration, "remark", folder_);
+  OutputFolder out = begun(folder_);
+  write_map_calibration(calibration, "remark", out);
 
   const CsvTable descent(folder_ / "descent.csv"), table(folder_ / "scores.csv");
   for (std::size_t i = 0; i < 3; ++i) {

@@ -7,7 +7,8 @@
 #include "core/evaluation/accuracy.hpp"
 #include "core/evaluation/openings.hpp"
 #include "core/file/atomic_file.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
+#include "tests/unit/session/begun.hpp"
 #include "tests/unit/session/csv_table.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
@@ -22,7 +23,7 @@ Configuration housing() {
   return c;
 }
 
-class ScanFiles : public TemporaryFolder {
+class ScanFiles : public InTemporaryFolder {
  protected:
   /// Four views, the second of them the operator's choice, the third the operator's own.
   void scan(Configuration c) {
@@ -33,7 +34,8 @@ class ScanFiles : public TemporaryFolder {
     session->override_next_view(look_at({0.2, -0.5, 0.7}, Vector3(0.01, 0, 0)));
     session->step();
     session->step();
-    write_scan(*session, folder_);
+    OutputFolder out = begun(folder_);
+    write_scan(*session, out);
   }
   CsvTable table(const std::string& name) const { return CsvTable(folder_ / name); }
   nlohmann::json metrics() const { return nlohmann::json::parse(read_file(folder_ / "metrics.json")); }

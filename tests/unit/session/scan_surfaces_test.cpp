@@ -10,7 +10,7 @@
 #include "core/mesh/mesh_file.hpp"
 #include "core/surface/map_surface.hpp"
 #include "core/view/candidate_views.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/session/begun.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
@@ -172,7 +172,7 @@ TEST(ScanSurfaces, TheSameOnOneThreadAndTwo) {
   }
 }
 
-class ScanSurfaceFiles : public TemporaryFolder {
+class ScanSurfaceFiles : public InTemporaryFolder {
  protected:
   nlohmann::json written() const { return nlohmann::json::parse(read_file(folder_ / "surfaces.json")); }
 };

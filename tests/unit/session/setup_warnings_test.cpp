@@ -6,7 +6,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -90,7 +90,7 @@ TEST(SetupWarnings, AFieldOfViewThatSeesASliver) {
               ElementsAre(AllOf(HasSubstr("sensor.field_of_view (3 deg)"), HasSubstr("% of the object"))));
 }
 
-class SetupWarningFiles : public TemporaryFolder {};
+class SetupWarningFiles : public InTemporaryFolder {};
 
 // One of three looks away; the start view is always turned to the object.
 TEST_F(SetupWarningFiles, ViewsThatLookPastTheObject) {

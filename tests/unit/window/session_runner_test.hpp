@@ -1,7 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/window/small_scan.hpp"
 #include "ui/window/session_runner.hpp"
 
@@ -58,7 +58,7 @@ inline void expect_same_scan(const SessionSnapshot& a, const SessionSnapshot& b)
   }
 }
 
-class SessionRunnerTest : public TemporaryFolder {
+class SessionRunnerTest : public InTemporaryFolder {
  protected:
   const SessionSnapshot& now() { return *runner_.snapshot(); }
   void steps(int count) {

@@ -7,15 +7,15 @@
 namespace nextview {
 
 /// A test with a folder of its own, which goes away with it.
-class TemporaryFolder : public testing::Test {
+class InTemporaryFolder : public testing::Test {
  protected:
-  TemporaryFolder()
+  InTemporaryFolder()
       : folder_(std::filesystem::temp_directory_path() /
                 ("nextview_" + std::to_string(::getpid()) + "_" +
                  testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
   }
-  ~TemporaryFolder() override { std::filesystem::remove_all(folder_); }
+  ~InTemporaryFolder() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path folder_;
 };
