@@ -13,16 +13,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <latch>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "app/commands/commands.hpp"
 #include "core/memory/available_memory.hpp"
+#include "core/memory/startable_threads.hpp"
 
 namespace nextview {
 namespace {
@@ -97,19 +95,6 @@ void watch_for_faults() {
 bool address_space_is_limited() {
   rlimit limit{};
   return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-}
-
-/// How many threads of `wanted` can run beside this one.
-int startable_threads(int wanted) {
-  std::latch all_started(1);
-  std::vector<std::jthread> threads;
-  try {
-    for (int n = 0; n < wanted; ++n) threads.emplace_back([&] { all_started.wait(); });
-  } catch (const std::system_error&) {
-  } catch (const std::bad_alloc&) {
-  }
-  all_started.count_down();
-  return static_cast<int>(threads.size());
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <thread>
 
 #include "core/memory/available_memory.hpp"
+#include "core/memory/startable_threads.hpp"
 #include "ui/surface/headless.hpp"
 
 namespace nextview {
@@ -14,6 +16,15 @@ namespace {
 
 /// What OSMesa, LLVM and VTK take until the first picture is drawn [bytes]. They do not survive it if they cannot.
 constexpr std::uint64_t drawing_bytes = std::uint64_t{384} << 20;
+
+/// llvmpipe draws with a thread a core, and some more: for those that cannot be started it would wait without end.
+void require_drawing_threads() {
+  const int needed = static_cast<int>(std::thread::hardware_concurrency()) + 3, startable = startable_threads(needed);
+  if (startable < needed)
+    throw std::runtime_error(fmt::format(
+        "drawing pictures needs {} threads, {} can be started: raise the limit (ulimit -u), or use --no-pictures",
+        needed, startable));
+}
 
 /// OSMesa's functions come from the preloaded library; the program itself does not link OSMesa.
 template <class Function>
@@ -28,6 +39,7 @@ OffscreenSurface::OffscreenSurface(int width, int height) : buffer_(std::size_t(
     throw std::runtime_error("cannot draw into memory: this process was not started to draw headless");
   }
   require_memory(drawing_bytes, "drawing pictures", "raise the limit (ulimit -v), or use --no-pictures");
+  require_drawing_threads();
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
