@@ -121,7 +121,7 @@ std::vector<Command> scan_commands() {
       {"cancel",
        "Scan",
        "Cancel what runs",
-       "Stops what runs; a view that has entered the map is completed.",
+       "Stops what runs; a view that is not complete is not taken.",
        {},
        {},
        [](CommandTarget& t, const Arguments&) { t.worker.cancel(); },

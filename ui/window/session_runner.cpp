@@ -32,6 +32,18 @@ Progress part(const Progress& whole, double begin, double end) {
   };
 }
 
+SurfacePoints points_of(const TriangleMesh& mesh, const MeshTopology& topology, std::uint64_t seed) {
+  SurfaceSamples samples = sample_surface(mesh, surface_points, seed);
+  SurfacePoints points{std::move(samples.points), {}};
+  if (!topology.watertight() || topology.misoriented_edges > 0) return points;
+  for (const std::uint32_t t : samples.triangles) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Eigen::Vector3f normal = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    points.outward.push_back(topology.inward ? -normal.normalized() : normal.normalized());
+  }
+  return points;
+}
+
 }  // namespace
 
 void SessionRunner::publish(SessionSnapshot snapshot) {
@@ -206,8 +218,8 @@ void SessionRunner::adopt(std::unique_ptr<Session> session, SessionSnapshot next
   next_ = {};
   next.gibbs = nullptr;
   next.mesh = session_->mesh();
-  next.surface_points = std::make_shared<const std::vector<Eigen::Vector3f>>(
-      sample_surface(*next.mesh, surface_points, session_->configuration().seed).points);
+  next.surface_points = std::make_shared<const SurfacePoints>(
+      points_of(*next.mesh, session_->object_topology(), session_->configuration().seed));
   next.truth = seen_->truth();
   next.configuration = session_->configuration();
   next.object_name = object_name(session_->object_file());

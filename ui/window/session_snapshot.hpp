@@ -42,6 +42,12 @@ struct GibbsMap {
   MapChange change;  ///< against the conventional map of the same views
 };
 
+/// Points of the object's surface.
+struct SurfacePoints {
+  std::vector<Eigen::Vector3f> points;   ///< [m, world]
+  std::vector<Eigen::Vector3f> outward;  ///< of each, the unit normal; empty if the mesh does not tell its outside
+};
+
 /// The object with its surface marked as measured or missed.
 struct MissedPicture {
   std::shared_ptr<const TriangleMesh> mesh;  ///< the object in small triangles
@@ -63,10 +69,10 @@ struct SessionSnapshot {
   std::size_t failures = 0;   ///< counts the requests that failed
 
   Configuration configuration;
-  std::string object_name;                                             ///< for people
-  std::shared_ptr<const TriangleMesh> mesh;                            ///< null without a session; so are the next two
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> surface_points;  ///< some of the mesh's, evenly spread [m, world]
-  std::shared_ptr<const std::vector<Voxel>> voxels;  ///< the conventional map, one a voxel of the grid
+  std::string object_name;                              ///< for people
+  std::shared_ptr<const TriangleMesh> mesh;             ///< null without a session; so are the next two
+  std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread; null without a session
+  std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one a voxel of the grid
   std::shared_ptr<const SeenCloud> cloud;
   std::shared_ptr<const GibbsMap> gibbs;     ///< null if there is none
   std::shared_ptr<const GroundTruth> truth;  ///< null without evaluation; so is the next

@@ -25,7 +25,7 @@ class SessionWorker {
 
   /// What starts a session anew takes the place of whatever runs or waits. Steps of a finished scan are ignored.
   void post(SessionRequest request);
-  /// Drops what waits and stops what runs as soon as that is possible; a step that has entered the map is completed, a
+  /// Drops what waits and stops what runs as soon as that is possible; a step that is not complete is taken back, a
   /// refinement keeps its sweeps so far.
   void cancel();
   /// Holds a refinement between two sweeps, or lets it go on.

@@ -9,7 +9,8 @@
 namespace nextview {
 namespace {
 
-/// Of all points of the object's surface, those that a camera could measure if nothing were in front of them.
+/// Of the points of the object's surface that face a camera, those that it could measure if nothing else were in front
+/// of them.
 struct Sight {
   std::size_t in_picture = 0, measurable = 0;
   double nearest = 1e30;  ///< of those in the picture [m]
@@ -18,10 +19,12 @@ struct Sight {
 Sight sight_of(const SessionSnapshot& s, const Pose& T_world_camera) {
   const Pose T_camera_world = T_world_camera.inverse();
   const DepthCameraConfig& sensor = s.configuration.sensor;
+  const Eigen::Vector3f camera = T_world_camera.translation().cast<float>();
+  const auto& [points, outward] = *s.surface_points;
   Sight sight;
-  for (const Eigen::Vector3f& point : *s.surface_points) {
-    const Vector3 p = T_camera_world * point.cast<double>();
-    if (p.z() <= 0) continue;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 p = T_camera_world * points[i].cast<double>();
+    if (p.z() <= 0 || (!outward.empty() && outward[i].dot(camera - points[i]) <= 0.0f)) continue;
     const Eigen::Vector2d pixel = s.camera.project(p);
     if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > s.camera.width - 0.5 || pixel.y() > s.camera.height - 0.5)
       continue;
