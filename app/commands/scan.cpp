@@ -22,7 +22,7 @@ struct ScanArguments {
 
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
-  const std::string unit = gain_unit(c.planner.gain);
+  const std::string unit = session.policy().unit();
   fmt::print("{}: {}\n", session.object_file().filename().string(), topology(*session.mesh()).summary());
   fmt::print("{} candidate views, ranked by {}{} ({} semantics)\n\n", session.candidates().size(), c.planner.gain,
              unit.empty() ? "" : fmt::format(" [{}]", unit),

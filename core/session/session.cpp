@@ -48,6 +48,7 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       planning_rays_(configured_rays(configuration_, map_.grid(), planning_voxels())),
       reference_map_(make_reference_map(configuration_)),
       bundle_(scoring_rays(configuration_, camera_.camera())),
+      policy_(make_policy(configuration_.planner)),
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
       visited_(candidates_.size()),
       visited_voxels_(map_.grid().voxel_count()) {
@@ -141,7 +142,7 @@ void Session::update_map(const Measurement& measurement, StepRecord& record) {
     } else {
       map_.insert(scan, max_range);
     }
-    if (needs_occlusion(configuration_))
+    if (policy_->needs().occlusions)
       map_.mark_occlusions(scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
     if (reference_map_) reference_map_->insert(scan.origin, scan.returns);
   }
@@ -191,10 +192,8 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record) {
 
 void Session::rank(StepRecord& record) const {
   Stopwatch watch(record.seconds.score);
-  const PlanningState state{configuration_, caster(), bundle_, known_object_.get(), candidates_, taken_};
-  rank_candidates(state, *robot_, visited_, record);
-  if (record.refinement)
-    compare_rankings({configuration_, map_rays_, bundle_, known_object_.get(), candidates_, taken_}, record);
+  rank_candidates(*policy_, planning_state(caster()), *robot_, visited_, record);
+  if (record.refinement) compare_rankings(*policy_, planning_state(map_rays_), record);
 }
 
 void Session::override_next_view(std::size_t candidate) {
@@ -227,6 +226,17 @@ void Session::require_first_step() const {
 
 Pose Session::next_view() const { return own_view_ ? *own_view_ : next_ ? candidates_[*next_] : start_view_; }
 
+PlanningState Session::planning_state(const RayCaster& rays) const {
+  return {configuration_.planner,
+          configuration_.seed,
+          occlusion_reach(configuration_),
+          rays,
+          bundle_,
+          known_object_.get(),
+          candidates_,
+          taken_};
+}
+
 const RayCaster& Session::caster() const {
   if (reference_map_) return *reference_map_;
   return planning_rays_;
@@ -237,10 +247,7 @@ std::optional<ScoreExplanation> Session::explain(std::size_t candidate) const {
 }
 
 std::optional<ScoreExplanation> Session::explain(const Pose& T_world_camera) const {
-  const PlannerConfig& planner = configuration_.planner;
-  if (is_baseline(planner.gain) || planner.gain == "combined") return std::nullopt;
-  return explain_score(caster(), T_world_camera, bundle_, gain(planner.gain),
-                       {planner.semantics, occlusion_reach(configuration_)});
+  return nextview::explain(*policy_, planning_state(caster()), T_world_camera);
 }
 
 }  // namespace nextview

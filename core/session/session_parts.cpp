@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/planner/policy.hpp"
+
 namespace nextview {
 
 Pose configured_start_view(const Configuration& c) {
@@ -48,7 +50,7 @@ std::unique_ptr<ReferenceMap> make_reference_map(const Configuration& c) {
 }
 
 std::unique_ptr<MapRefinement> make_refinement(const Configuration& c) {
-  if (!needs_refinement(c)) return nullptr;
+  if (!make_policy(c.planner)->needs().posterior) return nullptr;
   return std::make_unique<MapRefinement>(configured_region(c), posterior_sampler_config(c), c.map.model,
                                          c.sensor.max_range);
 }
@@ -56,6 +58,8 @@ std::unique_ptr<MapRefinement> make_refinement(const Configuration& c) {
 MapRays configured_rays(const Configuration& c, const VoxelGrid& grid, std::span<const Voxel> voxels) {
   return MapRays(grid, voxels, c.map.model.occupancy_threshold, c.planner.ray_length);
 }
+
+double occlusion_reach(const Configuration& c) { return 2.0 * occlusion_distance / c.map.resolution; }
 
 Configuration validated(Configuration c) {
   c.validate();

@@ -23,8 +23,8 @@ double best_gain(const StepRecord& record) {
 
 }  // namespace
 
-void rank_candidates(const PlanningState& state, const Robot& robot, const std::vector<bool>& visited,
-                     StepRecord& record) {
+void rank_candidates(const Policy& policy, const PlanningState& state, const Robot& robot,
+                     const std::vector<bool>& visited, StepRecord& record) {
   record.candidates.assign(state.candidates.size(), {});
   for (std::size_t v = 0; v < record.candidates.size(); ++v) {
     Candidate& c = record.candidates[v];
@@ -32,16 +32,14 @@ void rank_candidates(const PlanningState& state, const Robot& robot, const std::
     c.available = !visited[v] && !robot.unreachable(state.candidates[v]);
   }
   const auto left = available(record.candidates);
-  const auto gains = candidate_gains(state, left, {});  // a stop now would leave half a ranking
+  const auto gains = policy.values(state, left, {});  // a stop now would leave half a ranking
   for (std::size_t i = 0; i < left.size(); ++i) record.candidates[left[i]].gain = gains[i];
-  // Baselines stand for a policy of their own, in which the way there has no say.
-  const PlannerConfig& planner = state.configuration.planner;
-  record.ranking = rank(record.candidates, is_baseline(planner.gain) ? UtilityWeights{1.0, 0.0} : planner.weights);
+  record.ranking = rank(record.candidates, policy.weights(state.config));
 }
 
-void compare_rankings(const PlanningState& conventional, StepRecord& record) {
+void compare_rankings(const Policy& policy, const PlanningState& conventional, StepRecord& record) {
   const auto left = available(record.candidates);
-  const auto gains = candidate_gains(conventional, left, {});
+  const auto gains = policy.values(conventional, left, {});
   auto candidates = record.candidates;
   std::vector<double> refined;
   RefinementRecord& refinement = *record.refinement;
@@ -51,7 +49,7 @@ void compare_rankings(const PlanningState& conventional, StepRecord& record) {
     candidates[left[i]].gain = refinement.conventional_gains[left[i]] = gains[i];
   }
   refinement.rank_correlation = rank_correlation(refined, gains);
-  refinement.conventional_best = rank(candidates, conventional.configuration.planner.weights).best;
+  refinement.conventional_best = rank(candidates, policy.weights(conventional.config)).best;
 }
 
 std::string termination(const TerminationConfig& config, std::span<const StepRecord> records, std::size_t voxels) {
