@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -5,16 +6,23 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "app/commands/command_line.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
+#include "app/commands/progress.hpp"
+#include "app/commands/scarcity.hpp"
 #include "core/file/atomic_file.hpp"
-#include "core/session/stopped.hpp"
+#include "core/file/printable.hpp"
+#include "core/progress/stopped.hpp"
 #include "ui/surface/headless.hpp"
 #include "ui/window/window.hpp"
 
@@ -22,22 +30,39 @@ namespace {
 
 constexpr std::uintmax_t longest_script = std::uintmax_t{1} << 20;  // [bytes]
 
-/// Whether this command draws into memory: it is settled before anything else, as the program then starts itself again.
-bool draws_headless(const std::vector<std::string_view>& arguments) {
-  const auto has = [&](std::string_view word) {
-    return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
-  };
-  return (has("scan") || has("refine") || has("calibrate")) && !has("--no-pictures") && !has("--help") && !has("-h");
-}
-
 /// None without a file. @throws std::runtime_error naming the file, the line and the reason.
 std::vector<nextview::CommandCall> read_script(const std::string& file) {
   if (file.empty()) return {};
+  const std::string text = nextview::read_file(file, longest_script);
   try {
-    return nextview::parse_script(nextview::read_file(file, longest_script));
+    return nextview::parse_script(text);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
   }
+}
+
+/// A descriptor that the caller has closed would be given to the next file that is opened, and what is printed would
+/// go there. /dev/null, opened the wrong way round, fails as a closed one does.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  // What cannot be printed is not to end a run before it has written its files: it shows at the end.
+  static std::array<char, 1 << 20> held;
+  if (!::isatty(STDOUT_FILENO)) std::setvbuf(stdout, held.data(), _IOFBF, held.size());
+}
+
+int fail(std::string_view reason) {
+  fmt::print(stderr, "nextview: {}\n", nextview::printable(reason));
+  return nextview::exit_bad_input;
+}
+
+/// Whether all that was printed has arrived, on a full disk for example, is known only now.
+int end(int exit_code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
+  // An earlier flush has failed and not said why; the next byte fails likewise.
+  if (errno == 0 && ::write(STDOUT_FILENO, "\n", 1) == 1) return fail("standard output: a part of it is lost");
+  return fail(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 int run(int argc, char** argv) {
@@ -64,7 +89,13 @@ int run(int argc, char** argv) {
   CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
   options.add_to(*window);
   std::string script;
-  window->add_option("--script", script, "does what this file says: a command a line, as in the palette (Ctrl+P)");
+  CLI::Option* script_option =
+      window->add_option("--script", script,
+                         "does what this file says: a command a line, as in the palette (Ctrl+P); a line that fails is "
+                         "told as FILE:LINE, the others are done, and the exit code is 2");
+  bool stop_on_error = false;
+  window->add_flag("--stop-on-error", stop_on_error, "ends the program at the first line of the script that fails")
+      ->needs(script_option);
   bool list_commands = false;
   window->add_flag("--list-commands", list_commands, "prints all commands and ends");
   window->footer("Examples:\n  nextview window bunny.ply --gain area-factor\n  nextview bunny.ply");
@@ -75,36 +106,37 @@ int run(int argc, char** argv) {
     return end.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-    fmt::print(stderr, "nextview: {}; see nextview --help\n", error.what());
-    return exit_bad_input;
+    return fail(fmt::format("{}; see nextview --help", error.what()));
   }
   if (list_commands) {
     fmt::print("{}", command_table());
     return 0;
   }
-  return run_window(options.configuration(), read_script(script));
+  return run_window(options.configuration(), {script, read_script(script), stop_on_error});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace nextview;
+  open_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error as a full disk is
+  end_on_interrupt();
   try {
-    std::vector<char*> arguments(argv, argv + argc);
-    // `nextview FILE --gain …` and a bare `nextview` mean the window.
-    static char window[] = "window";
-    const std::string_view first = argc > 1 ? argv[1] : "";
-    constexpr std::array commands = {"scan",   "score",  "refine", "posterior", "calibrate",
-                                     "window", "--help", "-h",     "--version", "--threads"};
-    const bool names_command = std::find(commands.begin(), commands.end(), first) != commands.end();
-    if (!names_command) arguments.insert(arguments.begin() + 1, window);
-    if (draws_headless({arguments.begin() + 1, arguments.end()})) ensure_headless(argc, argv);
-    return run(static_cast<int>(arguments.size()), arguments.data());
+    prepare_for_scarcity();
+    CommandLine line = command_line({argv, argv + argc});
+    if (line.draws_headless) ensure_headless(argc, argv);
+    return end(run(static_cast<int>(line.arguments.size()), line.arguments.data()));
   } catch (const Stopped&) {
     fmt::print(stderr, "{}nextview: stopped\n", ::isatty(STDERR_FILENO) ? "\r\033[K" : "");  // over the progress line
     return exit_stopped;
+  } catch (const std::bad_alloc&) {
+    return fail(out_of_memory_line());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+  } catch (const std::system_error& error) {
+    return std::ferror(stdout) ? end(exit_bad_input) : fail(error.what());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "nextview: {}\n", error.what());
-    return exit_bad_input;
+    return fail(error.what());
   }
 }

@@ -134,7 +134,9 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
   const auto framed = [&](const FrameMargins& margins) {
     return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
   };
-  const FrameMargins centred{20 / width, 20 / width, 44 / height, (overlay.caption.empty() ? 24 : 46) / height};
+  const auto share = [](double margin, double whole) { return std::min(margin / whole, 0.25); };  // some is left
+  const FrameMargins centred{share(20, width), share(20, width), share(44, height),
+                             share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
   if (overlay.legends.empty()) return middle;
   FrameMargins beside = centred, beneath = centred;

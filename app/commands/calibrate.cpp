@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "app/commands/recorded_input.hpp"
+#include "app/commands/shell_text.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/map_calibration.hpp"
-#include "core/session/scan_files.hpp"
+#include "core/session/output_folder.hpp"
 #include "core/view/candidate_views.hpp"
 #include "ui/figures/calibration_figure.hpp"
 #include "ui/window/known_objects.hpp"
@@ -57,7 +61,7 @@ std::vector<std::string> held_out_inputs(const CalibrateArguments& arguments) {
     if (std::none_of(fitted.begin(), fitted.end(), same))
       inputs.push_back(input);
     else if (arguments.held_out_given)
-      fmt::print(stderr, "{}: is fitted to, and so not held out\n", input);
+      fmt::print(stderr, "{}: is fitted to, and so not held out\n", printable(input));
   }
   return inputs;
 }
@@ -66,9 +70,6 @@ std::vector<std::string> held_out_inputs(const CalibrateArguments& arguments) {
 void add_examples(const CalibrateArguments& arguments, const std::string& input, bool held_out,
                   std::vector<CalibrationExample>& examples, const Progress& progress, std::stop_token stop) {
   if (is_recorded(input)) {
-    if (fs::exists(input) && fs::equivalent(input, arguments.out))
-      throw std::invalid_argument(
-          fmt::format("--out {}: that is what is calibrated with; give another folder", arguments.out));
     examples.push_back({recorded_job(input, arguments.options, arguments.range_scans, progress, stop), held_out});
     return;
   }
@@ -115,12 +116,13 @@ void print(const MapCalibration& calibration) {
   };
   for (const ExampleScores& e : calibration.examples)
     fmt::print("{:<24} {:>6}   {:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}   {:>6}{:>6}{:>6}\n",
-               e.name + (e.held_out ? "" : " (fitted)"), e.views, number(e.cross_entropy_before),
+               printable(e.name) + (e.held_out ? "" : " (fitted)"), e.views, number(e.cross_entropy_before),
                number(e.cross_entropy_after), number(e.gibbs_entropy), log_loss(e.before), log_loss(e.after),
                log_loss(e.gibbs), open(e.before), open(e.after), open(e.gibbs));
   for (const ExampleScores& e : calibration.examples)
     if (!e.gibbs_stationary)
-      fmt::print("! The Gibbs map of {} from {} views is not stationary; raise gibbs.sweeps.\n", e.name, e.views);
+      fmt::print("! The Gibbs map of {} from {} is not stationary; raise gibbs.sweeps.\n", printable(e.name),
+                 counted(e.views, "view"));
   fmt::print("* within 3 voxels of the true surface, touch truth. ** of slots and bores, centre truth.\n");
 }
 
@@ -129,36 +131,63 @@ std::string remark(const CalibrateArguments& arguments, const MapCalibration& ca
       "The inverse sensor model that nextview calibrate fitted to the Gibbs maps of {}: cross entropy {:.4f}, before\n"
       "{:.4f} nats a voxel. For voxels of {} m{}.\n"
       "Use it with --config: nextview scan --config sensor_model.toml",
-      fmt::join(arguments.fitted, ", "), calibration.fit.cross_entropy, calibration.fit.cross_entropy_before,
-      resolution,
+      printable(fmt::format("{}", fmt::join(arguments.fitted, ", "))), calibration.fit.cross_entropy,
+      calibration.fit.cross_entropy_before, resolution,
       is_recorded(arguments.fitted.front()) && !fs::exists(fs::path(arguments.fitted.front()) / "config.toml")
           ? ""
           : " and the sensor of the config.toml beside it");
 }
 
+/// What can be told before views are taken: the objects, the finished scans and the configuration files.
+std::vector<InputFile> named_inputs(const CalibrateArguments& arguments, const std::vector<std::string>& held_out) {
+  std::vector<InputFile> inputs;
+  for (const auto& [names, what] : {std::pair{&arguments.fitted, "what is fitted to"}, {&held_out, "held out"}})
+    for (const std::string& name : *names) inputs.push_back({identity(name), what});
+  Configuration configuration;
+  arguments.options.apply_to(configuration);
+  for (const fs::path& file : configuration.read_from) inputs.push_back({file, "read as configuration"});
+  return inputs;
+}
+
+/// Everything that the examples were read from, once they were.
+OutputFolder output_folder(const CalibrateArguments& arguments, std::span<const CalibrationExample> examples) {
+  std::vector<InputFile> inputs;
+  std::set<std::string> notices;  // an object may be in several examples
+  for (const CalibrationExample& example : examples) {
+    inputs.insert(inputs.end(), example.job.inputs.begin(), example.job.inputs.end());
+    notices.insert(example.job.notices.begin(), example.job.notices.end());
+  }
+  for (const std::string& notice : notices) fmt::print(stderr, "notice: {}\n", notice);
+  return OutputFolder(arguments.out, inputs);
+}
+
 int run(const CalibrateArguments& arguments) {
-  const fs::path out = arguments.out;
   if (arguments.fitted.empty()) throw std::invalid_argument("calibrate: there is nothing to fit to");
   const std::vector<std::string> held_out = held_out_inputs(arguments);
-  prepare_output_folder(out);
+  [[maybe_unused]] const OutputFolder at_first_sight(arguments.out, named_inputs(arguments, held_out));
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::vector<CalibrationExample> examples;
   for (const std::string& input : arguments.fitted)
     add_examples(arguments, input, false, examples, progress, stop.token());
   for (const std::string& input : held_out) add_examples(arguments, input, true, examples, progress, stop.token());
+  progress.clear();
+  OutputFolder out = output_folder(arguments, examples);
+  out.make();
   const double resolution = examples.front().job.grid.resolution;
-  const std::string configuration = examples.front().job.configuration;
+  const Configuration configuration = examples.front().job.configuration;
   const MapCalibration calibration = calibrate_map(std::move(examples), arguments.config, progress, stop.token());
   progress.clear();
   print(calibration);
-  write_file(out / "config.toml", configuration);
+  out.begin("calibrate");
+  write_file(out.claim("config.toml"), to_toml(configuration, out.path()));
   write_map_calibration(calibration, remark(arguments, calibration, resolution), out);
-  if (!arguments.no_pictures) write_png(draw_calibration_figure(calibration), out / "calibration.png");
+  if (!arguments.no_pictures) write_png(draw_calibration_figure(calibration), out.claim("calibration.png"));
   fmt::print(
-      "\n{0}/\n  sensor_model.toml   the fitted model: nextview scan --config {0}/sensor_model.toml\n"
-      "{1}  calibration.json, descent.csv, scores.csv, config.toml   the numbers\n",
-      out.string(), arguments.no_pictures ? "" : "  calibration.png     the picture\n");
+      "\n{}/\n  sensor_model.toml   the fitted model: nextview scan --config {} --out {}\n"
+      "{}  calibration.json, descent.csv, scores.csv, config.toml   the numbers\n",
+      printable(out.path().string()), shell_text(out.path() / "sensor_model.toml"), shell_text(free_folder("out")),
+      arguments.no_pictures ? "" : "  calibration.png     the picture\n");
   return 0;
 }
 

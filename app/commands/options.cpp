@@ -6,6 +6,8 @@
 #include <array>
 #include <filesystem>
 
+#include "core/file/read_file.hpp"
+
 namespace nextview {
 namespace {
 
@@ -34,8 +36,8 @@ std::string describe(const Setting& setting) {
 /// A file, or the name of one that comes with the program.
 std::filesystem::path find_configuration(const std::string& name) {
   const auto named = assets_folder() / "configurations" / (name + ".toml");
-  return !std::filesystem::is_regular_file(name) && std::filesystem::exists(named) ? named
-                                                                                   : std::filesystem::path(name);
+  std::error_code error;
+  return !std::filesystem::is_regular_file(name, error) && is_there(named) ? named : std::filesystem::path(name);
 }
 
 }  // namespace
@@ -56,16 +58,17 @@ void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std:
   static Configuration defaults;
   for (const Setting& setting : settings(defaults)) {
     if (!takes(setting.key)) continue;
-    std::string names = "--" + setting.key;
+    std::string option = "--" + setting.key, names = option;
     std::string group = "Settings";
     for (const auto& [name, key] : short_names)
       if (setting.key == key) {
         // The key itself stays an option where it is not the short name already.
         names = names == name ? names : fmt::format("{},{}", name, names);
+        option = name;
         group = "Common settings";
       }
-    app.add_option_function<std::string>(
-           names, [this, key = setting.key](const std::string& text) { given_[key] = text; }, describe(setting))
+    const auto keep = [this, key = setting.key, option](const std::string& text) { given_[key] = {option, text}; };
+    app.add_option_function<std::string>(names, keep, describe(setting))
         ->group(group)
         ->type_name(setting.unit.empty() ? "VALUE" : setting.unit);
   }
@@ -80,21 +83,31 @@ Configuration ConfigurationOptions::configuration() const {
   Configuration configuration;
   apply_to(configuration);
   if (!object_.empty()) configuration.object.file = object_;
-  configuration.validate();
   return configuration;
 }
 
 void ConfigurationOptions::apply_to(Configuration& configuration) const {
   Configuration read = configuration;
-  for (const std::string& file : files_) read = read_configuration(find_configuration(file), read);
+  SettingSources sources;
+  for (const std::string& file : files_) read = read_configuration(find_configuration(file), read, &sources);
   auto from = settings(read), to = settings(configuration);
   for (std::size_t i = 0; i < to.size(); ++i)
     if (takes(to[i].key)) to[i].set(from[i].text());
+  configuration.read_from = read.read_from;
   if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
-    apply_sensor_preset(configuration, preset->second);
-  auto list = settings(configuration);
-  for (Setting& setting : list)
-    if (const auto given = given_.find(setting.key); given != given_.end()) setting.set(given->second);
+    apply_sensor_preset(configuration, preset->second.text, &sources);
+  for (Setting& setting : to)
+    if (const auto given = given_.find(setting.key); given != given_.end()) set(setting, given->second, sources);
+  validate(configuration, sources);
+}
+
+void ConfigurationOptions::set(Setting& setting, const Given& given, SettingSources& sources) {
+  try {
+    setting.set(given.text);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(complaint_about(setting.key, given.option, error.what()));
+  }
+  sources[setting.key] = given.option;
 }
 
 }  // namespace nextview

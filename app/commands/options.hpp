@@ -1,7 +1,6 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,8 @@ class ConfigurationOptions {
 
   /// @throws std::runtime_error, std::invalid_argument with one line for people.
   Configuration configuration() const;
-  /// Sets what was given over a configuration that came from elsewhere.
+  /// Sets what was given over a valid configuration that came from elsewhere.
+  /// @throws std::runtime_error, std::invalid_argument likewise.
   void apply_to(Configuration& configuration) const;
 
  private:
@@ -30,7 +30,12 @@ class ConfigurationOptions {
   std::vector<std::string> prefixes_ = {""};
   std::vector<std::string> files_;  ///< later ones override earlier ones
   std::string object_;
-  std::map<std::string, std::string> given_;  ///< key -> text
+  struct Given {
+    std::string option, text;
+  };
+  static void set(Setting& setting, const Given& given, SettingSources& sources);
+
+  std::map<std::string, Given> given_;  ///< by key
 };
 
 }  // namespace nextview

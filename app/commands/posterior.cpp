@@ -7,11 +7,13 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/gibbs/exact_posterior.hpp"
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/gibbs/toys.hpp"
 #include "core/map/occupancy_map.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -54,7 +56,13 @@ struct Answers {
   std::vector<Voxel> independent;
 };
 
+/// @throws Stopped
 Answers answer(const GibbsToy& toy, const PosteriorSamplerConfig& config) {
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
+  const auto tell = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
+    progress(fraction, what);
+  };
   RangeMeasurements measurements;
   measurements.max_range = toy.max_range;
   OccupancyMap map(toy.grid, {});
@@ -62,9 +70,12 @@ Answers answer(const GibbsToy& toy, const PosteriorSamplerConfig& config) {
     measurements.add(scan);
     map.insert(scan, toy.max_range);
   }
-  return {exact_posterior(toy.grid, measurements, config.model, config.prior),
-          sample_posterior(toy.grid, measurements, config),
-          {map.voxels().begin(), map.voxels().end()}};
+  Answers answers{exact_posterior(toy.grid, measurements, config.model, config.prior),
+                  sample_posterior(toy.grid, measurements, config, {}, {}, tell, stop.token()),
+                  {map.voxels().begin(), map.voxels().end()}};
+  throw_if_stopped(stop.token());
+  progress.clear();
+  return answers;
 }
 
 void print_table(const GibbsToy& toy, const PosteriorSamplerConfig& config, const Answers& answers) {

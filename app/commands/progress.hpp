@@ -1,11 +1,21 @@
 #pragma once
+#include <array>
+#include <csignal>
 #include <stop_token>
 #include <string_view>
 #include <thread>
 
 namespace nextview {
 
-/// Turns Ctrl+C into a requested stop, so that what has been done is still written. One at a time.
+/// What asks a program to end: Ctrl+C, `kill`, a terminal that closes.
+inline constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
+
+/// From here on a stop signal ends the process at once, with one line and exit_stopped: there is nothing to keep. One
+/// that is ignored (nohup) stays ignored.
+void end_on_interrupt();
+
+/// While it lives, the first stop signal becomes a requested stop, so that what has been done is still written; a
+/// second one ends the process at once. One at a time.
 class StopOnInterrupt {
  public:
   StopOnInterrupt();
@@ -13,7 +23,7 @@ class StopOnInterrupt {
   std::stop_token token() const { return source_.get_token(); }
 
  private:
-  void (*previous_)(int);
+  std::array<struct sigaction, stop_signals.size()> previous_;
   std::stop_source source_;
   std::jthread watcher_;
 };

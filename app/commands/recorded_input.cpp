@@ -4,9 +4,25 @@
 
 #include <cstdio>
 
+#include "core/file/printable.hpp"
+#include "core/file/read_file.hpp"
+
 namespace nextview {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// A scene file, or a folder of range scans and the files in it.
+std::vector<InputFile> recorded_files(const fs::path& input) {
+  std::vector<InputFile> files = {{input, "the recorded scans"}};
+  std::error_code ignored;
+  for (fs::directory_iterator entry(input, ignored), end; !ignored && entry != end; entry.increment(ignored))
+    files.push_back({entry->path(), "of the recorded scans"});
+  return files;
+}
+
+}  // namespace
 
 void RangeScanOptions::add_to(CLI::App& app) {
   app.add_option("--voxel", resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
@@ -19,19 +35,26 @@ void RangeScanOptions::add_to(CLI::App& app) {
 
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
                            const RangeScanOptions& range_scans, const Progress& progress, std::stop_token stop) {
-  if (!fs::exists(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
-  if (fs::exists(input / "config.toml"))
+  if (!is_there(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
+  if (is_there(input / "config.toml"))
     return refinement_job(
         input, [&](Configuration& c) { options.apply_to(c); }, progress, stop);
+  if (const auto manifest = fs::is_directory(input) ? read_manifest(input) : std::nullopt)
+    throw std::runtime_error(fmt::format("{}: holds no finished scan: its {} was ended before its views were written",
+                                         input.string(), manifest->command));
+  const auto warn = [&](const std::string& text) {
+    fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
+  };
   const RecordedScene scene = fs::is_directory(input)
-                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution)
+                                  ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution, warn)
                                   : read_recorded_scene(input);
   const Configuration configuration = options.configuration();
-  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", input.string(), text); };
   try {
     RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
     job.name = fs::absolute(input).lexically_normal().stem().string();
-    job.configuration = to_toml(configuration);
+    job.configuration = configuration;
+    job.inputs = recorded_files(input);
+    for (const fs::path& file : configuration.read_from) job.inputs.push_back({file, "read as configuration"});
     return job;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", input.string(), error.what()));

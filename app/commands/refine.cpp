@@ -8,6 +8,8 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/recorded_input.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/file/counted.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/diagnostics_text.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/scan_files.hpp"
@@ -16,8 +18,6 @@
 
 namespace nextview {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RefineArguments {
   ConfigurationOptions options;
@@ -68,9 +68,9 @@ std::size_t best(const std::vector<double>& gains) {
 
 void print(const RefinementJob& job, const Refinement& r) {
   const SamplerDiagnostics& d = r.posterior.diagnostics;
-  fmt::print(
-      "{}: {} views, {} rays joined to {}, {} voxels informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
-      job.name, job.scans.size(), d.measured_rays, d.joined_rays, d.informed_voxels, d.build_seconds, d.sample_seconds);
+  fmt::print("{}: {}, {} joined to {}, {} informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
+             printable(job.name), counted(job.scans.size(), "view"), counted(d.measured_rays, "ray"), d.joined_rays,
+             counted(d.informed_voxels, "voxel"), d.build_seconds, d.sample_seconds);
   fmt::print("model {}: {}\n\n", name(job.sampler.model.kind), diagnostics_line(d));
   fmt::print("{:<36} {:>14} {:>14}\n", "", "conventional", "Gibbs");
   for (const RefinementNumber& n : numbers(r))
@@ -82,10 +82,10 @@ void print(const RefinementJob& job, const Refinement& r) {
         best(r.gains_before), best(r.gains_after), r.gains_after.size(), r.rank_correlation);
 }
 
-void write_pictures(const RefinementJob& job, const Refinement& r, const fs::path& out) {
+void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder& out) {
   RefinementPicture picture;
   picture.title = fmt::format("{} refined", job.name);
-  picture.remark = fmt::format("{} views, model {}", job.scans.size(), name(job.sampler.model.kind));
+  picture.remark = fmt::format("{}, model {}", counted(job.scans.size(), "view"), name(job.sampler.model.kind));
   picture.caption = diagnostics_line(r.posterior.diagnostics);
   picture.grid = job.grid;
   picture.conventional = r.conventional.voxels();
@@ -97,23 +97,26 @@ void write_pictures(const RefinementJob& job, const Refinement& r, const fs::pat
     picture.numbers_note = "near: within 3 voxels of the surface; visited by noise-free rays";
   }
   picture.numbers = numbers(r);
-  write_png(draw_refinement_figure(picture), out / "refinement.png");
+  write_png(draw_refinement_figure(picture), out.claim("refinement.png"));
   write_png(draw_sensor_model_figure({job.sampler.model, job.grid.resolution, 0.6 * job.max_range, job.max_range}),
-            out / "sensor_models.png");
+            out.claim("sensor_models.png"));
 }
 
 int run(const RefineArguments& arguments) {
-  const fs::path out = arguments.out;
+  // That much can be told before the views are taken again.
+  OutputFolder out(arguments.out, std::vector<InputFile>{{arguments.input, "what is refined"}});
   const StopOnInterrupt stop;
   const ProgressLine progress;
   const RefinementJob job =
       recorded_job(arguments.input, arguments.options, arguments.range_scans, progress, stop.token());
-  prepare_output_folder(out);
-  if (fs::equivalent(out, arguments.input))
-    throw std::invalid_argument(fmt::format("--out {}: that is what is refined; give another folder", out.string()));
+  progress.clear();
+  for (const std::string& notice : job.notices) fmt::print(stderr, "notice: {}\n", notice);
+  out = OutputFolder(arguments.out, job.inputs);
+  out.make();
   const Refinement refinement = refine(job, progress, stop.token());
   progress.clear();
   print(job, refinement);
+  out.begin("refine", job.object);
   write_refinement(job, refinement, out);
   if (!arguments.no_pictures) write_pictures(job, refinement, out);
   std::string surface_files;
@@ -121,10 +124,8 @@ int run(const RefineArguments& arguments) {
     const auto surfaces = scan_surfaces(job, refinement, progress, stop.token());
     progress.clear();
     surface_files = write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
-  } else {
-    remove_surfaces(out);
   }
-  fmt::print("\n{}/\n", out.string());
+  fmt::print("\n{}/\n", printable(out.path().string()));
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");
   fmt::print("{}", surface_files);
   fmt::print(

@@ -6,8 +6,12 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/shell_text.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/file/counted.hpp"
+#include "core/file/printable.hpp"
 #include "core/session/scan_files.hpp"
+#include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
 #include "ui/window/known_objects.hpp"
 
@@ -23,9 +27,9 @@ struct ScanArguments {
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = session.policy().unit();
-  fmt::print("{}: {}\n", session.object_file().filename().string(), topology(*session.mesh()).summary());
-  fmt::print("{} candidate views, ranked by {}{} ({} semantics)\n\n", session.candidates().size(), c.planner.gain,
-             unit.empty() ? "" : fmt::format(" [{}]", unit),
+  fmt::print("{}: {}\n", printable(session.object_file().filename().string()), session.object_topology().summary());
+  fmt::print("{}, ranked by {}{} ({} semantics)\n\n", counted(session.candidates().size(), "candidate view"),
+             c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved",
              "returns", "new", "coverage", "entropy", "log loss", "seconds");
@@ -58,32 +62,35 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
         1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
         100.0 * session.records().back().coverage_paper);
-  fmt::print("\n{}/\n", out.string());
+  fmt::print("\n{}/\n", printable(out.string()));
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
       "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
       "{}  cloud.ply       the cleaned point cloud\n{}"
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
-      "  config.toml     the configuration: nextview scan --config {}/config.toml repeats this\n",
+      "  config.toml     the configuration; this repeats the scan:\n"
+      "                  nextview scan --config {} --out {}\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
-      surfaces, out.string());
+      surfaces, shell_text(out / "config.toml"), shell_text(free_folder(out)));
 }
 
 int run(const ScanArguments& arguments) {
   const Configuration configuration = arguments.options.configuration();
-  const std::filesystem::path out = arguments.out;
-  prepare_output_folder(out);
+  OutputFolder out(arguments.out, input_files(configuration));
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Session session(configuration, progress, stop.token());
   progress.clear();
   print_head(session);
+  for (const std::string& warning : setup_warnings(configuration, *session.mesh(), session.candidates()))
+    fmt::print(stderr, "warning: {}\n", warning);
+  out.begin("scan", session.object_file());
   std::unique_ptr<SessionFigure> figure;
   if (!arguments.no_pictures) figure = std::make_unique<SessionFigure>();
   while (session.finished().empty() && session.step(progress, stop.token())) {
     progress.clear();
     print_step(session.records().back());
-    if (figure) figure->write(session, out / fmt::format("step_{:02}.png", session.records().size()));
+    if (figure) figure->write(session, out.claim(fmt::format("step_{:02}.png", session.records().size())));
   }
   progress(1.0, "writing the files");
   write_scan(session, out);
@@ -93,10 +100,8 @@ int run(const ScanArguments& arguments) {
     progress.clear();
     surface_files = write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(),
                                              out, figure != nullptr);
-  } else {
-    remove_surfaces(out);
   }
-  print_files(session, out, figure != nullptr, surface_files);
+  print_files(session, out.path(), figure != nullptr, surface_files);
   return session.finished().empty() || stop.token().stop_requested() ? exit_stopped : 0;
 }
 

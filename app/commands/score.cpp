@@ -5,7 +5,10 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
+#include "core/file/printable.hpp"
 #include "core/planner/policy.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/scene_scores.hpp"
@@ -43,7 +46,7 @@ std::string to_csv(const SceneScores& scores) {
 /// For people: the best views of each gain.
 void print_ranking(const SceneScores& scores) {
   constexpr std::size_t shown = 5;
-  fmt::print("{} candidate views; the best by each gain:\n\n", scores.views.size());
+  fmt::print("{}; the best by each gain:\n\n", counted(scores.views.size(), "candidate view"));
   for (std::size_t g = 0; g < scores.gains.size(); ++g) {
     std::vector<Candidate> candidates(scores.views.size());
     for (std::size_t v = 0; v < candidates.size(); ++v) candidates[v].gain = scores.views[v].gains[g];
@@ -64,11 +67,19 @@ int run(const ScoreArguments& arguments) {
     throw std::invalid_argument(fmt::format("--semantics takes published or reference, not '{}'", arguments.semantics));
   const Semantics semantics = arguments.semantics == "reference" ? Semantics::reference : Semantics::published;
   const auto gains = wanted_gains(arguments.gain, semantics);
+  std::error_code no_such_file;
+  if (!arguments.csv.empty() && std::filesystem::equivalent(arguments.scene, arguments.csv, no_such_file))
+    throw std::invalid_argument(fmt::format("--csv {}: is the scene that is scored; give another file", arguments.csv));
   const RecordedScene scene = read_recorded_scene(arguments.scene);
-  const auto warn = [&](const std::string& text) { fmt::print(stderr, "{}: {}\n", arguments.scene, text); };
+  const auto warn = [&](const std::string& text) {
+    fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", arguments.scene, text)));
+  };
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
   SceneScores scores;
   try {
-    scores = score_scene(scene, semantics, gains, warn);
+    scores = score_scene(scene, semantics, gains, warn, progress, stop.token());
+    progress.clear();
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", arguments.scene, error.what()));
   }

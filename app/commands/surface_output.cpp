@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/file/counted.hpp"
+#include "core/surface/seen_part.hpp"
 #include "ui/figures/inspection_figure.hpp"
 
 namespace nextview {
@@ -10,9 +14,11 @@ namespace {
 Image draw(const ScanSurface& surface, const std::string& name, std::size_t views) {
   SurfacePicture picture;
   picture.title = fmt::format("{}: the surface of {}", name, surface.source);
-  picture.remark = fmt::format("{} views", views);
+  picture.remark = counted(views, "view");
   picture.caption = surface.caption;
-  picture.openings = summary(surface.openings);
+  const bool all_seen = !(seen_area(surface.surface).unseen > 0.0);
+  picture.openings =
+      surface.openings.empty() && !all_seen ? "none: closed by what was not seen" : summary(surface.openings);
   picture.surface = &surface.surface;
   return surface.inspection ? draw_inspection_figure(picture, *surface.inspection) : draw_surface_figure(picture);
 }
@@ -20,18 +26,20 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
 }  // namespace
 
 std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
-                                     const std::filesystem::path& out, bool pictures) {
-  write_surfaces(surfaces, out);
+                                     OutputFolder& out, bool pictures) {
+  std::vector<std::string> files = write_surfaces(surfaces, out);
   if (surfaces.empty()) return "";  // stopped
   fmt::print("\n");
-  std::string files;
   for (const ScanSurface& surface : surfaces) {
     fmt::print("Surface {}.\n", summary(surface));
-    if (surface.surface.empty()) continue;
-    if (pictures) write_png(draw(surface, name, views), out / (surface.name + ".png"));
-    files += fmt::format("{0}.ply, {0}.stl, {1}", surface.name, pictures ? surface.name + ".png, " : "");
+    if (surface.surface.empty() || !pictures) continue;
+    files.push_back(surface.name + ".png");
+    write_png(draw(surface, name, views), out.claim(files.back()));
   }
-  return fmt::format("  {}surfaces.json   the surfaces: PLY in metres, STL in millimetres\n", files);
+  const bool unseen = std::any_of(files.begin(), files.end(), [](const auto& f) { return f.ends_with("_unseen.stl"); });
+  return fmt::format(
+      "  {}\n                  the surfaces: PLY, whole, in metres; STL in millimetres, what was seen{}\n",
+      fmt::join(files, ", "), unseen ? "; _unseen.stl: the hull of the rest" : "");
 }
 
 }  // namespace nextview

@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <span>
 #include <string>
 
@@ -8,8 +7,8 @@
 namespace nextview {
 
 /// Writes the surfaces and, with `pictures`, a picture of each, and prints a line each. `name` of the object. Returns
-/// what it left in the folder, as a line for the list of files.
+/// what it left in the folder, as lines for the list of files.
 std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
-                                     const std::filesystem::path& out, bool pictures);
+                                     OutputFolder& out, bool pictures);
 
 }  // namespace nextview

@@ -1,13 +1,15 @@
 #include "core/cloud/point_cloud.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 
-Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range) {
+Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range, const std::stop_token& stop) {
   Scan scan;
   scan.origin = T_world_camera.translation();
   const auto& camera = image.camera;
   scan.returns.reserve(image.range.size());
-  for (int v = 0; v < camera.height; ++v)
+  for (int v = 0; v < camera.height; ++v) {
+    throw_if_stopped(stop);
     for (int u = 0; u < camera.width; ++u) {
       const float range = image.range[std::size_t(v) * camera.width + u];
       const bool met_surface = DepthImage::is_range(range);
@@ -16,6 +18,7 @@ Scan back_project(const DepthImage& image, const Pose& T_world_camera, double ma
       const double length = met_surface ? double(range) : max_range;
       (met_surface ? scan.returns : scan.passes).push_back((scan.origin + length * direction).cast<float>());
     }
+  }
   return scan;
 }
 

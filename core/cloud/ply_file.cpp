@@ -40,6 +40,8 @@ class VertexReader {
  public:
   explicit VertexReader(std::string_view data) : data_(data), header_(parse_ply_header(data)), at_(header_.size) {}
 
+  const std::vector<std::string>& unknown_lines() const { return header_.unknown_lines; }
+
   PointCloud read() {
     for (const PlyElement& element : header_.elements) {
       check_size(element);
@@ -137,10 +139,12 @@ void write_ply(const PointCloud& cloud, const std::filesystem::path& file) {
   out.commit();
 }
 
-PointCloud read_ply(const std::filesystem::path& file) {
+PointCloud read_ply(const std::filesystem::path& file, const std::function<void(const std::string&)>& notice) {
   const std::string data = file.extension() == ".gz" ? read_gzip_file(file) : read_file(file, largest_file);
   try {
-    return VertexReader(data).read();
+    VertexReader reader(data);
+    if (notice && !reader.unknown_lines().empty()) notice(reader.unknown_lines().front());
+    return reader.read();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), error.what()));
   }

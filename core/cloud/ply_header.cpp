@@ -15,6 +15,8 @@ constexpr std::array types = {
     PlyType{"int", "int32", 4, PlyType::is_signed},    PlyType{"uint", "uint32", 4, PlyType::is_unsigned},
     PlyType{"float", "float32", 4, PlyType::is_float}, PlyType{"double", "float64", 8, PlyType::is_float}};
 
+constexpr std::size_t longest_header = std::size_t{1} << 20;  // [bytes]
+
 [[noreturn]] void fail(const std::string& reason) { throw std::runtime_error(reason); }
 
 PlyType type_named(std::string_view name) {
@@ -87,8 +89,9 @@ PlyHeader parse_ply_header(std::string_view data) {
       if (header.elements.empty()) fail("a property stands before the first element");
       header.elements.back().properties.push_back(read_property(words));
     } else if (key != "comment" && key != "obj_info") {
-      fail(fmt::format("its header has an unknown line '{:.60}'", line));
+      header.unknown_lines.emplace_back(line);
     }
+    if (data.size() - rest.size() > longest_header) fail(fmt::format("its header exceeds {} bytes", longest_header));
   }
   if (!format) fail("its header names no format");
   header.format = *format;

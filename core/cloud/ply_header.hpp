@@ -33,7 +33,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format;
   std::vector<PlyElement> elements;
-  std::size_t size;  ///< of the header; the data begin there [bytes]
+  std::size_t size;                        ///< of the header; the data begin there [bytes]
+  std::vector<std::string> unknown_lines;  ///< that were read on over; Stanford's scans have such
 };
 
 /// @throws std::runtime_error with one line that says what is wrong with the header; the file's name is for the caller

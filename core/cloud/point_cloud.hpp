@@ -1,6 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
 #include <vector>
 
 #include "core/sensor/depth_image.hpp"
@@ -18,11 +21,12 @@ struct Scan {
   PointCloud passes;                 ///< where rays beyond range were given up (at the maximum range); they carve only
 };
 
-/// Returns and passes of a depth image; invalid pixels give neither. Points in pixel order.
-Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range);
+/// Returns and passes of a depth image; invalid pixels give neither. Points in pixel order. @throws Stopped
+Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range,
+                  const std::stop_token& stop = {});
 
 struct CloudConfig {
-  bool outlier_removal = true;      ///< statistical outlier removal of the returns (PCL)
+  bool outlier_removal = true;      ///< statistical outlier removal of the returns (as PCL's)
   int outlier_neighbours = 16;      ///< neighbours whose mean distance is looked at
   double outlier_deviations = 3.0;  ///< points whose mean distance is this many standard deviations over the average go
   bool down_sampling = false;       ///< voxel-grid down-sampling of the returns (PCL)
@@ -36,16 +40,19 @@ struct CloudConfig {
 /// down-sampling puts one centroid a leaf, in the order of the leaves (x fastest).
 /// @throws std::invalid_argument if the configuration is not valid, or if the leaf is too small for the cloud's extent
 ///         (PCL numbers leaves with 32 bits).
-PointCloud clean(const PointCloud& returns, const CloudConfig& config);
+/// @throws Stopped
+PointCloud clean(const PointCloud& returns, const CloudConfig& config, const std::stop_token& stop = {});
 
 /// Binary little-endian PLY with x y z floats. Written beside the file, then renamed.
 /// @throws std::runtime_error naming the file and the reason.
 void write_ply(const PointCloud& cloud, const std::filesystem::path& file);
 
 /// The vertices of an ASCII or binary PLY file; other elements and properties are passed over. A file whose name ends
-/// in .gz is decompressed first.
+/// in .gz is decompressed first. Header lines that are not known are read on over; `notice`, if given, hears of the
+/// first.
 /// @throws std::runtime_error with one line that names the file and the reason: missing, not PLY, truncated, claims
 ///         more than the file holds, no x y z, not finite.
-PointCloud read_ply(const std::filesystem::path& file);
+PointCloud read_ply(const std::filesystem::path& file,
+                    const std::function<void(const std::string& unknown_line)>& notice = {});
 
 }  // namespace nextview

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -83,6 +84,23 @@ std::vector<fs::path> find_scans(const fs::path& folder, const std::vector<ConfL
       fmt::format("{}: scans are missing, plain and as .gz: {}", folder.string(), fmt::join(missing, ", ")));
 }
 
+/// The scans whose headers have lines that are not known.
+struct UnknownLines {
+  std::size_t files = 0;
+  std::string first_file, first_line;
+
+  void add(const fs::path& file, const std::string& line) {
+    if (files++ > 0) return;
+    first_file = file.filename().string();
+    for (const char c : line.substr(0, 60)) first_line += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+  }
+  std::string text() const {
+    return fmt::format(
+        "{} of its scans {} header lines that are not known; they are read on over: the first is '{}' in {}", files,
+        files == 1 ? "has" : "have", first_line, first_file);
+  }
+};
+
 /// `points`: of at least one.
 RecordedScan before_a_camera(const PointCloud& points, const Pose& T_world_scan, double stand_off) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -147,7 +165,8 @@ void add_parameters_and_views(RecordedScene& scene, const Eigen::AlignedBox3d& p
 
 }  // namespace
 
-RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, double resolution) {
+RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, double resolution,
+                                     const std::function<void(const std::string&)>& notice) {
   if (!(stand_off >= 0.01 && stand_off <= 100.0))
     throw std::invalid_argument(fmt::format("range scans: stand_off must be from 0.01 to 100 m, not {}", stand_off));
   if (resolution != 0.0 && !(resolution >= 1e-4 && resolution <= 1.0))
@@ -156,11 +175,13 @@ RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, d
   const std::vector<ConfLine> lines = read_conf(find_conf(folder));
   const std::vector<fs::path> files = find_scans(folder, lines);
   RecordedScene scene;
+  UnknownLines unknown;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const PointCloud points = read_ply(files[i]);
+    const PointCloud points = read_ply(files[i], [&](const std::string& line) { unknown.add(files[i], line); });
     if (points.empty()) throw std::runtime_error(fmt::format("{}: holds no points", files[i].string()));
     scene.scans.push_back(before_a_camera(points, lines[i].T_world_scan, stand_off));
   }
+  if (notice && unknown.files > 0) notice(unknown.text());
   const Eigen::AlignedBox3d box = bounding_box(scene.scans);
   const double longest = box.sizes().maxCoeff();
   if (!(longest >= 0.01 && longest <= 40.0))

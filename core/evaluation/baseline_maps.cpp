@@ -145,7 +145,7 @@ std::vector<Voxel> BaselineMaps::no_clamps() const {
   std::vector<double> sums(counts_.size());
   if (model_.range_dependent()) {
     for (const Scan& scan : scans_)
-      visit_touched_voxels(grid_, scan, max_range_,
+      visit_touched_voxels(grid_, scan, max_range_, {},
                            [&](std::uint32_t voxel, bool is_hit) { sums[voxel] += update_term(scan, voxel, is_hit); });
   } else {
     const double hit = model_.hit_term(1.0), miss = model_.miss_term(1.0);

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/progress/stopped.hpp"
+
 namespace nextview {
 
 constexpr double cells_along_longest_side = 128.0;  // about as many cells as samples on a surface, and 8 MB at most
@@ -61,10 +63,15 @@ void SurfaceCoverage::observe_around(const Eigen::Vector3f& point) {
     }
 }
 
-void SurfaceCoverage::add(const PointCloud& points) {
+void SurfaceCoverage::add(const PointCloud& points, const std::stop_token& stop) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) observe_around(points[i]);
+    for (std::size_t i = range.begin(); i != range.end() && !stop.stop_requested(); ++i) observe_around(points[i]);
   });
+  throw_if_stopped(stop);
+}
+
+void SurfaceCoverage::go_back(std::span<const std::uint8_t> observed) {
+  std::copy(observed.begin(), observed.end(), observed_.begin());
 }
 
 double SurfaceCoverage::of_all() const {  // Eq. 17

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
@@ -16,7 +17,10 @@ class SurfaceCoverage {
   SurfaceCoverage(std::span<const Eigen::Vector3f> samples, std::span<const std::uint8_t> visible, double d_reg);
 
   /// Observes the samples within d_reg of any of these points (distance <= d_reg). The order of calls does not matter.
-  void add(const PointCloud& points);
+  /// @throws Stopped; then some are observed, and go_back helps.
+  void add(const PointCloud& points, const std::stop_token& stop = {});
+  /// To what observed() was.
+  void go_back(std::span<const std::uint8_t> observed);
 
   double of_all() const;      ///< share of all samples that are observed
   double of_visible() const;  ///< share of the visible samples that are observed; 0 if none is visible

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/surface/seen_part.hpp"
+
 namespace nextview {
 namespace {
 
@@ -27,16 +29,6 @@ void check(const Surface& surface, const SurfaceSamples& samples, std::span<cons
   for (const double threshold : options.thresholds)
     if (!(threshold >= 0.0 && std::isfinite(threshold)))
       throw std::invalid_argument(fmt::format("inspection: a threshold must be at least 0 m, not {}", threshold));
-}
-
-/// The triangles whose three corners are seen; all vertices.
-TriangleMesh seen_part(const Surface& surface) {
-  TriangleMesh part;
-  part.vertices = surface.mesh.vertices;
-  for (const auto& triangle : surface.mesh.triangles)
-    if (std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t i) { return surface.seen[i] != 0; }))
-      part.triangles.push_back(triangle);
-  return part;
 }
 
 template <class Value, class Measure>

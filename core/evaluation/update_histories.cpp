@@ -85,13 +85,14 @@ void require_sizes_and_targets(const VoxelGrid& grid, double max_range, std::spa
 }  // namespace
 
 void UpdateHistories::add(const VoxelGrid& grid, std::span<const Scan> scans, double max_range,
-                          std::span<const float> target, std::span<const std::uint8_t> mask) {
+                          std::span<const float> target, std::span<const std::uint8_t> mask,
+                          const std::stop_token& stop) {
   require_sizes_and_targets(grid, max_range, target, mask);
   std::vector<std::vector<std::uint8_t>> touches;  // [scan][voxel]
   std::size_t count = 0;
   for (const Scan& scan : scans) {
     auto& touched = touches.emplace_back(grid.voxel_count(), untouched);
-    visit_touched_voxels(grid, scan, max_range, [&](std::uint32_t voxel, bool hit) {
+    visit_touched_voxels(grid, scan, max_range, stop, [&](std::uint32_t voxel, bool hit) {
       touched[voxel] = mask[voxel] == 0 ? untouched : hit ? was_hit : missed;
       count += mask[voxel] != 0;
     });

@@ -1,76 +1,92 @@
 #include "core/file/atomic_file.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include <cerrno>
-#include <cstring>
-#include <stdexcept>
-#include <vector>
+#include <mutex>
+#include <set>
+#include <system_error>
 
 namespace nextview {
 namespace {
 
-std::runtime_error cannot(const char* what, const std::filesystem::path& file, int error) {
-  return std::runtime_error(
-      fmt::format("{}: cannot be {}: {}", file.string(), what, error ? std::strerror(error) : "unknown reason"));
+namespace fs = std::filesystem;
+
+/// What earlier processes left is looked for once in each folder.
+void clean_up_once(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> cleaned;
+  std::error_code error;
+  const fs::path name = fs::canonical(folder, error);
+  const std::scoped_lock lock(mutex);
+  if (!error && cleaned.insert(name).second) remove_abandoned_temporary_files(name);
+}
+
+TemporaryFile open_for_writing(const fs::path& file, const OutputTarget& target) {
+  if (target.is_stream) {
+    // What is redirected into a file (/dev/stdout) goes on at its end.
+    Descriptor stream(::open(target.file.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC));
+    if (!stream.is_open()) throw file_error(file, "written", errno);
+    return {{}, std::move(stream)};
+  }
+  const fs::path folder = target.file.has_parent_path() ? target.file.parent_path() : ".";
+  clean_up_once(folder);
+  try {
+    constexpr mode_t nobody_else = 0600, all_that_the_umask_allows = 0666;
+    return make_temporary_file(folder, target.standing ? nobody_else : all_that_the_umask_allows);
+  } catch (const std::system_error& error) {
+    throw file_error(file, "written", error.code().value());
+  }
+}
+
+/// Returns 0 or an errno.
+int reach_the_disk(int descriptor) {
+  // Some file systems cannot be asked.
+  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)) {
-  temporary_ = file_;
-  temporary_ += fmt::format(".{}-{}.part", ::getpid(), fmt::ptr(this));  // no two writers share one
-  errno = 0;
-  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!stream_) throw cannot("written", file_, errno);
-}
+AtomicFile::AtomicFile(fs::path file)
+    : file_(std::move(file)),
+      target_(output_target(file_)),
+      temporary_(open_for_writing(file_, target_)),
+      buffer_(temporary_.descriptor.get()),
+      stream_(&buffer_) {}
 
 AtomicFile::~AtomicFile() {
-  if (temporary_.empty()) return;
-  stream_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (!temporary_.file.empty()) ::unlink(temporary_.file.c_str());
 }
 
 void AtomicFile::commit() {
-  errno = 0;
-  stream_.close();
-  if (!stream_) throw cannot("written", file_, errno);
-  std::error_code error;
-  std::filesystem::rename(temporary_, file_, error);
-  if (error) throw cannot("written", file_, error.value());
-  temporary_.clear();
+  if (const int error = buffer_.flush()) throw file_error(file_, "written", error);
+  if (target_.is_stream) return temporary_.descriptor.close();
+  const int descriptor = temporary_.descriptor.get();
+  if (const auto& old = target_.standing) {
+    [[maybe_unused]] const int given_back = ::fchown(descriptor, old->owner, old->group);  // as far as that is allowed
+    if (::fchmod(descriptor, old->permissions) != 0) throw file_error(file_, "written", errno);
+  }
+  if (const int error = reach_the_disk(descriptor)) throw file_error(file_, "written", error);
+  if (::rename(temporary_.file.c_str(), target_.file.c_str()) != 0) throw file_error(file_, "written", errno);
+  temporary_.file.clear();
+  temporary_.descriptor.close();
 }
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
+void write_file(const fs::path& file, std::string_view content) {
   AtomicFile out(file);
   out.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
   out.commit();
 }
 
-std::string read_file(const std::filesystem::path& file, std::uintmax_t largest) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw cannot("read", file, ENOENT);
-  if (std::filesystem::is_directory(status)) throw cannot("read", file, EISDIR);
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw cannot("read", file, errno);
-  const auto size = std::filesystem::file_size(file, error);
-  if (!error && size > largest)
-    throw std::runtime_error(fmt::format("{}: has {} bytes; at most {} are read", file.string(), size, largest));
-  std::string content;
-  content.reserve(error ? 0 : size);
-  std::vector<char> part(1 << 16);  // pipes and devices do not tell their size
-  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
-    content.append(part.data(), static_cast<std::size_t>(in.gcount()));
-    if (content.size() > largest)
-      throw std::runtime_error(
-          fmt::format("{}: has more than the {} bytes that are read at most", file.string(), largest));
+void require_writable_folder(const fs::path& folder) {
+  try {
+    clean_up_once(folder);
+    const TemporaryFile probe = make_temporary_file(folder, 0600);
+    ::unlink(probe.file.c_str());
+  } catch (const std::system_error& error) {
+    throw file_error(folder, "written to", error.code().value());
   }
-  if (in.bad()) throw cannot("read", file, errno);
-  return content;
 }
 
 }  // namespace nextview

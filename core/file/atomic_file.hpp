@@ -1,16 +1,22 @@
 #pragma once
 #include <filesystem>
-#include <fstream>
-#include <string>
+#include <ostream>
 #include <string_view>
+
+#include "core/file/descriptor_buffer.hpp"
+#include "core/file/output_target.hpp"
+#include "core/file/read_file.hpp"
+#include "core/file/temporary_file.hpp"
 
 namespace nextview {
 
-/// A file that appears whole or not at all: written beside its final place, then renamed over it by commit(). Without
-/// commit() nothing is left behind.
+/// A file that appears whole or not at all: written beside its final place under a name of its own, then renamed over
+/// it by commit(). Without commit() nothing is left behind; a process that is killed leaves a temporary file that the
+/// next one removes. A file that is replaced keeps its permissions and owner. Links are followed, and streams (pipes,
+/// devices) written to as it comes; see OutputTarget.
 class AtomicFile {
  public:
-  /// @throws std::runtime_error naming the file if its folder cannot be written to.
+  /// @throws std::runtime_error naming the file if it or its folder cannot be written to.
   explicit AtomicFile(std::filesystem::path file);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -21,14 +27,16 @@ class AtomicFile {
   void commit();
 
  private:
-  std::filesystem::path file_, temporary_;
-  std::ofstream stream_;
+  std::filesystem::path file_;  ///< as the caller names it
+  OutputTarget target_;
+  TemporaryFile temporary_;  ///< of a stream: itself, without a name
+  DescriptorBuffer buffer_;
+  std::ostream stream_;
 };
 
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// The whole file. @throws std::runtime_error naming the file and the reason: missing, a folder, unreadable, larger
-/// than `largest` [bytes].
-std::string read_file(const std::filesystem::path& file, std::uintmax_t largest = 1u << 30);
+/// @throws std::runtime_error naming the folder and the reason if no file can be made in it.
+void require_writable_folder(const std::filesystem::path& folder);
 
 }  // namespace nextview

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/file/read_file.hpp"
+
 namespace nextview {
 namespace {
 
@@ -29,9 +31,10 @@ std::string read_gzip_file(const std::filesystem::path& file, std::uintmax_t lar
   const auto cannot = [&](const std::string& why) {
     return std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), why));
   };
-  errno = 0;
-  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> stream(gzopen(file.c_str(), "rb"), gzclose_r);
-  if (!stream) throw cannot(errno ? std::strerror(errno) : "out of memory");
+  Descriptor descriptor = open_regular_file(file);
+  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> stream(gzdopen(descriptor.get(), "rb"), gzclose_r);
+  if (!stream) throw cannot("out of memory");
+  descriptor.release();  // the stream closes it
   std::string content;
   std::vector<char> part(1 << 17);
   for (int got; (got = gzread(stream.get(), part.data(), static_cast<unsigned>(part.size()))) > 0;) {

@@ -5,7 +5,8 @@
 namespace nextview {
 
 /// What a gzip file holds, decompressed. A few compressed bytes can hold gigabytes: `largest` bounds what comes out.
-/// @throws std::runtime_error naming the file and the reason: missing, a folder, not compressed with gzip, truncated,
+/// @throws std::runtime_error naming the file and the reason: missing, no regular file, not compressed with gzip,
+/// truncated,
 ///         damaged, holds more than `largest` [bytes].
 std::string read_gzip_file(const std::filesystem::path& file, std::uintmax_t largest = 1u << 30);
 

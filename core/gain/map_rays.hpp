@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <stop_token>
 
 #include "core/gain/ray.hpp"
 #include "core/map/occupancy_map.hpp"
@@ -37,8 +38,12 @@ class ReferenceMap : public RayCaster {
 
   explicit ReferenceMap(const Parameters& parameters);
   ~ReferenceMap() override;
+  /// A map of its own with the same content.
+  std::unique_ptr<ReferenceMap> copy() const;
+  void swap(ReferenceMap& other) { tree_.swap(other.tree_); }
 
-  void insert(const Vector3& origin, std::span<const Eigen::Vector3f> points);
+  /// @throws Stopped; then the map is half made and to be thrown away.
+  void insert(const Vector3& origin, std::span<const Eigen::Vector3f> points, const std::stop_token& stop = {});
   void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const override;
 
  private:

@@ -2,6 +2,7 @@
 #include <octomap/OccupancyOcTreeBase.h>
 
 #include "core/gain/map_rays.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -33,6 +34,30 @@ struct ReferenceMap::Tree : octomap::OccupancyOcTreeBase<Node> {
   using OccupancyOcTreeBase<Node>::OccupancyOcTreeBase;
   Tree* create() const override { return new Tree(resolution); }
   std::string getTreeType() const override { return "NextviewReferenceTree"; }
+
+  /// OctoMap's own copying makes nodes of its own kind of ours.
+  std::unique_ptr<Tree> copy() const {
+    auto tree = std::make_unique<Tree>(resolution);
+    tree->prob_hit_log = prob_hit_log;
+    tree->prob_miss_log = prob_miss_log;
+    tree->clamping_thres_min = clamping_thres_min;
+    tree->clamping_thres_max = clamping_thres_max;
+    tree->occ_prob_thres_log = occ_prob_thres_log;
+    if (!root) return tree;
+    tree->root = new Node;
+    tree->tree_size = 1;
+    tree->size_changed = true;
+    tree->copy_node(*root, *tree->root);
+    return tree;
+  }
+
+  void copy_node(const Node& from, Node& to) {
+    to.setValue(from.getValue());
+    to.unmeasured = from.unmeasured;
+    to.occlusion_distance = from.occlusion_distance;
+    for (unsigned i = 0; i < 8; ++i)
+      if (nodeChildExists(&from, i)) copy_node(*getNodeChild(&from, i), *createNodeChild(&to, i));
+  }
 
   void measure(const OcTreeKey& key, bool occupied) {
     Node* node = search(key);
@@ -67,7 +92,13 @@ ReferenceMap::ReferenceMap(const Parameters& parameters)
 
 ReferenceMap::~ReferenceMap() = default;
 
-void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f> points) {
+std::unique_ptr<ReferenceMap> ReferenceMap::copy() const {
+  auto map = std::make_unique<ReferenceMap>(parameters_);
+  map->tree_ = tree_->copy();
+  return map;
+}
+
+void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f> points, const std::stop_token& stop) {
   const point3d from = to_octomap(origin);
   const auto outside = [&](const Eigen::Vector3f& p) {
     const Vector3 q = p.cast<double>();
@@ -77,7 +108,13 @@ void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f
   KeySet free, occupied;
   std::vector<point3d> inserted;
   KeyRay ray;
+  constexpr std::size_t between_looks = 64;  // at the stop token
+  std::size_t done = 0;
+  const auto look = [&] {
+    if (++done % between_looks == 0) throw_if_stopped(stop);
+  };
   for (const Eigen::Vector3f& p : points) {
+    look();
     if (outside(p)) continue;
     const point3d point(p.x(), p.y(), p.z());
     const double range_limit = parameters_.max_sensor_range;
@@ -90,11 +127,17 @@ void ReferenceMap::insert(const Vector3& origin, std::span<const Eigen::Vector3f
       if (tree_->computeRayKeys(from, end, ray)) free.insert(ray.begin(), ray.end());
     }
   }
-  for (const OcTreeKey& key : free)
+  for (const OcTreeKey& key : free) {
+    look();
     if (!occupied.count(key)) tree_->measure(key, false);
-  for (const OcTreeKey& key : occupied) tree_->measure(key, true);
+  }
+  for (const OcTreeKey& key : occupied) {
+    look();
+    tree_->measure(key, true);
+  }
 
   for (const point3d& point : inserted) {
+    look();
     const point3d end = point + (point - from).normalized() * static_cast<float>(parameters_.occlusion_distance);
     if (!tree_->computeRayKeys(point, end, ray)) continue;
     int behind = -1;

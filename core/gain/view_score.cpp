@@ -18,19 +18,23 @@ void visibility_along(std::span<const RayVoxel> voxels, Semantics semantics, std
   }
 }
 
-/// Casts the rays of one view, in order, and hands each to `use(ray, direction in the world)`.
+/// Casts the rays of one view, in order, and hands each to `use(ray, direction in the world)`. False if stopped.
 template <class Use>
-void for_each_ray(const RayCaster& caster, const Pose& view, const RayBundle& bundle, const ScoreOptions& options,
-                  Use use) {
+bool for_each_ray(const RayCaster& caster, const Pose& view, const RayBundle& bundle, const ScoreOptions& options,
+                  const std::stop_token& stop, Use use) {
+  constexpr std::size_t between_looks = 256;  // at the stop token [rays]
   std::vector<RayVoxel> visited;
   std::vector<double> visibility;
   const Vector3 origin = view.translation();
+  std::size_t cast = 0;
   for (const Vector3& direction : bundle.directions) {
+    if (cast++ % between_looks == 0 && stop.stop_requested()) return false;
     const Vector3 along = view.linear() * direction;
     caster.cast(origin, along, visited);
     visibility_along(visited, options.semantics, visibility);
     use(Ray{visited, visibility, options.semantics, options.occlusion_reach}, along);
   }
+  return true;
 }
 
 }  // namespace
@@ -44,10 +48,14 @@ std::vector<ViewScore> score_views(const RayCaster& caster, std::span<const Pose
     const auto start = std::chrono::steady_clock::now();
     ViewScore& score = scores[v];
     std::vector<GainSums> sums(gains.size());
-    for_each_ray(caster, views[v], bundle, options, [&](const Ray& ray, const Vector3&) {
+    const bool whole = for_each_ray(caster, views[v], bundle, options, stop, [&](const Ray& ray, const Vector3&) {
       for (std::size_t g = 0; g < gains.size(); ++g) gains[g]->add_ray(ray, sums[g]);
       score.voxels += ray.voxels.size();
     });
+    if (!whole) {
+      score = {};
+      return;
+    }
     for (std::size_t g = 0; g < gains.size(); ++g) score.gains.push_back(gains[g]->value(sums[g]).value);
     score.rays = bundle.directions.size();
     score.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -58,13 +66,13 @@ std::vector<ViewScore> score_views(const RayCaster& caster, std::span<const Pose
 ScoreExplanation explain_score(const RayCaster& caster, const Pose& view, const RayBundle& bundle, const Gain& gain,
                                const ScoreOptions& options) {
   GainSums sums;
-  for_each_ray(caster, view, bundle, options, [&](const Ray& ray, const Vector3&) { gain.add_ray(ray, sums); });
+  for_each_ray(caster, view, bundle, options, {}, [&](const Ray& ray, const Vector3&) { gain.add_ray(ray, sums); });
   const GainValue total = gain.value(sums);
 
   ScoreExplanation explanation;
   explanation.value = total.value;
   GainSums again;  // what a gain carries from ray to ray is carried here too
-  for_each_ray(caster, view, bundle, options, [&](const Ray& ray, const Vector3& direction) {
+  for_each_ray(caster, view, bundle, options, {}, [&](const Ray& ray, const Vector3& direction) {
     std::vector<double> contribution(ray.voxels.size(), 0.0);
     gain.explain_ray(ray, again, total.worth, contribution);
     ScoreExplanation::RayPart& part = explanation.rays.emplace_back();

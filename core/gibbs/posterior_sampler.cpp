@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/gibbs/chain_ensemble.hpp"
+#include "core/memory/available_memory.hpp"
 
 namespace nextview {
 namespace {
@@ -135,6 +136,10 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   d.list_bytes = lists.bytes();
   d.build_seconds = building.seconds();
 
+  constexpr std::uint64_t bytes_a_voxel = 32;  // of a chain's map, state and sums
+  require_memory(bytes_a_voxel * voxels * std::uint64_t(config.chains),
+                 fmt::format("gibbs: {} chains of {} voxels", config.chains, voxels),
+                 "use fewer chains (gibbs.chains) or a coarser map");
   const Stopwatch sampling;
   ChainEnsemble chains(lists, config, sites, d);
   for (int c = 0; c < config.chains; ++c) {

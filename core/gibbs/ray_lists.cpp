@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/map/traversal.hpp"
+#include "core/memory/available_memory.hpp"
 
 namespace nextview {
 namespace {
@@ -143,6 +144,8 @@ void RayLists::lay_out(std::vector<Block>& blocks) {
         "gibbs: the lists of {} rays would take {:.1f} GiB, more than the {} GiB allowed; join rays with a larger "
         "gibbs.ray_spacing, or use a coarser map",
         rays(), static_cast<double>(bytes) / (1 << 30), most_bytes >> 30));
+  require_memory(bytes, fmt::format("gibbs: the lists of {} rays", rays()),
+                 "join rays with a larger gibbs.ray_spacing, or use a coarser map");
   front_begin_[voxels] = static_cast<std::uint32_t>(front);
   near_begin_[voxels] = static_cast<std::uint32_t>(near);
   front_.resize(front);

@@ -8,6 +8,7 @@
 #include <atomic>
 
 #include "core/mesh/line_crossing.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -30,10 +31,11 @@ int clamped_floor(double value, int size) {
 }
 
 template <class Body>
-void for_each_triangle(const TriangleMesh& mesh, const VoxelGrid& grid, Body body) {
+void for_each_triangle(const TriangleMesh& mesh, const VoxelGrid& grid, const std::stop_token& stop, Body body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangles.size(), 64), [&](const auto& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t) body(to_grid(mesh, t, grid));
+    for (std::size_t t = range.begin(); t != range.end() && !stop.stop_requested(); ++t) body(to_grid(mesh, t, grid));
   });
+  throw_if_stopped(stop);
 }
 
 /// An axis that may separate a triangle from voxels: voxels whose centre projects outside of [low, high] do not meet
@@ -108,13 +110,14 @@ void mark_crossings(const Triangle& t, const VoxelGrid& grid, int axis, std::vec
 }
 
 /// Adds one vote to every voxel whose centre is inside, as seen along `axis`.
-void vote_inside(const TriangleMesh& mesh, const VoxelGrid& grid, int axis, std::vector<std::uint8_t>& votes) {
+void vote_inside(const TriangleMesh& mesh, const VoxelGrid& grid, int axis, const std::stop_token& stop,
+                 std::vector<std::uint8_t>& votes) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   std::vector<std::uint8_t> toggles(grid.voxel_count(), 0), parity(std::size_t(grid.size[u]) * grid.size[v], 0);
-  for_each_triangle(mesh, grid, [&](const Triangle& t) { mark_crossings(t, grid, axis, toggles, parity); });
+  for_each_triangle(mesh, grid, stop, [&](const Triangle& t) { mark_crossings(t, grid, axis, toggles, parity); });
   const std::size_t step = axis == 0 ? 1 : axis == 1 ? grid.size.x() : std::size_t(grid.size.x()) * grid.size.y();
   tbb::parallel_for(tbb::blocked_range<int>(0, grid.size[v]), [&](const auto& range) {
-    for (int j = range.begin(); j != range.end(); ++j)
+    for (int j = range.begin(); j != range.end() && !stop.stop_requested(); ++j)
       for (int i = 0; i < grid.size[u]; ++i) {
         if (parity[std::size_t(j) * grid.size[u] + i]) continue;  // enters and does not leave: a hole in the mesh
         Eigen::Vector3i cell = Eigen::Vector3i::Zero();
@@ -125,16 +128,18 @@ void vote_inside(const TriangleMesh& mesh, const VoxelGrid& grid, int axis, std:
         for (int k = 0; k < grid.size[axis]; ++k, voxel += step) votes[voxel] += inside ^= toggles[voxel];
       }
   });
+  throw_if_stopped(stop);
 }
 
 /// One of the two passes of the distance transform: every row takes the least of its own values and its neighbours'
 /// before it in the order of the pass, plus one. With all 26 neighbours this is exact for the Chebyshev distance
 /// (Rosenfeld and Pfaltz 1966).
-void sweep(const VoxelGrid& grid, int direction, std::vector<std::uint8_t>& distance) {
+void sweep(const VoxelGrid& grid, int direction, const std::stop_token& stop, std::vector<std::uint8_t>& distance) {
   const int nx = grid.size.x(), ny = grid.size.y(), nz = grid.size.z();
   std::vector<std::uint8_t> nearest(nx + 2, 255);  // of the rows before; one voxel more at each end
   const auto plus_one = [](std::uint8_t d) { return static_cast<std::uint8_t>(std::min<int>(d, 254) + 1); };
-  for (int k = 0; k < nz; ++k)
+  for (int k = 0; k < nz; ++k) {
+    throw_if_stopped(stop);
     for (int j = 0; j < ny; ++j) {
       const int z = direction > 0 ? k : nz - 1 - k, y = direction > 0 ? j : ny - 1 - j;
       std::fill(nearest.begin(), nearest.end(), 255);
@@ -154,25 +159,26 @@ void sweep(const VoxelGrid& grid, int direction, std::vector<std::uint8_t>& dist
         previous = own = std::min(own, plus_one(previous));
       }
     }
+  }
 }
 
 }  // namespace
 
-GroundTruth ground_truth(const TriangleMesh& mesh, const VoxelGrid& grid) {
+GroundTruth ground_truth(const TriangleMesh& mesh, const VoxelGrid& grid, const std::stop_token& stop) {
   GroundTruth truth;
   truth.grid = grid;
   truth.touch.assign(grid.voxel_count(), 0);
-  for_each_triangle(mesh, grid, [&](const Triangle& t) { mark_touched(t, grid, truth.touch); });
+  for_each_triangle(mesh, grid, stop, [&](const Triangle& t) { mark_touched(t, grid, truth.touch); });
 
   truth.centre.assign(grid.voxel_count(), 0);
-  for (int axis = 0; axis < 3; ++axis) vote_inside(mesh, grid, axis, truth.centre);
+  for (int axis = 0; axis < 3; ++axis) vote_inside(mesh, grid, axis, stop, truth.centre);
   for (std::uint8_t& votes : truth.centre) votes = votes >= 2;
 
   truth.surface_distance.resize(grid.voxel_count());
   std::transform(truth.touch.begin(), truth.touch.end(), truth.surface_distance.begin(),
                  [](std::uint8_t touched) { return touched ? 0 : 255; });
-  sweep(grid, +1, truth.surface_distance);
-  sweep(grid, -1, truth.surface_distance);
+  sweep(grid, +1, stop, truth.surface_distance);
+  sweep(grid, -1, stop, truth.surface_distance);
   return truth;
 }
 

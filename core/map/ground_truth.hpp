@@ -1,4 +1,5 @@
 #pragma once
+#include <stop_token>
 #include <vector>
 
 #include "core/map/voxel_grid.hpp"
@@ -28,6 +29,7 @@ struct GroundTruth {
 /// The mesh may reach beyond the grid. The inside is found along columns of voxel centres in x, y and z: of a closed
 /// mesh all three agree; of a mesh with holes a column that enters and does not leave says 'outside', and two of the
 /// three decide.
-GroundTruth ground_truth(const TriangleMesh& mesh, const VoxelGrid& grid);
+/// @throws Stopped
+GroundTruth ground_truth(const TriangleMesh& mesh, const VoxelGrid& grid, const std::stop_token& stop = {});
 
 }  // namespace nextview

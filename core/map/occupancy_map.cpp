@@ -1,23 +1,42 @@
 #include "core/map/occupancy_map.hpp"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <stdexcept>
 
 #include "core/map/traversal.hpp"
+#include "core/memory/available_memory.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
 
 enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
 
+/// Before any of it is taken: memory that is promised and not there ends the program without a word.
+const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
+  constexpr std::uint64_t small = std::uint64_t{16} << 20;  // asking takes as long as making such a map
+  if (OccupancyMap::bytes(grid) > small)
+    require_memory(OccupancyMap::bytes(grid),
+                   fmt::format("a map of {} x {} x {} voxels", grid.size.x(), grid.size.y(), grid.size.z()),
+                   "use coarser voxels or a smaller region");
+  return grid;
+}
+
 }  // namespace
 
+std::uint64_t OccupancyMap::bytes(const VoxelGrid& grid) {
+  return grid.voxel_count() * (sizeof(float) + sizeof(Voxel) + sizeof(std::uint8_t));
+}
+
 OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model)
-    : grid_(grid),
+    : grid_(require_memory_for(grid)),
       model_(model),
       log_odds_(grid.voxel_count()),
       voxels_(grid.voxel_count()),
@@ -36,12 +55,8 @@ void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
   voxels_[voxel] = measured_voxel(log_odds);
 }
 
-void OccupancyMap::insert(const Scan& scan, double max_range) {
+void OccupancyMap::insert(const Scan& scan, double max_range, const std::stop_token& stop, MapChanges* undo) try {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
-  const auto in_grid = [&](int x, int y, int z) {
-    return unsigned(x) < unsigned(grid_.size.x()) && unsigned(y) < unsigned(grid_.size.y()) &&
-           unsigned(z) < unsigned(grid_.size.z());
-  };
   // Hits first: a voxel where a ray ends is a hit, whatever else passes through it.
   for (const auto& point : scan.returns) {
     const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
@@ -50,13 +65,11 @@ void OccupancyMap::insert(const Scan& scan, double max_range) {
   // Rays side by side: they only ever turn `untouched` into `passed`, so their order does not matter.
   const auto pass = [&](const PointCloud& ends) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 1024), [&](const auto& range) {
+      if (stop.stop_requested()) return;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         const bool short_enough = ray_length(origin, ends[i]) <= max_range;
         const Eigen::Vector3f end = short_enough ? ends[i] : point_on_ray(origin, ends[i], max_range);
-        bool inside = false;
-        walk_segment(grid_, origin, end, [&](int x, int y, int z) {
-          if (!in_grid(x, y, z)) return !inside;  // the region is convex: a ray that left it is done
-          inside = true;
+        walk_segment_inside(grid_, origin, end, [&](int x, int y, int z) {
           std::atomic_ref<std::uint8_t> touch(touched_[grid_.index({x, y, z})]);
           if (touch.load(std::memory_order_relaxed) == untouched) touch.store(passed, std::memory_order_relaxed);
           return true;
@@ -66,7 +79,17 @@ void OccupancyMap::insert(const Scan& scan, double max_range) {
   };
   pass(scan.returns);
   pass(scan.passes);
+  throw_if_stopped(stop);
+  if (undo) remember_touched(*undo);
   update_touched(scan.origin);
+} catch (...) {
+  std::ranges::fill(touched_, untouched);
+  throw;
+}
+
+void OccupancyMap::remember_touched(MapChanges& undo) const {
+  for (std::uint32_t v = 0; v < touched_.size(); ++v)
+    if (touched_[v] != untouched) undo.changes.push_back({v, log_odds_[v], voxels_[v]});
 }
 
 /// Adds the hit or the miss, as the model has them for a camera at `origin`, to the log-odds of each touched voxel.
@@ -111,7 +134,7 @@ void OccupancyMap::add_to_touched(Term term) {
                     });
 }
 
-void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin) {
+void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin, MapChanges* undo) try {
   const bool same_grid =
       local.grid_.first == grid_.first && local.grid_.size == grid_.size && local.grid_.resolution == grid_.resolution;
   if (!same_grid || !(local.model_ == model_))
@@ -120,12 +143,20 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
   // One scan's log-odds tell hits from passes; they may be clamped already, so they are not what is added.
   for (std::size_t v = 0; v < voxels_.size(); ++v)
     touched_[v] = !local.voxels_[v].measured ? untouched : local.log_odds_[v] > 0.0f ? hit : passed;
+  if (undo) remember_touched(*undo);
   update_touched(origin);
+} catch (...) {
+  std::ranges::fill(touched_, untouched);
+  throw;
 }
 
-void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double reach) {
+void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double reach, const std::stop_token& stop,
+                                   MapChanges* undo) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
+  tbb::combinable<std::vector<MapChanges::Change>> changes;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.returns.size(), 1024), [&](const auto& range) {
+    if (stop.stop_requested()) return;
+    auto& own_changes = changes.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Eigen::Vector3f& point = scan.returns[i];
       const double length = ray_length(origin, point);
@@ -138,13 +169,31 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double re
         if (behind == 0 || voxel.measured) return true;
         std::atomic_ref<std::uint16_t> nearest(voxel.occlusion_distance);
         std::uint16_t seen = nearest.load(std::memory_order_relaxed);
-        while ((seen == 0 || behind < seen) &&
-               !nearest.compare_exchange_weak(seen, static_cast<std::uint16_t>(behind), std::memory_order_relaxed)) {
+        while (seen == 0 || behind < seen) {
+          if (!nearest.compare_exchange_weak(seen, static_cast<std::uint16_t>(behind), std::memory_order_relaxed))
+            continue;
+          if (undo) own_changes.push_back({grid_.index({x, y, z}), 0.0f, Voxel{.occlusion_distance = seen}});
+          break;
         }
         return true;
       });
     }
   });
+  if (undo)
+    changes.combine_each(
+        [&](const auto& some) { undo->changes.insert(undo->changes.end(), some.begin(), some.end()); });
+  throw_if_stopped(stop);
+}
+
+void OccupancyMap::go_back(const MapChanges& undo) {
+  const auto weaker = [](std::uint16_t a, std::uint16_t b) { return b != 0 && (a == 0 || a > b); };
+  for (const auto& [voxel, log_odds, before] : undo.changes) {
+    Voxel& now = voxels_[voxel];
+    // A mark can have been bettered several times, by several threads: the weakest is the first.
+    if (!now.measured && !weaker(before.occlusion_distance, now.occlusion_distance)) continue;
+    log_odds_[voxel] = log_odds;
+    now = before;
+  }
 }
 
 }  // namespace nextview

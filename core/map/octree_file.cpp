@@ -39,6 +39,13 @@ octomap::OcTree to_octree(const OccupancyMap& map) {
   return tree;
 }
 
+/// As OctoMap writes it. Its own functions for whole files print "done." and warnings of their own to the terminal.
+void write_head(std::ostream& out, const octomap::OcTree& tree, bool binary) {
+  out << (binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file")
+      << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid " << tree.getTreeType()
+      << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+}
+
 /// Walks the bytes of a tree without building it. OctoMap's own reader trusts them: a truncated file sends it into the
 /// woods.
 class TreeBytes {
@@ -143,11 +150,13 @@ void write_octree(const OccupancyMap& map, const std::filesystem::path& file) {
   if (!binary && file.extension() != ".ot")
     throw std::runtime_error(fmt::format("{}: an octree's file must end in .ot or .bt", file.string()));
   octomap::OcTree tree = to_octree(map);
+  if (binary) {
+    tree.toMaxLikelihood();
+    tree.prune();
+  }
   AtomicFile out(file);
-  if (binary)
-    tree.writeBinary(out.stream());
-  else
-    tree.write(out.stream());
+  write_head(out.stream(), tree, binary);
+  binary ? tree.writeBinaryData(out.stream()) : tree.writeData(out.stream());
   out.commit();
 }
 

@@ -6,7 +6,7 @@
 namespace nextview {
 
 /// Writes OctoMap's .ot (full: log-odds) or .bt (binary: the maximum-likelihood map), pruned, by the file's extension.
-/// Written beside the file, then renamed.
+/// Atomic (AtomicFile).
 /// @throws std::runtime_error naming the file and the reason.
 void write_octree(const OccupancyMap& map, const std::filesystem::path& file);
 

@@ -62,16 +62,17 @@ inline void set_axis(double position, double direction, int cell, double resolut
 
 /// Visits the voxels from the one of `origin` to the one before `end`'s, in order, with the rounding of OctoMap's
 /// computeRayKeys, so that a dense map equals a tree. `visit(x, y, z)` gets grid coordinates, which may lie outside of
-/// the grid; false ends the walk.
+/// the grid; false ends the walk. A segment that is longer than single precision can tell has no direction and is not
+/// walked.
 template <class Visit>
 void walk_segment(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end, Visit visit) {
-  const Eigen::Vector3i from = grid.cell_at(origin.cast<double>());
-  const Eigen::Vector3i to = grid.cell_at(end.cast<double>());
-  if (from == to || !visit(from.x(), from.y(), from.z())) return;
-
   Eigen::Vector3f direction = end - origin;
   const float length = static_cast<float>(std::sqrt(static_cast<double>(
       direction.x() * direction.x() + direction.y() * direction.y() + direction.z() * direction.z())));
+  if (!std::isfinite(length)) return;
+  const Eigen::Vector3i from = grid.cell_at(origin.cast<double>());
+  const Eigen::Vector3i to = grid.cell_at(end.cast<double>());
+  if (from == to || !visit(from.x(), from.y(), from.z())) return;
   for (float& d : direction) d /= length;
 
   const Eigen::Vector3i lattice = from + grid.first;
@@ -86,6 +87,26 @@ void walk_segment(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
     if (at_end | (w.exit() > length)) return;
     if (!visit(w.x, w.y, w.z)) return;
   }
+}
+
+/// The voxels inside the grid that walk_segment visits. The walk ends where the segment has left the grid or can no
+/// longer enter it, however long it is.
+template <class Visit>
+void walk_segment_inside(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
+                         Visit visit) {
+  const Eigen::Vector3f direction = end - origin;
+  const auto in_grid = [&](int x, int y, int z) {
+    return unsigned(x) < unsigned(grid.size.x()) && unsigned(y) < unsigned(grid.size.y()) &&
+           unsigned(z) < unsigned(grid.size.z());
+  };
+  const auto leaves = [](int at, int size, float towards) {
+    return at < 0 ? !(towards > 0.0f) : at >= size && !(towards < 0.0f);
+  };
+  walk_segment(grid, origin, end, [&](int x, int y, int z) {
+    if (in_grid(x, y, z)) return visit(x, y, z);
+    return !leaves(x, grid.size.x(), direction.x()) && !leaves(y, grid.size.y(), direction.y()) &&
+           !leaves(z, grid.size.z(), direction.z());
+  });
 }
 
 /// Visits the voxels of the grid that the ray passes through between its origin and `max_range` [m], in order;

@@ -27,8 +27,9 @@ struct VoxelGrid {
     return {i % nx, i / nx % ny, i / (nx * ny)};
   }
   Eigen::Vector3i cell_at(const Vector3& point) const {
+    constexpr double far = 1e9;  // farther off is no cell of any grid, and would not fit an int
     // Times the inverse, not divided: the same rounding as OctoMap's keys.
-    return (point * (1.0 / resolution)).array().floor().matrix().cast<int>() - first;
+    return (point * (1.0 / resolution)).array().floor().max(-far).min(far).matrix().cast<int>() - first;
   }
   Vector3 lower() const { return first.cast<double>() * resolution; }
   Vector3 upper() const { return (first + size).cast<double>() * resolution; }

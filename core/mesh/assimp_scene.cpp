@@ -1,12 +1,18 @@
 #include "core/mesh/assimp_scene.hpp"
 
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <span>
+#include <sstream>
 #include <stdexcept>
+
+#include "core/mesh/confinement.hpp"
 
 namespace nextview {
 namespace {
@@ -31,8 +37,10 @@ void check_indices(const aiScene& scene) {
 
 void append(const aiMesh& mesh, const Eigen::Matrix4d& T_file_mesh, ImportedTriangles& all) {
   const std::size_t first = all.vertices.size();
-  if (first + mesh.mNumVertices > UINT32_MAX)
-    throw std::runtime_error("has more vertices than 32-bit indices can number");
+  if (first + mesh.mNumVertices > most_vertices || all.triangles.size() + mesh.mNumFaces > most_triangles)
+    throw std::runtime_error(
+        fmt::format("has more than {} million vertices or {} million triangles; thin it out, or export a part of it",
+                    most_vertices / 1'000'000, most_triangles / 1'000'000));
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D& p = mesh.mVertices[v];
     all.vertices.push_back((T_file_mesh * Eigen::Vector4d(p.x, p.y, p.z, 1.0)).head<3>());
@@ -53,21 +61,36 @@ void append(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& T_f
   for (unsigned c = 0; c < node.mNumChildren; ++c) append(scene, *node.mChildren[c], T_file_node, all);
 }
 
-std::runtime_error failure(const Assimp::Importer& importer) {
+/// Only the readers of this ending stay: where they do not know a file, Assimp would ask all others what it looks like.
+void keep_readers(Assimp::Importer& importer, const std::string& extension) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    std::istringstream endings(importer.GetImporterInfo(i)->mFileExtensions);
+    std::string ending;
+    bool reads = false;
+    while (endings >> ending) reads |= "." + ending == extension;
+    if (!reads) importer.UnregisterLoader(importer.GetImporter(i));
+  }
+}
+
+std::runtime_error failure(const Assimp::Importer& importer, const ServedFiles& files) {
+  if (files.folder >= 0 && !files.refused.empty())
+    return std::runtime_error(
+        fmt::format("needs '{}', which is no file beside it or in a folder below; only such are read, and no links",
+                    files.refused));
   return std::runtime_error(std::string("cannot be read by Assimp: ") + importer.GetErrorString());
 }
 
 }  // namespace
 
-bool has_reader(const std::string& extension) { return Assimp::Importer().IsExtensionSupported(extension); }
-
-ImportedTriangles read_scene(const std::filesystem::path& file) {
+ImportedTriangles read_scene(ServedFiles& files) {
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), 0);
-  if (!scene || !scene->mRootNode) throw failure(importer);
+  keep_readers(importer, files.name.substr(files.name.rfind('.')));
+  importer.SetIOHandler(io_system(files, allow_memory_for).release());
+  const aiScene* scene = importer.ReadFile(files.name, 0);
+  if (!scene || !scene->mRootNode) throw failure(importer, files);
   check_indices(*scene);
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (!scene) throw failure(importer);
+  if (!scene) throw failure(importer, files);
   ImportedTriangles all;
   append(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), all);
   return all;

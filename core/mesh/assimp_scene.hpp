@@ -2,9 +2,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <string>
 #include <vector>
+
+#include "core/mesh/served_files.hpp"
 
 namespace nextview {
 
@@ -14,13 +14,14 @@ struct ImportedTriangles {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Whether Assimp has a reader for files that end so.
-/// @param extension with the dot
-bool has_reader(const std::string& extension);
+/// No file of 1 GiB that anybody has seen holds more.
+inline constexpr std::uint64_t most_vertices = std::uint64_t{1} << 27, most_triangles = std::uint64_t{1} << 26;
 
 /// Reads a scene: all meshes of all nodes, each moved by its nodes' transforms; polygons become triangles; points and
-/// lines are left out. A damaged file may end the process: see import_scene.
-/// @throws std::runtime_error with the reason alone: what Assimp says, or an index beyond the vertices.
-ImportedTriangles read_scene(const std::filesystem::path& file);
+/// lines are left out. Assimp's reader of the name's ending reads it, whatever the content looks like. A damaged file
+/// may end the process: see import_scene.
+/// @throws std::runtime_error with the reason alone: what Assimp says, a file that it names and does not get, an index
+///         beyond the vertices, too many vertices or triangles.
+ImportedTriangles read_scene(ServedFiles& files);
 
 }  // namespace nextview

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdint>
 
+#include "core/file/counted.hpp"
+
 namespace nextview {
 namespace {
 
@@ -35,9 +37,9 @@ std::string false_stl_claim(std::string_view bytes) {
   if (bytes.starts_with("solid") && is_text(bytes.substr(0, 500))) return false_text_stl_claim(bytes);
   if (bytes.size() < header)
     return "is neither an STL text nor long enough for a binary STL's header; it may be truncated";
-  return fmt::format(
-      "its STL header claims {} triangles, which take {} bytes, but the file has {}; it may be truncated", triangles,
-      expected, bytes.size());
+  return fmt::format("its STL header claims {}, which {} {} bytes, but the file has {}; it may be truncated",
+                     counted(triangles, "triangle", "triangles"), triangles == 1 ? "takes" : "take", expected,
+                     bytes.size());
 }
 
 /// Takes the next number off the front of `text`; negative if there is none.
@@ -80,11 +82,13 @@ std::string false_off_claim(std::string_view bytes) {
     return "its OFF header must hold the numbers of vertices, faces and edges";
   for (std::int64_t i = 0; i < vertices; ++i)
     if (take_line(rest).empty())
-      return fmt::format("its OFF header claims {} vertices, but only {} lines follow; it may be truncated", vertices,
-                         i);
+      return fmt::format("its OFF header claims {}, but only {} {}; it may be truncated",
+                         counted(vertices, "vertex", "vertices"), counted(i, "line", "lines"),
+                         i == 1 ? "follows" : "follow");
   for (std::int64_t i = 0; i < faces; ++i)  // Assimp takes the last vertex for one that is not there.
     if (const std::string_view line = take_line(rest); line.empty() || !is_face(line, vertices))
-      return fmt::format("its OFF header claims {} faces of {} vertices, but face {} is {}", faces, vertices, i,
+      return fmt::format("its OFF header claims {} of {}, but face {} is {}", counted(faces, "face", "faces"),
+                         counted(vertices, "vertex", "vertices"), i,
                          line.empty() ? "missing; it may be truncated" : "not a list of such vertices");
   return "";
 }

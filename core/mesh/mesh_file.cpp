@@ -7,11 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/printable.hpp"
 #include "core/mesh/file_claims.hpp"
+#include "core/mesh/mesh_types.hpp"
 #include "core/mesh/scene_import.hpp"
 #include "core/mesh/weld.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -30,26 +34,26 @@ std::string lower_case_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-/// Opening a pipe would wait for someone to write into it.
-bool is_device(const std::filesystem::path& file) {
+/// Opening a pipe would wait for someone to write into it; and a link to itself is no missing file.
+void check_kind(const std::filesystem::path& file) {
   std::error_code error;
-  return std::filesystem::is_other(file, error);
+  const auto status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::none) throw std::runtime_error("cannot be read: " + error.message());
+  if (std::filesystem::is_other(status)) throw std::runtime_error("is a device or a pipe, not a file");
 }
 
-/// Readers quote what they did not understand, line breaks and binary bytes included.
+/// Readers quote what they did not understand, however long it is.
 std::string one_line(std::string_view text) {
-  std::string line(text.substr(0, std::min(text.find('\n'), std::size_t{200})));
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  constexpr std::size_t longest = 200;
+  std::string line = printable(text.substr(0, longest));
+  if (text.size() > longest) line += " …";
   return line.empty() ? "is not a file of its type" : line;
 }
 
 /// @throws std::runtime_error with the reason alone, as everything below does
 void check_content(const std::string& extension, std::string_view bytes) {
   if (bytes.empty()) throw std::runtime_error("is empty");
-  if (!has_reader(extension))
-    throw std::runtime_error(
-        fmt::format("'{}' is no known mesh file type; use ply, obj, stl, off, 3mf or gltf", extension));
+  if (const std::string reason = not_a_mesh_type(extension); !reason.empty()) throw std::runtime_error(reason);
   if (const std::string reason = false_claim(extension, bytes); !reason.empty()) throw std::runtime_error(reason);
 }
 
@@ -113,38 +117,57 @@ TriangleMesh centred(const ImportedTriangles& imported, const MeshPlacement& pla
   return mesh;
 }
 
-PlacedMesh load(const std::filesystem::path& file, double longest_side) {
-  ImportedTriangles imported = import_scene(file);
+/// As the file has it: before anything is left out, and in the file's own numbers, which scaling rounds.
+MeshTopology topology_of(const ImportedTriangles& imported) {
+  TriangleMesh mesh;
+  mesh.vertices.reserve(imported.vertices.size());
+  for (const Eigen::Vector3d& vertex : imported.vertices) mesh.vertices.push_back(vertex.cast<float>());
+  mesh.triangles = imported.triangles;
+  return topology(mesh);
+}
+
+PlacedMesh placed(ImportedTriangles imported, double longest_side) {
   check_coordinates(imported);
   if (imported.triangles.empty())
     throw std::runtime_error("has no faces; a surface is needed, not only points or lines");
+  MeshTopology topology = topology_of(imported);
+  const std::size_t all = imported.triangles.size();
   std::erase_if(imported.triangles, [&](const auto& triangle) { return !has_area(imported, triangle); });
   if (imported.triangles.empty()) throw std::runtime_error("has only degenerate triangles, none with an area");
   const Eigen::AlignedBox3d box = box_of_triangles(imported);
   const MeshPlacement placement{box.center(), scale_for(box, longest_side)};
-  return {centred(imported, placement), placement};
+  TriangleMesh mesh = centred(imported, placement);
+  topology.left_out = all - mesh.triangles.size();
+  return {std::move(mesh), placement, topology};
 }
 
 }  // namespace
 
-TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options) {
-  return load_placed_mesh(file, options).mesh;
+TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options, std::stop_token stop) {
+  return load_placed_mesh(file, options, std::move(stop)).mesh;
 }
 
-PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOptions& options) {
+PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOptions& options, std::stop_token stop) {
   if (!(options.longest_side >= 0.0 && options.longest_side <= largest_own_size))
     throw std::invalid_argument(
         fmt::format("longest_side must lie between 0 (the file's own size) and {} m", largest_own_size));
-  if (is_device(file)) throw std::runtime_error(fmt::format("{}: is a device or a pipe, not a file", file.string()));
-  std::string bytes = read_file(file, options.largest_file);
+  const std::string name = printable(file.string());
   try {
-    check_content(lower_case_extension(file), bytes);
-    bytes = std::string();  // Assimp reads the file itself; no need to hold it twice.
-    return load(file, options.longest_side);
+    check_kind(file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", name, error.what()));
+  }
+  MeshBytes mesh{lower_case_extension(file), read_file(file, options.largest_file), file.parent_path()};
+  try {
+    check_content(mesh.extension, mesh.bytes);
+    const ReadingLimits limits = reading_limits(mesh.extension, mesh.bytes.size(), options.largest_file);
+    return placed(import_scene(std::move(mesh), limits, stop), options.longest_side);
+  } catch (const Stopped&) {
+    throw;
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error(fmt::format("{}: needs more memory than there is", file.string()));
+    throw std::runtime_error(fmt::format("{}: needs more memory than there is", name));
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), one_line(error.what())));
+    throw std::runtime_error(fmt::format("{}: {}", name, one_line(error.what())));
   }
 }
 

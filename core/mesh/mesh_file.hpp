@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <stop_token>
 
 #include "core/mesh/triangle_mesh.hpp"
 
@@ -8,7 +9,7 @@ namespace nextview {
 struct MeshFileOptions {
   /// Longest side of the bounding box after scaling [m]; 0 keeps the file's own size.
   double longest_side = 0.5;
-  std::uintmax_t largest_file = 1u << 30;  ///< files beyond this are refused [bytes]
+  std::uintmax_t largest_file = 1u << 30;  ///< of all files of a mesh together; beyond it is refused [bytes]
 };
 
 /// How load_mesh moves and scales a file's coordinates: what else is known in them, such as openings, goes the same
@@ -23,14 +24,21 @@ struct MeshPlacement {
 struct PlacedMesh {
   TriangleMesh mesh;
   MeshPlacement placement;
+  MeshTopology topology;  ///< of the file's triangles as they come, those without an area included
 };
 
-/// Reads PLY, OBJ, STL, OFF, 3MF, glTF and whatever else Assimp reads; all of a scene's meshes become one. The result
-/// is centred: its bounding box has its centre in the origin. Degenerate triangles are dropped.
+/// Reads PLY, OBJ, STL, OFF, 3MF, AMF, glTF, DAE, FBX, 3DS and X3D; all of a scene's meshes become one. The result is
+/// centred: its bounding box has its centre in the origin. Triangles without an area, or that scaling to single
+/// precision folds, are left out. Besides the file only those that a glTF names are read: regular files beside it or in
+/// folders below. Who reads it is confined (import_scene).
 /// @throws std::runtime_error with one line that names the file and the reason: missing, empty, unreadable, truncated,
-///         without faces, not finite, absurdly large coordinates, over the size limit.
-TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {});
-/// The same, and how its coordinates came out of the file's.
-PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {});
+///         without faces, not finite, absurdly large coordinates, over the size limit, more memory or time than its
+///         size explains.
+/// @throws Stopped
+TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {},
+                       std::stop_token stop = {});
+/// The same, how its coordinates came out of the file's, and how its triangles joined in the file.
+PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {},
+                            std::stop_token stop = {});
 
 }  // namespace nextview

@@ -4,146 +4,98 @@
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstring>
+#include <new>
 #include <stdexcept>
-#include <system_error>
+#include <utility>
+
+#include "core/mesh/scene_transfer.hpp"
 
 namespace nextview {
 namespace {
 
-constexpr rlim_t longest_reading = 600;  // processor time [s]
+// Of the child.
 
-/// What goes through the pipe, in this order: this header, the message or the vertices, the triangles.
-struct Header {
-  std::uint64_t message = 0, vertices = 0, triangles = 0;
-};
+constexpr int result_pipe = 3, folder_below = 4;
 
-bool send(int pipe, const void* data, std::size_t size) {
-  const char* bytes = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::write(pipe, bytes, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return false;
-    bytes += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
+/// Whoever asks for memory that is not there ends here, wherever in Assimp that is.
+[[noreturn]] void end_out_of_memory() {
+  send_out_of_memory(result_pipe);
+  ::_exit(0);
 }
 
-bool receive(int pipe, void* data, std::size_t size) {
-  char* bytes = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t received = ::read(pipe, bytes, size);
-    if (received < 0 && errno == EINTR) continue;
-    if (received <= 0) return false;
-    bytes += received;
-    size -= static_cast<std::size_t>(received);
-  }
-  return true;
+/// No file of the process that started it stays open but the pipe, and the folder if it is needed.
+bool keep_open(int pipe, const std::filesystem::path* folder) {
+  const int nothing = ::open("/dev/null", O_RDWR);
+  const int below = folder ? ::open(folder->c_str(), O_PATH | O_DIRECTORY) : -1;
+  pipe = ::fcntl(pipe, F_DUPFD, folder_below + 1);  // out of the way of what comes now
+  const int kept = below < 0 ? -1 : ::fcntl(below, F_DUPFD, folder_below + 1);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, standard);
+  ::dup2(pipe, result_pipe);
+  if (kept >= 0) ::dup2(kept, folder_below);
+  ::close_range(kept >= 0 ? folder_below + 1 : folder_below, ~0u, 0);
+  return kept >= 0;
 }
 
-template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return values.size() * sizeof(T);
-}
-
-/// It prints nothing, leaves no core file, and ends at the latest with the process that started it.
-void restrain() {
+/// It leaves no core file, ends at the latest with the process that started it, and leaves it to that one what an
+/// interrupt from the terminal means.
+void settle(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const int nothing = ::open("/dev/null", O_WRONLY);
-  ::dup2(nothing, STDOUT_FILENO);
-  ::dup2(nothing, STDERR_FILENO);
-  const rlimit no_core = {0, 0}, time = {longest_reading, longest_reading};
+  if (::getppid() != parent) ::_exit(0);
+  const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  ::setrlimit(RLIMIT_CPU, &time);
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_IGN);
 }
 
-[[noreturn]] void read_and_send(const std::filesystem::path& file, int pipe) {
-  restrain();
+[[noreturn]] void read_and_send(const MeshBytes& file, const ReadingLimits& limits, pid_t parent, int pipe) {
+  settle(parent);
+  const std::filesystem::path folder = file.folder.empty() ? "." : file.folder;
+  const bool has_folder = keep_open(pipe, limits.companions > 0 ? &folder : nullptr);
+  std::set_new_handler(end_out_of_memory);
+  limit_memory(limits);
+  confine(result_pipe);
   try {
-    const ImportedTriangles read = read_scene(file);
-    const Header header = {0, read.vertices.size(), read.triangles.size()};
-    send(pipe, &header, sizeof(header)) && send(pipe, read.vertices.data(), bytes_of(read.vertices)) &&
-        send(pipe, read.triangles.data(), bytes_of(read.triangles));
+    ServedFiles files{"mesh" + file.extension, file.bytes, has_folder ? folder_below : -1, limits.companions, ""};
+    send_scene(result_pipe, read_scene(files));
   } catch (const std::exception& error) {
-    const std::string_view message = error.what();
-    const Header header = {message.size() + 1, 0, 0};
-    send(pipe, &header, sizeof(header)) && send(pipe, error.what(), message.size() + 1);
+    send_message(result_pipe, error.what());
   }
   ::_exit(0);  // Not exit: what is registered to run at the end belongs to the process that started this one.
 }
 
-/// @return whether all of it came
-bool receive_scene(int pipe, ImportedTriangles& scene, std::string& message) {
-  Header header;
-  if (!receive(pipe, &header, sizeof(header))) return false;
-  message.resize(header.message);
-  scene.vertices.resize(header.vertices);
-  scene.triangles.resize(header.triangles);
-  return receive(pipe, message.data(), message.size()) &&
-         receive(pipe, scene.vertices.data(), bytes_of(scene.vertices)) &&
-         receive(pipe, scene.triangles.data(), bytes_of(scene.triangles));
+// Of the parent.
+
+constexpr const char* to_do = "it is damaged or made to do harm; if it opens elsewhere, export it as binary STL or PLY";
+
+std::runtime_error too_much_memory(const ReadingLimits& limits) {
+  return std::runtime_error(fmt::format("reading it takes more memory than a file of its size needs ({} MB): {}",
+                                        limits.memory >> 20, to_do));
 }
-
-/// Reads one end of a pipe that another process fills, and waits for that process in the end.
-class ReadingProcess {
- public:
-  explicit ReadingProcess(const std::filesystem::path& file) {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-      throw std::system_error(errno, std::generic_category(), "cannot start its reader");
-    process_ = ::fork();
-    if (process_ == 0) read_and_send(file, ends[1]);
-    ::close(ends[1]);
-    pipe_ = ends[0];
-    if (process_ < 0) {
-      ::close(pipe_);
-      throw std::system_error(errno, std::generic_category(), "cannot start its reader");
-    }
-  }
-  ~ReadingProcess() {
-    ::close(pipe_);
-    if (!ended_) wait();
-  }
-  ReadingProcess(const ReadingProcess&) = delete;
-  ReadingProcess& operator=(const ReadingProcess&) = delete;
-
-  int pipe() const { return pipe_; }
-  /// @return its wait status
-  int wait() {
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
-    ended_ = true;
-    return status;
-  }
-
- private:
-  pid_t process_ = -1;
-  int pipe_ = -1;
-  bool ended_ = false;
-};
 
 }  // namespace
 
-ImportedTriangles import_scene(const std::filesystem::path& file) {
-  ReadingProcess process(file);
-  ImportedTriangles scene;
-  std::string message;
-  const bool complete = receive_scene(process.pipe(), scene, message);
-  const int status = process.wait();
-  if (!complete)
-    throw std::runtime_error(
-        fmt::format("cannot be read: Assimp, which reads it, failed ({}); the file is probably damaged",
-                    WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status)) : "no result"));
-  if (!message.empty()) throw std::runtime_error(message.c_str());
-  return scene;
+ImportedTriangles import_scene(MeshBytes file, const ReadingLimits& limits, std::stop_token stop) {
+  const pid_t self = ::getpid();
+  ReadingProcess process([&](int pipe) { read_and_send(file, limits, self, pipe); }, limits.time, std::move(stop));
+  file.bytes = std::string();  // The child has them.
+  ReceivedScene received;
+  try {
+    received = receive_scene(process);
+  } catch (const ReadingProcess::TooSlow&) {
+    throw std::runtime_error(fmt::format("reading it takes longer than {} s: {}", limits.time.count() / 1000, to_do));
+  }
+  using Kind = ReceivedScene::Kind;
+  if (received.kind == Kind::scene) return std::move(received.scene);
+  const ReadingProcess::Death death = process.end();
+  // Not every library says so when there is no memory: some give up without a reason, some crash.
+  const bool used_up = limits.companions == 0 && death.most_memory > limits.memory / 2;
+  if (received.kind == Kind::out_of_memory || used_up) throw too_much_memory(limits);
+  if (received.kind == Kind::message) throw std::runtime_error(received.message);
+  throw std::runtime_error(
+      fmt::format("its reader, Assimp, failed ({}); the file is probably damaged: export it again", death.reason));
 }
 
 }  // namespace nextview

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/file/counted.hpp"
 #include "core/mesh/edge_uses.hpp"
 #include "core/mesh/weld.hpp"
 
@@ -19,10 +20,6 @@ double signed_volume(const TriangleMesh& mesh) {
     six_volumes += corner(a).dot(corner(b).cross(corner(c)));
   }
   return six_volumes / 6.0;
-}
-
-std::string counted(std::size_t count, std::string_view what) {
-  return fmt::format("{} {} edge{}", count, what, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -59,12 +56,13 @@ MeshTopology topology(const TriangleMesh& mesh) {
 
 std::string MeshTopology::summary() const {
   std::vector<std::string> remarks;
-  if (boundary_edges) remarks.push_back(counted(boundary_edges, "boundary"));
-  if (non_manifold_edges) remarks.push_back(counted(non_manifold_edges, "non-manifold"));
-  if (misoriented_edges) remarks.push_back(counted(misoriented_edges, "misoriented"));
+  if (boundary_edges) remarks.push_back(counted(boundary_edges, "boundary edge", "boundary edges"));
+  if (non_manifold_edges) remarks.push_back(counted(non_manifold_edges, "non-manifold edge", "non-manifold edges"));
+  if (misoriented_edges) remarks.push_back(counted(misoriented_edges, "misoriented edge", "misoriented edges"));
   if (inward) remarks.push_back("normals point inwards");
-  return fmt::format("{}{}{}", watertight() ? "watertight" : "not watertight", remarks.empty() ? "" : ": ",
-                     fmt::join(remarks, ", "));
+  return fmt::format(
+      "{}{}{}{}", watertight() ? "watertight" : "not watertight", remarks.empty() ? "" : ": ", fmt::join(remarks, ", "),
+      left_out ? fmt::format(" ({} without an area left out)", counted(left_out, "triangle", "triangles")) : "");
 }
 
 }  // namespace nextview

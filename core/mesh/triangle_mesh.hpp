@@ -23,9 +23,11 @@ struct MeshTopology {
   std::size_t non_manifold_edges = 0;  ///< edges with more than two triangles
   std::size_t misoriented_edges = 0;   ///< edges that both triangles run through in the same direction
   bool inward = false;                 ///< the normals of a closed mesh point inwards (negative signed volume)
+  std::size_t left_out = 0;  ///< triangles without an area that a file has; they count above, the mesh is without
   bool watertight() const { return boundary_edges == 0 && non_manifold_edges == 0; }
 
-  /// For people: "watertight", or "not watertight: 12 boundary edges, 3 misoriented edges".
+  /// For people: "watertight", or "not watertight: 12 boundary edges, 3 misoriented edges (1 triangle without an area
+  /// left out)".
   std::string summary() const;
 };
 

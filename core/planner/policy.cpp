@@ -45,13 +45,15 @@ std::vector<std::string> policy_names() {
   return names;
 }
 
-std::unique_ptr<Policy> make_policy(const PlannerConfig& config) {
-  const auto found = std::ranges::find(policies(), config.gain, &PolicyEntry::name);
+const PolicyEntry& policy_entry(const std::string& name) {
+  const auto found = std::ranges::find(policies(), name, &PolicyEntry::name);
   if (found == policies().end())
     throw std::invalid_argument(
-        fmt::format("there is no gain '{}'; there are {}", config.gain, fmt::join(policy_names(), ", ")));
-  return found->make(config);
+        fmt::format("there is no gain '{}'; there are {}", name, fmt::join(policy_names(), ", ")));
+  return *found;
 }
+
+std::unique_ptr<Policy> make_policy(const PlannerConfig& config) { return policy_entry(config.gain).make(config); }
 
 std::optional<ScoreExplanation> explain(const Policy& policy, const PlanningState& state, const Pose& T_world_camera) {
   if (!policy.gain()) return std::nullopt;

@@ -71,6 +71,8 @@ struct PolicyEntry {
 /// Every policy there is: the gains, their combination, the baselines. A new one is a file and a line in policy.cpp.
 std::span<const PolicyEntry> policies();
 std::vector<std::string> policy_names();
+/// @throws std::invalid_argument naming the known ones.
+const PolicyEntry& policy_entry(const std::string& name);
 /// @throws std::invalid_argument for an unknown name, or settings that the policy cannot do with.
 std::unique_ptr<Policy> make_policy(const PlannerConfig& config);
 

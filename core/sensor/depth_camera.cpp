@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
 
 namespace nextview {
@@ -19,7 +20,7 @@ constexpr double largest_noise = 7.0;
 void require(double value, double lowest, double highest, const char* field, const char* unit) {
   if (!(value >= lowest && value <= highest))
     throw std::invalid_argument(
-        fmt::format("depth camera: {} = {} must lie between {} and {}{}", field, value, lowest, highest, unit));
+        fmt::format("depth camera: {} must be from {} to {}{}, not {}", field, lowest, highest, unit, value));
 }
 
 /// Four rows of an image, or what is left of it. Taken column by column, 16 pixels in a row are a block of 4 x 4: rays
@@ -49,13 +50,16 @@ std::vector<RayScene::Hit> cast(const RayScene& scene, const Pose& T_world_camer
 /// `to_range(pixel, hit)` makes a pixel of what its ray met within `reach` [m].
 template <class ToRange>
 DepthImage sense_image(const RayScene& scene, const Pose& T_world_camera, const PinholeCamera& camera,
-                       const std::vector<Eigen::Vector3f>& directions, double reach, const ToRange& to_range) {
+                       const std::vector<Eigen::Vector3f>& directions, double reach, const std::stop_token& stop,
+                       const ToRange& to_range) {
   DepthImage image{camera, std::vector<float>(directions.size())};
   tbb::parallel_for(0, Strip::count(camera), [&](int index) {
+    if (stop.stop_requested()) return;
     const Strip strip(index, camera);
     const std::vector<RayScene::Hit> hits = cast(scene, T_world_camera, strip, directions, reach);
     for (int i = 0; i < strip.pixels(); ++i) image.range[strip.pixel(i)] = to_range(strip.pixel(i), hits[i]);
   });
+  throw_if_stopped(stop);
   return image;
 }
 
@@ -77,16 +81,18 @@ PinholeCamera DepthCameraConfig::camera() const {
   return PinholeCamera::from_field_of_view(width, height, field_of_view * degree);
 }
 
-DepthCamera::DepthCamera(const DepthCameraConfig& config) : config_(config) {
+DepthCamera::DepthCamera(const DepthCameraConfig& config, const std::stop_token& stop) : config_(config) {
   config.validate();
   camera_ = config.camera();
   directions_.reserve(std::size_t(camera_.width) * camera_.height);
-  for (int v = 0; v < camera_.height; ++v)
+  for (int v = 0; v < camera_.height; ++v) {
+    throw_if_stopped(stop);
     for (int u = 0; u < camera_.width; ++u) directions_.push_back(camera_.direction(u, v).cast<float>());
+  }
 }
 
 DepthImage DepthCamera::sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed,
-                              std::uint32_t view_index) const {
+                              std::uint32_t view_index, const std::stop_token& stop) const {
   const CounterRandom noise(seed, random_stream::range_noise, view_index);
   const CounterRandom dropout(seed, random_stream::dropout, view_index);
   const CounterRandom outliers(seed, random_stream::outliers, view_index);
@@ -104,16 +110,17 @@ DepthImage DepthCamera::sense(const RayScene& scene, const Pose& T_world_camera,
     return hit.cosine < grazing_cosine || range < config_.min_range ? DepthImage::invalid : range;
   };
   const double reach = config_.max_range + largest_noise * config_.range_noise;
-  return sense_image(scene, T_world_camera, camera_, directions_, reach, to_range);
+  return sense_image(scene, T_world_camera, camera_, directions_, reach, stop, to_range);
 }
 
-DepthImage DepthCamera::sense_ideal(const RayScene& scene, const Pose& T_world_camera) const {
+DepthImage DepthCamera::sense_ideal(const RayScene& scene, const Pose& T_world_camera,
+                                    const std::stop_token& stop) const {
   const auto to_range = [&](std::size_t, const RayScene::Hit& hit) {
     return hit.range > config_.max_range   ? DepthImage::beyond_range
            : hit.range < config_.min_range ? DepthImage::invalid
                                            : hit.range;
   };
-  return sense_image(scene, T_world_camera, camera_, directions_, config_.max_range, to_range);
+  return sense_image(scene, T_world_camera, camera_, directions_, config_.max_range, stop, to_range);
 }
 
 }  // namespace nextview

@@ -3,6 +3,7 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "core/mesh/triangle_mesh.hpp"
@@ -30,7 +31,8 @@ struct DepthCameraConfig {
 /// A mesh that rays can be shot at (an Embree scene). Safe to use from several threads at once.
 class RayScene {
  public:
-  explicit RayScene(const TriangleMesh& mesh);
+  /// @throws Stopped
+  explicit RayScene(const TriangleMesh& mesh, const std::stop_token& stop = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
@@ -52,17 +54,19 @@ class RayScene {
 /// A simulated depth camera: Gaussian noise along the ray, dropout, outliers, range limits, grazing-incidence limit.
 class DepthCamera {
  public:
-  /// @throws std::invalid_argument if the configuration is not valid.
-  explicit DepthCamera(const DepthCameraConfig& config);
+  /// @throws std::invalid_argument if the configuration is not valid; Stopped
+  explicit DepthCamera(const DepthCameraConfig& config, const std::stop_token& stop = {});
 
   const DepthCameraConfig& config() const { return config_; }
   const PinholeCamera& camera() const { return camera_; }
 
   /// What the camera sees from T_world_camera. `view_index` and `seed` choose the noise; each pixel draws its own.
-  DepthImage sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed,
-                   std::uint32_t view_index) const;
+  /// @throws Stopped
+  DepthImage sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed, std::uint32_t view_index,
+                   const std::stop_token& stop = {}) const;
   /// The same without noise, dropout, outliers and grazing limit: what a perfect camera would see. For scoring.
-  DepthImage sense_ideal(const RayScene& scene, const Pose& T_world_camera) const;
+  /// @throws Stopped
+  DepthImage sense_ideal(const RayScene& scene, const Pose& T_world_camera, const std::stop_token& stop = {}) const;
 
  private:
   DepthCameraConfig config_;

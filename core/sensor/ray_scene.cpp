@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/progress/stopped.hpp"
 #include "core/sensor/depth_camera.hpp"
 
 namespace nextview {
@@ -25,23 +26,31 @@ void check(RTCDevice device, const char* what) {
 }  // namespace
 
 struct RayScene::Impl {
-  explicit Impl(const TriangleMesh& source) : mesh(source), device(rtcNewDevice(nullptr)) {
-    check(device, "starting Embree");
-    scene = rtcNewScene(device);
-    // Without `robust`, rays may slip between two triangles along the edge that they share.
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-    if (!mesh.triangles.empty()) attach_triangles();
-    // One thread builds: where a ray meets two triangles at the same range, the order in the tree decides between them.
-    tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
-    check(device, "building the tree over the triangles");
-  }
+  explicit Impl(const TriangleMesh& source) : mesh(source), device(rtcNewDevice(nullptr)) {}
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
+
+  void build(const std::stop_token& stop) {
+    check(device, "starting Embree");
+    scene = rtcNewScene(device);
+    // Without `robust`, rays may slip between two triangles along the edge that they share.
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    if (!mesh.triangles.empty()) attach_triangles();
+    const auto go_on = [](void* asked, double) {
+      return !static_cast<const std::stop_token*>(asked)->stop_requested();
+    };
+    rtcSetSceneProgressMonitorFunction(scene, go_on, const_cast<std::stop_token*>(&stop));
+    // One thread builds: where a ray meets two triangles at the same range, the order in the tree decides between them.
+    tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    throw_if_stopped(stop);
+    check(device, "building the tree over the triangles");
+  }
 
   void attach_triangles() {
     mesh.vertices.reserve(mesh.vertices.size() + 1);  // Embree reads 16 bytes at each vertex, so also past the last.
@@ -77,7 +86,9 @@ RayScene::Hit RayScene::Impl::hit(const Vector3& origin, const Eigen::Vector3f& 
   return {static_cast<float>(plane_range), static_cast<float>(std::min(cosine, 1.0)), triangle};
 }
 
-RayScene::RayScene(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+RayScene::RayScene(const TriangleMesh& mesh, const std::stop_token& stop) : impl_(std::make_unique<Impl>(mesh)) {
+  impl_->build(stop);
+}
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;

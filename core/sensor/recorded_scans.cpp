@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -78,6 +79,7 @@ constexpr const char* param_form = "param NAME VALUE";
 constexpr const char* scan_form = "scan px py pz qx qy qz qw N";
 constexpr const char* view_form = "view px py pz qx qy qz qw";
 constexpr const char* point_form = "x y z";
+constexpr double farthest_point = 1e6;  // along each axis [m]; rays to there are still told apart
 
 Pose read_pose(LineReader& reader, const char* form) {
   double v[7];
@@ -111,24 +113,16 @@ RecordedScan read_scan(LineReader& reader) {
       throw reader.failure(fmt::format("the file ends after {} of {} points", scan.points.size(), count));
     const double x = reader.number(point_form), y = reader.number(point_form), z = reader.number(point_form);
     reader.end_of_line(point_form);
+    if (!(std::max({std::abs(x), std::abs(y), std::abs(z)}) <= farthest_point))
+      throw reader.failure(fmt::format("the point lies beyond {:g} m from the sensor; remove it", farthest_point));
     scan.points.emplace_back(x, y, z);
   }
   return scan;
 }
 
-/// A pipe would be waited for without end, and a device may never end.
-void require_regular_file(const std::filesystem::path& file) {
-  std::error_code ignored;  // what does not exist is told by who reads it
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  throw std::runtime_error(fmt::format("{}: is a {}; scans are read from a regular file", file.string(),
-                                       std::filesystem::is_directory(status) ? "directory" : "pipe, socket or device"));
-}
-
 }  // namespace
 
 RecordedScene read_recorded_scene(const std::filesystem::path& file) {
-  require_regular_file(file);
   const std::string text = read_file(file);
   if (text.empty()) throw std::runtime_error(fmt::format("{}: is empty", file.string()));
   LineReader reader(file, text);

@@ -22,6 +22,13 @@ namespace fs = std::filesystem;
 /// Files are small: toml++ takes a table apart by recursion, and a larger one could nest deeper than the stack.
 constexpr std::uintmax_t largest_file = 1 << 15;
 
+/// Where a file says that another one is: beside it, if there is one, or as it stands.
+std::string beside(const fs::path& file, const std::string& said) {
+  const fs::path there = file.parent_path() / said;
+  std::error_code ignored;
+  return !said.empty() && fs::path(said).is_relative() && fs::is_regular_file(there, ignored) ? there.string() : said;
+}
+
 /// A TOML value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
 std::string value_text(const Setting& setting, const toml::node& node) {
   const bool takes_text =
@@ -39,8 +46,12 @@ std::string value_text(const Setting& setting, const toml::node& node) {
 class TomlReader {
  public:
   /// With `only`, keys outside of that section are errors.
-  TomlReader(const fs::path& file, Configuration& configuration, std::string only = "")
-      : file_(file), only_(std::move(only)), configuration_(configuration), settings_(settings(configuration)) {
+  TomlReader(const fs::path& file, Configuration& configuration, SettingSources& sources, std::string only = "")
+      : file_(file),
+        only_(std::move(only)),
+        configuration_(configuration),
+        sources_(sources),
+        settings_(settings(configuration)) {
     for (const Setting& s : settings_) keys_.push_back(s.key);
   }
 
@@ -53,14 +64,22 @@ class TomlReader {
     }
     // The preset first: what else the file says of the sensor overrides it.
     if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty()) try {
-        apply_sensor_preset(configuration_, preset->get());
+        apply_sensor_preset(configuration_, located("sensor.preset", preset->get()), &sources_);
       } catch (const std::runtime_error& error) {
         throw failure(preset->source().begin.line, error.what());
       }
     apply(table, "");
+    configuration_.read_from.push_back(file_);
   }
 
  private:
+  /// The text of a setting: what names a file is looked for beside this one.
+  std::string located(const std::string& key, const std::string& text) const {
+    const bool names_file =
+        key == "object.file" || key == "views.file" || (key == "sensor.preset" && !is_there(named_sensor(text)));
+    return names_file ? beside(file_, text) : text;
+  }
+
   void apply(const toml::table& table, const std::string& prefix) {
     for (const auto& [name, node] : table) {
       const std::string key = prefix + std::string(name.str());
@@ -76,26 +95,42 @@ class TomlReader {
       if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
         throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
       try {
-        setting->set(value_text(*setting, node));
+        setting->set(located(key, value_text(*setting, node)));
+        sources_[key] = place(line);
       } catch (const std::invalid_argument& error) {
         throw failure(line, error.what());
       }
     }
   }
 
+  std::string place(std::uint32_t line) const { return fmt::format("{}:{}", file_.string(), line); }
   std::runtime_error failure(std::uint32_t line, const std::string& reason) const {
-    return std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line, reason));
+    return std::runtime_error(place(line) + ": " + reason);
   }
 
   fs::path file_;
   std::string only_;
   Configuration& configuration_;
+  SettingSources& sources_;
   std::vector<Setting> settings_;
   std::vector<std::string> keys_;
 };
 
 void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
+}
+
+/// What a part says of its fields, "room: field must be …", said of the settings of this section: "map.hit must be …".
+template <class Part>
+void validate_section(const Part& part, const std::string& section) {
+  try {
+    part.validate();
+  } catch (const std::invalid_argument& error) {
+    const std::string reason = error.what();
+    if (reason.starts_with(section)) throw;
+    const auto room = reason.find(": ");
+    throw std::invalid_argument(section + reason.substr(room == reason.npos ? 0 : room + 2));
+  }
 }
 
 }  // namespace
@@ -105,12 +140,12 @@ PosteriorSamplerConfig posterior_sampler_config(const Configuration& c) {
 }
 
 void Configuration::validate() const {
-  sensor.validate();
-  cloud.validate();
-  views.validate();
-  termination.validate();
-  map.model.validate();
-  gibbs.validate();
+  validate_section(sensor, "sensor.");
+  validate_section(cloud, "cloud.");
+  validate_section(views, "views.");
+  validate_section(termination, "termination.");
+  validate_section(map.model, "map.");
+  validate_section(gibbs, "gibbs.");
   const auto in = [](double value, double low, double high, const char* key, const char* unit) {
     require(value >= low && value <= high,
             fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
@@ -147,9 +182,11 @@ void Configuration::validate() const {
   CombinedPolicy(planner.combined_weights);  // whether it can be read
 }
 
-Configuration read_configuration(const fs::path& file, const Configuration& base) {
+Configuration read_configuration(const fs::path& file, const Configuration& base, SettingSources* sources) {
   Configuration configuration = base;
-  TomlReader(file, configuration).read(read_file(file, largest_file));
+  SettingSources of_file;
+  TomlReader(file, configuration, sources ? *sources : of_file).read(read_file(file, largest_file));
+  if (!sources) validate(configuration, of_file);
   return configuration;
 }
 
@@ -172,10 +209,10 @@ std::string to_toml(const Configuration& configuration) {
   return text;
 }
 
-void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
-  fs::path file = assets_folder() / "sensors" / (preset + ".toml");
-  if (!fs::exists(file)) file = preset;
-  if (!fs::exists(file)) {
+void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources) {
+  fs::path file = named_sensor(preset);
+  if (!is_there(file)) file = preset;
+  if (!is_there(file)) {
     std::vector<std::string> known;
     for (const auto& entry : fs::directory_iterator(assets_folder() / "sensors")) known.push_back(entry.path().stem());
     std::sort(known.begin(), known.end());
@@ -183,31 +220,10 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
         fmt::format("there is no sensor '{}'; there are {}, or give a file", preset, fmt::join(known, ", ")));
   }
   configuration.sensor = {};
-  TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));
+  SettingSources of_file;
+  if (sources) std::erase_if(*sources, [](const auto& source) { return source.first.starts_with("sensor."); });
+  TomlReader(file, configuration, sources ? *sources : of_file, "sensor.").read(read_file(file, largest_file));
   configuration.sensor_preset = preset;
-}
-
-fs::path assets_folder() {
-  const char* folder = std::getenv("NEXTVIEW_ASSETS");
-  return folder ? folder : NEXTVIEW_ASSETS_DIR;
-}
-
-fs::path default_object() {
-  const fs::path gearbox = "/usr/share/opencascade/data/stl/TR12J_OCC.stl";
-  return fs::exists(gearbox) ? gearbox : assets_folder() / "objects" / "slotted_housing.ply";
-}
-
-fs::path resolve_object(const std::string& name) {
-  if (name.empty()) return default_object();
-  if (fs::exists(name)) return name;
-  if (name == "gearbox") return default_object();
-  if (name == "bunny") return "/usr/share/glmark2/models/bunny.obj";
-  for (const char* ending : {"", ".ply"}) {
-    const fs::path file = assets_folder() / "objects" / (name + ending);
-    if (fs::exists(file)) return file;
-  }
-  throw std::runtime_error(
-      fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
 }
 
 }  // namespace nextview

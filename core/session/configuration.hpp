@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -49,6 +50,7 @@ struct Configuration {
   PlannerConfig planner;
   TerminationConfig termination;
   EvaluationConfig evaluation;
+  std::vector<std::filesystem::path> read_from;  ///< the files it comes from, no setting: nothing may replace them
 
   /// @throws std::invalid_argument naming the field and its bounds.
   void validate() const;
@@ -77,21 +79,39 @@ struct Setting {
 /// The settings of `configuration`, which must outlive them.
 std::vector<Setting> settings(Configuration& configuration);
 
-/// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the
-/// nearest known one.
-/// @throws std::runtime_error "file:line: reason".
-Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration());
-std::string to_toml(const Configuration& configuration);
+/// Where each setting was given: key -> "config.toml:3", or an option of the command line, "--seed".
+using SettingSources = std::map<std::string, std::string>;
 
-/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path. @throws std::runtime_error
-void apply_sensor_preset(Configuration& configuration, const std::string& preset);
+/// What is wrong with a setting and where it was given: "config.toml:3: seed must be …", "--views
+/// (termination.views) must be …". `reason` begins with the key, or tells of it otherwise.
+std::string complaint_about(const std::string& key, const std::string& source, const std::string& reason);
+
+/// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the
+/// nearest known one. Relative paths in it are relative to its folder; what is not there, to the working folder. With
+/// `sources`, notes there what the file gives, and leaves it to the caller to validate what becomes of it.
+/// @throws std::runtime_error "file:line: reason".
+Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration(),
+                                 SettingSources* sources = nullptr);
+/// Configuration::validate(), also telling where what is wrong was given.
+/// @throws std::runtime_error
+void validate(const Configuration& configuration, const SettingSources& sources);
+std::string to_toml(const Configuration& configuration);
+/// As a file in `folder` says it, so that it can be read from anywhere: a path is relative to the folder if its target
+/// lies inside, absolute otherwise.
+std::string to_toml(const Configuration& configuration, const std::filesystem::path& folder);
+
+/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path; notes in `sources` what that gives.
+/// @throws std::runtime_error
+void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources = nullptr);
 
 /// Files that come with the program. NEXTVIEW_ASSETS in the environment overrides where they are.
 std::filesystem::path assets_folder();
+/// The file of a sensor that comes with the program, if there is one of this name.
+std::filesystem::path named_sensor(const std::string& preset);
 /// The gearbox housing of Debian's occt-misc, or, where that is not installed, the slotted housing of assets/objects.
 std::filesystem::path default_object();
-/// What `object.file` means: a path; else a name in assets/objects, with or without .ply; "bunny" and "gearbox"; empty:
-/// the default.
+/// What `object.file` means: the path of a file; else a name in assets/objects, with or without .ply; "bunny" and
+/// "gearbox"; empty: the default.
 /// @throws std::runtime_error if it is none of these.
 std::filesystem::path resolve_object(const std::string& name);
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
-#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -35,7 +35,7 @@ KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const 
       seen_from_(see_from(candidates, progress, stop)),
       visible_(seen_by_any()),
       seen_(samples_.points.size()),
-      truth_(ground_truth(mesh, grid)),
+      truth_(ground_truth(mesh, grid, stop)),
       coverage_(samples_.points, visible_, d_reg),
       coverage_paper_(samples_.points, visible_, paper_d_reg) {
   if (stop.stop_requested()) throw Stopped();
@@ -47,7 +47,7 @@ std::vector<std::vector<std::uint32_t>> KnownObject::see_from(std::span<const Po
   std::atomic<std::size_t> done = 0;
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
-    seen_from[v] = samples_seen(candidates[v]);
+    seen_from[v] = samples_seen(candidates[v], stop);
     if (progress) progress(double(++done) / double(candidates.size()), "finding what each candidate can see");
   });
   return seen_from;
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> KnownObject::seen_by_any() const {
   return seen;
 }
 
-std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera) const {
+std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera, const std::stop_token& stop) const {
   const DepthCameraConfig& config = camera_.config();
   const Eigen::Vector3f origin = T_world_camera.translation().cast<float>();
   const Pose T_camera_world = T_world_camera.inverse();
@@ -69,7 +69,9 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera)
   std::vector<std::uint32_t> in_image;
   std::vector<Eigen::Vector3f> directions;
   std::vector<float> ranges;
+  constexpr std::uint32_t between_looks = 1 << 14;  // at the stop token
   for (std::uint32_t s = 0; s < samples_.points.size(); ++s) {
+    if (s % between_looks == 0) throw_if_stopped(stop);
     const Eigen::Vector3f to_sample = samples_.points[s] - origin;
     const float range = to_sample.norm();
     const Vector3 in_camera = T_camera_world * samples_.points[s].cast<double>();
@@ -92,10 +94,21 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera)
   return seen;
 }
 
-void KnownObject::add_view(const Pose& T_world_camera, const PointCloud& points) {
-  for (const std::uint32_t s : samples_seen(T_world_camera)) seen_[s] = 1;
-  coverage_.add(points);
-  coverage_paper_.add(points);
+void KnownObject::add_view(const Pose& T_world_camera, const PointCloud& points, const std::stop_token& stop) {
+  for (const std::uint32_t s : samples_seen(T_world_camera, stop)) seen_[s] = 1;
+  coverage_.add(points, stop);
+  coverage_paper_.add(points, stop);
+}
+
+KnownObject::Seen KnownObject::seen() const {
+  const auto copy = [](std::span<const std::uint8_t> flags) { return std::vector(flags.begin(), flags.end()); };
+  return {seen_, copy(coverage_.observed()), copy(coverage_paper_.observed())};
+}
+
+void KnownObject::go_back(const Seen& seen) {
+  seen_ = seen.samples;
+  coverage_.go_back(seen.covered);
+  coverage_paper_.go_back(seen.covered_paper);
 }
 
 std::size_t KnownObject::new_samples(std::size_t candidate) const {

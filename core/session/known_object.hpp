@@ -31,10 +31,17 @@ class KnownObject : public TrueSurface {
 
   /// Surface samples that a perfect camera sees from a pose: in its image and ranges, not too slanted, nothing in
   /// between.
-  std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera) const;
+  /// @throws Stopped
+  std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera, const std::stop_token& stop = {}) const;
 
-  /// A view was taken from here and gave these points.
-  void add_view(const Pose& T_world_camera, const PointCloud& points);
+  /// A view was taken from here and gave these points. @throws Stopped; then go_back helps.
+  void add_view(const Pose& T_world_camera, const PointCloud& points, const std::stop_token& stop = {});
+  /// What the views so far have seen, a flag a sample.
+  struct Seen {
+    std::vector<std::uint8_t> samples, covered, covered_paper;
+  };
+  Seen seen() const;
+  void go_back(const Seen& seen);
 
   /// How many surface samples the candidate would see that no view has seen yet (the oracle's gain).
   std::size_t new_samples(std::size_t candidate) const override;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/session/stopped.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -66,7 +66,8 @@ struct Prepared {
   UpdateHistories histories;
 };
 
-ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, const InverseSensorModel& after) {
+ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, const InverseSensorModel& after,
+                    const std::stop_token& stop) {
   const RefinementJob& job = prepared.example.job;
   const std::vector<float>& gibbs = prepared.refinement.posterior.occupied;
   ExampleScores scores;
@@ -78,7 +79,7 @@ ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, 
   scores.gibbs = prepared.refinement.scores_after;
   const auto made_with = [&](const InverseSensorModel& model) {
     OccupancyMap map(job.grid, model);
-    for (const Scan& scan : job.scans) map.insert(scan, job.max_range);
+    for (const Scan& scan : job.scans) map.insert(scan, job.max_range, stop);
     return map;
   };
   const OccupancyMap map_before = job.model == before ? prepared.refinement.conventional : made_with(before);
@@ -131,7 +132,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     check_stop();
     auto mask = scored_voxels(refinement.posterior, refinement.conventional.voxels(), config.band);
     UpdateHistories of_example;
-    of_example.add(job.grid, job.scans, job.max_range, refinement.posterior.occupied, mask);
+    of_example.add(job.grid, job.scans, job.max_range, refinement.posterior.occupied, mask, stop);
     if (!examples[e].held_out) histories.append(of_example);
     prepared.push_back({examples[e], std::move(refinement), std::move(mask), std::move(of_example)});
   }
@@ -143,7 +144,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
   result.before = examples.front().job.model;
   result.fit = calibrate(histories, result.before, config.fit, part(0.8, 0.95), stop);
   check_stop();
-  for (const Prepared& p : prepared) result.examples.push_back(score(p, result.before, result.fit.model));
+  for (const Prepared& p : prepared) result.examples.push_back(score(p, result.before, result.fit.model, stop));
   return result;
 }
 

@@ -88,12 +88,11 @@ std::string sensor_model_toml(const InverseSensorModel& model, const std::string
   return text;
 }
 
-void write_map_calibration(const MapCalibration& calibration, const std::string& remark,
-                           const std::filesystem::path& folder) {
-  write_file(folder / "sensor_model.toml", sensor_model_toml(calibration.fit.model, remark));
-  write_file(folder / "calibration.json", calibration_json(calibration));
-  write_file(folder / "descent.csv", descent_csv(calibration.fit));
-  write_file(folder / "scores.csv", scores_csv(calibration));
+void write_map_calibration(const MapCalibration& calibration, const std::string& remark, OutputFolder& out) {
+  write_file(out.claim("sensor_model.toml"), sensor_model_toml(calibration.fit.model, remark));
+  write_file(out.claim("calibration.json"), calibration_json(calibration));
+  write_file(out.claim("descent.csv"), descent_csv(calibration.fit));
+  write_file(out.claim("scores.csv"), scores_csv(calibration));
 }
 
 }  // namespace nextview

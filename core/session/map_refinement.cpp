@@ -32,6 +32,13 @@ void MapRefinement::refine(std::span<const float> conventional, int sweeps, cons
   std::ranges::copy(posterior_.voxels(classes_), voxels_.begin());
 }
 
+void MapRefinement::go_back(const MapRefinement& before) {
+  std::vector<Voxel> voxels = std::move(voxels_);  // where rays look for them
+  *this = before;
+  voxels_ = std::move(voxels);
+  std::ranges::copy(before.voxels_, voxels_.begin());
+}
+
 OccupancyMap to_occupancy_map(const GibbsPosterior& posterior, const InverseSensorModel& classes) {
   InverseSensorModel model = classes;
   model.clamp_min = 1e-6;

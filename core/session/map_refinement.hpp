@@ -22,6 +22,9 @@ class MapRefinement {
   /// can be refined on.
   void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
 
+  /// To what it was when `before` was copied from it.
+  void go_back(const MapRefinement& before);
+
   /// One a voxel of the grid; the span stays valid. Unmeasured before the first refinement.
   std::span<const Voxel> voxels() const { return voxels_; }
   const GibbsPosterior& posterior() const { return posterior_; }

@@ -9,6 +9,7 @@
 #include "core/session/configuration.hpp"
 #include "core/session/known_object.hpp"
 #include "core/session/map_refinement.hpp"
+#include "core/session/output_folder.hpp"
 #include "core/session/scene_parameters.hpp"
 
 namespace nextview {
@@ -25,7 +26,8 @@ struct RefinementTruth {
 
 /// Everything that refining the map of finished scans needs.
 struct RefinementJob {
-  std::string name;  ///< of the object or scene, for people
+  std::string name;                             ///< of the object or scene, for people
+  std::optional<std::filesystem::path> object;  ///< its file, if it was a simulation
   VoxelGrid grid;
   InverseSensorModel model;
   double max_range = 1.5;   ///< [m]
@@ -35,7 +37,9 @@ struct RefinementJob {
   RayBundle bundle;
   PosteriorSamplerConfig sampler;
   std::optional<RefinementTruth> truth;
-  std::string configuration;  ///< TOML, to be written beside the results
+  Configuration configuration;       ///< to be written beside the results
+  std::vector<InputFile> inputs;     ///< that all this was read from: nothing may replace them
+  std::vector<std::string> notices;  ///< for people: what was left out of it, and why
 };
 
 /// A folder that `scan` wrote: its views are taken again, with the same noise. Settings of `gibbs`, by key, override
@@ -75,7 +79,8 @@ std::optional<MapScores> score_map(std::span<const Voxel> voxels, const std::opt
 
 /// Writes posterior.ot, posterior.bt and conventional.ot, scores.csv (each candidate before and after), trace.csv (each
 /// sweep of each chain), metrics.json (diagnostics, and scores where there is a truth), config.toml; timings.csv is the
-/// only one that differs between two runs. @throws std::runtime_error naming the file and the reason.
-void write_refinement(const RefinementJob& job, const Refinement& refinement, const std::filesystem::path& folder);
+/// only one that differs between two runs. @pre out.begin() was called. @throws std::runtime_error naming the file and
+/// the reason.
+void write_refinement(const RefinementJob& job, const Refinement& refinement, OutputFolder& out);
 
 }  // namespace nextview

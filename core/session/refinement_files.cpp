@@ -60,18 +60,18 @@ std::string metrics_json(const RefinementJob& job, const Refinement& r) {
 
 }  // namespace
 
-void write_refinement(const RefinementJob& job, const Refinement& r, const std::filesystem::path& folder) {
+void write_refinement(const RefinementJob& job, const Refinement& r, OutputFolder& out) {
   const SamplerDiagnostics& d = r.posterior.diagnostics;
-  if (!job.configuration.empty()) write_file(folder / "config.toml", job.configuration);
-  write_file(folder / "scores.csv", scores_csv(r));
-  write_file(folder / "trace.csv", trace_csv(d));
-  write_file(folder / "metrics.json", metrics_json(job, r));
-  write_file(folder / "timings.csv",
+  write_file(out.claim("config.toml"), to_toml(job.configuration, out.path()));
+  write_file(out.claim("scores.csv"), scores_csv(r));
+  write_file(out.claim("trace.csv"), trace_csv(d));
+  write_file(out.claim("metrics.json"), metrics_json(job, r));
+  write_file(out.claim("timings.csv"),
              fmt::format("lists[s],sweeps[s]\n{:.6f},{:.6f}\n", d.build_seconds, d.sample_seconds));
-  write_octree(r.conventional, folder / "conventional.ot");
+  write_octree(r.conventional, out.claim("conventional.ot"));
   const OccupancyMap map = to_occupancy_map(r.posterior, job.model);
-  write_octree(map, folder / "posterior.ot");
-  write_octree(map, folder / "posterior.bt");
+  write_octree(map, out.claim("posterior.ot"));
+  write_octree(map, out.claim("posterior.bt"));
 }
 
 }  // namespace nextview

@@ -1,10 +1,8 @@
 #include "core/session/scan_files.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "core/evaluation/accuracy.hpp"
 #include "core/evaluation/openings.hpp"
@@ -140,30 +138,21 @@ std::string metrics_json(const Session& session, const PointCloud& cloud) {
 
 }  // namespace
 
-void prepare_output_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw std::runtime_error(fmt::format("{}: cannot be made a folder: {}", folder.string(),
-                                         error ? error.message() : "there is a file of this name"));
-  AtomicFile probe(folder / "writable");  // never committed: leaves nothing behind
-}
-
-void write_scan(const Session& session, const std::filesystem::path& folder) {
+void write_scan(const Session& session, OutputFolder& out) {
   PointCloud cloud;
   for (const auto& scan : session.scans()) cloud.insert(cloud.end(), scan->returns.begin(), scan->returns.end());
-  write_file(folder / "config.toml", to_toml(session.configuration()));
-  write_file(folder / "steps.csv", steps_csv(session));
-  write_file(folder / "scores.csv", scores_csv(session));
-  write_file(folder / "views.csv", views_csv(session));
-  write_file(folder / "timings.csv", timings_csv(session));
-  write_file(folder / "metrics.json", metrics_json(session, cloud));
-  write_octree(session.map(), folder / "map.ot");
-  write_octree(session.map(), folder / "map.bt");
-  write_ply(cloud, folder / "cloud.ply");
+  write_file(out.claim("config.toml"), to_toml(session.configuration(), out.path()));
+  write_file(out.claim("steps.csv"), steps_csv(session));
+  write_file(out.claim("scores.csv"), scores_csv(session));
+  write_file(out.claim("views.csv"), views_csv(session));
+  write_file(out.claim("timings.csv"), timings_csv(session));
+  write_file(out.claim("metrics.json"), metrics_json(session, cloud));
+  write_octree(session.map(), out.claim("map.ot"));
+  write_octree(session.map(), out.claim("map.bt"));
+  write_ply(cloud, out.claim("cloud.ply"));
   if (!session.refinement()) return;
-  write_file(folder / "refinement.csv", refinement_csv(session));
-  write_octree(to_occupancy_map(session.refinement()->posterior(), session.map().model()), folder / "posterior.ot");
+  write_file(out.claim("refinement.csv"), refinement_csv(session));
+  write_octree(to_occupancy_map(session.refinement()->posterior(), session.map().model()), out.claim("posterior.ot"));
 }
 
 }  // namespace nextview

@@ -6,9 +6,9 @@
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/session_parts.hpp"
-#include "core/session/stopped.hpp"
 #include "core/session/visited_voxels.hpp"
 
 namespace nextview {
@@ -44,13 +44,32 @@ std::vector<Pose> views_taken(const fs::path& file, const Configuration& configu
   return poses;
 }
 
-/// The openings that stand beside a part of ours, moved as its mesh was.
-std::vector<Opening> known_openings(const fs::path& object, const MeshPlacement& placement) {
-  const fs::path file = fs::path(object).replace_extension(".json");
+/// The openings that stand beside a part of ours, moved as its mesh was. A JSON of that name may be anything: if it
+/// does not list openings there are none, and a notice says so.
+std::vector<Opening> known_openings(const fs::path& object, const MeshPlacement& placement,
+                                    std::vector<std::string>& notices) {
+  const fs::path file = openings_file(object);
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return {};
   std::vector<Opening> openings;
-  if (fs::exists(file))
+  try {
     for (const Opening& opening : read_openings(file)) openings.push_back(placed(opening, placement));
+  } catch (const std::runtime_error& error) {
+    notices.push_back(fmt::format("{}; ignored, as it is no list of the object's openings", error.what()));
+    openings.clear();
+  }
   return openings;
+}
+
+/// What was scanned must still be there, and the same. @throws std::runtime_error naming the file and the reason.
+void require_scanned_object(const fs::path& folder, const Configuration& c) {
+  fs::path object;
+  try {
+    object = resolve_object(c.object.file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: object.file: {}", (folder / "config.toml").string(), error.what()));
+  }
+  require_same_object(folder, object);
 }
 
 }  // namespace
@@ -60,19 +79,25 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   Configuration c = read_configuration(folder / "config.toml");
   if (override_settings) override_settings(c);
   c.validate();
-  return refinement_job(c, views_taken(folder / "views.csv", c), progress, stop);
+  require_scanned_object(folder, c);
+  RefinementJob job = refinement_job(c, views_taken(folder / "views.csv", c), progress, stop);
+  job.inputs.push_back({folder, "the scan that is read"});
+  job.inputs.push_back({folder / "views.csv", "the list of the views that are taken again"});
+  return job;
 }
 
-RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views, const Progress& progress,
+RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views, const Progress& progress,
                              std::stop_token stop) {
+  const Configuration c = affordable(configuration);
   const fs::path object = resolve_object(c.object.file);
-  PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side});
+  PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side}, stop);
   require_within_region(mesh.mesh, c, object);
-  const RayScene scene(mesh.mesh);
-  const DepthCamera camera(c.sensor);
+  const RayScene scene(mesh.mesh, stop);
+  const DepthCamera camera(c.sensor, stop);
 
   RefinementJob job;
   job.name = object.stem().string();
+  job.object = object;
   job.grid = configured_region(c);
   job.model = c.map.model;
   job.max_range = c.sensor.max_range;
@@ -80,23 +105,25 @@ RefinementJob refinement_job(const Configuration& c, std::span<const Pose> views
   job.candidates = candidate_views(c.views, Vector3::Zero());
   job.bundle = scoring_rays(c, camera.camera());
   job.sampler = posterior_sampler_config(c);
-  job.configuration = to_toml(c);
+  job.configuration = c;
+  job.inputs = input_files(c);
   std::vector<std::uint8_t> visited(job.grid.voxel_count());
   for (std::size_t k = 0; k < views.size(); ++k) {
-    if (stop.stop_requested()) throw Stopped();
     if (progress) progress(double(k) / double(views.size()), "taking the views");
-    Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1)), views[k],
-                             c.sensor.max_range);
-    scan.returns = clean(scan.returns, c.cloud);
+    throw_if_stopped(stop);
+    Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1), stop), views[k],
+                             c.sensor.max_range, stop);
+    scan.returns = clean(scan.returns, c.cloud, stop);
     job.scans.push_back(std::move(scan));
-    mark_visited(job.grid, back_project(camera.sense_ideal(scene, views[k]), views[k], c.sensor.max_range), visited);
+    const DepthImage ideal = camera.sense_ideal(scene, views[k], stop);
+    mark_visited(job.grid, back_project(ideal, views[k], c.sensor.max_range, stop), visited, stop);
   }
   const KnownObject known(mesh.mesh, scene, camera, job.candidates, job.grid, c.evaluation.surface_samples,
                           c.evaluation.d_reg, c.seed, progress, stop);
   job.truth = RefinementTruth{std::make_shared<TriangleMesh>(std::move(mesh.mesh)),
                               known.truth(),
                               std::move(visited),
-                              known_openings(object, mesh.placement),
+                              known_openings(object, mesh.placement, job.notices),
                               known.samples(),
                               {known.visible().begin(), known.visible().end()}};
   return job;

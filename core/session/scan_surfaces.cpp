@@ -6,8 +6,10 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
 #include "core/surface/cloud_surface.hpp"
 #include "core/surface/map_surface.hpp"
+#include "core/surface/seen_part.hpp"
 #include "core/surface/surface_file.hpp"
 
 namespace nextview {
@@ -109,8 +111,12 @@ Json to_json(const ScanSurface& s) {
   Json openings = Json::array();
   for (const BoundaryLoop& loop : std::span(s.openings).first(std::min(listed, s.openings.size())))
     openings.push_back({{"length_m", loop.length}, {"centre_m", {loop.centre.x(), loop.centre.y(), loop.centre.z()}}});
-  Json json = {{"triangles", s.surface.mesh.triangles.size()},
+  const SeenArea area = seen_area(s.surface);
+  Json json = {{"summary", summary(s)},
+               {"triangles", s.surface.mesh.triangles.size()},
                {"area_m2", s.surface.mesh.surface_area()},
+               {"area_seen_m2", area.seen},
+               {"area_unseen_m2", area.unseen},
                {"watertight", topology(s.surface.mesh).watertight()},
                {"openings", s.openings.size()},
                {"longest_openings", openings}};
@@ -143,33 +149,43 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
                        progress, stop);
 }
 
+std::string closedness(const Surface& surface, std::span<const BoundaryLoop> openings) {
+  const SeenArea area = seen_area(surface);
+  if (!(area.unseen > 0.0))
+    return fmt::format("{}, {}: {}", summary(openings), openings.empty() ? "all of it seen" : "only what was seen",
+                       area.text(area.seen));
+  return fmt::format("{}, {}{} of it was seen: {} seen, {} is the hull of what no view saw",
+                     openings.empty() ? "closed" : summary(openings), area.seen < area.unseen ? "but only " : "",
+                     area.percent_seen(), area.text(area.seen), area.text(area.unseen));
+}
+
 std::string summary(const ScanSurface& s) {
   if (s.surface.empty()) return fmt::format("none of {}: {}", s.source, s.surface.why_empty);
-  std::string text =
-      fmt::format("of {}: {} triangles, {}", s.source, s.surface.mesh.triangles.size(), summary(s.openings));
+  const std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
+                                       closedness(s.surface, s.openings));
   if (!s.inspection) return text;
-  const SurfaceInspection& i = *s.inspection;
-  return text + fmt::format("; {:.0f} % of its area was seen, 95 % of that within {:.2f} mm of the true surface",
-                            100.0 * i.area_seen / (i.area_seen + i.area_unseen), 1e3 * i.percentile_95);
+  return text +
+         fmt::format("; 95 % of what was seen within {:.2f} mm of the true surface", 1e3 * s.inspection->percentile_95);
 }
 
-void remove_surfaces(const std::filesystem::path& folder) {
-  for (const char* name : {"surface_map", "surface_posterior", "surface_cloud"})
-    for (const char* kind : {".ply", ".stl", ".png"}) std::filesystem::remove(folder / (std::string(name) + kind));
-  std::filesystem::remove(folder / "surfaces.json");
-}
-
-void write_surfaces(std::span<const ScanSurface> surfaces, const std::filesystem::path& folder) {
-  remove_surfaces(folder);
-  if (surfaces.empty()) return;
+std::vector<std::string> write_surfaces(std::span<const ScanSurface> surfaces, OutputFolder& out) {
+  std::vector<std::string> names;
+  if (surfaces.empty()) return names;
+  const auto claim = [&](const std::string& name) {
+    names.push_back(name);
+    return out.claim(name);
+  };
   Json json;
   for (const ScanSurface& s : surfaces) {
     json[s.name] = to_json(s);
     if (s.surface.empty()) continue;
-    write_ply(s.surface, folder / (s.name + ".ply"));
-    write_stl(s.surface.mesh, folder / (s.name + ".stl"));
+    write_ply(s.surface, claim(s.name + ".ply"));
+    const TriangleMesh seen = seen_part(s.surface), unseen = unseen_part(s.surface);
+    if (seen.surface_area() > 0.0) write_stl(seen, claim(s.name + ".stl"), "what was seen");
+    if (unseen.surface_area() > 0.0) write_stl(unseen, claim(s.name + "_unseen.stl"), "the hull of what no view saw");
   }
-  write_file(folder / "surfaces.json", json.dump(2) + "\n");
+  write_file(claim("surfaces.json"), json.dump(2) + "\n");
+  return names;
 }
 
 }  // namespace nextview

@@ -30,16 +30,18 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement,
                                        const Progress& progress = {}, std::stop_token stop = {});
 
+/// For people, how far it is closed, and how much of it was seen: "watertight, all of it seen: 0.785 m²"; "closed, but
+/// only 21 % of it was seen: 0.061 m² seen, 0.226 m² is the hull of what no view saw"; "3 openings, the longest …". A
+/// surface is called watertight only if all of it was seen.
+std::string closedness(const Surface& surface, std::span<const BoundaryLoop> openings);
 /// For people: "of the point cloud: 728818 triangles, 12 openings, …", with the distance to the truth if it is known.
 std::string summary(const ScanSurface& surface);
 
-/// Removes what write_surfaces, and the pictures of it, have left in a folder: they would not belong to what is written
-/// there next.
-void remove_surfaces(const std::filesystem::path& folder);
-
-/// Removes those of an earlier scan, then writes NAME.ply (metres, coloured by uncertainty) and NAME.stl (millimetres)
-/// of each surface that is not empty, and surfaces.json: sizes, openings, distances to the true surface. Without
-/// surfaces nothing. @throws std::runtime_error naming the file and the reason.
-void write_surfaces(std::span<const ScanSurface> surfaces, const std::filesystem::path& folder);
+/// Writes of each surface that is not empty NAME.ply (the whole; metres, coloured by uncertainty), NAME.stl (what was
+/// seen of it; millimetres) and, if something was not, NAME_unseen.stl (the rest, which closes it); and surfaces.json:
+/// sizes, how much was seen, openings, distances to the true surface; "watertight" there is said of the whole. Without
+/// surfaces nothing. Returns the names of what it wrote. @pre out.begin() was called. @throws std::runtime_error naming
+/// the file and the reason.
+std::vector<std::string> write_surfaces(std::span<const ScanSurface> surfaces, OutputFolder& out);
 
 }  // namespace nextview

@@ -18,10 +18,11 @@ class Parameters {
     const auto found = given_.find(name);
     return found == given_.end() ? otherwise : found->second;
   }
-  double positive(const std::string& name, double otherwise) {
+  double positive(const std::string& name, double otherwise, double largest) {
     const double value = (*this)(name, otherwise);
-    if (!(value > 0.0))
-      throw std::invalid_argument(fmt::format("parameter {} must be greater than 0, not {}", name, value));
+    if (!(value > 0.0 && value <= largest))
+      throw std::invalid_argument(
+          fmt::format("parameter {} must be greater than 0 and at most {:g}, not {:g}", name, largest, value));
     return value;
   }
   std::vector<std::string> not_asked_for() const {
@@ -46,8 +47,9 @@ void require_in_octree(const Vector3& point, double resolution, std::string_view
 
 ReferenceMap::Parameters map_parameters(Parameters& p) {
   ReferenceMap::Parameters m;
-  m.resolution = p.positive("resolution_m", m.resolution);
-  if (m.resolution < 1e-4 || m.resolution > 1.0)
+  constexpr double longest_ray = 1000.0;  // [m], as in configurations
+  m.resolution = p("resolution_m", m.resolution);
+  if (!(m.resolution >= 1e-4 && m.resolution <= 1.0))
     throw std::invalid_argument(fmt::format("parameter resolution_m must be from 0.0001 to 1, not {}", m.resolution));
   m.model.hit = p("hit_probability", m.model.hit);
   m.model.miss = p("miss_probability", m.model.miss);
@@ -69,35 +71,47 @@ ReferenceMap::Parameters map_parameters(Parameters& p) {
     require_in_octree(m.upper, m.resolution, "the bounding box");
   }
   m.max_sensor_range = p("max_sensor_range_m", m.max_sensor_range);
-  m.occlusion_distance = p.positive("occlusion_update_dist_m", m.occlusion_distance);
-  m.max_ray_depth = p.positive("max_ray_depth_m", m.max_ray_depth);
+  if (m.max_sensor_range > longest_ray)
+    throw std::invalid_argument(
+        fmt::format("parameter max_sensor_range_m must be at most {:g}, or negative for no limit, not {:g}",
+                    longest_ray, m.max_sensor_range));
+  m.occlusion_distance = p.positive("occlusion_update_dist_m", m.occlusion_distance, longest_ray);
+  m.max_ray_depth = p.positive("max_ray_depth_m", m.max_ray_depth, longest_ray);
   return m;
 }
 
 RayBundle bundle(Parameters& p) {
   PinholeCamera camera;
   const auto pixels = [&](const char* name, double otherwise) {
-    const double value = p.positive(name, otherwise);
-    if (value > 20'000.0)
-      throw std::invalid_argument(fmt::format("parameter {} must be at most 20000, not {}", name, value));
-    return static_cast<int>(value);
+    return static_cast<int>(p.positive(name, otherwise, 20'000.0));
   };
+  constexpr double longest_focal_length = 1e6;  // [px]
   camera.width = pixels("img_width_px", 752);
   camera.height = pixels("img_height_px", 480);
-  camera.fx = p.positive("fx", 448.1);
-  camera.fy = p.positive("fy", 448.1);
+  camera.fx = p.positive("fx", 448.1, longest_focal_length);
+  camera.fy = p.positive("fy", 448.1, longest_focal_length);
   camera.cx = p("cx", 376.5);
   camera.cy = p("cy", 240.5);
-  const Eigen::Vector2d spacing(1.0 / p.positive("raycasting_resolution_x", 0.1),
-                                1.0 / p.positive("raycasting_resolution_y", 0.1));
+  const Eigen::Vector2d spacing(1.0 / p.positive("raycasting_resolution_x", 0.1, 10.0),
+                                1.0 / p.positive("raycasting_resolution_y", 0.1, 10.0));
   const auto share = [&](const char* name, double otherwise) { return std::clamp(p(name, otherwise), 0.0, 1.0); };
-  return RayBundle::reference(camera, {share("min_x_perc", 0.25), share("min_y_perc", 0.25)},
-                              {share("max_x_perc", 0.75), share("max_y_perc", 0.75)}, spacing.cwiseMax(0.1));
+  const Eigen::Vector2d lowest(share("min_x_perc", 0.25), share("min_y_perc", 0.25));
+  const Eigen::Vector2d highest(share("max_x_perc", 0.75), share("max_y_perc", 0.75));
+  constexpr double most_rays = 4e6;  // as many as a configuration may have
+  const Eigen::Array2d across =
+      (highest - lowest).array().max(0.0) * Eigen::Array2d(camera.width, camera.height) / spacing.array() + 1.0;
+  if (across.prod() > most_rays)
+    throw std::invalid_argument(fmt::format(
+        "a view has {:.3g} rays (img_width_px, img_height_px, raycasting_resolution_x, _y); at most {:g} are cast",
+        across.prod(), most_rays));
+  return RayBundle::reference(camera, lowest, highest, spacing);
 }
 
 }  // namespace
 
 VoxelGrid SceneParameters::grid() const {
+  require_in_octree(map.lower, map.resolution, "the bounding box");
+  require_in_octree(map.upper, map.resolution, "the bounding box");
   VoxelGrid grid;
   grid.resolution = map.resolution;
   grid.first = (map.lower / map.resolution).array().floor().matrix().cast<int>();

@@ -6,6 +6,7 @@
 
 #include "core/gain/view_score.hpp"
 #include "core/sensor/recorded_scans.hpp"
+#include "core/session/known_object.hpp"
 
 namespace nextview {
 
@@ -17,8 +18,10 @@ struct SceneScores {
 
 /// `names`: of gains, or 'combined' (pre-release weights). Parameters that the scene leaves out have the reference
 /// code's defaults; `warn` hears of those that have no meaning here.
-/// @throws std::invalid_argument for a gain or parameter that makes no sense, or a scene without views.
+/// @throws std::invalid_argument for a gain or parameter that makes no sense, or a scene without views; OutOfMemory;
+///         Stopped
 SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::span<const std::string> names,
-                        const std::function<void(const std::string&)>& warn = {});
+                        const std::function<void(const std::string&)>& warn = {}, const Progress& progress = {},
+                        std::stop_token stop = {});
 
 }  // namespace nextview

@@ -7,7 +7,8 @@
 #include <stdexcept>
 
 #include "core/evaluation/entropy.hpp"
-#include "core/mesh/mesh_file.hpp"
+#include "core/memory/available_memory.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/view_planning.hpp"
 #include "core/session/visited_voxels.hpp"
@@ -35,11 +36,11 @@ std::size_t measured_voxels(const OccupancyMap& map) {
 }  // namespace
 
 Session::Session(Configuration configuration, const Progress& progress, std::stop_token stop)
-    : configuration_(validated(std::move(configuration))),
+    : configuration_(affordable(validated(std::move(configuration)))),
       object_file_(resolve_object(configuration_.object.file)),
-      mesh_(std::make_shared<TriangleMesh>(load_mesh(object_file_, {configuration_.object.longest_side}))),
-      scene_(*mesh_),
-      camera_(configuration_.sensor),
+      object_(std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, {configuration_.object.longest_side}, stop))),
+      scene_(object_->mesh, stop),
+      camera_(configuration_.sensor, stop),
       candidates_(candidate_views(configuration_.views, Vector3::Zero())),
       start_view_(configured_start_view(configuration_)),
       map_(configured_region(configuration_), configuration_.map.model),
@@ -52,19 +53,45 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
       visited_(candidates_.size()),
       visited_voxels_(map_.grid().voxel_count()) {
-  require_within_region(*mesh_, configuration_, object_file_);
+  require_within_region(object_->mesh, configuration_, object_file_);
   const EvaluationConfig& e = configuration_.evaluation;
   if (e.enabled)
-    known_object_ = std::make_unique<KnownObject>(*mesh_, scene_, camera_, candidates_, map_.grid(), e.surface_samples,
-                                                  e.d_reg, configuration_.seed, progress, stop);
+    known_object_ = std::make_unique<KnownObject>(object_->mesh, scene_, camera_, candidates_, map_.grid(),
+                                                  e.surface_samples, e.d_reg, configuration_.seed, progress, stop);
 }
 
-/// One turn of Algorithm 2.
+/// One turn of Algorithm 2. Whatever ends it early, the session is as it was.
 bool Session::step(const Progress& progress, std::stop_token stop) {
   if (!finished_.empty()) throw std::logic_error("the scan is finished: " + finished_);
-  const auto tell = [&](double fraction, std::string_view what) {
-    if (progress) progress(fraction, what);
-  };
+  StepRecord record = begin_step();
+  std::shared_ptr<const Scan> scan;
+  Before before = remember();
+  try {
+    take(record, before, scan, progress, stop);
+    scans_.reserve(scans_.size() + 1);  // so that nothing fails from here on
+    records_.reserve(records_.size() + 1);
+  } catch (const Stopped&) {
+    go_back(before);
+    return false;
+  } catch (const std::bad_alloc&) {
+    go_back(before);
+    throw OutOfMemory(not_enough_memory(configuration_));
+  } catch (...) {
+    go_back(before);
+    throw;
+  }
+  next_ = record.ranking.best;  // p <- next best view
+  own_view_.reset();
+  overridden_ = false;
+  scans_.push_back(std::move(scan));
+  records_.push_back(std::move(record));
+  // If p meets the terminal criterion, finish.
+  finished_ = termination(configuration_.termination, records_, map_.voxels().size());
+  if (progress) progress(1.0, "done");
+  return true;
+}
+
+StepRecord Session::begin_step() const {
   StepRecord record;
   record.step = static_cast<int>(records_.size()) + 1;
   record.view = next_ ? static_cast<int>(*next_) : -1;
@@ -77,59 +104,78 @@ bool Session::step(const Progress& progress, std::stop_token stop) {
   } else if (own_view_) {
     record.gain = own_gain_;
   }
-
-  tell(0.0, "taking the view");
-  const Pose came_from = robot_->pose();
-  robot_->move_to(record.T_world_camera);                                  // robot manipulation to view p
-  const Measurement measurement = measure(record.T_world_camera, record);  // z <- take scan measurement
-  if (stop.stop_requested()) {
-    robot_->move_to(came_from);
-    return false;
-  }
-  tell(0.4, "updating the map");
-  update_map(measurement, record);     // M <- update octree map M by measurement z
-  if (next_) visited_[*next_] = true;  // delete v_i
-  taken_.push_back(record.T_world_camera);
-  refine_map(measurement, record, progress);
-  tell(0.6, "comparing with the object");
-  evaluate(measurement, record);
-  tell(0.7, "scoring the candidate views");
-  rank(record);                 // ray casting (M, v_i) for all candidates left
-  next_ = record.ranking.best;  // p <- next best view
-  own_view_.reset();
-  overridden_ = false;
-  scans_.push_back(measurement.scan);
-  records_.push_back(std::move(record));
-  // If p meets the terminal criterion, finish.
-  finished_ = termination(configuration_.termination, records_, map_.voxels().size());
-  tell(1.0, "done");
-  return true;
+  return record;
 }
 
-Session::Measurement Session::measure(const Pose& T_world_camera, StepRecord& record) const {
+void Session::take(StepRecord& record, Before& before, std::shared_ptr<const Scan>& scan, const Progress& progress,
+                   const std::stop_token& stop) {
+  const auto tell = [&](double fraction, std::string_view what) {
+    if (progress) progress(fraction, what);
+    throw_if_stopped(stop);
+  };
+  tell(0.0, "taking the view");
+  robot_->move_to(record.T_world_camera);  // robot manipulation to view p
+  const Measurement measurement = measure(record.T_world_camera, record, progress, stop);  // z <- scan measurement
+  tell(0.4, "updating the map");
+  update_map(measurement, record, before.map, stop);  // M <- update octree map M by measurement z
+  if (next_) visited_[*next_] = true;                 // delete v_i
+  taken_.push_back(record.T_world_camera);
+  refine_map(measurement, record, progress, stop);
+  tell(0.6, "comparing with the object");
+  evaluate(measurement, record, stop);
+  tell(0.7, "scoring the candidate views");
+  rank(record, stop);  // ray casting (M, v_i) for all candidates left
+  scan = measurement.scan;
+}
+
+Session::Before Session::remember() const {
+  return {robot_->pose(),
+          {},
+          refinement_ ? std::make_unique<MapRefinement>(*refinement_) : nullptr,
+          reference_map_ ? reference_map_->copy() : nullptr,
+          visited_,
+          visited_voxels_,
+          known_object_ ? known_object_->seen() : KnownObject::Seen{}};
+}
+
+void Session::go_back(const Before& before) {
+  robot_->move_to(before.T_world_camera);
+  map_.go_back(before.map);
+  if (refinement_) refinement_->go_back(*before.refinement);
+  if (reference_map_) reference_map_->swap(*before.reference_map);
+  visited_ = before.visited;
+  visited_voxels_ = before.visited_voxels;
+  if (known_object_) known_object_->go_back(before.seen);
+  taken_.resize(records_.size());
+}
+
+Session::Measurement Session::measure(const Pose& T_world_camera, StepRecord& record, const Progress& progress,
+                                      const std::stop_token& stop) const {
   Measurement measurement;
   DepthImage image;
   {
     Stopwatch watch(record.seconds.sense);
-    image = camera_.sense(scene_, T_world_camera, configuration_.seed, static_cast<std::uint32_t>(record.step));
+    image = camera_.sense(scene_, T_world_camera, configuration_.seed, static_cast<std::uint32_t>(record.step), stop);
   }
+  if (progress) progress(0.1, "cleaning the cloud");
   {
     Stopwatch watch(record.seconds.clean);
-    auto scan = std::make_shared<Scan>(back_project(image, T_world_camera, configuration_.sensor.max_range));
+    auto scan = std::make_shared<Scan>(back_project(image, T_world_camera, configuration_.sensor.max_range, stop));
     record.returns = scan->returns.size();
     record.passes = scan->passes.size();
-    scan->returns = clean(scan->returns, configuration_.cloud);
+    scan->returns = clean(scan->returns, configuration_.cloud, stop);
     record.points = scan->returns.size();
     measurement.scan = std::move(scan);
   }
   if (known_object_) {
     Stopwatch watch(record.seconds.evaluate);
-    measurement.ideal_image = camera_.sense_ideal(scene_, T_world_camera);
+    measurement.ideal_image = camera_.sense_ideal(scene_, T_world_camera, stop);
   }
   return measurement;
 }
 
-void Session::update_map(const Measurement& measurement, StepRecord& record) {
+void Session::update_map(const Measurement& measurement, StepRecord& record, MapChanges& undo,
+                         const std::stop_token& stop) {
   const Scan& scan = *measurement.scan;
   const double max_range = configuration_.sensor.max_range;
   const std::size_t measured_before = measured_voxels(map_);
@@ -137,21 +183,23 @@ void Session::update_map(const Measurement& measurement, StepRecord& record) {
     Stopwatch watch(record.seconds.insert);
     if (configuration_.map.insertion == Insertion::local_octree) {
       OccupancyMap local(map_.grid(), map_.model());
-      local.insert(scan, max_range);
-      map_.register_local(local, scan.origin);
+      local.insert(scan, max_range, stop);
+      map_.register_local(local, scan.origin, &undo);
     } else {
-      map_.insert(scan, max_range);
+      map_.insert(scan, max_range, stop, &undo);
     }
     if (policy_->needs().occlusions)
-      map_.mark_occlusions(scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution);
-    if (reference_map_) reference_map_->insert(scan.origin, scan.returns);
+      map_.mark_occlusions(scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution, stop,
+                           &undo);
+    if (reference_map_) reference_map_->insert(scan.origin, scan.returns, stop);
   }
   Stopwatch watch(record.seconds.evaluate);
   record.new_voxels = measured_voxels(map_) - measured_before;
   record.entropy = unmeasured_entropy(map_.voxels());
 }
 
-void Session::refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress) {
+void Session::refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress,
+                         const std::stop_token& stop) {
   const double untouched = static_cast<double>(map_.voxels().size());  // a bit a voxel
   const double entropy_before = records_.empty() ? untouched : records_.back().total_entropy;
   if (refinement_) {
@@ -160,7 +208,8 @@ void Session::refine_map(const Measurement& measurement, StepRecord& record, con
     const auto tell = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
       if (progress) progress(0.5 + 0.1 * fraction, what);
     };
-    refinement_->refine(probabilities(map_.voxels()), configuration_.gibbs.view_sweeps, tell, {});
+    refinement_->refine(probabilities(map_.voxels()), configuration_.gibbs.view_sweeps, tell, stop);
+    throw_if_stopped(stop);
     record.refinement.emplace();
     record.refinement->diagnostics = refinement_->posterior().diagnostics;
     for (std::size_t v = 0; v < map_.voxels().size(); ++v)
@@ -172,12 +221,13 @@ void Session::refine_map(const Measurement& measurement, StepRecord& record, con
       (entropy_before - record.total_entropy) * std::numbers::ln2;  // Eq. 12: other voxels keep theirs
 }
 
-void Session::evaluate(const Measurement& measurement, StepRecord& record) {
+void Session::evaluate(const Measurement& measurement, StepRecord& record, const std::stop_token& stop) {
   if (!known_object_) return;
   Stopwatch watch(record.seconds.evaluate);
-  const Scan ideal = back_project(measurement.ideal_image, record.T_world_camera, configuration_.sensor.max_range);
-  mark_visited(map_.grid(), ideal, visited_voxels_);
-  known_object_->add_view(record.T_world_camera, measurement.scan->returns);
+  const Scan ideal =
+      back_project(measurement.ideal_image, record.T_world_camera, configuration_.sensor.max_range, stop);
+  mark_visited(map_.grid(), ideal, visited_voxels_, stop);
+  known_object_->add_view(record.T_world_camera, measurement.scan->returns, stop);
   record.coverage = known_object_->coverage().of_all();
   record.coverage_visible = known_object_->coverage().of_visible();
   record.coverage_paper = known_object_->coverage_paper().of_all();
@@ -190,10 +240,10 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record) {
         probabilities(refinement_->voxels()), truth, TruthConvention::touch, ScoredSet::visited_band, visited_voxels_);
 }
 
-void Session::rank(StepRecord& record) const {
+void Session::rank(StepRecord& record, const std::stop_token& stop) const {
   Stopwatch watch(record.seconds.score);
-  rank_candidates(*policy_, planning_state(caster()), *robot_, visited_, record);
-  if (record.refinement) compare_rankings(*policy_, planning_state(map_rays_), record);
+  rank_candidates(*policy_, planning_state(caster()), *robot_, visited_, record, stop);
+  if (record.refinement) compare_rankings(*policy_, planning_state(map_rays_), record, stop);
 }
 
 void Session::override_next_view(std::size_t candidate) {
@@ -217,6 +267,12 @@ void Session::override_next_view(const Pose& T_world_camera) {
   own_gain_ = expected ? expected->value : 0.0;
   overridden_ = true;
   next_.reset();
+}
+
+void Session::set_termination(const TerminationConfig& config) {
+  config.validate();
+  configuration_.termination = config;
+  if (!records_.empty()) finished_ = termination(config, records_, map_.voxels().size());
 }
 
 void Session::require_first_step() const {

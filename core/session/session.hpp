@@ -6,6 +6,7 @@
 #include "core/gain/map_rays.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/map/occupancy_map.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "core/planner/policy.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/known_object.hpp"
@@ -17,14 +18,15 @@ namespace nextview {
 /// A scan of one object: Algorithm 2, step by step. Not safe to use from two threads at once.
 class Session {
  public:
-  /// Loads the object and prepares the truth. A requested stop throws std::runtime_error.
-  /// @throws std::invalid_argument, std::runtime_error for settings and files.
+  /// Loads the object and prepares the truth.
+  /// @throws std::invalid_argument, std::runtime_error for settings and files; OutOfMemory; Stopped
   explicit Session(Configuration configuration, const Progress& progress = {}, std::stop_token stop = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   /// Takes the next view and ranks the candidates for the one after. Returns false, and changes nothing, if a stop is
-  /// requested before the measurement enters the map. @pre finished().empty()
+  /// requested before all of that is done; nothing is changed either where it throws.
+  /// @throws OutOfMemory @pre finished().empty()
   bool step(const Progress& progress = {}, std::stop_token stop = {});
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
   void override_next_view(std::size_t candidate);
@@ -33,12 +35,17 @@ class Session {
   /// finite and rigid (is_rigid), or if the robot cannot reach it.
   void override_next_view(const Pose& T_world_camera);
 
+  /// Changes when the scan is done, and keeps all else; a finished scan may go on by it.
+  /// @throws std::invalid_argument if it is not valid.
+  void set_termination(const TerminationConfig& config);
+
   /// Why the scan is done; empty while it is not.
   const std::string& finished() const { return finished_; }
 
   const Configuration& configuration() const { return configuration_; }
   const std::filesystem::path& object_file() const { return object_file_; }
-  std::shared_ptr<const TriangleMesh> mesh() const { return mesh_; }
+  std::shared_ptr<const TriangleMesh> mesh() const { return {object_, &object_->mesh}; }
+  const MeshTopology& object_topology() const { return object_->topology; }  ///< as its file has it
   const DepthCamera& camera() const { return camera_; }
   const OccupancyMap& map() const { return map_; }
   const MapRefinement* refinement() const { return refinement_.get(); }  ///< null unless the gain needs it
@@ -67,11 +74,29 @@ class Session {
     std::shared_ptr<const Scan> scan;  ///< returns cleaned
     DepthImage ideal_image;            ///< without noise; only with evaluation
   };
-  Measurement measure(const Pose& T_world_camera, StepRecord& record) const;
-  void update_map(const Measurement& measurement, StepRecord& record);
-  void refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress);
-  void evaluate(const Measurement& measurement, StepRecord& record);
-  void rank(StepRecord& record) const;
+  /// What a step that does not come to its end goes back to.
+  struct Before {
+    Pose T_world_camera;
+    MapChanges map;
+    std::unique_ptr<MapRefinement> refinement;
+    std::unique_ptr<ReferenceMap> reference_map;
+    std::vector<bool> visited;
+    std::vector<std::uint8_t> visited_voxels;
+    KnownObject::Seen seen;
+  };
+  Before remember() const;
+  void go_back(const Before& before);
+
+  StepRecord begin_step() const;
+  void take(StepRecord& record, Before& before, std::shared_ptr<const Scan>& scan, const Progress& progress,
+            const std::stop_token& stop);
+  Measurement measure(const Pose& T_world_camera, StepRecord& record, const Progress& progress,
+                      const std::stop_token& stop) const;
+  void update_map(const Measurement& measurement, StepRecord& record, MapChanges& undo, const std::stop_token& stop);
+  void refine_map(const Measurement& measurement, StepRecord& record, const Progress& progress,
+                  const std::stop_token& stop);
+  void evaluate(const Measurement& measurement, StepRecord& record, const std::stop_token& stop);
+  void rank(StepRecord& record, const std::stop_token& stop) const;
   void require_first_step() const;
   /// What the candidates are valued on; `rays` through one of the maps.
   PlanningState planning_state(const RayCaster& rays) const;
@@ -79,7 +104,7 @@ class Session {
 
   Configuration configuration_;
   std::filesystem::path object_file_;
-  std::shared_ptr<const TriangleMesh> mesh_;
+  std::shared_ptr<const PlacedMesh> object_;
   RayScene scene_;
   DepthCamera camera_;
   std::vector<Pose> candidates_;

@@ -2,13 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "core/memory/available_memory.hpp"
 #include "core/planner/policy.hpp"
 
 namespace nextview {
+namespace {
+
+constexpr const char* coarser_map = "use coarser voxels (--map.resolution) or a smaller region (--map.region_edge)";
+constexpr const char* fewer_pixels = "use fewer pixels (--sensor.width, --sensor.height) or views (--views)";
+
+std::string map_text(const VoxelGrid& grid) {
+  return fmt::format("a map of {} x {} x {} voxels", grid.size.x(), grid.size.y(), grid.size.z());
+}
+
+std::string image_text(const DepthCameraConfig& sensor) {
+  return fmt::format("images of {} x {} pixels", sensor.width, sensor.height);
+}
+
+/// The map and what else has a value a voxel: the local map of a step, truth, masks, and the sampler.
+std::uint64_t map_bytes(const Configuration& c) {
+  const VoxelGrid grid = configured_region(c);
+  const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;
+  const std::uint64_t truth = c.evaluation.enabled ? 10 : 0;
+  const std::uint64_t sampler =
+      make_policy(c.planner)->needs().posterior ? 40 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
+  return maps * OccupancyMap::bytes(grid) + (truth + sampler) * grid.voxel_count();
+}
+
+/// The most views that a scan can take: the start view, and each candidate.
+int most_views(const Configuration& c) {
+  return c.views.layout == ViewLayout::file ? c.termination.views : std::min(c.termination.views, c.views.count + 1);
+}
+
+/// The camera's rays, what a view makes of each while it is taken, and the clouds that stay.
+std::uint64_t image_bytes(const Configuration& c) {
+  constexpr std::uint64_t ray = 12, while_taken = 60, point = 12;
+  const std::uint64_t pixels = std::uint64_t(c.sensor.width) * std::uint64_t(c.sensor.height);
+  return pixels * (ray + while_taken + point * std::uint64_t(most_views(c)));
+}
+
+}  // namespace
+
+Configuration affordable(Configuration c) {
+  const std::uint64_t map = map_bytes(c), images = image_bytes(c);
+  if (map >= images) {
+    require_memory(map, map_text(configured_region(c)), coarser_map);
+    require_memory(map + images,
+                   fmt::format("{}, with {} {},", map_text(configured_region(c)), most_views(c), image_text(c.sensor)),
+                   coarser_map);
+  } else {
+    require_memory(map + images, fmt::format("a scan of {} {}", most_views(c), image_text(c.sensor)), fewer_pixels);
+  }
+  return c;
+}
+
+std::string not_enough_memory(const Configuration& c) {
+  return fmt::format("out of memory with {} and {}, {:.1f} GB are left: {}", map_text(configured_region(c)),
+                     image_text(c.sensor), double(available_memory()) / 1e9,
+                     map_bytes(c) >= image_bytes(c) ? coarser_map : fewer_pixels);
+}
 
 Pose configured_start_view(const Configuration& c) {
   const double azimuth = c.planner.start_azimuth * std::numbers::pi / 180.0;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <string>
 
 #include "core/gain/map_rays.hpp"
 #include "core/session/configuration.hpp"
@@ -11,6 +12,11 @@ namespace nextview {
 
 /// @throws std::invalid_argument naming the field and its bounds.
 Configuration validated(Configuration configuration);
+
+/// The same configuration. @throws OutOfMemory if the map, the camera's images or the views' clouds will not fit.
+Configuration affordable(Configuration configuration);
+/// One line that says what took the memory of a scan that has none left, and what to do.
+std::string not_enough_memory(const Configuration& configuration);
 
 Pose configured_start_view(const Configuration& configuration);
 VoxelGrid configured_region(const Configuration& configuration);

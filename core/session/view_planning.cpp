@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/planner/rank_correlation.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -24,7 +25,7 @@ double best_gain(const StepRecord& record) {
 }  // namespace
 
 void rank_candidates(const Policy& policy, const PlanningState& state, const Robot& robot,
-                     const std::vector<bool>& visited, StepRecord& record) {
+                     const std::vector<bool>& visited, StepRecord& record, const std::stop_token& stop) {
   record.candidates.assign(state.candidates.size(), {});
   for (std::size_t v = 0; v < record.candidates.size(); ++v) {
     Candidate& c = record.candidates[v];
@@ -32,14 +33,17 @@ void rank_candidates(const Policy& policy, const PlanningState& state, const Rob
     c.available = !visited[v] && !robot.unreachable(state.candidates[v]);
   }
   const auto left = available(record.candidates);
-  const auto gains = policy.values(state, left, {});  // a stop now would leave half a ranking
+  const auto gains = policy.values(state, left, stop);
+  throw_if_stopped(stop);  // or the ranking would be half one
   for (std::size_t i = 0; i < left.size(); ++i) record.candidates[left[i]].gain = gains[i];
   record.ranking = rank(record.candidates, policy.weights(state.config));
 }
 
-void compare_rankings(const Policy& policy, const PlanningState& conventional, StepRecord& record) {
+void compare_rankings(const Policy& policy, const PlanningState& conventional, StepRecord& record,
+                      const std::stop_token& stop) {
   const auto left = available(record.candidates);
-  const auto gains = policy.values(conventional, left, {});
+  const auto gains = policy.values(conventional, left, stop);
+  throw_if_stopped(stop);
   auto candidates = record.candidates;
   std::vector<double> refined;
   RefinementRecord& refinement = *record.refinement;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/surface/seen_part.hpp"
 
 namespace nextview {
 namespace {
@@ -74,22 +75,25 @@ float colours_end(const Surface& surface) {
 }
 
 std::string ply_header(const Surface& surface, float end) {
+  const SeenArea area = seen_area(surface);
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
       "comment reconstructed surface, nextview; unit m\n"
       "comment uncertainty: how far the surface may lie off along its normal [m]\n"
       "comment seen: 1 measured, 0 closes the surface where no view has looked\n"
+      "comment seen of the area: {}, {:.4g} of {:.4g} m^2\n"
       "comment colour: uncertainty from 0 m (dark blue) to {:g} m and more (yellow); grey: not seen\n"
       "element vertex {}\nproperty uchar seen\n"  // not x: a first byte of 10 makes Assimp skip it as a line end
       "property float x\nproperty float y\nproperty float z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float uncertainty\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      end, surface.mesh.vertices.size(), surface.mesh.triangles.size());
+      area.percent_seen(), area.seen, area.seen + area.unseen, end, surface.mesh.vertices.size(),
+      surface.mesh.triangles.size());
 }
 
 }  // namespace
 
-void write_stl(const TriangleMesh& mesh, const std::filesystem::path& file) {
+void write_stl(const TriangleMesh& mesh, const std::filesystem::path& file, std::string_view remark) {
   constexpr float millimetres = 1e3f;
   check(mesh, millimetres);
   std::string facets;
@@ -108,6 +112,7 @@ void write_stl(const TriangleMesh& mesh, const std::filesystem::path& file) {
   }
   if (count == 0) throw std::invalid_argument("surface file: no triangle of the surface has an area");
   std::string header = "nextview, unit mm";  // not 'solid': that begins the text format
+  if (!remark.empty()) header += fmt::format("; {}", remark.substr(0, 40));
   header.resize(80, '\0');
   append(header, &count, 1);
   write_file(file, header + facets);

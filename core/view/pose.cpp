@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "core/file/read_file.hpp"
 
 namespace nextview {
 
@@ -39,8 +40,8 @@ double rotation_angle(const Pose& a, const Pose& b) {
 }
 
 std::vector<Pose> read_views(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(fmt::format("{}: cannot be read; it should hold candidate views", file.string()));
+  constexpr std::uintmax_t largest = std::uintmax_t{1} << 25;  // bytes; the most views take about half of that
+  std::istringstream in(read_file(file, largest));
   const auto fail = [&](std::size_t line, const std::string& reason) {
     return std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, reason));
   };

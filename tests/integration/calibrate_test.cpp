@@ -45,8 +45,9 @@ const std::vector<std::string> fitted_keys = {"hit", "miss", "hit_decay", "miss_
 
 TEST_F(Calibrate, WritesTheModelTheNumbersAndThePictureAndNothingElse) {
   run(sphere_and_box + coarse + "--views 2,4 --out " + in("out"));
-  EXPECT_THAT(file_names(in("out")), ::testing::ElementsAre("calibration.json", "calibration.png", "config.toml",
-                                                            "descent.csv", "scores.csv", "sensor_model.toml"));
+  EXPECT_THAT(file_names(in("out")),
+              ::testing::ElementsAre("calibration.json", "calibration.png", "config.toml", "descent.csv",
+                                     "manifest.json", "scores.csv", "sensor_model.toml"));
   const Table scores = read_table(read("out", "scores.csv"));
   ASSERT_EQ(scores.size(), 2u * 2u * 3u) << "two objects, two numbers of views, three maps";
   for (std::size_t row = 0; row < scores.size(); row += 3) {
@@ -78,7 +79,7 @@ TEST_F(Calibrate, TheSameBytesOnAnyNumberOfThreads) {
   for (const std::string& name : file_names(in("one"))) {
     EXPECT_TRUE(read("one", name) == read("two", name)) << name << " differs";
   }
-  EXPECT_EQ(file_names(in("one")).size(), 5u);
+  EXPECT_EQ(file_names(in("one")).size(), 6u);
 }
 
 TEST_F(Calibrate, ScanTakesTheModelAloneAndWithOtherFiles) {

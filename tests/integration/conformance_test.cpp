@@ -1,4 +1,6 @@
-// `nextview score` against the numbers of the reference code, for each set in the shared folder.
+// `nextview score` against the numbers of the reference code.
+#include "tests/data/conformance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,13 +24,12 @@ std::vector<std::vector<std::string>> rows(const std::string& csv) {
 }
 
 TEST(Conformance, ScoresEqualTheReferenceCodes) {
-  const std::filesystem::path folder = NEXTVIEW_SHARED_DIR "/conformance";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "NOT CHECKED: " << folder << " is missing";
-  for (const std::string set : {"scans1", "scans6"}) {
-    const Result run =
-        nextview("score --semantics reference --gain all --csv - --scene " + (folder / (set + ".txt")).string());
+  const TemporaryFolder folder;
+  for (const std::string set : conformance_sets) {
+    const Result run = nextview("score --semantics reference --gain all --csv - --scene " +
+                                unpack_conformance_scene(set, folder.path()).string());
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const auto ours = rows(run.out), expected = rows(read_file(folder / (set + ".expected.csv")));
+    const auto ours = rows(run.out), expected = rows(read_file(conformance_file(set + ".expected.csv")));
     ASSERT_EQ(ours.size(), 49u);
     ASSERT_EQ(expected.size(), 49u);
     for (std::size_t view = 1; view < expected.size(); ++view)

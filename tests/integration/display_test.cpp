@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -66,12 +67,13 @@ Image read_screen(const std::filesystem::path& file) {
 /// The program in front of somebody with a mouse and a keyboard.
 class Display : public testing::Test {
  protected:
+  virtual std::string size() const { return "1280x800"; }  ///< of the display [px]
   void SetUp() override {
     std::string name = (std::filesystem::temp_directory_path() / "nextview-display-XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder_ = name;
     server_ = std::make_unique<Background>(
-        fmt::format("Xvfb -displayfd 1 -screen 0 1280x800x24 -fbdir {} -nolisten tcp 2>/dev/null", name));
+        fmt::format("Xvfb -displayfd 1 -screen 0 {}x24 -fbdir {} -nolisten tcp 2>/dev/null", size(), name));
     display_ = ":" + server_->line();
     ASSERT_NE(display_, ":") << "Xvfb does not start; install xvfb";
   }
@@ -83,6 +85,17 @@ class Display : public testing::Test {
   void start(const std::string& arguments = "") {
     program_ = std::make_unique<Background>(
         fmt::format("env DISPLAY={} '{}' {} 2>/dev/null", display_, NEXTVIEW_PROGRAM, arguments));
+  }
+
+  /// Plays a script in the window until the program ends; returns its exit code, or 128 and more if it was killed.
+  int play(const std::string& script, const std::string& options = "", const std::string& object = "sphere") const {
+    write_file(folder_ / "script.txt", script);
+    const std::string command = fmt::format(
+        "DISPLAY={0} timeout 240 '{1}' window {4} --sensor.width 160 --sensor.height 120 "
+        "--termination.views 4 --script '{2}/script.txt' {3} >'{2}/out' 2>'{2}/err'",
+        display_, NEXTVIEW_PROGRAM, folder_.string(), options, object);
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 
   bool xdotool(const std::string& words) const {
@@ -147,6 +160,58 @@ std::optional<Eigen::Vector2d> blue_pixel(const Image& image, const Rectangle& r
   return *std::min_element(blue.begin(), blue.end(), [&](const auto& a, const auto& b) {
     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
   });
+}
+
+TEST_F(Display, AScriptThatIsDoneEndsWithNought) {
+  const std::string scan = (folder_ / "scan").string();
+  EXPECT_EQ(play(fmt::format("step\nstep\nexport \"{0}\"\nquit\n", scan)), 0) << read_file(folder_ / "err");
+  EXPECT_EQ(read_file(folder_ / "err").find("script.txt"), std::string::npos) << read_file(folder_ / "err");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "scan" / "surfaces.json")) << "it did not wait for the export";
+}
+
+TEST_F(Display, AScriptThatFailsGoesOnAndEndsWithTwo) {
+  const std::string saved = (folder_ / "saved.txt").string(), err = (folder_ / "err").string();
+  const std::string place = (folder_ / "script.txt").string();
+  const std::string script =
+      fmt::format("step\nexport /proc/no/such\nopen /no/such/file.ply\n\nstep\nsave-script {}\nquit\n", saved);
+  EXPECT_EQ(play(script), 2);
+  const std::string told = read_file(err);
+  EXPECT_NE(told.find(place + ":2: export: "), std::string::npos) << told;
+  EXPECT_NE(told.find(place + ":3: open: "), std::string::npos) << told;
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 2) << told;
+  const std::string begin = "open sphere\nset sensor.width 160\nset sensor.height 120\nset termination.views 4\nstep\n";
+  EXPECT_TRUE(read_file(saved).starts_with(begin)) << read_file(saved);
+  std::filesystem::remove(saved);
+  EXPECT_EQ(play(script, "--stop-on-error"), 2);
+  EXPECT_EQ(read_file(err).find(":3:"), std::string::npos) << read_file(err);
+  EXPECT_FALSE(std::filesystem::exists(saved)) << "it went on";
+}
+
+TEST_F(Display, AScriptOfAnObjectThatIsNotThereEndsWithTwo) {
+  EXPECT_EQ(play("quit\n", "", "/no/such/file.ply"), 2);
+  EXPECT_NE(read_file(folder_ / "err").find("/no/such/file.ply"), std::string::npos);
+}
+
+class SmallDisplay : public Display {
+ protected:
+  std::string size() const override { return "640x480"; }
+};
+
+/// Whoever has no window manager gives no heed to the hints of a least size.
+TEST_F(SmallDisplay, TheWindowWorksAndMayBeMadeSmaller) {
+  start("window sphere --sensor.width 160 --sensor.height 120");
+  ASSERT_TRUE(titled("sphere - view 0 of 20")) << "the window does not come up";
+  const Layout l(640, 480, 1.0);
+  ASSERT_TRUE(click(50, l.control_bar.y + l.control_bar.height / 2));  // the Step button
+  ASSERT_TRUE(titled("view 1 of 20"));
+  int views = 1;
+  for (const char* smaller : {"400 300", "200 150", "90 60", "640 480"}) {
+    ASSERT_TRUE(xdotool(fmt::format("search --name 'view . of 20' windowsize {}", smaller)));
+    pause();
+    ASSERT_TRUE(xdotool("mousemove 45 45"));
+    ASSERT_TRUE(key("s"));
+    ASSERT_TRUE(titled(fmt::format("view {} of 20", ++views))) << "at " << smaller;
+  }
 }
 
 /// A voxel and a ray are inspected, a view is overridden, and the scan is stepped to its end; what was done is read

@@ -14,7 +14,7 @@ class Person {
  public:
   explicit Person(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
       : surface_(width, height), interface_(surface_, worker_, inspector_, scale) {
-    worker_.post(request::Load{configuration});
+    interface_.open(configuration);
     wait();
   }
 

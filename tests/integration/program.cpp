@@ -30,6 +30,8 @@ Result nextview_interrupted(double seconds, const std::string& arguments) {
   return run(fmt::format("timeout --preserve-status --signal=INT {}", seconds), arguments);
 }
 
+Result nextview_behind(const std::string& commands, const std::string& arguments) { return run(commands, arguments); }
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "nextview-test-XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");

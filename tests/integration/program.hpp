@@ -15,6 +15,9 @@ Result nextview(const std::string& arguments);
 /// The same, with Ctrl+C pressed after so many seconds. Without pictures only.
 Result nextview_interrupted(double seconds, const std::string& arguments);
 
+/// The same behind commands that run others, as `timeout 5` and `sh -c '…; exec "$0" "$@"'` do.
+Result nextview_behind(const std::string& commands, const std::string& arguments);
+
 /// A folder of this test's own, empty, removed at the end.
 class TemporaryFolder {
  public:

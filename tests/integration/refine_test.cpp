@@ -6,7 +6,9 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
+#include "tests/data/conformance.hpp"
 #include "tests/integration/program.hpp"
+#include "tests/unit/cloud/made_range_scans.hpp"
 
 namespace nextview {
 namespace {
@@ -39,9 +41,10 @@ TEST_F(Refine, WritesMapsNumbersAndPictures) {
   for (const char* file :
        {"posterior.ot", "posterior.bt", "conventional.ot", "scores.csv", "trace.csv", "metrics.json", "config.toml",
         "timings.csv", "refinement.png", "sensor_models.png", "surface_posterior.ply", "surface_posterior.stl",
-        "surface_posterior.png", "surface_cloud.ply", "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
+        "surface_posterior.png", "surface_posterior_unseen.stl", "manifest.json", "surface_cloud.ply",
+        "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
     EXPECT_GT(fs::file_size(fs::path(out("refined")) / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(out("refined")), fs::directory_iterator{}), 17)
+  EXPECT_EQ(std::distance(fs::directory_iterator(out("refined")), fs::directory_iterator{}), 19)
       << "something else was left behind";
   // The views are taken again exactly: the conventional map is that of the scan.
   EXPECT_TRUE(read_file(fs::path(out("refined")) / "conventional.ot") == read_file(fs::path(scan()) / "map.ot"));
@@ -123,23 +126,28 @@ TEST(RefineScenes, RecordedScansHaveNoTruthAndWork) {
   EXPECT_LT(occupied, 1600u);
 }
 
-TEST(RefineScenes, StanfordsRangeScans) {
-  const fs::path bunny = NEXTVIEW_SHARED_DIR "/data/scans/stanford_bunny";
-  if (!fs::exists(bunny)) GTEST_SKIP() << "missing: " << bunny << "; the Stanford scans are not checked";
+TEST(RefineScenes, FoldersOfRangeScansAsStanfordHasThem) {
   const TemporaryFolder folder;
-  const std::string out = (folder.path() / "out").string();
-  const Result run = nextview("refine " + bunny.string() + " --voxel 0.004 --no-pictures --no-surfaces --out " + out +
-                              " --gibbs.sweeps 60");
+  const fs::path scans = folder.path() / "scans", out = folder.path() / "out";
+  fs::create_directory(scans);
+  made_range_scans::write(scans);
+  const Result run = nextview("refine " + scans.string() + " --voxel 0.004 --no-pictures --no-surfaces --out " +
+                              out.string() + " --gibbs.sweeps 60");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const OccupancyMap map = read_octree(fs::path(out) / "posterior.ot");
-  std::size_t occupied = 0;
-  for (const Voxel& v : map.voxels()) occupied += v.measured && v.probability >= 0.5f;
+  const OccupancyMap map = read_octree(out / "posterior.ot");
+  std::size_t occupied = 0, off = 0;
+  for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+    if (!map.voxels()[v].measured || map.voxels()[v].probability < 0.5f) continue;
+    ++occupied;
+    off += made_range_scans::distance_to_thing(map.grid().centre(v)) > 2.0 * 0.004;
+  }
   EXPECT_GT(occupied, 1500u);
+  EXPECT_LT(off, 0.02 * double(occupied)) << "the scans lie where their poses put them";
 }
 
 TEST(RefineScenes, ScoringASceneByTheGibbsGainRefinesIt) {
-  const fs::path scene = NEXTVIEW_SHARED_DIR "/conformance/scans1.txt";
-  if (!fs::exists(scene)) GTEST_SKIP() << "missing: " << scene << "; the conformance scene is not checked";
+  const TemporaryFolder folder;
+  const fs::path scene = unpack_conformance_scene("scans1", folder.path());
   const Result run = nextview("score --scene " + scene.string() + " --gain gibbs --csv -");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 49);

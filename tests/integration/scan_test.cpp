@@ -25,12 +25,29 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   const TemporaryFolder folder;
   const Result run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* file :
-       {"config.toml", "steps.csv", "scores.csv", "views.csv", "timings.csv", "metrics.json", "map.ot", "map.bt",
-        "cloud.ply", "step_01.png", "step_02.png", "step_03.png", "surface_map.ply", "surface_map.stl",
-        "surface_map.png", "surface_cloud.ply", "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
+  for (const char* file : {"config.toml",
+                           "steps.csv",
+                           "scores.csv",
+                           "views.csv",
+                           "timings.csv",
+                           "metrics.json",
+                           "map.ot",
+                           "map.bt",
+                           "cloud.ply",
+                           "step_01.png",
+                           "step_02.png",
+                           "step_03.png",
+                           "surface_map.ply",
+                           "surface_map.stl",
+                           "surface_map.png",
+                           "surface_map_unseen.stl",
+                           "manifest.json",
+                           "surface_cloud.ply",
+                           "surface_cloud.stl",
+                           "surface_cloud.png",
+                           "surfaces.json"})
     EXPECT_GT(fs::file_size(folder.path() / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 19)
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 21)
       << "something else was left behind";
   const std::string steps = read_file(folder.path() / "steps.csv");
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row a view";

@@ -41,14 +41,34 @@ class Surfaces : public ::testing::Test {
   const TemporaryFolder folder_;
 };
 
-/// The millimetres of an STL as they stand in the file: load_mesh takes them for metres.
-TriangleMesh stl(const fs::path& file) { return load_mesh(file, {.longest_side = 0.0}); }
+/// As the numbers stand in the file: an STL's are millimetres, which load_mesh takes for metres.
+TriangleMesh read(const fs::path& file) { return load_mesh(file, {.longest_side = 0.0}); }
 
-void expect_sane(const json& surface, const TriangleMesh& mesh, bool inspected) {
-  // Noise-free points on a plane leave triangles without area, which the STL has not.
+/// The STLs hold what was seen and, in a file of its own, what was not; together they are the PLY.
+void expect_parts(const json& surface, const fs::path& folder, const std::string& name) {
+  std::size_t triangles = 0;
+  for (const auto& [part, key] : {std::pair(".stl", "area_seen_m2"), {"_unseen.stl", "area_unseen_m2"}}) {
+    const fs::path file = folder / (name + part);
+    ASSERT_EQ(fs::exists(file), surface[key] > 0.0) << file;
+    if (!fs::exists(file)) continue;
+    const TriangleMesh mesh = read(file);
+    triangles += mesh.triangles.size();
+    EXPECT_NEAR(double(surface[key]), 1e-6 * mesh.surface_area(), 1e-4 * double(surface["area_m2"])) << file;
+  }
+  // Triangles next to without area may have none in one of the two units.
+  const double whole = double(read(folder / (name + ".ply")).triangles.size());
+  EXPECT_NEAR(double(triangles), whole, 0.01 * whole) << name;
+  EXPECT_NEAR(double(surface["area_seen_m2"]) + double(surface["area_unseen_m2"]), surface["area_m2"], 1e-6);
+}
+
+void expect_sane(const json& surface, const fs::path& folder, const std::string& name, bool inspected) {
+  SCOPED_TRACE(name);
+  expect_parts(surface, folder, name);
+  const TriangleMesh mesh = read(folder / (name + ".ply"));
+  // Noise-free points on a plane leave triangles without area, which are not read.
   EXPECT_GE(std::size_t(surface["triangles"]), mesh.triangles.size());
   EXPECT_LE(0.95 * double(surface["triangles"]), double(mesh.triangles.size()));
-  EXPECT_NEAR(double(surface["area_m2"]), 1e-6 * mesh.surface_area(), 1e-4 * double(surface["area_m2"]));
+  EXPECT_NEAR(double(surface["area_m2"]), mesh.surface_area(), 1e-4 * double(surface["area_m2"]));
   EXPECT_EQ(surface["watertight"], topology(mesh).watertight());
   EXPECT_EQ(surface["openings"] == 0, topology(mesh).boundary_edges == 0);
   EXPECT_EQ(surface["longest_openings"].size(), std::min<std::size_t>(20, surface["openings"]));
@@ -85,17 +105,18 @@ TEST_F(Surfaces, AScanOfASphereIsASphereInMillimetres) {
           "out");
   EXPECT_THAT(printed, HasSubstr("watertight"));
   for (const std::string name : {"surface_map", "surface_cloud"}) {
-    const TriangleMesh mesh = stl(in("out") / (name + ".stl"));
-    expect_sane(surfaces("out")[name], mesh, true);
+    const TriangleMesh mesh = read(in("out") / (name + ".ply"));
+    expect_sane(surfaces("out")[name], in("out"), name, true);
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(mesh.bounding_box().sizes()[axis], 500.0, name == "surface_map" ? 20.0 : 5.0) << name;
+      EXPECT_NEAR(mesh.bounding_box().sizes()[axis], 0.5, name == "surface_map" ? 0.02 : 0.005) << name;
     EXPECT_TRUE(topology(mesh).watertight()) << name << ": " << topology(mesh).summary();
     EXPECT_FALSE(topology(mesh).inward) << name;
     EXPECT_EQ(topology(mesh).misoriented_edges, 0u) << name;
-    // The PLY is the same surface in metres.
-    const TriangleMesh ply = load_mesh(in("out") / (name + ".ply"), {.longest_side = 0.0});
-    EXPECT_LT((1e3 * ply.bounding_box().sizes() - mesh.bounding_box().sizes()).norm(), 0.01) << name;
-    EXPECT_EQ(ply.triangles.size(), mesh.triangles.size()) << name;
+    // The STL is the same surface in millimetres: hardly anything was not seen.
+    EXPECT_GT(double(surfaces("out")[name]["area_seen_m2"]), 0.95 * mesh.surface_area()) << name;
+    EXPECT_LT((1e3 * mesh.bounding_box().sizes() - read(in("out") / (name + ".stl")).bounding_box().sizes()).norm(),
+              1.0)
+        << name;
   }
   const double radius = 0.25, area = 4.0 * std::numbers::pi * radius * radius;  // [m, m^2]
   EXPECT_NEAR(double(surfaces("out")["surface_cloud"]["area_m2"]), area, 0.02 * area);
@@ -103,14 +124,16 @@ TEST_F(Surfaces, AScanOfASphereIsASphereInMillimetres) {
 }
 
 TEST_F(Surfaces, OneViewIsEnoughAndPicturesAreDrawn) {
-  run("scan slotted_plate --views 1" + quick, "out");
+  const std::string printed = run("scan slotted_plate --views 1" + quick, "out");
   EXPECT_THAT(surface_names("out"),
               ElementsAre("surface_cloud.ply", "surface_cloud.png", "surface_cloud.stl", "surface_map.ply",
-                          "surface_map.png", "surface_map.stl", "surfaces.json"));
+                          "surface_map.png", "surface_map.stl", "surface_map_unseen.stl", "surfaces.json"));
   const json found = surfaces("out");
   ASSERT_EQ(found.size(), 2u);
-  expect_sane(found["surface_map"], stl(in("out") / "surface_map.stl"), true);
-  expect_sane(found["surface_cloud"], stl(in("out") / "surface_cloud.stl"), true);
+  for (const std::string name : {"surface_map", "surface_cloud"}) expect_sane(found[name], in("out"), name, true);
+  EXPECT_THAT(printed, HasSubstr("closed, but only ")) << "not: watertight";
+  EXPECT_THAT(printed, HasSubstr("is the hull of what no view saw"));
+  EXPECT_THAT(printed.substr(printed.find("Surface of the occ")), Not(HasSubstr("watertight")));
   EXPECT_EQ(found["surface_map"]["watertight"], true) << "closed where no view has looked";
   EXPECT_GT(found["surface_map"]["inspection"]["area_unseen_m2"], 0.0);
   EXPECT_GT(found["surface_cloud"]["openings"], 0) << "open where no view has looked";
@@ -130,16 +153,17 @@ TEST_F(Surfaces, WithoutEvaluationNothingIsHeldAgainstTheTruth) {
   const std::string printed = run("scan box --views 3 --evaluation.enabled false --no-pictures" + quick, "out");
   EXPECT_THAT(printed, Not(HasSubstr("true surface")));
   for (const std::string name : {"surface_map", "surface_cloud"})
-    expect_sane(surfaces("out")[name], stl(in("out") / (name + ".stl")), false);
+    expect_sane(surfaces("out")[name], in("out"), name, false);
 }
 
 TEST_F(Surfaces, AScanPlannedOnTheGibbsMapShowsThatMapOnAnyNumberOfThreads) {
   const std::string scan = " scan box --views 3 --gain gibbs --no-pictures" + quick;
   run("--threads 1" + scan, "one");
   run("--threads 2" + scan, "two");
-  EXPECT_THAT(surface_names("one"), ElementsAre("surface_cloud.ply", "surface_cloud.stl", "surface_posterior.ply",
-                                                "surface_posterior.stl", "surfaces.json"));
-  expect_sane(surfaces("one")["surface_posterior"], stl(in("one") / "surface_posterior.stl"), true);
+  EXPECT_THAT(surface_names("one"),
+              ElementsAre("surface_cloud.ply", "surface_cloud.stl", "surface_posterior.ply", "surface_posterior.stl",
+                          "surface_posterior_unseen.stl", "surfaces.json"));
+  expect_sane(surfaces("one")["surface_posterior"], in("one"), "surface_posterior", true);
   for (const std::string& name : surface_names("one"))
     EXPECT_TRUE(read_file(in("one") / name) == read_file(in("two") / name)) << name << " differs";
 }
@@ -149,9 +173,10 @@ TEST_F(Surfaces, RefiningAScanLeavesThePosteriorsAndTheSameCloud) {
   run("scan box --views 3 --no-pictures" + quick, "scan");
   run("--threads 1 refine --no-pictures " + in("scan").string(), "one");
   run("--threads 2 refine --no-pictures " + in("scan").string(), "two");
-  EXPECT_THAT(surface_names("one"), ElementsAre("surface_cloud.ply", "surface_cloud.stl", "surface_posterior.ply",
-                                                "surface_posterior.stl", "surfaces.json"));
-  expect_sane(surfaces("one")["surface_posterior"], stl(in("one") / "surface_posterior.stl"), true);
+  EXPECT_THAT(surface_names("one"),
+              ElementsAre("surface_cloud.ply", "surface_cloud.stl", "surface_posterior.ply", "surface_posterior.stl",
+                          "surface_posterior_unseen.stl", "surfaces.json"));
+  expect_sane(surfaces("one")["surface_posterior"], in("one"), "surface_posterior", true);
   EXPECT_TRUE(read_file(in("one") / "surface_cloud.ply") == read_file(in("scan") / "surface_cloud.ply"));
   EXPECT_EQ(surfaces("one")["surface_cloud"], surfaces("scan")["surface_cloud"]);
   for (const std::string& name : surface_names("one"))
@@ -162,10 +187,11 @@ TEST_F(Surfaces, ARecordedSceneHasUncertaintyInPlaceOfTruth) {
   write_file(in("scene.txt"), wall_scene(0.02));
   const std::string printed = run("refine " + in("scene.txt").string(), "out");
   EXPECT_THAT(printed, Not(HasSubstr("true surface")));
-  EXPECT_EQ(surface_names("out").size(), 7u);
-  const TriangleMesh cloud = stl(in("out") / "surface_cloud.stl");
-  expect_sane(surfaces("out")["surface_cloud"], cloud, false);
-  expect_sane(surfaces("out")["surface_posterior"], stl(in("out") / "surface_posterior.stl"), false);
+  EXPECT_EQ(surface_names("out").size(), 8u);
+  const TriangleMesh cloud = read(in("out") / "surface_cloud.stl");
+  for (const std::string name : {"surface_cloud", "surface_posterior"})
+    expect_sane(surfaces("out")[name], in("out"), name, false);
+  EXPECT_THAT(printed, HasSubstr("% of it was seen: "));
   EXPECT_NEAR(double(surfaces("out")["surface_cloud"]["area_m2"]), 0.16, 0.02);
   EXPECT_NEAR(cloud.bounding_box().sizes().x(), 400.0, 20.0);
   EXPECT_LT(cloud.bounding_box().sizes().z(), 5.0) << "a wall is flat";

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <set>
 
+#include "core/file/atomic_file.hpp"
 #include "tests/integration/person.hpp"
 #include "tests/integration/small_scan.hpp"
+#include "tests/unit/map/temporary_folder.hpp"
 #include "ui/theme.hpp"
 
 namespace nextview {
@@ -235,11 +237,183 @@ TEST(Window, ControlQQuits) {
   EXPECT_TRUE(person.window().wants_to_quit());
 }
 
+std::string bytes_of(const std::filesystem::path& file) { return read_file(file); }
+
+/// What the window's script says, in a folder of its own.
+class WindowFiles : public TemporaryFolder {
+ protected:
+  std::string file(const char* name) const { return (folder_ / name).string(); }
+};
+
+TEST_F(WindowFiles, APictureIsWithoutWhatIsInFront) {
+  Person person(small_scan());
+  person.run("step\nsave-picture " + file("plain.png") + "\n");  // leaves a notice
+  const Layout layout = person.window().layout();
+  const Image before = person.look();
+  person.run("palette\n");
+  person.write("view");
+  person.wait();
+  ASSERT_NE(person.look(), before);
+  person.run("save-picture " + file("palette.png") + "\n");
+  person.run("palette\nshortcuts\nsave-picture " + file("sheet.png") + "\nshortcuts\n");
+  person.click(20, layout.menu.height / 2);
+  person.wait();
+  person.move(640, 5);  // off the menu's button
+  person.wait();
+  person.run("save-picture " + file("menu.png") + "\n");
+  for (const char* other : {"palette.png", "sheet.png"})
+    EXPECT_EQ(bytes_of(file(other)), bytes_of(file("plain.png"))) << other;
+  EXPECT_GT(std::filesystem::file_size(file("menu.png")), 10'000u);
+}
+
+TEST_F(WindowFiles, LinesOfAScriptThatFailAreToldAndTheOthersDone) {
+  Person person(small_scan());
+  std::vector<std::string> failures;
+  person.window().script().set_on_failure(
+      [&](const ScriptFailure& f) { failures.push_back(std::to_string(f.line) + " " + f.reason); });
+  person.run("step\n\nexport /proc/no/such\nopen /no/such/file.ply\n# a comment\ntake-view 999\nstep\nsave-picture " +
+             file("no/picture.png") + "\nsave-script /proc/no/script\nundo\nset sensor.max_range -1\nstep\n");
+  ASSERT_EQ(failures.size(), 6u) << testing::PrintToString(failures);
+  EXPECT_EQ(failures[0].substr(0, 10), "3 export: ");
+  EXPECT_EQ(failures[1].substr(0, 8), "4 open: ");
+  EXPECT_NE(failures[1].find("/no/such/file.ply"), std::string::npos) << failures[1];
+  EXPECT_EQ(failures[2], "6 take-view: view 999 is not available");
+  EXPECT_EQ(failures[3].substr(0, 16), "8 save-picture: ");
+  EXPECT_EQ(failures[4].substr(0, 14), "9 save-script:");
+  EXPECT_EQ(failures[5].substr(0, 7), "11 set:");
+  EXPECT_EQ(person.session().records.size(), 2u);
+  EXPECT_TRUE(person.window().script_is_done());
+}
+
+TEST(Window, AScriptThatEndsTooEarlyHasFailed) {
+  Person person(small_scan());
+  std::vector<int> lines;
+  person.window().script().set_on_failure([&](const ScriptFailure& f) { lines.push_back(f.line); });
+  person.window().run_script(parse_script("step\nstep\n\nstep\n"));
+  person.window().draw(1.0 / 60);
+  person.window().draw(1.0 / 60);
+  person.window().script().give_up("the window was closed");
+  EXPECT_FALSE(lines.empty());
+  EXPECT_LE(lines.size(), 2u);
+  EXPECT_TRUE(person.window().script_is_done());
+  person.wait();
+}
+
+/// As the window does between events: it sleeps until the next frame would be another one.
+void rest(Person& person) {
+  for (int frames = 0; frames < 100; ++frames) {
+    const double seconds = person.window().seconds_to_next_frame();
+    if (std::isinf(seconds)) return;
+    person.window().draw(seconds + 1e-3);
+  }
+}
+
+/// How many pixels of a part differ.
+int differences(const Image& a, const Image& b, const Rectangle& r) {
+  int result = 0;
+  for (int y = int(r.y); y < int(r.y + r.height); ++y)
+    for (int x = int(r.x); x < int(r.x + r.width); ++x)
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t at = (std::size_t(y) * a.width + x) * 4 + c;
+        if (a.rgba[at] == b.rgba[at]) continue;
+        ++result;
+        break;
+      }
+  return result;
+}
+
+TEST(Window, ATooltipAppearsBesideAPointerThatRests) {
+  Person person(small_scan());
+  const Layout layout = person.window().layout();
+  const Image before = person.look();
+  const Point step = step_button(layout), label{layout.left.x + 30, layout.left.y + 32 + 10 + 12};
+  for (const Point& place : {step, label}) {
+    person.move(place.x, place.y);
+    person.wait();
+    EXPECT_LT(differences(person.look(), before, layout.left), 100) << "it came at once";
+    rest(person);
+    EXPECT_GT(differences(person.look(), before, layout.left), 1000) << "no tooltip at " << place.x << ", " << place.y;
+    person.move(640, 790);
+    person.wait();
+    rest(person);
+  }
+}
+
+TEST(Window, AViewThatIsLookedThroughHidesItsOwnPyramid) {
+  Person person(small_scan());
+  person.run("step\nselect-next\ntoggle-region\ntoggle-rays\n");
+  const Rectangle scene = person.window().layout().scene;
+  const auto red = [](const std::uint8_t* p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; };
+  person.run("look-through\n");
+  EXPECT_LT(count(person.look(), scene, red), 0.1 * scene.width * scene.height) << "the pyramid fills the picture";
+  EXPECT_GT(count_blue(person.look(), scene), 500) << "the map is not to be seen";
+  const Image through = person.look();
+  person.run("zoom -3\n");
+  EXPECT_NE(person.look(), through);
+  person.run("own-view 0.6 -0.6 0.5 0 0 0\nlook-through\n");
+  EXPECT_GT(count_blue(person.look(), scene), 500) << "the map is not to be seen";
+}
+
+std::string log_of(Person& person) {
+  std::string text;
+  for (const LogEntry& entry : *person.worker().log().entries()) text += entry.text + "\n";
+  return text;
+}
+
+TEST(Window, AViewOfOnesOwnSeesTheObject) {
+  Person person(small_scan());
+  person.run("step\nzoom -4\nown-view\n");
+  EXPECT_NE(log_of(person).find("Your view is moved"), std::string::npos) << log_of(person);
+  person.run("take-own-view\nstep\n");
+  EXPECT_GT(person.session().records.back().points, 100u);
+  EXPECT_EQ(log_of(person).find("would measure nothing"), std::string::npos);
+  person.run("own-view 0.6 0 0 2 0 0\n");
+  EXPECT_NE(log_of(person).find("Your view would measure nothing: it looks past the object"), std::string::npos);
+}
+
+/// Small windows fold their panels; nothing ends the program, and each panel can be reached.
+TEST(Window, WorksAtAnySize) {
+  for (const auto& [width, height, scale] : {std::tuple{640, 480, 1.0},
+                                             {200, 150, 1.0},
+                                             {300, 720, 1.0},
+                                             {1400, 200, 1.0},
+                                             {640, 480, 2.0},
+                                             {8, 8, 1.0},
+                                             {1, 1, 1.0}}) {
+    SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
+    Person person(small_scan(), width, height, scale);
+    person.run("step\nown-view\nlook-through\nframe\n");
+    for (const std::string_view panel : panel_names()) person.run("panel " + std::string(panel) + "\n");
+    person.run("inspect-voxel 0 0 0\nshortcuts\nshortcuts\npalette\npalette\nlook-from 30 20\nzoom 1\nundo\nstep\n");
+    person.move(width / 2.0, height / 2.0);
+    person.press();
+    person.move(width / 2.0 + 3, height / 2.0 + 2);
+    person.release();
+    person.wait();
+    EXPECT_EQ(person.session().records.size(), 1u);
+    EXPECT_EQ(person.surface().gl_error(), 0u);
+  }
+}
+
 TEST(Window, PanelsNeverOverlap) {
-  for (const auto& [width, height, scale] :
-       {std::tuple{1200, 720, 1.0}, {1280, 800, 1.0}, {2560, 1600, 2.0}, {3840, 2160, 1.5}}) {
-    const Layout l(width, height, scale);
-    const std::vector<Rectangle> all{l.menu, l.control_bar, l.left, l.right, l.bottom, l.scene, l.status};
+  for (const auto& [width, height, scale, open] : {std::tuple{1200, 720, 1.0, Side::right},
+                                                   {1280, 800, 1.0, Side::left},
+                                                   {2560, 1600, 2.0, Side::right},
+                                                   {3840, 2160, 1.5, Side::right},
+                                                   {640, 480, 1.0, Side::right},
+                                                   {640, 480, 1.0, Side::left},
+                                                   {640, 480, 1.0, Side::bottom},
+                                                   {640, 480, 2.0, Side::left},
+                                                   {1000, 480, 1.0, Side::bottom},
+                                                   {800, 900, 1.0, Side::left},
+                                                   {480, 360, 1.0, Side::bottom},
+                                                   {200, 150, 1.0, Side::left},
+                                                   {200, 150, 2.0, Side::right},
+                                                   {40, 30, 1.0, Side::right},
+                                                   {1, 1, 1.0, Side::right}}) {
+    const Layout l(width, height, scale, open);
+    std::vector<Rectangle> all{l.menu, l.control_bar, l.left, l.right, l.bottom, l.scene, l.status};
+    std::erase_if(all, [](const Rectangle& r) { return r.empty(); });
     for (std::size_t i = 0; i < all.size(); ++i) {
       EXPECT_GE(all[i].x, 0.0);
       EXPECT_GE(all[i].y, 0.0);

@@ -106,6 +106,11 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
 
 }  // namespace
 
+bool stands_at(const Vector3& eye, const Vector3& camera) {
+  constexpr double near = 0.02;  // [m]
+  return (eye - camera).squaredNorm() < near * near;
+}
+
 ViewsLayer::ViewsLayer(vtkRenderer& renderer)
     : Layer(renderer),
       frustums_(make_part(1.0, 1.0)),
@@ -131,27 +136,32 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   Geometry frustums, outlines, path;
   std::vector<Vector3> points;
   std::vector<Label> labels;
+  const auto at_eye = [&](const Pose& view) { return picture.eye && stands_at(*picture.eye, view.translation()); };
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);
-    frustum.add_faces(frustums, colour, true);
-    frustum.add_outline(outlines, mix(colour, theme::ink, 0.45));
+    if (!at_eye(picture.candidates[i])) {
+      frustum.add_faces(frustums, colour, true);
+      frustum.add_outline(outlines, mix(colour, theme::ink, 0.45));
+    }
     points.push_back(frustum.apex);
     points.insert(points.end(), frustum.base.begin(), frustum.base.end());
   }
   for (std::size_t i = 0; i < picture.path.size(); ++i) {
     points.push_back(picture.path[i].translation());
-    if (i > 0) path.add_line(picture.path[i - 1].translation(), points.back(), theme::visited);
+    if (at_eye(picture.path[i])) continue;
+    if (i > 0 && !at_eye(picture.path[i - 1]))
+      path.add_line(picture.path[i - 1].translation(), points.back(), theme::visited);
     if (picture.numbered_path) labels.push_back({{points.back()}, std::to_string(i + 1), theme::soft_ink});
   }
-  if (picture.own_view) {
-    points.push_back(picture.own_view->translation());
-    show_full_frustum(picture, *picture.own_view);
-    labels.push_back({{points.back()}, "own view", theme::chosen, true});
-  } else if (picture.chosen) {
-    const Pose& chosen = picture.candidates[*picture.chosen];
-    show_full_frustum(picture, chosen);
-    labels.push_back({{chosen.translation()}, fmt::format("view {}", *picture.chosen), theme::chosen, true});
+  const Pose* full = picture.own_view ? &*picture.own_view
+                     : picture.chosen ? &picture.candidates[*picture.chosen]
+                                      : nullptr;
+  if (full) points.push_back(full->translation());
+  if (full && !at_eye(*full)) {
+    show_full_frustum(picture, *full);
+    const std::string name = picture.own_view ? "own view" : fmt::format("view {}", *picture.chosen);
+    labels.push_back({{full->translation()}, name, theme::chosen, true});
   } else {
     for (Part* part : {&chosen_faces_, &chosen_outline_})
       part->mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());

@@ -18,15 +18,19 @@ struct ViewsPicture {
   std::span<const std::size_t> visited;  ///< candidates
   std::optional<std::size_t> chosen;     ///< a candidate
   std::optional<Pose> own_view =
-      {};                      ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place
-  std::span<const Pose> path;  ///< the views taken so far, in order; T_world_camera
-  bool numbered_path = false;  ///< small numbers at the views taken, from 1
+      {};                           ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place
+  std::optional<Vector3> eye = {};  ///< views from here (or nearly) are not drawn: they would be in the way [m, world]
+  std::span<const Pose> path;       ///< the views taken so far, in order; T_world_camera
+  bool numbered_path = false;       ///< small numbers at the views taken, from 1
   std::string score_name = "score";
   std::string score_unit;
   std::optional<ValueRange> range = {};  ///< of the colours, locked; that of the scores not visited if not given
   double size = 0.07;                    ///< depth of a frustum [m]
   double reach = 0.5;                    ///< depth of the chosen view's frustum [m]
 };
+
+/// Whether an eye stands where a camera does, or nearly: it would look out of the camera's own pyramid.
+bool stands_at(const Vector3& eye, const Vector3& camera);
 
 /// Candidates as frustums coloured by score, visited ones grey, the chosen one with its full frustum, and the path so
 /// far.

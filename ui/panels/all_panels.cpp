@@ -1,5 +1,7 @@
 #include "ui/panels/all_panels.hpp"
 
+#include <imgui_internal.h>
+
 #include "ui/panels/candidates_panel.hpp"
 #include "ui/panels/control_bar.hpp"
 #include "ui/panels/curves_panel.hpp"
@@ -18,14 +20,17 @@ void draw_hairlines(const Layout& layout) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImU32 colour = to_imgui_u32(theme::hairline);
   for (const Rectangle& r : {layout.menu, layout.left, layout.right, layout.scene, layout.bottom}) {
+    if (r.empty()) continue;
     list.AddRect({float(r.x) - 1, float(r.y) - 1}, {float(r.x + r.width) + 1, float(r.y + r.height) + 1}, colour);
   }
 }
 
 }  // namespace
 
-void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangle& rectangle) {
-  const Rectangle place = draw_tabs(context, side, rectangle);
+void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open) {
+  if (rectangle.empty()) return;
+  const Rectangle place = draw_tabs(context, side, rectangle, is_open);
+  if (place.empty() || !is_open) return;
   switch (context.window.in_front(side)) {
     case PanelName::session:
       return session_.draw(context, place);
@@ -50,28 +55,26 @@ void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangl
 
 void AllPanels::draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds) {
   draw_menu_bar(context, layout.menu);
-  draw_control_bar(context, layout.control_bar);
-  for (const Side side : {Side::left, Side::right, Side::bottom}) draw_side(context, side, layout.of(side));
-  draw_status_line(context, layout.status);
+  if (!layout.control_bar.empty()) draw_control_bar(context, layout.control_bar);
+  for (const Side side : {Side::left, Side::right, Side::bottom})
+    draw_side(context, side, layout.of(side), layout.is_open(side));
+  if (!layout.status.empty()) draw_status_line(context, layout.status);
   draw_hairlines(layout);
-  notifications_.draw(context, layout.scene, log_count, seconds);
-  draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.status.y});
-  palette_.draw(context, layout.scene);
+  const Rectangle beneath_menu{0, layout.menu.height, layout.menu.width, layout.height - layout.menu.height};
+  const Rectangle& front = layout.scene.width < context.style.px(420) ? beneath_menu : layout.scene;
+  notifications_.draw(context, front, log_count, seconds);
+  draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});
+  palette_.draw(context, front);
 }
 
-void obey_keys(const PanelContext& context) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const bool escape = ImGui::IsKeyPressed(static_cast<int>(Key::escape), false);
-  if (context.window.palette_open) {  // it has the keyboard; its own key closes it
-    if (io.KeyCtrl && ImGui::IsKeyPressed(static_cast<int>(key('P')), false)) context.call("palette");
-    return;
-  }
-  if (context.window.shortcuts_open && escape) return context.call("shortcuts");
-  if (io.WantTextInput) return;
+namespace {
+
+void obey_shortcuts(const PanelContext& context) {
+  const bool control = ImGui::GetIO().KeyCtrl;
   for (const Command& command : commands()) {
     if (!command.available(context.state())) continue;
     for (const Shortcut& shortcut : command.shortcuts) {
-      if (shortcut.control != io.KeyCtrl || !ImGui::IsKeyPressed(static_cast<int>(shortcut.key), false)) continue;
+      if (shortcut.control != control || !ImGui::IsKeyPressed(static_cast<int>(shortcut.key), false)) continue;
       if (shortcut.arguments.empty()) {
         context.invoke(command);
       } else {
@@ -79,6 +82,23 @@ void obey_keys(const PanelContext& context) {
       }
       return;  // play and pause share a key
     }
+  }
+}
+
+}  // namespace
+
+void obey_keys(const PanelContext& context) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto pressed = [](Key which) { return ImGui::IsKeyPressed(static_cast<int>(which), false); };
+  const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;  // menus and lists
+  if (open > 0) {
+    if (pressed(Key::escape)) ImGui::ClosePopupToLevel(open - 1, true);
+  } else if (context.window.palette_open) {
+    if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.call("palette");
+  } else if (context.window.shortcuts_open) {
+    if (pressed(Key::escape) || pressed(Key::f1)) context.call("shortcuts");
+  } else if (!io.WantTextInput) {
+    obey_shortcuts(context);
   }
 }
 

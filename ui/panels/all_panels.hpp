@@ -16,7 +16,7 @@ class AllPanels {
   double seconds_left() const { return notifications_.seconds_left(); }
 
  private:
-  void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle);
+  void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open);
 
   SessionPanel session_;
   GibbsPanel gibbs_;
@@ -25,7 +25,8 @@ class AllPanels {
   Notifications notifications_;
 };
 
-/// Emits the commands whose keys are pressed, unless a person is writing.
+/// Emits the commands whose keys are pressed. Whatever is in front has the keyboard: a menu or a list, then the
+/// palette, the sheet of keys, a text that is written; Escape closes it, and no other key does anything else.
 void obey_keys(const PanelContext& context);
 
 }  // namespace nextview

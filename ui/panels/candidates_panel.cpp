@@ -130,6 +130,9 @@ std::string next_text(const SessionSnapshot& s) {
   return fmt::format("Next is your choice, view {}; proposed was view {}.", *s.next_candidate, *s.proposal());
 }
 
+/// "0.3 " before what it weighs; nothing for 1.
+std::string factor(double weight) { return weight == 1.0 ? "" : fmt::format("{:g} ", weight); }
+
 /// A column's name; a click sorts by it, another one the other way round.
 void draw_header(const PanelContext& context, CandidateColumn column, const std::string& name) {
   constexpr std::array columns = {"view", "gain", "cost", "utility"};
@@ -190,21 +193,25 @@ void draw_take_buttons(const PanelContext& context) {
 }  // namespace
 
 void draw_candidates_panel(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("Candidates", rectangle, ImGuiWindowFlags_NoScrollbar);
+  const bool low = rectangle.height < context.style.px(250);  // the table keeps some rows, and the panel scrolls
+  const Panel panel("Candidates", rectangle, low ? 0 : ImGuiWindowFlags_NoScrollbar,
+                    context.style.px(right_panel_width));
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
   small_text(context.style,
-             fmt::format("ranked by {}, U = gain share − cost share (Eq. 13)", s.configuration.planner.gain));
+             fmt::format("ranked by {}, U = {}gain share − {}cost share (Eq. 13)", s.configuration.planner.gain,
+                         factor(s.configuration.planner.weights.gain), factor(s.configuration.planner.weights.cost)));
   if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty())
     draw_degenerate(context, s.records.back().ranking.degenerate);
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +
                       3 * ImGui::GetStyle().ItemSpacing.y;
   ImGui::PushFont(context.style.small);
-  draw_table(context, ImGui::GetContentRegionAvail().y - below);
+  draw_table(context, low ? context.style.px(110) : ImGui::GetContentRegionAvail().y - below);
   ImGui::PopFont();
   small_text(context.style, next_text(s));
-  ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
-                       context.style.px(4));
+  if (!low)
+    ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
+                         context.style.px(4));
   draw_take_buttons(context);
 }
 

@@ -8,7 +8,11 @@
 namespace nextview {
 namespace {
 
-void draw_buttons(const PanelContext& context) {
+// [px] on a display that does not scale
+constexpr float buttons_end = 316, speed_end = 396, least_bar = 40;
+
+/// Where there is no room for progress, what runs is cancelled here.
+void draw_buttons(const PanelContext& context, bool with_cancel) {
   const float gap = context.style.px(6);
   command_button(context, "step", Icon::step, "Step", true);
   ImGui::SameLine(0, gap);
@@ -19,6 +23,7 @@ void draw_buttons(const PanelContext& context) {
     command_button(context, "play", Icon::play, "Play", false, width);
   }
   ImGui::SameLine(0, gap);
+  if (with_cancel) return command_button(context, "cancel", Icon::cancel, "Cancel");
   command_button(context, "undo", Icon::undo, "");
   ImGui::SameLine(0, gap);
   command_button(context, "redo", Icon::redo, "");
@@ -62,17 +67,17 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   if (!progress.busy || (progress.what.empty() && !progress.playing)) {  // some commands take no time worth a word
     const SessionSnapshot& s = context.snapshot;
     ImGui::AlignTextToFramePadding();
-    if (!s.finished.empty()) {
-      ImGui::TextUnformatted(fmt::format("Finished: {}", s.finished).c_str());
-    } else {
-      ImGui::TextDisabled("%s", readiness(s).c_str());
-    }
+    const std::string text = s.finished.empty() ? readiness(s) : fmt::format("Finished: {}", s.finished);
+    const std::string shown = shortened(text, right - left);
+    s.finished.empty() ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
+    if (shown != text) tooltip(text);
     return;
   }
   const float button = style.px(100), bar = right - left - button;
+  if (bar < style.px(least_bar)) return;  // the buttons have a Cancel then
   ImGui::PushFont(style.small);
   ImGui::SetCursorPos({left, y - style.px(6)});
-  ImGui::TextUnformatted(job_text(progress).c_str());
+  ImGui::TextUnformatted(shortened(job_text(progress), right - left).c_str());
   ImGui::PopFont();
   ImGui::SetCursorPos({left, y + style.px(17)});
   ImGui::ProgressBar(float(progress.fraction), {bar, style.px(7)}, "");
@@ -80,14 +85,19 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   command_button(context, "cancel", Icon::cancel, "Cancel");
 }
 
-/// One number with its name beneath, from the right; returns where it starts.
-float draw_figure(const PanelContext& context, float right, float y, const std::string& value, const char* name) {
+/// One number with its name beneath, from the right, if there is room for it right of `least`; returns where it starts.
+float draw_figure(const PanelContext& context, float least, float right, float y, const std::string& value,
+                  const char* name) {
   const Style& style = context.style;
   ImGui::PushFont(style.semi_bold);
   const float value_width = ImGui::CalcTextSize(value.c_str()).x;
   ImGui::PopFont();
   ImGui::PushFont(style.small);
   const float name_width = ImGui::CalcTextSize(name).x;
+  if (right - std::max(value_width, name_width) < least) {
+    ImGui::PopFont();
+    return right;
+  }
   ImGui::SetCursorPos({right - name_width, y + style.px(13)});
   ImGui::TextDisabled("%s", name);
   ImGui::PopFont();
@@ -98,18 +108,18 @@ float draw_figure(const PanelContext& context, float right, float y, const std::
   return right - std::max(value_width, name_width) - style.px(26);
 }
 
-float draw_figures(const PanelContext& context, float right, float y) {
+float draw_figures(const PanelContext& context, float least, float right, float y) {
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return right;
   const bool any = !s.records.empty();
   if (s.configuration.evaluation.enabled) {
     const double coverage = any ? s.records.back().coverage_visible : 0.0;
-    right = draw_figure(context, right, y, fmt::format("{:.1f} %", 100 * coverage), "of visible surface");
+    right = draw_figure(context, least, right, y, fmt::format("{:.1f} %", 100 * coverage), "of visible surface");
   }
   const double bits = any ? s.records.back().entropy : double(s.grid.voxel_count());
-  right = draw_figure(context, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy");
+  right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy");
   const int views = s.configuration.termination.views;
-  return draw_figure(context, right, y, fmt::format("{} / {}", s.records.size(), views), "views");
+  return draw_figure(context, least, right, y, fmt::format("{} / {}", s.records.size(), views), "views");
 }
 
 }  // namespace
@@ -119,11 +129,15 @@ void draw_control_bar(const PanelContext& context, const Rectangle& rectangle) {
   const Style& style = context.style;
   const float y = (float(rectangle.height) - ImGui::GetFrameHeight() - style.px(4)) / 2;
   ImGui::SetCursorPos({style.px(14), y});
-  draw_buttons(context);
-  ImGui::SameLine(0, style.px(10));
-  draw_speed(context, ImGui::GetCursorPosX(), y);
-  const float left = style.px(396);
-  const float right = draw_figures(context, float(rectangle.width) - style.px(16), y + style.px(2));
+  const float end = float(rectangle.width) - style.px(16);
+  const bool with_speed = end > style.px(speed_end + 330);
+  const float left = style.px(with_speed ? speed_end : buttons_end);
+  draw_buttons(context, context.progress.busy && end - left < style.px(100 + least_bar));
+  if (with_speed) {
+    ImGui::SameLine(0, style.px(10));
+    draw_speed(context, ImGui::GetCursorPosX(), y);
+  }
+  const float right = draw_figures(context, left + style.px(150), end, y + style.px(2));
   draw_progress(context, left, right, y + style.px(2));
 }
 

@@ -141,9 +141,10 @@ ChartContent curve_content(const SessionSnapshot& s, CurveKind kind) {
 void draw_curves_panel(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Curves", rectangle, ImGuiWindowFlags_NoScrollbar);
   if (!context.snapshot.loaded()) return;
-  const double margin = context.style.px(14), top = context.style.px(8), half = rectangle.width / 2;
-  for (std::size_t plot = 0; plot < 2; ++plot) {
-    const Rectangle place{rectangle.x + double(plot) * half + margin, rectangle.y + top, half - margin,
+  const std::size_t plots = rectangle.width < context.style.px(520) ? 1 : 2;
+  const double margin = context.style.px(14), top = context.style.px(8), width = rectangle.width / double(plots);
+  for (std::size_t plot = 0; plot < plots; ++plot) {
+    const Rectangle place{rectangle.x + double(plot) * width + margin, rectangle.y + top, width - margin,
                           rectangle.height - top - context.style.px(6)};
     draw_plot(context.style, curve_content(context.snapshot, context.window.curves[plot]), place);
     draw_choice(context, plot, place);

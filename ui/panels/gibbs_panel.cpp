@@ -126,7 +126,7 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
 }
 
 void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("Gibbs", rectangle);
+  const Panel panel("Gibbs", rectangle, 0, context.style.px(right_panel_width));
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
   draw_controls(context);

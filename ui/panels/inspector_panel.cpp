@@ -19,7 +19,7 @@ void draw_nothing_picked(const PanelContext& context) {
 }  // namespace
 
 void draw_inspector_panel(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("Inspector", rectangle);
+  const Panel panel("Inspector", rectangle, 0, context.style.px(right_panel_width));
   const Selection& selection = context.window.selection;
   const Inspection& inspection = context.inspection;
   if (!context.snapshot.loaded() || (!selection.voxel && !selection.ray)) return draw_nothing_picked(context);

@@ -101,7 +101,7 @@ void draw_octree(const PanelContext& context) {
 }  // namespace
 
 void draw_layers_panel(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("Layers", rectangle);
+  const Panel panel("Layers", rectangle, 0, context.style.px(left_panel_width));
   const LayerChoice& layers = context.window.layers;
   const float indent = context.style.px(20);
   constexpr std::array styles = {"solid", "wire", "ghost"};

@@ -33,7 +33,8 @@ void Notifications::draw(const PanelContext& context, const Rectangle& scene, st
   if (notes_.empty()) return;
   const Style& style = context.style;
   ImGui::SetNextWindowPos({float(scene.x) + style.px(12), float(scene.y) + style.px(12)});
-  ImGui::SetNextWindowSize({std::min(float(scene.width) * 0.6f, style.px(400)), 0});
+  const float widest = float(scene.width) - style.px(24);
+  ImGui::SetNextWindowSize({std::clamp(float(scene.width) * 0.6f, std::min(style.px(240), widest), style.px(400)), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
   ImGui::Begin("Notifications", nullptr,

@@ -97,7 +97,7 @@ void Palette::draw_commands(const PanelContext& context) {
   chosen_ = std::min(chosen_, std::max<std::size_t>(found.size(), 1) - 1);
   const bool enter = ImGui::IsKeyPressed(static_cast<int>(Key::enter), false);
   const Style& style = context.style;
-  ImGui::BeginChild("found", {0, style.px(300)});
+  ImGui::BeginChild("found", {0, std::min(style.px(300), room_)});
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Command& command = *found[i];
     const bool can = command.available(context.state());
@@ -130,7 +130,7 @@ void Palette::draw_values(const PanelContext& context, const Command& command) {
   small_text(style, command.help);
   const std::size_t at = values_before_last(text_);
   const std::string begun = last_word(text_);
-  ImGui::BeginChild("values", {0, style.px(240)});
+  ImGui::BeginChild("values", {0, std::min(style.px(240), room_)});
   if (at < command.arguments.size()) {
     const Argument& argument = command.arguments[at];
     ImGui::TextUnformatted(fmt::format("{}: {}", argument.name, argument.help).c_str());
@@ -158,7 +158,9 @@ void Palette::draw(const PanelContext& context, const Rectangle& scene) {
   const Style& style = context.style;
   ImGui::SetNextWindowPos({float(scene.x + scene.width / 2), float(scene.y) + style.px(12)}, ImGuiCond_Always,
                           {0.5f, 0});
-  ImGui::SetNextWindowSize({std::min(style.px(620), float(scene.width) - style.px(24)), 0});
+  ImGui::SetNextWindowSize({std::max(std::min(style.px(620), float(scene.width) - style.px(24)), style.px(80)), 0});
+  const float others = 4 * ImGui::GetFrameHeightWithSpacing();
+  room_ = std::max(ImGui::GetIO().DisplaySize.y - float(scene.y) - style.px(12) - others, style.px(30));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
   ImGui::Begin("Commands", nullptr,
@@ -178,7 +180,6 @@ void Palette::draw(const PanelContext& context, const Rectangle& scene) {
   } else {
     draw_commands(context);
   }
-  if (ImGui::IsKeyPressed(static_cast<int>(Key::escape), false)) context.call("palette");
   ImGui::End();
   ImGui::PopStyleVar(2);
 }

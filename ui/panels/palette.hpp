@@ -24,6 +24,7 @@ class Palette {
   bool put_ = false;  ///< the text was changed by us: the cursor goes to its end
   std::string text_, error_;
   std::size_t chosen_ = 0;
+  float room_ = 0;  ///< for the list [px of height]
 };
 
 }  // namespace nextview

@@ -17,7 +17,11 @@ constexpr float tooltip_delay = 0.45f;  // [s] so that a tooltip does not cover 
 
 }  // namespace
 
-Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags) {
+Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags, float least_width) {
+  if (r.width < least_width) {
+    ImGui::SetNextWindowContentSize({least_width - 2 * ImGui::GetStyle().WindowPadding.x, 0});
+    flags |= ImGuiWindowFlags_HorizontalScrollbar;
+  }
   ImGui::SetNextWindowPos({float(r.x), float(r.y)});
   ImGui::SetNextWindowSize({float(r.width), float(r.height)});
   ImGui::Begin(name, nullptr,
@@ -52,30 +56,60 @@ const char* title_of(PanelName panel) {
   return titles[static_cast<std::size_t>(panel)];
 }
 
-Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& r) {
+namespace {
+
+/// One tab; returns where the next begins.
+float draw_tab(const PanelContext& context, PanelName which, bool front, float x, float height) {
   const Style& style = context.style;
-  const float height = style.px(32);
+  ImFont* font = front ? style.semi_bold : style.regular;
+  const char* title = title_of(which);
+  const auto number = static_cast<std::size_t>(which);
+  const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, title).x + style.px(16);
+  ImGui::SetCursorPos({x, 0});
+  if (ImGui::InvisibleButton(title, {width, height})) context.call("panel", panel_names()[number]);
+  tooltip(fmt::format("{} [F{}]", title, number + 2));
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  const Colour colour = front || ImGui::IsItemHovered() ? theme::ink : theme::soft_ink;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(font, font->FontSize, {from.x + style.px(8), from.y + style.px(7)}, to_imgui_u32(colour), title);
+  if (front)
+    list.AddRectFilled({from.x + style.px(8), to.y - style.px(3)}, {to.x - style.px(8), to.y - style.px(1)},
+                       to_imgui_u32(theme::series[0]));
+  return x + width;
+}
+
+/// Instead of tabs, where they would not fit.
+void draw_tab_list(const PanelContext& context, std::span<const PanelName> panels, PanelName front, float width) {
+  ImGui::SetCursorPos({context.style.px(4), context.style.px(3)});
+  ImGui::SetNextItemWidth(width - context.style.px(8));
+  if (!ImGui::BeginCombo("##panels", title_of(front))) return;
+  for (const PanelName panel : panels)
+    if (ImGui::Selectable(title_of(panel), panel == front))
+      context.call("panel", panel_names()[static_cast<std::size_t>(panel)]);
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& r, bool open) {
+  const Style& style = context.style;
+  const float height = std::min(style.px(float(Layout::tabs_height)), float(r.height));
+  std::vector<PanelName> panels;
+  float wide = style.px(12);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(PanelName::count); ++i) {
+    if (side_of(static_cast<PanelName>(i)) != side) continue;
+    panels.push_back(static_cast<PanelName>(i));
+    wide +=
+        style.semi_bold->CalcTextSizeA(style.semi_bold->FontSize, FLT_MAX, 0, title_of(panels.back())).x + style.px(16);
+  }
   const std::string name = fmt::format("Tabs {}", static_cast<int>(side));
   const Panel panel(name.c_str(), {r.x, r.y, r.width, height}, ImGuiWindowFlags_NoScrollbar);
-  float x = style.px(6);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(PanelName::count); ++i) {
-    const auto which = static_cast<PanelName>(i);
-    if (side_of(which) != side) continue;
-    const bool front = context.window.in_front(side) == which;
-    ImFont* font = front ? style.semi_bold : style.regular;
-    const char* title = title_of(which);
-    const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, title).x + style.px(16);
-    ImGui::SetCursorPos({x, 0});
-    if (ImGui::InvisibleButton(title, {width, height})) context.call("panel", panel_names()[i]);
-    tooltip(fmt::format("{} [F{}]", title, i + 2));
-    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-    const Colour colour = front || ImGui::IsItemHovered() ? theme::ink : theme::soft_ink;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddText(font, font->FontSize, {from.x + style.px(8), from.y + style.px(7)}, to_imgui_u32(colour), title);
-    if (front)
-      list.AddRectFilled({from.x + style.px(8), to.y - style.px(3)}, {to.x - style.px(8), to.y - style.px(1)},
-                         to_imgui_u32(theme::series[0]));
-    x += width;
+  const PanelName front = context.window.in_front(side);
+  if (wide > float(r.width)) {
+    draw_tab_list(context, panels, front, float(r.width));
+  } else {
+    float x = style.px(6);
+    for (const PanelName which : panels) x = draw_tab(context, which, open && which == front, x, height);
   }
   return {r.x, r.y + height, r.width, r.height - height};
 }
@@ -94,14 +128,32 @@ void small_text(const Style& style, const std::string& text, const Colour& colou
   ImGui::PopFont();
 }
 
+std::string shortened(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  constexpr const char* ellipsis = "…";
+  std::string result = text;
+  while (!result.empty() && ImGui::CalcTextSize((result + ellipsis).c_str()).x > width) {
+    while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xC0) == 0x80) result.pop_back();
+    if (!result.empty()) result.pop_back();
+  }
+  return result + ellipsis;
+}
+
+bool tooltip_is_due(const ImGuiContext& imgui) { return imgui.HoveredId != 0 && imgui.HoveredIdTimer >= tooltip_delay; }
+
 double seconds_to_tooltip(const ImGuiContext& imgui) {
-  if (imgui.HoveredId == 0 || imgui.HoveredIdTimer >= tooltip_delay) return std::numeric_limits<double>::infinity();
+  if (imgui.HoveredId == 0 || tooltip_is_due(imgui)) return std::numeric_limits<double>::infinity();
   return tooltip_delay - imgui.HoveredIdTimer;
 }
 
 void tooltip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (ImGui::GetCurrentContext()->HoveredIdTimer < tooltip_delay) return;
+  ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  if (imgui.HoveredId == 0) {  // plain text has no number by which ImGui would time it
+    ImGui::SetHoveredID(ImGui::GetID(text.c_str()));
+    imgui.HoveredIdAllowOverlap = true;
+  }
+  if (!tooltip_is_due(imgui)) return;
   const ImGuiStyle& style = ImGui::GetStyle();
   const float wrap = ImGui::GetFontSize() * 20, gap = style.ItemSpacing.y;
   const ImVec2 padding = style.WindowPadding, display = ImGui::GetIO().DisplaySize;

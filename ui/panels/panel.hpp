@@ -43,7 +43,8 @@ struct PanelContext {
 /// A part of the window with a fixed place, from its construction to its end.
 class Panel {
  public:
-  Panel(const char* name, const Rectangle& rectangle, ImGuiWindowFlags flags = 0);
+  /// What needs a larger width than the place has [px] is scrolled.
+  Panel(const char* name, const Rectangle& rectangle, ImGuiWindowFlags flags = 0, float least_width = 0);
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
@@ -55,11 +56,20 @@ void heading(const Style& style, const char* text);
 void small_text(const Style& style, const std::string& text, const Colour& colour = theme::soft_ink);
 /// Shows `text` beside the last item, even if that is disabled, once the pointer has been on it for a moment.
 void tooltip(const std::string& text);
+/// Whether one is shown, or would be if what is pointed at had one.
+bool tooltip_is_due(const ImGuiContext& imgui);
 /// When the next one appears if the pointer stays where it is [s]; infinity if there is none to come.
 double seconds_to_tooltip(const ImGuiContext& imgui);
 
-/// The panels of a side, as tabs at the top of its place; returns the rectangle that is left beneath them.
-Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& rectangle);
+/// What the panels of a side are made for [px] on a display that does not scale.
+constexpr float left_panel_width = 272, right_panel_width = 336;
+
+/// As much of a text as fits into a width [px], with an ellipsis for the rest.
+std::string shortened(const std::string& text, float width);
+
+/// The panels of a side, as tabs at the top of its place, or as a list where they would not fit; returns the rectangle
+/// that is left beneath them. Of a place that is not `open` they are all there is, and none is in front.
+Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& rectangle, bool open = true);
 /// "Session", …
 const char* title_of(PanelName panel);
 

@@ -135,9 +135,10 @@ void draw_values_at(const Style& style, const ChartContent& content, const Axes&
 }  // namespace
 
 void draw_plot(const Style& style, const ChartContent& content, const Rectangle& r) {
-  draw_captions(style, content, {float(r.x), float(r.y)});
   const float top = title_height(style, content) + style.small->FontSize + style.px(12);
   const float left = style.px(34), right = style.px(48), bottom = style.small->FontSize + style.px(4);
+  if (r.width < left + right + style.px(20) || r.height < top + bottom + style.px(20)) return;  // no room to read it
+  draw_captions(style, content, {float(r.x), float(r.y)});
   const Axes axes(content, {float(r.x) + left, float(r.y + r.height) - bottom},
                   {float(r.x + r.width) - right, float(r.y) + top});
   draw_grid(style, content, axes);

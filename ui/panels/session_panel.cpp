@@ -62,7 +62,10 @@ std::string name_in_group(const Setting& setting) {
 }  // namespace
 
 void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, const char* name) {
-  label(context, name, setting.key + ": " + explanation(setting));
+  const bool keeps_scan = setting.key.starts_with("termination.");
+  label(context, name,
+        fmt::format("{}: {}\n{}", setting.key, explanation(setting),
+                    keeps_scan ? "A change keeps the scan." : "A change starts the scan over; undo brings it back."));
   if (setting.key == "object.file") {
     draw_object(context, setting);
   } else if (setting.key == "sensor.preset") {
@@ -70,14 +73,15 @@ void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, c
   } else if (setting_control(setting)) {
     context.call("set", setting.key, setting.text());
   }
-  draw_way_back(context, setting, defaults_.at(setting.key));
+  if (context.snapshot.loaded()) draw_way_back(context, setting, defaults_.at(setting.key));
 }
 
 void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
   std::string& file = *std::get<std::string*>(setting.value);
   const float arrow = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-arrow - context.style.px(24));
-  ImGui::InputTextWithHint("##object.file", context.snapshot.object_name.c_str(), &file);
+  const std::string& object = context.snapshot.object_name;
+  ImGui::InputTextWithHint("##object.file", object.empty() ? "a mesh file, or choose one" : object.c_str(), &file);
   const bool typed = ImGui::IsItemDeactivatedAfterEdit();
   tooltip(explanation(setting) + ". Or drop a file on the window.");
   ImGui::SameLine(0, context.style.px(2));
@@ -118,7 +122,7 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
 }
 
 void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("Session", rectangle);
+  const Panel panel("Session", rectangle, 0, context.style.px(left_panel_width));
   if (seen_ != &context.snapshot && !ImGui::IsAnyItemActive()) {
     seen_ = &context.snapshot;
     edited_ = context.snapshot.configuration;
@@ -128,16 +132,16 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
     for (const Setting& setting : settings(configuration)) defaults_[setting.key] = setting.text();
   }
   std::vector<Setting> settings = nextview::settings(edited_);
+  draw_setting(context, find_setting(settings, "object.file"), "Object");  // also when there is none yet
   ImGui::BeginDisabled(!context.snapshot.loaded());
-  for (const auto& [text, key] : {std::pair{"Object", "object.file"},
-                                  {"Gain", "planner.gain"},
+  for (const auto& [text, key] : {std::pair{"Gain", "planner.gain"},
                                   {"Semantics", "planner.semantics"},
                                   {"Sensor", "sensor.preset"},
                                   {"Voxel [m]", "map.resolution"},
                                   {"Views", "termination.views"},
                                   {"Seed", "seed"}})
     draw_setting(context, find_setting(settings, key), text);
-  small_text(context.style, "A change starts the scan over; undo brings it back.");
+  small_text(context.style, "A change, but of Views, starts the scan over; undo brings it back.");
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));

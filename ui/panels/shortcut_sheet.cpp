@@ -67,12 +67,17 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(20), style.px(16)));
   ImGui::Begin("Keys and mouse", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_HorizontalScrollbar);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::PushFont(style.small);
-  if (ImGui::BeginTable("sheet", 3, ImGuiTableFlags_SizingFixedFit)) {
-    for (const float width : {270.0f, 340.0f, 370.0f})
-      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, style.px(width));
+  constexpr std::array widths = {270.0f, 340.0f, 370.0f};
+  const int columns = window.width > style.px(1040)  ? 3
+                      : window.width > style.px(700) ? 2
+                                                     : 1;  // the rest goes beneath
+  if (ImGui::BeginTable("sheet", columns, ImGuiTableFlags_SizingFixedFit)) {
+    for (int c = 0; c < columns; ++c)
+      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, style.px(widths[std::size_t(c)]));
     ImGui::TableNextColumn();
     draw_menus(context, {"File", "Scan", "Gibbs", "Window"});
     ImGui::TableNextColumn();

@@ -32,16 +32,20 @@ void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   const float right_x = float(rectangle.width) - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
   ImGui::SetCursorPos({style.px(14), y});
   if (s.message.empty()) {
-    ImGui::TextDisabled("%s", last_step(s).c_str());
-    ImGui::SetCursorPos({right_x, y});
-    ImGui::TextDisabled("%s", right.c_str());
+    const std::string left = last_step(s);
+    const bool room_for_both = style.px(14 + 24) + ImGui::CalcTextSize(left.c_str()).x < right_x;
+    ImGui::TextDisabled("%s", shortened(left, float(rectangle.width) - style.px(28)).c_str());
+    if (room_for_both) {
+      ImGui::SetCursorPos({right_x, y});
+      ImGui::TextDisabled("%s", right.c_str());
+    }
   } else {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     draw_icon(Icon::warning, {corner.x + style.px(7), corner.y + ImGui::GetTextLineHeight() / 2}, style.px(14),
               to_imgui_u32(theme::chosen));
     ImGui::SetCursorPos({style.px(36), y});
     ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(theme::chosen));
-    ImGui::TextUnformatted(s.message.c_str());
+    ImGui::TextUnformatted(shortened(s.message, float(rectangle.width) - style.px(50)).c_str());
     ImGui::PopStyleColor();
     tooltip(s.message);
   }

@@ -157,7 +157,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   if (!c.available) return table_row("", "visited");
   table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
   table_row("way there", fmt::format("{:.2f} m", c.cost));
-  table_row("utility", fmt::format("{:.4f}", c.utility), "U = gain share - cost share (Eq. 13)");
+  table_row("utility", fmt::format("{:.4f}", c.utility), "U = gain share - cost share, each with its weight (Eq. 13)");
 }
 
 void draw_numbers(const PanelContext& context, const ViewInspection& view) {
@@ -190,7 +190,7 @@ void draw_buttons(const PanelContext& context) {
 }  // namespace
 
 void draw_view_panel(const PanelContext& context, const Rectangle& rectangle) {
-  const Panel panel("View", rectangle);
+  const Panel panel("View", rectangle, 0, context.style.px(right_panel_width));
   if (!context.snapshot.loaded()) return;
   draw_choice(context);
   draw_buttons(context);
@@ -198,6 +198,7 @@ void draw_view_panel(const PanelContext& context, const Rectangle& rectangle) {
   if (!context.snapshot.finished.empty() && context.window.selection.view.kind == LookedAt::Kind::next)
     return small_text(context.style, "The scan is finished: there is no next view. Choose one that was taken above.");
   if (!view || view->view != context.window.selection.view) return small_text(context.style, "Looking …");
+  if (!view->why_empty.empty()) small_text(context.style, fmt::format("Empty: {}.", view->why_empty), theme::chosen);
   draw_depth(context, *view);
   draw_numbers(context, *view);
   draw_contributions(context, *view);

@@ -1,9 +1,12 @@
 #include "ui/surface/headless.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -15,20 +18,25 @@ namespace nextview {
 namespace {
 
 constexpr const char* library_name = "libnextview_headless_gl.so";
-/// Set in the process that was started again. It keeps what LD_PRELOAD and ASAN_OPTIONS were before.
+/// Set for the process that is started again: "PID DESCRIPTOR", its own (exec keeps it) and the library's. What
+/// LD_PRELOAD and ASAN_OPTIONS were before is kept in the two others.
 constexpr const char* guard = "NEXTVIEW_HEADLESS";
 constexpr const char* saved_preload = "NEXTVIEW_SAVED_LD_PRELOAD";
 constexpr const char* saved_asan_options = "NEXTVIEW_SAVED_ASAN_OPTIONS";
+
+std::runtime_error cannot_draw(const std::string& reason) {
+  return std::runtime_error("cannot draw without a display: " + reason);
+}
 
 std::optional<std::string> variable(const char* name) {
   const char* value = std::getenv(name);
   return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
-/// Appends `addition` to a variable that is a list, and keeps its old value in `saved`.
+/// Puts `addition` before what a variable lists, and keeps its old value in `saved`.
 void extend_variable(const char* name, const char* saved, const std::string& addition) {
   const auto old = variable(name);
-  if (old) ::setenv(saved, old->c_str(), 1);
+  old ? ::setenv(saved, old->c_str(), 1) : ::unsetenv(saved);
   ::setenv(name, old && !old->empty() ? (addition + ":" + *old).c_str() : addition.c_str(), 1);
 }
 
@@ -41,35 +49,53 @@ void restore_variable(const char* name, const char* saved) {
   ::unsetenv(saved);
 }
 
+/// The library's descriptor, if this is the process that ensure_headless started again. Who inherits the variables has
+/// another process number: to it they mean nothing.
+std::optional<int> restarted_with() {
+  int process = 0, descriptor = 0;
+  const auto text = variable(guard);
+  if (!text || std::sscanf(text->c_str(), "%d %d", &process, &descriptor) != 2 || process != ::getpid())
+    return std::nullopt;
+  return descriptor;
+}
+
+std::filesystem::path this_program() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) throw cannot_draw(fmt::format("/proc/self/exe: {}; mount /proc, or give --no-pictures", error.message()));
+  return program;
+}
+
 }  // namespace
 
 bool drawing_headless() { return ::dlsym(RTLD_DEFAULT, "nextview_headless_gl") != nullptr; }
 
 void ensure_headless(int argc, char** argv) {
-  if (std::getenv(guard)) {
+  if (const auto descriptor = restarted_with()) {
+    ::close(*descriptor);
     ::unsetenv(guard);
     restore_variable("LD_PRELOAD", saved_preload);
     restore_variable("ASAN_OPTIONS", saved_asan_options);
-    if (!drawing_headless()) {
-      throw std::runtime_error(std::string("cannot draw without a display: ") + library_name +
-                               " did not load; see the loader's message above, and install libosmesa6");
-    }
+    if (!drawing_headless())
+      throw cannot_draw(std::string(library_name) +
+                        " did not load; see the loader's message above, and install libosmesa6");
   }
   if (drawing_headless()) return;
 
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe");
-  const auto library = executable.parent_path() / library_name;
-  if (argc < 1 || !std::filesystem::exists(library)) {
-    throw std::runtime_error("cannot draw without a display: " + library.string() +
-                             " is missing; build the target nextview_headless_gl, or copy it beside the executable");
-  }
-  ::setenv(guard, "1", 1);
-  extend_variable("LD_PRELOAD", saved_preload, library.string());
+  const auto program = this_program();
+  const auto library = program.parent_path() / library_name;
+  // The loader splits LD_PRELOAD at blanks and colons, and looks for what remains in the working folder. The path of an
+  // open file has neither; the new process inherits the descriptor.
+  const int descriptor = ::open(library.c_str(), O_RDONLY);
+  if (descriptor < 0 || argc < 1)
+    throw cannot_draw(fmt::format("{}: {}; build the target nextview_headless_gl, or copy it beside the executable",
+                                  library.string(), std::strerror(errno)));
+  ::setenv(guard, fmt::format("{} {}", ::getpid(), descriptor).c_str(), 1);
+  extend_variable("LD_PRELOAD", saved_preload, fmt::format("/proc/self/fd/{}", descriptor));
   // A preloaded library comes before the address sanitizer's, which only refuses that by default.
   extend_variable("ASAN_OPTIONS", saved_asan_options, "verify_asan_link_order=0");
-  ::execv(executable.c_str(), argv);
-  throw std::runtime_error("cannot draw without a display: starting " + executable.string() +
-                           " again failed: " + std::strerror(errno));
+  ::execv(program.c_str(), argv);
+  throw cannot_draw(fmt::format("starting {} again failed: {}", program.string(), std::strerror(errno)));
 }
 
 }  // namespace nextview

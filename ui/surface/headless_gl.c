@@ -33,7 +33,8 @@ const char* glXGetClientString(void* display, int name) {
   return "";
 }
 
-/* Loaders that open libGL by name (ImGui's) get this library in its place. */
+/* Loaders that open libGL by name (ImGui's) get this library in its place. It is found by the name that it was loaded
+   by, though the file /proc/self/fd/N is closed by now: the loader compares names before it looks for files. */
 void* dlopen(const char* file, int mode) {
   void* (*next_dlopen)(const char*, int);
   *(void**)&next_dlopen = dlsym(RTLD_NEXT, "dlopen");

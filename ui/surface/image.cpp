@@ -8,9 +8,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
+
+#include "core/file/atomic_file.hpp"
 
 namespace nextview {
 namespace {
@@ -28,32 +29,16 @@ vtkNew<vtkImageData> to_vtk(const Image& image) {
   return result;
 }
 
-std::runtime_error cannot_write(const std::filesystem::path& file, const std::string& reason) {
-  return std::runtime_error(fmt::format("{}: cannot write the picture: {}", file.string(), reason));
-}
-
 }  // namespace
 
 void write_png(const Image& image, const std::filesystem::path& file) {
-  if (image.rgba.empty()) throw cannot_write(file, "it is empty");
+  if (image.rgba.empty()) throw std::runtime_error(fmt::format("{}: the picture is empty", file.string()));
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
   writer->SetInputData(to_vtk(image));
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  const auto beside = std::filesystem::path(file).concat(".part");
-  std::ofstream stream(beside, std::ios::binary);
-  if (!stream) throw cannot_write(file, "the folder is missing or not writable");
-  stream.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  stream.close();
-  std::error_code error;
-  if (stream) {
-    std::filesystem::rename(beside, file, error);
-    if (!error) return;
-  }
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw cannot_write(file, error ? error.message() : "is the disk full?");
+  write_file(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), std::size_t(bytes->GetNumberOfValues())});
 }
 
 Image read_png(const std::filesystem::path& file) {

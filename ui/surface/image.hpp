@@ -14,7 +14,7 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// Writes beside the file, then renames. The same picture gives the same bytes.
+/// Atomic (AtomicFile). The same picture gives the same bytes.
 /// @throws std::runtime_error naming the file and the reason.
 void write_png(const Image& image, const std::filesystem::path& file);
 

@@ -6,10 +6,14 @@
 
 #include <stdexcept>
 
+#include "core/memory/available_memory.hpp"
 #include "ui/surface/headless.hpp"
 
 namespace nextview {
 namespace {
+
+/// What OSMesa, LLVM and VTK take until the first picture is drawn [bytes]. They do not survive it if they cannot.
+constexpr std::uint64_t drawing_bytes = std::uint64_t{384} << 20;
 
 /// OSMesa's functions come from the preloaded library; the program itself does not link OSMesa.
 template <class Function>
@@ -23,6 +27,7 @@ OffscreenSurface::OffscreenSurface(int width, int height) : buffer_(std::size_t(
   if (!drawing_headless()) {
     throw std::runtime_error("cannot draw into memory: this process was not started to draw headless");
   }
+  require_memory(drawing_bytes, "drawing pictures", "raise the limit (ulimit -v), or use --no-pictures");
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,

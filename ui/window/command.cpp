@@ -149,7 +149,7 @@ CommandCall make_call(std::string_view name, std::vector<std::string> arguments)
     throw std::invalid_argument(
         fmt::format("{} takes {}: {}", command.name, declared.empty() ? "no value" : "other values", command.usage()));
   for (std::size_t i = 0; i < arguments.size(); ++i) check(command, declared[i], arguments[i]);
-  return {&command, std::move(arguments)};
+  return {&command, std::move(arguments), 0};
 }
 
 std::string CommandCall::text() const {
@@ -175,7 +175,9 @@ std::vector<CommandCall> parse_script(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
     try {
-      if (!words(line).empty()) calls.push_back(parse_call(line));
+      if (words(line).empty()) continue;
+      calls.push_back(parse_call(line));
+      calls.back().line = number;
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("line {}: {}", number, error.what()));
     }

@@ -90,6 +90,7 @@ const Command& find_command(std::string_view name);
 struct CommandCall {
   const Command* command;
   std::vector<std::string> arguments;
+  int line = 0;  ///< of the script that it is from, from 1; 0: it is from none
 
   std::string text() const;  ///< as a script has it
 };

@@ -22,6 +22,10 @@ Setting& setting(std::vector<Setting>& all, const std::string& key) {
   return *std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
 }
 
+constexpr std::string_view kept = "termination.";  // settings that leave the scan as it is
+
+/// What ends a scan may change while it goes on; the views depend on all else. Nothing happens if the setting is so
+/// already.
 void change_setting(CommandTarget& target, const std::string& key, const std::string& text) {
   Configuration configuration = target.session.configuration;
   if (key == "sensor.preset") {
@@ -31,6 +35,8 @@ void change_setting(CommandTarget& target, const std::string& key, const std::st
     setting(all, key).set(text);
   }
   configuration.validate();
+  if (to_toml(configuration) == to_toml(target.session.configuration)) return;
+  if (key.starts_with(kept)) return target.worker.post(request::SetTermination{configuration.termination});
   target.worker.post(request::Load{configuration});
 }
 
@@ -55,7 +61,7 @@ std::vector<Command> file_commands() {
       {"set",
        "File",
        "Change a setting…",
-       "Changes a setting and starts the scan over.",
+       "Changes a setting; starts the scan over, unless it is a termination setting.",
        {setting_key, {"value", Argument::Kind::text, "what it is to be"}},
        {},
        [](CommandTarget& t, const Arguments& a) { change_setting(t, a.text(0), a.text(1)); },
@@ -63,7 +69,7 @@ std::vector<Command> file_commands() {
       {"reset-setting",
        "File",
        "Set a setting back…",
-       "Gives a setting its default again and starts the scan over.",
+       "Gives a setting its default again; starts the scan over, unless it is a termination setting.",
        {setting_key},
        {},
        [](CommandTarget& t, const Arguments& a) { change_setting(t, a.text(0), default_of(a.text(0))); },

@@ -6,6 +6,7 @@
 #include "core/gibbs/full_conditional.hpp"
 #include "core/planner/policy.hpp"
 #include "core/session/session_parts.hpp"
+#include "ui/window/view_sight.hpp"
 
 namespace nextview {
 namespace {
@@ -91,6 +92,7 @@ ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection
     view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera, view.expected);
     view.no_explanation = "This view has been taken: its gain was predicted on the map before it.";
   } else {
+    view.why_empty = why_empty(s, view.T_world_camera);
     explain(s, view);
   }
   return view;

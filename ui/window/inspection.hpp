@@ -21,6 +21,7 @@ struct ViewInspection {
   std::vector<float> measured;  ///< depth [m] in the cells of `expected`, negative: nothing; empty: not taken yet
   std::shared_ptr<const ScoreExplanation> explanation;  ///< null: see `no_explanation`
   std::string no_explanation;
+  std::string why_empty;  ///< it would measure nothing; empty: it would, or it has been taken
 };
 
 /// Why a voxel is as it is.

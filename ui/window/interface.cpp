@@ -5,13 +5,14 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <deque>
 
 #include "ui/panels/all_panels.hpp"
 #include "ui/window/frame_composer.hpp"
 #include "ui/window/imgui_host.hpp"
+#include "ui/window/panels_alone.hpp"
 #include "ui/window/scene_pointer.hpp"
 #include "ui/window/selection_overlay.hpp"
+#include "ui/window/starting_script.hpp"
 
 namespace nextview {
 namespace {
@@ -60,15 +61,16 @@ struct Interface::Parts {
   FrameComposer composer;
   AllPanels panels;
   Layout layout;
-  int width = 0, height = 0;  ///< that the layout was made for [px]
+  Side layout_open = Side::right;  ///< that the layout was made for
   WindowState state;
   News news;
   std::uint64_t session = 0;                        ///< whose numbers the selection has
   std::shared_ptr<const SessionSnapshot> asked_of;  ///< the last question
   Selection asked;
-  std::deque<CommandCall> script;
-  bool camera_moved = false;  ///< by a person, since it was framed
-  double motion_left = 0;     ///< until the camera is at rest [s]; 0: it is
+  ScriptPlayer script;
+  bool tooltip_is_due = false;  ///< in the last frame
+  bool camera_moved = false;    ///< by a person, since it was framed
+  double motion_left = 0;       ///< until the camera is at rest [s]; 0: it is
   bool scene_is_old = true;
   std::size_t scene_drawings = 0;
   int settling = frames_to_settle;
@@ -77,9 +79,11 @@ struct Interface::Parts {
   bool script_may_go_on() const;
   void take_news();
   void take_input();
+  bool layout_is_old() const;
   void follow_size();
   void follow_session();
   void draw_interface(double seconds);
+  void follow_tooltip();
   void do_calls(std::vector<CommandCall> calls);
   void do_call(const CommandCall& call);
   void follow_pointer(const PanelContext& context, double seconds);
@@ -105,11 +109,14 @@ Interface::~Interface() {
 
 void Interface::set_clipboard(Clipboard clipboard) { parts_->host.set_clipboard(std::move(clipboard)); }
 void Interface::push(const InputEvent& event) { parts_->queue.push(event); }
-void Interface::run_script(std::vector<CommandCall> calls) {
-  std::move(calls.begin(), calls.end(), std::back_inserter(parts_->script));
+void Interface::open(const Configuration& configuration) {
+  parts_->state.script = starting_script(configuration);
+  parts_->worker.post(request::Load{configuration});
 }
-bool Interface::script_is_done() const { return parts_->script.empty(); }
-bool Interface::wants_to_quit() const { return parts_->state.quit; }
+void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
+bool Interface::script_is_done() const { return parts_->script.done(); }
+ScriptPlayer& Interface::script() { return parts_->script; }
+bool Interface::wants_to_quit() const { return parts_->state.quit && !parts_->state.picture_file; }
 const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
 SceneView& Interface::scene() { return parts_->view; }
@@ -118,8 +125,8 @@ std::size_t Interface::pixels_drawn() const { return parts_->composer.drawn().pi
 
 double Interface::seconds_to_next_frame() const {
   const Parts& p = *parts_;
-  const bool resized = p.width != p.surface.width() || p.height != p.surface.height();
-  if (p.settling > 0 || !p.queue.empty() || resized || p.script_may_go_on() || !(p.news == p.latest())) return 0.0;
+  if (p.settling > 0 || !p.queue.empty() || p.layout_is_old() || p.script_may_go_on() || !(p.news == p.latest()))
+    return 0.0;
   double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
@@ -132,15 +139,11 @@ std::string Interface::title() const {
                      s.configuration.termination.views);
 }
 
-/// A script waits until nothing runs and the news of that are here. What can only be done while something runs, such as
-/// to pause it, does not wait.
+/// A script waits until nothing runs and the news of that are here.
 bool Interface::Parts::script_may_go_on() const {
-  if (script.empty()) return false;
-  const Command& next = *script.front().command;
-  const WorkerProgress rest;
-  if (next.available({*news.snapshot, news.progress, state}) && !next.available({*news.snapshot, rest, state}))
-    return true;
-  return (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy();
+  const bool at_rest = (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy() &&
+                       !state.picture_file && !state.quit;
+  return script.may_go_on({*news.snapshot, news.progress, state}, at_rest);
 }
 
 void Interface::Parts::take_news() {
@@ -161,15 +164,21 @@ void Interface::Parts::take_input() {
   }
 }
 
+bool Interface::Parts::layout_is_old() const {
+  return layout.width != surface.width() || layout.height != surface.height() || layout_open != state.open;
+}
+
 void Interface::Parts::follow_size() {
-  if (width == surface.width() && height == surface.height()) return;
-  width = surface.width();
-  height = surface.height();
-  layout = Layout(width, height, host.style().scale);
+  if (!layout_is_old()) return;
+  const Rectangle scene = layout.scene;
+  const bool resized = layout.width != surface.width() || layout.height != surface.height();
+  layout_open = state.open;
+  layout = Layout(surface.width(), surface.height(), host.style().scale, state.open);
+  settling = frames_to_settle;
+  if (!resized && layout.scene == scene) return;
   view.place(layout.scene);
   if (!camera_moved) view.move(camera_motion::Frame{});
   scene_is_old = true;
-  settling = frames_to_settle;
 }
 
 /// Another session has other views, voxels and rays; after going back some of them are gone.
@@ -186,7 +195,7 @@ void Interface::Parts::follow_session() {
 
 void Interface::Parts::draw_interface(double seconds) {
   ImGui_ImplOpenGL3_NewFrame();
-  host.begin_frame(width, height, seconds);
+  host.begin_frame(int(layout.width), int(layout.height), seconds);
   std::vector<CommandCall> calls;
   std::optional<std::size_t> hovered;
   const PanelContext context{*news.snapshot, news.progress, state, *news.inspection, *news.log,
@@ -197,11 +206,16 @@ void Interface::Parts::draw_interface(double seconds) {
   panels.draw(context, layout, worker.log().count(), seconds);
   draw_selection_overlay(view, context);
   ImGui::Render();
-  if (calls.empty() && script_may_go_on()) {
-    calls.push_back(std::move(script.front()));
-    script.pop_front();
-  }
+  follow_tooltip();
+  if (calls.empty() && script_may_go_on()) calls = script.go_on(*news.snapshot);
   do_calls(std::move(calls));
+}
+
+/// ImGui shows a window that is new a frame after it was made.
+void Interface::Parts::follow_tooltip() {
+  const bool due = nextview::tooltip_is_due(host.context());
+  if (due && !tooltip_is_due) settling = frames_to_settle;
+  tooltip_is_due = due;
 }
 
 void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
@@ -216,6 +230,7 @@ void Interface::Parts::do_call(const CommandCall& call) {
   try {
     execute(call, target);
   } catch (const std::exception& error) {
+    script.refused(call, error.what());
     return worker.log().add(LogEntry::Level::warning, error.what());
   }
   if (call.command->name == "palette" || call.command->name == "shortcuts") return;
@@ -265,14 +280,22 @@ bool Interface::Parts::draw_scene() {
   return true;
 }
 
+/// Without what is in front of the panels; the back buffer then has the whole frame again.
 void Interface::Parts::write_picture() {
   const std::string file = *std::exchange(state.picture_file, std::nullopt);
+  PanelsAlone alone(*ImGui::GetDrawData());
+  composer.compose(alone.data(), std::nullopt, false);
+  composer.fill_back_buffer();
+  const Image picture = surface.read_back();
+  composer.compose(*ImGui::GetDrawData(), std::nullopt, false);
   composer.fill_back_buffer();
   try {
-    write_png(surface.read_back(), file);
+    write_png(picture, file);
     worker.log().add(LogEntry::Level::success, "Picture written to " + file);
   } catch (const std::exception& error) {
-    worker.log().add(LogEntry::Level::warning, error.what());
+    const std::string reason = fmt::format("save-picture: {}", error.what());
+    script.refused(make_call("save-picture", {file}), reason);
+    worker.log().add(LogEntry::Level::warning, reason);
   }
 }
 
@@ -281,6 +304,7 @@ bool Interface::draw(double seconds) {
   p.host.make_current();
   p.surface.make_current();
   p.settling = std::max(p.settling - 1, 0);
+  const bool wants_picture = p.state.picture_file.has_value();  // since a frame: what it was asked from is gone
   p.take_news();
   p.follow_session();
   p.take_input();
@@ -291,8 +315,8 @@ bool Interface::draw(double seconds) {
   p.ask_inspector();
   const auto new_scene = p.draw_scene() ? std::optional(p.layout.scene) : std::nullopt;
   const bool new_frame = p.composer.compose(*ImGui::GetDrawData(), new_scene, p.pictures.uploads() != pictures);
-  if (p.state.picture_file) p.write_picture();
-  return new_frame;
+  if (wants_picture) p.write_picture();
+  return new_frame || wants_picture;
 }
 
 }  // namespace nextview

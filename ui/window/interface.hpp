@@ -8,6 +8,7 @@
 #include "ui/window/command.hpp"
 #include "ui/window/inspection_worker.hpp"
 #include "ui/window/scene_view.hpp"
+#include "ui/window/script_player.hpp"
 
 namespace nextview {
 
@@ -23,9 +24,12 @@ class Interface {
 
   void set_clipboard(Clipboard clipboard);
   void push(const InputEvent& event);
+  /// Has the worker begin with this configuration. A script that is saved begins with it, too.
+  void open(const Configuration& configuration);
   /// Does these calls one after the other, each when the one before has had its effect.
   void run_script(std::vector<CommandCall> calls);
   bool script_is_done() const;
+  ScriptPlayer& script();
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
   double seconds_to_next_frame() const;
   /// Draws a frame into the surface's back buffer, `seconds` after the last one, and returns whether it differs from

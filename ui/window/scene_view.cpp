@@ -57,7 +57,12 @@ SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
 
 void SceneView::place(const Rectangle& rectangle) {
   rectangle_ = rectangle;
-  const Viewport viewport = rectangle.in(surface_.width(), surface_.height());
+  Rectangle drawn = rectangle;  // at least a pixel: what is not drawn at all has no framebuffer to compose from
+  drawn.x = std::min(drawn.x, surface_.width() - 1.0);
+  drawn.y = std::min(drawn.y, surface_.height() - 1.0);
+  drawn.width = std::max(drawn.width, 1.0);
+  drawn.height = std::max(drawn.height, 1.0);
+  const Viewport viewport = drawn.in(surface_.width(), surface_.height());
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 
@@ -69,7 +74,8 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
   const bool new_rays = explanation != explanation_;
   const bool new_own_view = selection_.own_view.has_value() != window.selection.own_view.has_value();
-  if (!new_snapshot && !new_choice && !new_rays && !new_own_view) return false;
+  const auto eye = eye_of_a_view(*snapshot, window);
+  if (!new_snapshot && !new_choice && !new_rays && !new_own_view && eye == eye_) return false;
 
   const SessionSnapshot& s = *snapshot;
   const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
@@ -82,7 +88,9 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const bool new_voxels = new_map || choice.map != choice_.map || choice.voxels != choice_.voxels;
   if (new_voxels || choice.colouring != choice_.colouring) show_voxels(s, choice, new_voxels);
   explanation_ = explanation;
+  keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
+  eye_ = eye;
   if (const auto pose = looked_at_pose(s, window.selection); new_rays || new_snapshot)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
@@ -154,8 +162,7 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
       range = {std::min(range.first, candidate.utility), std::max(range.second, candidate.utility)};
     }
   }
-  const bool keep =
-      choice_.ranges_locked && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
+  const bool keep = keep_ranges_ && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
   if (!keep) utilities_ = range;
   picture.camera = s.camera;
   picture.candidates = s.candidates;
@@ -171,8 +178,19 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   }
   if (!picture.own_view && !picture.chosen && window.selection.own_view) picture.own_view = window.selection.own_view;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
+  picture.eye = eye_;
   picture.reach = (s.next_view.translation() - target).norm();
   scene_.views().show(picture);
+}
+
+std::optional<Vector3> SceneView::eye_of_a_view(const SessionSnapshot& s, const WindowState& window) {
+  const Vector3 eye = camera_pose().translation();
+  const auto is_here = [&](const Pose& T_world_camera) { return stands_at(eye, T_world_camera.translation()); };
+  const bool here = std::any_of(s.candidates.begin(), s.candidates.end(), is_here) || is_here(s.next_view) ||
+                    (window.selection.own_view && is_here(*window.selection.own_view)) ||
+                    std::any_of(s.records.begin(), s.records.end(),
+                                [&](const StepRecord& record) { return is_here(record.T_world_camera); });
+  return here ? std::optional(eye) : std::nullopt;
 }
 
 void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* explanation, const Vector3& origin) {
@@ -180,7 +198,7 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
   if (explanation) rays_ = ray_segments(*explanation, origin, s.grid.resolution, rays_shown);
   double most = 0;
   for (const RaySegment& ray : rays_) most = std::max(most, ray.value);
-  if (!choice_.ranges_locked || most_contribution_ <= 0) most_contribution_ = most;
+  if (!keep_ranges_ || most_contribution_ <= 0) most_contribution_ = most;
   RayValues values{"contribution of a ray", s.gain_unit};
   if (choice_.ranges_locked && most_contribution_ > 0) values.high = most_contribution_;
   scene_.rays().show(rays_, values);

@@ -35,6 +35,8 @@ class SceneView {
   /// What is at a point of the window [px from the upper left corner].
   Picked pick(double x, double y);
   std::size_t voxel_faces() { return scene_.octree().face_count(); }
+  /// What is shown; tests look here for what its colours mean.
+  Scene& layers() { return scene_; }
   /// Where the scene is looked at from: T_world_camera.
   Pose camera_pose();
 
@@ -44,6 +46,8 @@ class SceneView {
   void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_voxels);
   void show_views(const SessionSnapshot& snapshot, const WindowState& window);
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
+  /// Where the scene's camera is, if a view that is drawn is from there.
+  std::optional<Vector3> eye_of_a_view(const SessionSnapshot& snapshot, const WindowState& window);
   void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
   /// Direction into the scene at a point of the window; of any length.
   Vector3 direction_at(double x, double y);
@@ -54,12 +58,14 @@ class SceneView {
   std::shared_ptr<const SessionSnapshot> shown_;
   LayerChoice choice_;
   Selection selection_;
+  std::optional<Vector3> eye_;  ///< what is from there is not drawn
   std::shared_ptr<const ScoreExplanation> explanation_;
   std::vector<RaySegment> rays_;
 
   // Colour ranges, kept while they are locked.
   ValueRange utilities_{0, 1}, heights_{0, 1};
   double most_contribution_ = 0;
+  bool keep_ranges_ = false;  ///< they were locked in the picture before, too
 };
 
 }  // namespace nextview

@@ -1,5 +1,10 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "ui/window/command_list.hpp"
 #include "ui/window/inspection.hpp"
+#include "ui/window/view_sight.hpp"
 
 namespace nextview {
 namespace {
@@ -47,14 +52,23 @@ void inspect_ray(CommandTarget& t, const Arguments& a) {
 
 /// A view of one's own: from and towards the given points, or as the scene is looked at now.
 void own_view(CommandTarget& t, const Arguments& a) {
-  Pose pose = t.window.scene_camera;
-  if (a.count() > 0) {
+  PlacedView placed;
+  if (a.count() == 0) {
+    placed = within_sight(t.session, t.window.scene_camera);
+    if (std::abs(placed.moved) > 0.005)
+      t.worker.log().add(
+          LogEntry::Level::success,
+          fmt::format("Your view is moved {:.2f} m {} along the line of sight: {}", std::abs(placed.moved),
+                      placed.moved > 0 ? "forward" : "back", why_empty(t.session, t.window.scene_camera)));
+  } else {
     if (a.count() < 6) throw std::invalid_argument("own-view takes either nothing or all six numbers");
     const Vector3 from(a.number(0), a.number(1), a.number(2)), to(a.number(3), a.number(4), a.number(5));
     if ((from - to).norm() < 1e-6) throw std::invalid_argument("own-view: the camera stands where it looks at");
-    pose = look_at(from, to);
+    placed.T_world_camera = look_at(from, to);
   }
-  t.window.selection.own_view = pose;
+  if (const std::string reason = why_empty(t.session, placed.T_world_camera); !reason.empty())
+    t.worker.log().add(LogEntry::Level::warning, "Your view would measure nothing: " + reason);
+  t.window.selection.own_view = placed.T_world_camera;
   look_at_view(t.window, {Kind::own, 0});
   t.window.bring_to_front(PanelName::view);
 }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "ui/colour_map.hpp"
+#include "ui/layers/views_layer.hpp"
 
 namespace nextview {
 namespace {
@@ -29,6 +30,7 @@ void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32
 
 void draw_frustum(SceneView& view, const PanelContext& context, const Pose& T_world_camera, const std::string& label,
                   const Colour& colour) {
+  if (stands_at(context.window.scene_camera.translation(), T_world_camera.translation())) return;
   const SessionSnapshot& s = context.snapshot;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
   const double depth = (T_world_camera.translation() - target).norm();

@@ -18,6 +18,10 @@ struct Load {
 struct OpenFile {
   std::filesystem::path file;
 };
+/// Changes when the scan is done, and keeps it.
+struct SetTermination {
+  TerminationConfig termination;
+};
 /// Starts over with the same configuration.
 struct Reset {};
 struct Step {};
@@ -50,8 +54,9 @@ struct ForgetRuns {};
 
 }  // namespace request
 
-using SessionRequest = std::variant<request::Load, request::OpenFile, request::Reset, request::Step, request::Play,
-                                    request::Pause, request::TakeView, request::TakeOwnView, request::Undo,
-                                    request::Redo, request::Refine, request::Export, request::ForgetRuns>;
+using SessionRequest =
+    std::variant<request::Load, request::OpenFile, request::SetTermination, request::Reset, request::Step,
+                 request::Play, request::Pause, request::TakeView, request::TakeOwnView, request::Undo, request::Redo,
+                 request::Refine, request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

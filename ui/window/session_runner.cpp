@@ -5,17 +5,25 @@
 #include <utility>
 
 #include "core/evaluation/map_quality.hpp"
+#include "core/mesh/surface_samples.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/scan_files.hpp"
 #include "core/session/scan_surfaces.hpp"
 #include "core/session/session_parts.hpp"
-#include "core/session/stopped.hpp"
 #include "ui/window/known_objects.hpp"
 #include "ui/window/overloaded.hpp"
 
 namespace nextview {
 namespace {
 
-constexpr std::size_t most_runs = 6;  ///< that stay for their curves
+constexpr std::size_t most_runs = 6;           ///< that stay for their curves
+constexpr std::size_t surface_points = 4'000;  ///< by which a view is judged before it is taken
+constexpr int most_views = 10'000;             ///< that a scan may have
+
+bool differ_in_termination_alone(const Configuration& a, Configuration b) {
+  b.termination = a.termination;
+  return to_toml(a) == to_toml(b);
+}
 
 /// A part of a job, from `begin` to `end` of the whole.
 Progress part(const Progress& whole, double begin, double end) {
@@ -36,13 +44,17 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
 void SessionRunner::set_message(const std::string& message) {
   SessionSnapshot next = *snapshot_;
   next.message = message;
+  if (!session_) next.configuration = wanted_;
+  ++next.failures;
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(next));
 }
 
 /// The session of a trail, with all its views taken again: the same bytes as the first time.
 std::unique_ptr<Session> SessionRunner::follow(const Trail& trail, const Told& told) const {
   const double load_share = trail.views.empty() ? 1.0 : 0.3;
-  auto session = std::make_unique<Session>(trail.configuration, part(told.progress, 0.0, load_share), told.stop);
+  Configuration without_end = trail.configuration;  // views may have been taken before it was changed
+  without_end.termination = TerminationConfig{.views = most_views};
+  auto session = std::make_unique<Session>(std::move(without_end), part(told.progress, 0.0, load_share), told.stop);
   for (std::size_t k = 0; k < trail.views.size(); ++k) {
     std::visit(Overloaded{[](std::monostate) {}, [&](const auto& view) { session->override_next_view(view); }},
                trail.views[k]);
@@ -50,10 +62,13 @@ std::unique_ptr<Session> SessionRunner::follow(const Trail& trail, const Told& t
     if (told.progress) told.progress(done, fmt::format("repeating view {} of {}", k + 1, trail.views.size()));
     if (!session->step({}, told.stop)) throw Stopped();
   }
+  session->set_termination(trail.configuration.termination);
   return session;
 }
 
 void SessionRunner::load(Configuration configuration, const Told& told) {
+  configuration.validate();
+  if (!session_) wanted_ = configuration;
   Trail trail{std::move(configuration), {}};
   auto session = follow(trail, told);
   if (session_) undo_.push_back(std::move(trail_));
@@ -63,6 +78,23 @@ void SessionRunner::load(Configuration configuration, const Told& told) {
   ++next.session;
   remember_run(next);
   adopt(std::move(session), std::move(next));
+}
+
+void SessionRunner::set_termination(const TerminationConfig& termination) {
+  if (!session_) return;
+  session_->set_termination(termination);
+  undo_.push_back(trail_);
+  redo_.clear();
+  trail_.configuration.termination = termination;
+  show_termination();
+}
+
+void SessionRunner::show_termination() {
+  SessionSnapshot next = *snapshot_;
+  next.configuration = session_->configuration();
+  next.finished = session_->finished();
+  show_next_view(next);
+  publish(std::move(next));
 }
 
 void SessionRunner::step(const Told& told) {
@@ -88,8 +120,14 @@ void SessionRunner::take_own_view(const Pose& T_world_camera) { take(T_world_cam
 /// Goes to where `from` ends, and leaves the way back on `to`.
 void SessionRunner::travel(std::vector<Trail>& from, std::vector<Trail>& to, const Told& told) {
   if (from.empty()) return;
+  const bool same_scan = differ_in_termination_alone(from.back().configuration, trail_.configuration);
+  if (same_scan && from.back().views.size() == trail_.views.size()) {  // it was set_termination() that led there
+    session_->set_termination(from.back().configuration.termination);
+    to.push_back(std::exchange(trail_, std::move(from.back())));
+    from.pop_back();
+    return show_termination();
+  }
   auto session = follow(from.back(), told);
-  const bool same_scan = to_toml(from.back().configuration) == to_toml(trail_.configuration);
   to.push_back(std::exchange(trail_, std::move(from.back())));
   from.pop_back();
   SessionSnapshot next = *snapshot_;
@@ -128,14 +166,18 @@ void SessionRunner::refine(int chains, int sweeps, const Told& told) {
   publish(std::move(next));
 }
 
-void SessionRunner::write(const std::filesystem::path& folder, const Told& told) const {
+std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const Told& told) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
-  prepare_output_folder(folder);
+  OutputFolder out(folder, input_files(session_->configuration()), "");
+  out.begin("scan", session_->object_file());
   told.progress(0.0, "writing the scan");
-  write_scan(*session_, folder);
+  write_scan(*session_, out);
   const auto surfaces = scan_surfaces(*session_, part(told.progress, 0.2, 0.9), told.stop);
   if (told.stop.stop_requested()) throw Stopped();
-  write_surfaces(surfaces, folder);
+  write_surfaces(surfaces, out);
+  std::vector<std::string> summaries;
+  for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
+  return summaries;
 }
 
 void SessionRunner::forget_runs() {
@@ -164,6 +206,8 @@ void SessionRunner::adopt(std::unique_ptr<Session> session, SessionSnapshot next
   next_ = {};
   next.gibbs = nullptr;
   next.mesh = session_->mesh();
+  next.surface_points = std::make_shared<const std::vector<Eigen::Vector3f>>(
+      sample_surface(*next.mesh, surface_points, session_->configuration().seed).points);
   next.truth = seen_->truth();
   next.configuration = session_->configuration();
   next.object_name = object_name(session_->object_file());

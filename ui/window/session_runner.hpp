@@ -24,10 +24,13 @@ class SessionRunner {
   /// Never null. The snapshot before stays as it was.
   std::shared_ptr<const SessionSnapshot> snapshot() const { return snapshot_; }
   bool can_step() const { return session_ && session_->finished().empty(); }
-  Configuration configuration() const { return session_ ? session_->configuration() : Configuration(); }
+  Configuration configuration() const { return session_ ? session_->configuration() : wanted_; }
 
   /// The session before stays if this one cannot be made. @throws std::exception, Stopped
   void load(Configuration configuration, const Told& told);
+  /// The scan stays; what it has taken so far may be all there is to it, or it may go on.
+  /// @throws std::invalid_argument if it is not valid
+  void set_termination(const TerminationConfig& termination);
   /// Nothing without a session that can step.
   void step(const Told& told);
   void take_view(std::size_t candidate);
@@ -35,7 +38,8 @@ class SessionRunner {
   void undo(const Told& told);
   void redo(const Told& told);
   void refine(int chains, int sweeps, const Told& told);
-  void write(const std::filesystem::path& folder, const Told& told) const;
+  /// Writes what `nextview scan` writes. Returns a line for people on each surface.
+  std::vector<std::string> write(const std::filesystem::path& folder, const Told& told) const;
   void forget_runs();
   /// Shown until the next thing that works.
   void set_message(const std::string& message);
@@ -53,6 +57,7 @@ class SessionRunner {
   static void remember_run(SessionSnapshot& snapshot);
   /// From here on the session is another; `next` is the snapshot to fill.
   void adopt(std::unique_ptr<Session> session, SessionSnapshot next);
+  void show_termination();
   void show_map(SessionSnapshot next);
   void show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement);
   void show_next_view(SessionSnapshot& snapshot) const;
@@ -63,6 +68,7 @@ class SessionRunner {
   std::size_t refined_scans_ = 0;              ///< that it holds
   std::unique_ptr<SeenSurface> seen_;
   Trail trail_;
+  Configuration wanted_;  ///< of the last session that could not be made; while there is none
   Override next_;
   std::vector<Trail> undo_, redo_;
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();

@@ -60,10 +60,12 @@ struct SessionSnapshot {
   std::uint64_t session = 0;  ///< counts the sessions that were loaded; 0: there is none yet
   std::uint64_t map = 0;      ///< counts the maps: different whenever voxels, cloud or records are
   std::string message;        ///< why the last request failed; empty if it did not
+  std::size_t failures = 0;   ///< counts the requests that failed
 
   Configuration configuration;
-  std::string object_name;                           ///< for people
-  std::shared_ptr<const TriangleMesh> mesh;          ///< null without a session; so are the next two
+  std::string object_name;                                             ///< for people
+  std::shared_ptr<const TriangleMesh> mesh;                            ///< null without a session; so are the next two
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> surface_points;  ///< some of the mesh's, evenly spread [m, world]
   std::shared_ptr<const std::vector<Voxel>> voxels;  ///< the conventional map, one a voxel of the grid
   std::shared_ptr<const SeenCloud> cloud;
   std::shared_ptr<const GibbsMap> gibbs;     ///< null if there is none

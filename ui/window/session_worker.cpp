@@ -6,7 +6,8 @@
 #include <cmath>
 #include <exception>
 
-#include "core/session/stopped.hpp"
+#include "core/progress/stopped.hpp"
+#include "core/session/setup_warnings.hpp"
 #include "ui/window/overloaded.hpp"
 
 namespace nextview {
@@ -30,6 +31,16 @@ Configuration with_file(Configuration configuration, const std::filesystem::path
   if (file.extension() == ".toml") return read_configuration(file, configuration);
   configuration.object.file = file.string();
   return configuration;
+}
+
+/// How a refinement went; of one that was cancelled, what is left of it.
+LogEntry refined(const GibbsMap& gibbs, bool cancelled) {
+  using Level = LogEntry::Level;
+  const SamplerDiagnostics& d = gibbs.posterior.diagnostics;
+  const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
+  if (cancelled) return {Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps)};
+  if (d.stationary) return {Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps)};
+  return {Level::warning, fmt::format("{}: {}", map, d.warning)};
 }
 
 }  // namespace
@@ -171,6 +182,7 @@ void SessionWorker::execute(const SessionRequest& request) {
   std::visit(Overloaded{
                  [&](const request::Load& r) { runner_.load(r.configuration, told()); },
                  [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), told()); },
+                 [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
                  [&](request::Reset) { runner_.load(runner_.configuration(), told()); },
                  [&](request::Step) { runner_.step(told()); },
                  [&](request::Play) {
@@ -190,7 +202,10 @@ void SessionWorker::execute(const SessionRequest& request) {
                    }
                    runner_.refine(r.chains, r.sweeps, told());
                  },
-                 [&](const request::Export& r) { runner_.write(r.folder, told()); },
+                 [&](const request::Export& r) {
+                   for (const std::string& line : runner_.write(r.folder, told()))
+                     log_.add(LogEntry::Level::note, line);
+                 },
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },
              request);
@@ -201,8 +216,17 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   using Level = LogEntry::Level;
   const SessionSnapshot& s = *runner_.snapshot();
   if (s.session != before.session) {
+    if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
+      log_.add(is<request::Load>(request) ? Level::warning : Level::note,
+               fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
+                           is<request::Load>(request)       ? "This setting"
+                           : is<request::OpenFile>(request) ? "Another file"
+                                                            : "Start over",
+                           views == 1 ? "view" : fmt::format("{} views", views)));
     log_.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", s.object_name,
                                       s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
+    for (const std::string& warning : setup_warnings(s.configuration, *s.mesh, s.candidates))
+      log_.add(Level::warning, warning);
   } else if (s.records.size() > before.records.size()) {
     const StepRecord& r = s.records.back();
     const std::string from =
@@ -212,14 +236,16 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     if (!r.ranking.degenerate.empty())
       log_.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
     if (!s.finished.empty()) log_.add(Level::success, "The scan is finished: " + s.finished);
+  } else if (is<request::SetTermination>(request)) {
+    if (s.finished != before.finished)
+      log_.add(s.finished.empty() ? Level::note : Level::success,
+               s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
   } else if (s.map != before.map && !is<request::Refine>(request)) {
     log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
   }
   if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs) {
-    const SamplerDiagnostics& d = s.gibbs->posterior.diagnostics;
-    log_.add(d.stationary ? Level::success : Level::warning,
-             d.stationary ? fmt::format("Gibbs map of {} views: stationary after {} sweeps", s.gibbs->views, d.sweeps)
-                          : fmt::format("Gibbs map of {} views: {}", s.gibbs->views, d.warning));
+    auto [level, text] = refined(*s.gibbs, told().stop.stop_requested());
+    log_.add(level, std::move(text));
   }
   if (const auto* e = std::get_if<request::Export>(&request))
     log_.add(Level::success, "Scan written to " + e->folder.string());

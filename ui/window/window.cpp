@@ -1,8 +1,12 @@
 #include "ui/window/window.hpp"
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
 #include <optional>
 
 #include "ui/surface/window_surface.hpp"
@@ -11,7 +15,8 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 1280, height = 800, least_width = 1200, least_height = 720;  // [screen coordinates]
+constexpr int width = 1280, height = 800, least_width = 480, least_height = 360;  // [screen coordinates]
+constexpr int exit_not_done = 2;                                                  // a call of the script was not done
 /// The longest wait while nothing happens [s]; news and input end it at once.
 constexpr double longest_wait = 60.0;
 
@@ -113,12 +118,37 @@ void listen(GLFWwindow* window, Interface& interface) {
                            [window](const std::string& text) { glfwSetClipboardString(window, text.c_str()); }});
 }
 
-void run(WindowSurface& surface, Interface& interface) {
+/// On a display that is smaller than the usual window, the window takes what there is.
+std::array<int, 2> first_size() {
+  int x = 0, y = 0, wide = width, high = height;
+  if (!glfwInit()) return {width, height};  // there will be a message when the window is opened
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &wide, &high);
+  const auto within = [](int usual, int there_is) { return there_is > 0 ? std::min(usual, there_is) : usual; };
+  return {within(width, wide), within(height, high)};
+}
+
+/// Counts the calls of a script that were not done, and tells each.
+class ScriptErrors {
+ public:
+  explicit ScriptErrors(std::string file) : file_(std::move(file)) {}
+  void add(const ScriptFailure& failure) {
+    const std::string place = failure.line > 0 ? fmt::format("{}:{}", file_, failure.line) : "nextview";
+    fmt::print(stderr, "{}: {}\n", place, failure.reason);
+    ++count_;
+  }
+  bool any() const { return count_ > 0; }
+
+ private:
+  std::string file_;
+  int count_ = 0;
+};
+
+void run(WindowSurface& surface, Interface& interface, const std::function<bool()>& has_to_end) {
   GLFWwindow* window = surface.handle();
   std::string title;
   double last = glfwGetTime();
   const auto seconds_left = [&] { return interface.seconds_to_next_frame() - (glfwGetTime() - last); };
-  while (!glfwWindowShouldClose(window) && !interface.wants_to_quit()) {
+  while (!glfwWindowShouldClose(window) && !interface.wants_to_quit() && !has_to_end()) {
     if (const double seconds = seconds_left(); seconds > 0) {
       glfwWaitEventsTimeout(std::min(seconds, longest_wait));
     } else {
@@ -135,8 +165,9 @@ void run(WindowSurface& surface, Interface& interface) {
 
 }  // namespace
 
-int run_window(const Configuration& configuration, const std::vector<CommandCall>& script) {
-  WindowSurface surface("Nextview", width, height);
+int run_window(const Configuration& configuration, const Script& script) {
+  const auto [first_width, first_height] = first_size();
+  WindowSurface surface("Nextview", first_width, first_height);
   GLFWwindow* window = surface.handle();
   glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSwapInterval(1);
@@ -144,12 +175,15 @@ int run_window(const Configuration& configuration, const std::vector<CommandCall
   glfwGetWindowContentScale(window, &scale, &ignored);
   SessionWorker worker([] { glfwPostEmptyEvent(); });
   InspectionWorker inspector([] { glfwPostEmptyEvent(); });
-  worker.post(request::Load{configuration});
   Interface interface(surface, worker, inspector, scale);
-  interface.run_script(script);
+  ScriptErrors errors(script.file);
+  interface.script().set_on_failure([&](const ScriptFailure& failure) { errors.add(failure); });
+  interface.open(configuration);
+  interface.run_script(script.calls);
   listen(window, interface);
-  run(surface, interface);
-  return 0;
+  run(surface, interface, [&] { return script.stop_on_error && errors.any(); });
+  if (!script.stop_on_error || !errors.any()) interface.script().give_up("not done: the program ended before");
+  return errors.any() ? exit_not_done : 0;
 }
 
 }  // namespace nextview

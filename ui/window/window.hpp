@@ -4,9 +4,17 @@
 
 namespace nextview {
 
+/// What the window is to do.
+struct Script {
+  std::string file;  ///< for messages
+  std::vector<CommandCall> calls;
+  bool stop_on_error = false;  ///< the first call that fails ends the program
+};
+
 /// Opens the window, with the object loaded and ready to step, and does what the script says; returns the exit code
-/// once it is closed.
+/// once it is closed: 0, or 2 if a call of the script was not done, each of which is told on the standard error stream
+/// as `FILE:LINE: command: reason`.
 /// @throws std::runtime_error in one line if there is no display, no OpenGL 3.3 or no font.
-int run_window(const Configuration& configuration, const std::vector<CommandCall>& script = {});
+int run_window(const Configuration& configuration, const Script& script = {});
 
 }  // namespace nextview

@@ -85,6 +85,7 @@ struct WindowState {
   LayerChoice layers;
   Selection selection;
   std::array<PanelName, 3> front = {PanelName::session, PanelName::candidates, PanelName::curves};  ///< by Side
+  Side open = Side::right;  ///< the side whose panels were asked for last: it is shown where there is room for one
   std::array<CurveKind, 2> curves = {CurveKind::entropy, CurveKind::coverage};  ///< left and right plot
   CandidateColumn sort_column = CandidateColumn::utility;
   bool sort_ascending = false;
@@ -98,7 +99,10 @@ struct WindowState {
   std::vector<std::string> script;           ///< the commands so far, a line each
 
   PanelName in_front(Side side) const { return front[static_cast<std::size_t>(side)]; }
-  void bring_to_front(PanelName panel) { front[static_cast<std::size_t>(side_of(panel))] = panel; }
+  void bring_to_front(PanelName panel) {
+    open = side_of(panel);
+    front[static_cast<std::size_t>(open)] = panel;
+  }
 };
 
 }  // namespace nextview

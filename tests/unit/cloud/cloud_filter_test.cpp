@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -64,6 +65,29 @@ TEST(CloudFilter, OutlierRemovalWithEqualPointsKeepsWhatPclKeeps) {
   config.outlier_neighbours = 8;
   config.outlier_deviations = 1.0;
   EXPECT_EQ(clean(cloud, config), pcl_keeps(cloud, config));
+}
+
+// A regular grid, as a camera sees a wall: most neighbours are as far as others.
+TEST(CloudFilter, OutlierRemovalWithEqualDistancesKeepsWhatPclKeeps) {
+  PointCloud cloud;
+  for (int i = 0; i < 60; ++i)
+    for (int j = 0; j < 60; ++j) cloud.emplace_back(0.01f * float(i), 0.01f * float(j), i % 20 == 0 ? 0.05f : 0.0f);
+  for (const int neighbours : {4, 16}) {
+    CloudConfig config;
+    config.outlier_neighbours = neighbours;
+    config.outlier_deviations = 1.0;
+    const PointCloud kept = clean(cloud, config);
+    EXPECT_EQ(kept, pcl_keeps(cloud, config));
+    EXPECT_LT(kept.size(), cloud.size());
+  }
+}
+
+TEST(CloudFilter, CanBeStopped) {
+  std::stop_source stop;
+  const PointCloud cloud = sheet_with_outliers(8, 100'000, 0);
+  EXPECT_EQ(clean(cloud, {}, stop.get_token()), clean(cloud, {}));
+  stop.request_stop();
+  EXPECT_THROW(clean(cloud, {}, stop.get_token()), Stopped);
 }
 
 TEST(CloudFilter, OutliersGoAndTheSheetStays) {

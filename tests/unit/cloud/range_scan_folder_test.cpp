@@ -76,6 +76,28 @@ TEST_F(RangeScanFolder, PointsAreInTheCamerasFrame) {
   expect_near(b[1], {-0.05, -0.1, 0.6});
 }
 
+// Two of the three folders of the repository have such: written by hand, after the declarations.
+TEST_F(RangeScanFolder, HeaderLinesThatAreNotKnownAreReadOnOver) {
+  const RecordedScene expected = read();
+  const std::string range_grid = "element range_grid", end = "end_header\n";
+  std::string a = ply(upright);
+  a.insert(a.find(end), "bye\n");
+  a.insert(a.find(range_grid), "comment between elements\nobj_info num_rows 3\nscanned by\x1b[31m hand\n");
+  folder.write("a.ply", a);
+  std::string b = ply(turned);
+  b.insert(b.find(end), "bye\r\n");
+  write_gzip(folder / "b.ply.gz", b);
+  std::vector<std::string> notices;
+  const RecordedScene scene = read_range_scan_folder(folder / "", default_stand_off, 0.0,
+                                                     [&](const std::string& text) { notices.push_back(text); });
+  ASSERT_EQ(scene.scans.size(), 2u);
+  for (std::size_t s = 0; s < 2; ++s) EXPECT_EQ(scene.scans[s].points, expected.scans[s].points);
+  ASSERT_EQ(notices.size(), 1u) << "one for the folder";
+  EXPECT_EQ(notices[0],
+            "2 of its scans have header lines that are not known; they are read on over: the first is "
+            "'scanned by?[31m hand' in a.ply");
+}
+
 TEST_F(RangeScanFolder, PosesPlaceCamerasAndPointsInTheWorld) {
   const RecordedScene scene = read(0.5);
   const Pose& a = scene.scans.at(0).T_world_camera;

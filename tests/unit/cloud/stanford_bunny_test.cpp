@@ -14,12 +14,13 @@
 namespace nextview {
 namespace {
 
-/// Real range scans: ten of the Stanford bunny.
+/// Real range scans, ten of the Stanford bunny, where they are at hand: their licence keeps them out of this
+/// repository. MadeRangeScans proves the reader without them.
 class StanfordBunny : public testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(folder / "bun.conf"))
-      GTEST_SKIP() << folder << " is missing: no range scans of a real scanner are read here";
+      GTEST_SKIP() << "an addition: " << folder << " is not there, so scans like it were read, but no real ones";
     scene = read_range_scan_folder(folder);
   }
   const std::filesystem::path folder = std::filesystem::path(NEXTVIEW_SHARED_DIR) / "data/scans/stanford_bunny";

@@ -1,6 +1,7 @@
 #include "core/file/gzip_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "core/file/atomic_file.hpp"
 #include "tests/unit/file/gzip.hpp"
@@ -81,6 +82,8 @@ TEST(GzipFile, SaysWhatIsWrong) {
   EXPECT_THAT(complaint(folder / "missing.gz"), HasSubstr("No such file"));
   std::filesystem::create_directory(folder / "folder.gz");
   EXPECT_THAT(complaint(folder / "folder.gz"), HasSubstr("directory"));
+  ASSERT_EQ(mkfifo((folder / "pipe.gz").c_str(), 0600), 0);
+  EXPECT_THAT(complaint(folder / "pipe.gz"), HasSubstr("is a pipe"));
   EXPECT_THAT(complaint(folder.write("plain.gz", "ply\nformat ascii 1.0\n")), HasSubstr("not compressed with gzip"));
 }
 

@@ -1,8 +1,9 @@
+#include "tests/data/conformance.hpp"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include "core/gain/map_rays.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/sensor/recorded_scans.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -105,18 +107,14 @@ void expect_the_same_on_one_thread(const ReferenceMap& map, std::span<const Pose
 
 class Conformance : public testing::TestWithParam<const char*> {
  protected:
-  void SetUp() override {
-    scene_file_ = fs::path(NEXTVIEW_SHARED_DIR) / "conformance" / (std::string(GetParam()) + ".txt");
-    if (fs::exists(scene_file_)) return;
-    std::printf("MISSING: %s is not there; conformance with the reference code was not tested\n", scene_file_.c_str());
-    GTEST_SKIP() << scene_file_ << " is missing";
-  }
+  void SetUp() override { scene_file_ = unpack_conformance_scene(GetParam(), folder_ / ""); }
+  const TemporaryFolder folder_;
   fs::path scene_file_;
 };
 
 TEST_P(Conformance, EveryGainOfEveryViewIsThatOfTheReferenceCode) {
   const RecordedScene scene = read_recorded_scene(scene_file_);
-  const Expected expected = read_expected(fs::path(scene_file_).replace_extension(".expected.csv"));
+  const Expected expected = read_expected(conformance_file(std::string(GetParam()) + ".expected.csv"));
   const auto map = map_of(scene);
   const ScoreOptions options{Semantics::reference,
                              2 * scene.parameters.at("occlusion_update_dist_m") / scene.parameters.at("resolution_m")};
@@ -139,7 +137,7 @@ TEST_P(Conformance, EveryGainOfEveryViewIsThatOfTheReferenceCode) {
   RecordProperty("largest_relative_difference", std::to_string(worst));
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, Conformance, testing::Values("scans1", "scans6"));
+INSTANTIATE_TEST_SUITE_P(Sets, Conformance, testing::ValuesIn(conformance_sets));
 
 }  // namespace
 }  // namespace nextview

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/gzip_file.hpp"
 #include "tests/unit/map/octomap_twin.hpp"
 #include "tests/unit/map/random_scans.hpp"
 #include "tests/unit/map/temporary_folder.hpp"
@@ -152,16 +153,26 @@ TEST_F(OctreeFile, LargeLeavesAreFilled) {
   }
 }
 
-TEST_F(OctreeFile, TheSharedMapsAreReadAsOctoMapReadsThem) {
-  const fs::path maps = fs::path(NEXTVIEW_SHARED_DIR) / "data/maps";
-  for (const char* name : {"geb079.bt", "derived_castle_sim_20views_step1_res0.005.ot"}) {
-    if (!fs::exists(maps / name)) {
-      std::printf("MISSING: %s is not there; reading it was not tested\n", (maps / name).c_str());
-      GTEST_SKIP() << (maps / name) << " is missing";
-    }
-    const auto tree = read_by_octomap(maps / name);
+/// A real building; and the same as a full octree, after a million random updates.
+void write_building(const fs::path& folder) {
+  write_file(folder / "building.bt", read_gzip_file(fs::path(NEXTVIEW_SOURCE_DIR) / "tests/data/maps/geb079.bt.gz"));
+  const auto tree = read_by_octomap(folder / "building.bt");
+  ASSERT_TRUE(tree);
+  std::vector<octomap::OcTreeKey> keys;
+  for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) keys.push_back(leaf.getKey());
+  std::mt19937 random(5);
+  for (int i = 0; i < 1'000'000; ++i) tree->updateNode(keys[random() % keys.size()], random() % 3 == 0);
+  tree->prune();
+  ASSERT_TRUE(tree->write((folder / "building.ot").string()));
+}
+
+TEST_F(OctreeFile, ARealBuildingIsReadAsOctoMapReadsIt) {
+  write_building(folder_);
+  for (const char* name : {"building.bt", "building.ot"}) {
+    const auto tree = read_by_octomap(folder_ / name);
     ASSERT_TRUE(tree);
-    const OccupancyMap map = read_octree(maps / name);
+    EXPECT_GT(tree->getNumLeafNodes(), 400'000u);
+    const OccupancyMap map = read_octree(folder_ / name);
     std::size_t volume = 0, measured = 0, different = 0;
     for (const Voxel& v : map.voxels()) measured += v.measured;
     for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {

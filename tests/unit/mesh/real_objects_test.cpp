@@ -19,7 +19,8 @@ TriangleMesh load_and_report(const std::filesystem::path& file) {
 
 TEST(RealObjects, theGearboxHousing) {
   const std::filesystem::path file = "/usr/share/opencascade/data/stl/TR12J_OCC.stl";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there; it comes with Debian's package occt-misc";
+  if (!std::filesystem::exists(file))
+    FAIL() << file << " is not there; it comes with Debian's package occt-misc, which app/setup installs";
   const TriangleMesh mesh = load_and_report(file);
   EXPECT_EQ(mesh.triangles.size(), 26966u);  // as its header says
   EXPECT_TRUE(topology(mesh).watertight());
@@ -29,7 +30,7 @@ TEST(RealObjects, theGearboxHousing) {
 TEST(RealObjects, theBunny) {
   const std::filesystem::path file = "/usr/share/glmark2/models/bunny.obj";
   if (!std::filesystem::exists(file))
-    GTEST_SKIP() << file << " is not there; it comes with Debian's package glmark2-data";
+    FAIL() << file << " is not there; it comes with Debian's package glmark2-data, which app/setup installs";
   const TriangleMesh mesh = load_and_report(file);
   EXPECT_EQ(mesh.triangles.size(), 69666u);  // the number of its lines that begin with f
   EXPECT_NEAR(mesh.bounding_box().sizes().maxCoeff(), 0.5, 1e-7);

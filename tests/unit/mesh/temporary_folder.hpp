@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -14,8 +15,9 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / (std::string("nextview_") + test->test_suite_name() + "_" +
-                                                      test->name() + "_" + std::to_string(::getpid()));
+    std::string name = std::string("nextview_") + test->test_suite_name() + "_" + test->name() + "_";
+    std::replace(name.begin(), name.end(), '/', '_');  // of suites with parameters
+    path_ = std::filesystem::temp_directory_path() / (name + std::to_string(::getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -15,7 +15,7 @@ namespace nextview {
 class Desk {
  public:
   explicit Desk(int width = 1280, int height = 800, double scale = 1.0)
-      : host_(scale), layout_(width, height, scale), width_(width), height_(height) {
+      : host_(scale), layout_(width, height, scale), width_(width), height_(height), scale_(scale) {
     unsigned char* pixels = nullptr;
     int columns = 0, rows = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &columns, &rows);
@@ -24,6 +24,7 @@ class Desk {
   /// A frame; returns what was emitted. What opens and closes palette, sheet and panels is done.
   std::vector<CommandCall> frame() {
     host_.take(queue_.take_frame());
+    layout_ = Layout(width_, height_, scale_, window.open);
     host_.begin_frame(width_, height_, 1.0 / 60);
     std::vector<CommandCall> calls;
     std::optional<std::size_t> hovered;
@@ -81,6 +82,7 @@ class Desk {
   Layout layout_;
   SessionWorker worker_;
   int width_, height_;
+  double scale_;
 };
 
 /// A scan after some steps.

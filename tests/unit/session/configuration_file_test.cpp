@@ -22,7 +22,8 @@ class ConfigurationFile : public testing::Test {
 
   Configuration read(const std::string& text, const Configuration& base) const {
     std::ofstream(file(), std::ios::binary) << text;
-    return read_configuration(file(), base);
+    SettingSources sources;  // whoever asks for them says himself whether the whole makes sense
+    return read_configuration(file(), base, &sources);
   }
   Configuration read(const std::string& text) const {
     const Configuration defaults;
@@ -242,6 +243,23 @@ TEST(ResolveObject, FindsPathsAndNames) {
   EXPECT_TRUE(std::filesystem::equivalent(resolve_object("box.ply"), objects / "box.ply"));
   EXPECT_TRUE(std::filesystem::exists(resolve_object("")));
   EXPECT_THROW(resolve_object("no such thing"), std::runtime_error);
+}
+
+TEST_F(ConfigurationFile, WhatMakesNoSenseNamesItsPlace) {
+  std::ofstream(file()) << "[sensor]\nrange_noise = 5\n";
+  try {
+    read_configuration(file());
+    FAIL() << "was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), file().string() + ":2: sensor.range_noise must be from 0 to 1 m, not 5");
+  }
+  SettingSources sources;
+  const Configuration bad = read_configuration(file(), {}, &sources);
+  EXPECT_EQ(sources, (SettingSources{{"sensor.range_noise", file().string() + ":2"}}));
+  Configuration mended = bad;
+  mended.sensor.range_noise = 0.5;
+  EXPECT_NO_THROW(validate(mended, sources));
+  EXPECT_THROW(validate(bad, {}), std::runtime_error);
 }
 
 }  // namespace

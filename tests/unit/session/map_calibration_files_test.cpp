@@ -5,6 +5,7 @@
 #include "core/session/configuration.hpp"
 #include "core/session/map_calibration.hpp"
 #include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/session/begun.hpp"
 
 namespace nextview {
 namespace {
@@ -16,7 +17,8 @@ class SensorModelToml : public TemporaryFolder {};
 class MapCalibrationFiles : public TemporaryFolder {
  protected:
   void expect_whole_rows(const MapCalibration& calibration) const {
-    write_map_calibration(calibration, "remark", folder_);
+    OutputFolder out = begun(folder_);
+    write_map_calibration(calibration, "remark", out);
     for (const std::string file : {"scores.csv", "descent.csv"}) {
       std::istringstream text(read_file(folder_ / file));
       std::string head, line;
@@ -74,8 +76,10 @@ TEST_F(MapCalibrationFiles, RowsHaveACellForEachColumnWhateverIsKnown) {
 }
 
 TEST_F(MapCalibrationFiles, AFolderThatIsNotThereIsNamed) {
+  OutputFolder out = begun(folder_ / "missing");
+  std::filesystem::remove_all(out.path());
   try {
-    write_map_calibration({}, "", folder_ / "missing");
+    write_map_calibration({}, "", out);
     FAIL() << "nothing was thrown";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr((folder_ / "missing").string()));

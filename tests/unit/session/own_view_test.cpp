@@ -4,6 +4,7 @@
 #include "core/session/refinement.hpp"
 #include "core/session/scan_files.hpp"
 #include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/session/begun.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -112,7 +113,8 @@ TEST_F(OwnViewFiles, AreTakenAgainExactly) {
   session.step();
   session.override_next_view(look_at(Vector3(-0.5, 0.4, -0.6), Vector3(0.05, 0, 0)));
   session.step();
-  write_scan(session, folder_);
+  OutputFolder out = begun(folder_);
+  write_scan(session, out);
   const RefinementJob job = refinement_job(folder_, {});
   ASSERT_EQ(job.scans.size(), 4u);
   OccupancyMap map(job.grid, job.model);

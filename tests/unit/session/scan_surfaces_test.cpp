@@ -11,6 +11,7 @@
 #include "core/surface/map_surface.hpp"
 #include "core/view/candidate_views.hpp"
 #include "tests/unit/map/temporary_folder.hpp"
+#include "tests/unit/session/begun.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -176,14 +177,69 @@ class ScanSurfaceFiles : public TemporaryFolder {
   nlohmann::json written() const { return nlohmann::json::parse(read_file(folder_ / "surfaces.json")); }
 };
 
-// A stop may leave none: then there is no file either, nor one of an earlier scan.
+// A stop may leave none: then there is no file either. What is not on the folder's list stays, whatever its name.
 TEST_F(ScanSurfaceFiles, OfNoSurfaces) {
-  const char* const names[] = {"surface_map.ply", "surface_cloud.stl", "surface_posterior.png", "surfaces.json"};
-  for (const char* name : names) write_file(folder_ / name, "of an earlier scan");
-  write_file(folder_ / "surface_of_mine.ply", "not ours");
-  write_surfaces({}, folder_);
-  for (const char* name : names) EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << name;
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "surface_of_mine.ply"));
+  OutputFolder out = begun(folder_);
+  write_file(folder_ / "surface_map.ply", "not ours");
+  EXPECT_TRUE(write_surfaces({}, out).empty());
+  EXPECT_EQ(read_file(folder_ / "surface_map.ply"), "not ours");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "surfaces.json"));
+}
+
+/// A square of two triangles beside one of four, of which `seen` corners are: 0 to 9 from the left.
+ScanSurface strip(std::size_t seen) {
+  ScanSurface s;
+  s.name = "surface_map", s.source = "the occupancy map";
+  for (int i = 0; i < 5; ++i)
+    for (const float y : {0.0f, 0.1f}) s.surface.mesh.vertices.push_back({0.1f * float(i), y, 0.0f});
+  for (std::uint32_t i = 0; i < 8; i += 2) {
+    s.surface.mesh.triangles.push_back({i, i + 2, i + 1});
+    s.surface.mesh.triangles.push_back({i + 1, i + 2, i + 3});
+  }
+  s.surface.uncertainty.assign(10, 0.001f);
+  for (std::size_t i = 0; i < 10; ++i) s.surface.seen.push_back(i < seen);
+  return s;
+}
+
+// Four squares of 0.01 m²; six corners hold the first two of them.
+TEST_F(ScanSurfaceFiles, WhatWasNotSeenIsInAFileOfItsOwn) {
+  const ScanSurface s = strip(6);
+  OutputFolder out = begun(folder_);
+  EXPECT_THAT(write_surfaces({&s, 1}, out), testing::UnorderedElementsAre("surface_map.ply", "surface_map.stl",
+                                                                          "surface_map_unseen.stl", "surfaces.json"));
+  EXPECT_EQ(load_mesh(folder_ / "surface_map.ply").triangles.size(), 8u);
+  const auto area = [&](const char* name) {
+    return 1e-6 * load_mesh(folder_ / name, {.longest_side = 0}).surface_area();
+  };
+  EXPECT_NEAR(area("surface_map.stl"), 0.02, 1e-6);
+  EXPECT_NEAR(area("surface_map_unseen.stl"), 0.02, 1e-6);
+  EXPECT_NEAR(double(written()["surface_map"]["area_seen_m2"]), 0.02, 1e-6);
+  EXPECT_NEAR(double(written()["surface_map"]["area_unseen_m2"]), 0.02, 1e-6);
+  EXPECT_THAT(read_file(folder_ / "surface_map.ply"), HasSubstr("comment seen of the area: 50 %, 0.02 of 0.04 m^2\n"));
+  EXPECT_TRUE(read_file(folder_ / "surface_map.stl").starts_with("nextview, unit mm; what was seen"));
+}
+
+TEST_F(ScanSurfaceFiles, OfWhollySeenAndOfWhollyUnseenOnesThereIsOneStl) {
+  const ScanSurface seen = strip(10), unseen = strip(0);
+  OutputFolder one = begun(folder_ / "seen"), other = begun(folder_ / "unseen");
+  EXPECT_THAT(write_surfaces({&seen, 1}, one), testing::Not(testing::Contains("surface_map_unseen.stl")));
+  EXPECT_THAT(write_surfaces({&unseen, 1}, other), testing::Not(testing::Contains("surface_map.stl")));
+}
+
+// The openings are given, as a strip has always some.
+TEST(ScanSurfaces, AreCalledWatertightOnlyIfAllWasSeen) {
+  EXPECT_EQ(closedness(strip(10).surface, {}), "watertight, all of it seen: 400.0 cm²");
+  EXPECT_EQ(closedness(strip(8).surface, {}),
+            "closed, 75 % of it was seen: 300.0 cm² seen, 100.0 cm² is the hull of what no view saw");
+  EXPECT_EQ(closedness(strip(4).surface, {}),
+            "closed, but only 25 % of it was seen: 100.0 cm² seen, 300.0 cm² is the hull of what no view saw");
+  EXPECT_EQ(closedness(strip(0).surface, {}),
+            "closed, but only 0 % of it was seen: 0.0 cm² seen, 400.0 cm² is the hull of what no view saw");
+  ScanSurface s = strip(10);
+  s.openings = boundary_loops(s.surface.mesh);
+  EXPECT_THAT(summary(s), HasSubstr("8 triangles, 1 opening, 100.0 cm around"));
+  s.surface.mesh.triangles.resize(1);
+  EXPECT_THAT(summary(s), HasSubstr(" 1 triangle, "));
 }
 
 // A far return would make the cloud's lattice too large; it lies beyond the region, so it is left out.
@@ -210,7 +266,8 @@ TEST_F(ScanSurfaceFiles, CanBeScannedAgain) {
   s.surface.mesh.triangles = {{0, 1, 2}};
   s.surface.uncertainty = {0.001f, 0.002f, 0.003f};
   s.surface.seen = {1, 1, 1};
-  write_surfaces({&s, 1}, folder_);
+  OutputFolder out = begun(folder_);
+  write_surfaces({&s, 1}, out);
   for (const std::string ending : {".ply", ".stl"}) {
     TriangleMesh mesh;
     EXPECT_NO_THROW(mesh = load_mesh(folder_ / (s.name + ending), {.longest_side = 0.4})) << ending;
@@ -223,11 +280,14 @@ TEST_F(ScanSurfaceFiles, ATruthThatNobodyCanSeeIsStillJson) {
   RefinementJob job = refinement_job(c, std::vector<Pose>{candidate_views(c.views, Vector3::Zero()).front()});
   std::fill(job.truth->visible.begin(), job.truth->visible.end(), 0);
   const auto surfaces = scan_surfaces(job, refine(job));
-  write_surfaces(surfaces, folder_);
-  const auto score = written()["surface_cloud"]["inspection"]["thresholds"][0];
+  OutputFolder out = begun(folder_ / "out");
+  write_surfaces(surfaces, out);
+  const auto score =
+      nlohmann::json::parse(read_file(out.path() / "surfaces.json"))["surface_cloud"]["inspection"]["thresholds"][0];
   EXPECT_TRUE(score["completeness_visible"].is_null()) << "unknown, which JSON has no number for";
   EXPECT_TRUE(score["completeness_all"].is_number());
-  EXPECT_THROW(write_surfaces(surfaces, folder_ / "missing"), std::runtime_error);
+  std::filesystem::remove_all(out.path());
+  EXPECT_THROW(write_surfaces(surfaces, out), std::runtime_error);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "core/file/atomic_file.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/scan_files.hpp"
-#include "core/session/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -127,13 +127,14 @@ TEST_F(SessionRunnerTest, ExportsWhatAScanWrites) {
   session.step();
   session.override_next_view(own_view());
   session.step();
-  prepare_output_folder(folder_ / "scan");
-  write_scan(session, folder_ / "scan");
+  OutputFolder out(folder_ / "scan", {});
+  out.begin("scan", session.object_file());
+  write_scan(session, out);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "scan")) {
     const auto name = entry.path().filename();
     ASSERT_TRUE(std::filesystem::exists(folder_ / "window" / name)) << name;
-    if (name == "timings.csv") continue;
+    if (name == "timings.csv" || name == "manifest.json") continue;  // the latter lists the surfaces too
     { EXPECT_EQ(read_file(folder_ / "window" / name), read_file(entry.path())) << name; }
     ++files;
   }
@@ -142,6 +143,33 @@ TEST_F(SessionRunnerTest, ExportsWhatAScanWrites) {
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "window"))
     surfaces += !std::filesystem::exists(folder_ / "scan" / entry.path().filename());
   EXPECT_GT(surfaces, 0u) << "the surfaces are not there";
+}
+
+TEST_F(SessionRunnerTest, AnExportReplacesNothingThatTheScanWasReadFrom) {
+  const auto copy = folder_ / "export" / "cloud.ply";
+  std::filesystem::create_directories(folder_ / "export");
+  Configuration c = small_scan();
+  std::filesystem::copy_file(resolve_object(c.object.file), copy);
+  const std::string bytes = read_file(copy);
+  c.object.file = copy.string();
+  runner_.load(c, told());
+  steps(1);
+  try {
+    runner_.write(folder_ / "export", told());
+    ADD_FAILURE() << "no error";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(copy.string()));
+  }
+  EXPECT_EQ(read_file(copy), bytes);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "export" / "steps.csv"));
+}
+
+TEST_F(SessionRunnerTest, AnExportTellsHowMuchOfEachSurfaceWasSeen) {
+  runner_.load(small_scan(), told());
+  steps(1);
+  const auto lines = runner_.write(folder_ / "export", told());
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_THAT(lines[0], testing::HasSubstr("% of it was seen: "));
 }
 
 TEST_F(SessionRunnerTest, AnExportThatCannotBeWrittenSaysSo) {

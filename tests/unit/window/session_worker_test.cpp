@@ -1,7 +1,9 @@
 #include "ui/window/session_worker.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <fstream>
@@ -67,6 +69,33 @@ TEST_F(SessionWorkerTest, LoadsReadyToStep) {
   EXPECT_TRUE(s->cloud->points.empty());
   EXPECT_FALSE(s->next_candidate.has_value()) << "the first view is the start view";
   EXPECT_GT(news_count_, 0);
+}
+
+TEST_F(SessionWorkerTest, LogsWhatMakesNoSenseOfASetUp) {
+  const auto warnings = [&] {
+    const auto log = worker_.log().entries();
+    return std::count_if(log->begin(), log->end(), [](const LogEntry& e) {
+      return e.level == LogEntry::Level::warning && e.text.find("inside the object") != std::string::npos;
+    });
+  };
+  load(small_scan());
+  EXPECT_EQ(warnings(), 0);
+  Configuration c = small_scan();
+  c.views.radius = 0.2;
+  load(c);
+  EXPECT_EQ(warnings(), 1);
+}
+
+TEST_F(SessionWorkerTest, LogsHowMuchOfAnExportsSurfacesWasSeen) {
+  load(small_scan());
+  worker_.post(request::Step{});
+  const auto folder = std::filesystem::temp_directory_path() / ("nextview_export_" + std::to_string(::getpid()));
+  worker_.post(request::Export{folder});
+  wait_until_idle();
+  std::filesystem::remove_all(folder);
+  const auto log = worker_.log().entries();
+  EXPECT_TRUE(std::any_of(log->begin(), log->end(),
+                          [](const LogEntry& e) { return e.text.find("% of it was seen: ") != std::string::npos; }));
 }
 
 TEST_F(SessionWorkerTest, DoesWhatASessionDoes) {

@@ -1,0 +1,79 @@
+#include "app/commands/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "core/file/read_file.hpp"
+#include "core/session/configuration.hpp"
+#include "ui/window/known_objects.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr std::array subcommands = {"scan", "score", "refine", "posterior", "calibrate", "window"};
+constexpr std::array drawing = {"scan", "refine", "calibrate"};
+
+template <class List>
+bool has(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+/// Behind the program's name and the options that every subcommand has.
+std::size_t first_of_its_own(const std::vector<char*>& arguments) {
+  std::size_t i = 1;
+  while (i < arguments.size()) {
+    const std::string_view word = arguments[i];
+    if (word == "--threads")
+      i += 2;
+    else if (word.starts_with("--threads="))
+      i += 1;
+    else
+      break;
+  }
+  return std::min(i, arguments.size());
+}
+
+bool is_object(const std::string& name) {
+  try {
+    return !resolve_object(name).empty();
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+/// What is there is opened, and of what looks like a file the window tells that it is not there.
+void require_file_or_object(const std::string& word) {
+  if (word.empty() || word.find_first_of("./") != word.npos || is_there(word) || is_object(word)) return;
+  const auto objects = known_objects();
+  std::vector<std::string> known(subcommands.begin(), subcommands.end());
+  known.insert(known.end(), objects.begin(), objects.end());
+  throw std::runtime_error(
+      fmt::format("no such command '{}', nor a file or an object of this name; did you mean '{}'? See nextview --help",
+                  word, nearest(word, known)));
+}
+
+}  // namespace
+
+CommandLine command_line(std::vector<char*> arguments) {
+  static char window[] = "window";
+  const std::size_t first = first_of_its_own(arguments);
+  const std::string word = first < arguments.size() ? arguments[first] : "";
+  CommandLine line{std::move(arguments)};
+  const auto begin = line.arguments.begin() + static_cast<std::ptrdiff_t>(first);
+  if (has(subcommands, word)) {
+    const std::vector<std::string_view> others(begin, line.arguments.end());
+    line.draws_headless =
+        has(drawing, word) && !has(others, "--no-pictures") && !has(others, "--help") && !has(others, "-h");
+  } else if (word != "--help" && word != "-h" && word != "--version") {
+    if (!word.starts_with('-')) require_file_or_object(word);
+    line.arguments.insert(begin, window);
+  }
+  return line;
+}
+
+}  // namespace nextview

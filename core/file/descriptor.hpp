@@ -1,0 +1,36 @@
+#pragma once
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+namespace nextview {
+
+/// An open file of the operating system, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    close();
+    number_ = other.release();
+    return *this;
+  }
+
+  bool is_open() const { return number_ >= 0; }
+  int get() const { return number_; }
+  int release() { return std::exchange(number_, -1); }
+  void close() {
+    if (is_open()) ::close(release());
+  }
+
+ private:
+  int number_;
+};
+
+/// "FILE: cannot be VERB: the reason that stands for `error`", an errno.
+std::runtime_error file_error(const std::filesystem::path& file, const char* verb, int error);
+
+}  // namespace nextview

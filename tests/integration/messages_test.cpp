@@ -1,0 +1,140 @@
+// One line that names the thing, the reason and what to do.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class Messages : public ::testing::Test {
+ protected:
+  std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(in(name), std::ios::binary) << content;
+    return in(name);
+  }
+  std::string scan() const { return "scan box --no-pictures --out " + in("out") + " "; }
+  /// What it says on standard error, which is one line, before it ends with 2.
+  static std::string complaint(const std::string& arguments) {
+    const Result run = nextview(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    return run.err;
+  }
+  static std::string line(const std::string& reason) { return "nextview: " + reason + "\n"; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
+  const auto with = [&](const std::string& content) {
+    return complaint(scan() + "--config " + write("c.toml", content));
+  };
+  const std::string file = in("c.toml");
+  EXPECT_EQ(with("seed = 1\n[sensor]\nrange_noise = 5\n"),
+            line(file + ":3: sensor.range_noise must be from 0 to 1 m, not 5"));
+  EXPECT_EQ(with("[map]\n\nhit = 0.2\n"), line(file + ":3: map.hit must lie between 0.5 and 1"));
+  EXPECT_EQ(with("[cloud]\noutlier_neighbours = 0\n"),
+            line(file + ":2: cloud.outlier_neighbours must be from 1 to 1000, not 0"));
+  EXPECT_EQ(with("[termination]\nviews = 0\n"), line(file + ":2: termination.views must be from 1 to 10000, not 0"));
+  EXPECT_EQ(with("[views]\ncount = -1\n"), line(file + ":2: views.count must be from 1 to 10000, not -1"));
+  EXPECT_EQ(with("[gibbs]\neta_hit = 0\n"), line(file + ":2: gibbs.eta_hit must be over 0 and at most 1000, not 0"));
+  EXPECT_EQ(with("[planner]\nray_rows = 0\n"), line(file + ":2: planner.ray_rows must be from 1 to 2000, not 0"));
+  // The bound that is not kept is of another setting than the one that the file gives.
+  EXPECT_EQ(with("[sensor]\nmax_range = 0.01\n"),
+            line(file + ":2: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.2"));
+  EXPECT_EQ(with("[map]\nregion_edge = 100\n"),
+            line(file + ":2: map.region_edge / map.resolution must be from 1 to 512 voxels, not 10000"));
+}
+
+TEST_F(Messages, OfSeveralFilesTheOneIsNamedThatGaveTheSetting) {
+  const std::string good = write("good.toml", "[sensor]\nrange_noise = 0.01\n");
+  const std::string bad = write("bad.toml", "[sensor]\n\nwidth = 0\n");
+  EXPECT_EQ(complaint(scan() + "--config " + bad + " --config " + good),
+            line(bad + ":3: sensor.width must be from 1 to 16384 px, not 0"));
+  EXPECT_EQ(complaint(scan() + "--sensor " + write("lidar.toml", "[sensor]\ndropout = 2\n")),
+            line(in("lidar.toml") + ":2: sensor.dropout must be from 0 to 1, not 2"));
+  // What one file leaves wrong another may mend.
+  const std::string far = write("far.toml", "[sensor]\nmin_range = 7\n"),
+                    farther = write("farther.toml", "[sensor]\nmax_range = 9\n");
+  EXPECT_THAT(complaint(scan() + "--config " + far), HasSubstr("far.toml:2: sensor.min_range must"));
+  EXPECT_THAT(complaint(scan() + "--config " + far + " --config " + farther + " --seed x"), HasSubstr("--seed"));
+}
+
+TEST_F(Messages, ARangeErrorOnTheCommandLineNamesTheOption) {
+  EXPECT_EQ(complaint(scan() + "--sensor.range_noise 5"), line("--sensor.range_noise must be from 0 to 1 m, not 5"));
+  EXPECT_EQ(complaint(scan() + "--views 0"), line("--views (termination.views) must be from 1 to 10000, not 0"));
+  EXPECT_EQ(complaint(scan() + "--termination.views 0"),
+            line("--views (termination.views) must be from 1 to 10000, not 0"));
+  EXPECT_EQ(complaint(scan() + "--views many"), line("--views (termination.views) takes a whole number, not 'many'"));
+  EXPECT_EQ(complaint(scan() + "--sensor.max_range 0.01"),
+            line("--sensor.max_range: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.2"));
+  // The option is wrong, not the file that it overrides.
+  EXPECT_EQ(
+      complaint(scan() + "--config " + write("c.toml", "[sensor]\nrange_noise = 0.1\n") + " --sensor.range_noise 5"),
+      line("--sensor.range_noise must be from 0 to 1 m, not 5"));
+}
+
+TEST_F(Messages, WhatStandsInFilesAndNamesIsQuoted) {
+  const std::string nasty = "a\nb\x1b[31m\x9f.ply";
+  EXPECT_EQ(
+      complaint("scan --no-pictures --out " + in("out") + " '" + nasty + "'"),
+      line("a\\nb\\x1b[31m\\x9f.ply: there is no such file, nor an object of this name that comes with the program"));
+  EXPECT_THAT(complaint(scan() + "--config " + write("c.toml", "\"a\\u001b[2Jb\\nc\" = 1\n")),
+              HasSubstr("there is no setting 'a\\x1b[2Jb\\nc'"));
+  EXPECT_THAT(complaint(scan() + "--gain '\x1b]0;title\a'"), HasSubstr("\\x1b]0;title\\x07"));
+  EXPECT_THAT(complaint("score --scene " + write("s.txt", "scan 0 0 0 0 0 0 1 1\n0 0 1\nparam \x1b[1m 1\n")),
+              ::testing::Not(HasSubstr("\x1b")));
+}
+
+TEST_F(Messages, AWarningOutOfAFileIsQuoted) {
+  const std::string scene = write("s.txt", "param b\x1b[1m 1\nscan 0 0 0 0 0 0 1 1\n0 0 0.3\nview 0 0 0 0 0 0 1\n");
+  const Result run = nextview("score --gain occlusion-aware --scene " + scene);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, scene + ": parameter b\\x1b[1m has no meaning here and is ignored\n");
+}
+
+TEST_F(Messages, AMistypedCommandIsSaidToBeOne) {
+  for (const auto& [typed, meant] :
+       {std::pair{"scna", "scan"}, {"refien", "refine"}, {"windw", "window"}, {"bunnny", "bunny"}})
+    EXPECT_EQ(complaint(std::string(typed) + " --threads 1"),
+              line(fmt::format("no such command '{}', nor a file or an object of this name; did you mean '{}'? See "
+                               "nextview --help",
+                               typed, meant)));
+  EXPECT_THAT(complaint("--threads 2 scna"), HasSubstr("no such command 'scna'"));
+  for (const char* object : {"box", "bunny", "slotted_plate", "none.ply", "no/such"})
+    EXPECT_THAT(complaint(object), HasSubstr("cannot open a window")) << "that is what a window is opened with";
+}
+
+TEST_F(Messages, OptionsOfTheProgramMayComeFirst) {
+  const std::string box = NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply";
+  for (const char* threads : {"--threads 2 ", "--threads=2 "}) {
+    for (const std::string& rest : {box, "--gain area-factor " + box, "window " + box, std::string()})
+      EXPECT_THAT(complaint(threads + rest), HasSubstr("cannot open a window")) << rest;
+    const Result run = nextview(threads + ("scan box --views 1 --no-surfaces --sensor.width 80 --sensor.height 60 "
+                                           "--map.resolution 0.04 --out " +
+                                           in("out")));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(fs::exists(in("out/step_01.png"))) << "drawn without a display";
+    fs::remove_all(in("out"));
+  }
+  EXPECT_THAT(complaint("--threads"), HasSubstr("--threads"));
+}
+
+TEST_F(Messages, AScanThatWentWellSaysNothingOnStandardError) {
+  const Result run = nextview(scan() + "--views 1 --sensor.width 80 --sensor.height 60 --map.resolution 0.04");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, ::testing::Not(HasSubstr(" done")));
+}
+
+}  // namespace
+}  // namespace nextview

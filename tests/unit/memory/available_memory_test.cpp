@@ -1,0 +1,83 @@
+#include "core/memory/available_memory.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace nextview {
+namespace {
+
+using testing::MatchesRegex;
+
+std::string complaint(std::uint64_t bytes) {
+  try {
+    require_memory(bytes, "a map of 9 x 9 x 9 voxels", "use coarser voxels");
+  } catch (const OutOfMemory& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AvailableMemory, WhatIsNotThereIsRefusedInOneLineThatSaysHowMuch) {
+  EXPECT_THAT(
+      complaint(std::uint64_t{5'000'000} << 30),
+      MatchesRegex("a map of 9 x 9 x 9 voxels needs [0-9]+\\.[0-9] GB, [0-9.]+ [GM]B are available: use coarser "
+                   "voxels"));
+  EXPECT_EQ(complaint(1), "");
+}
+
+TEST(AvailableMemory, IsAtMostWhatTheMachineHas) {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string key;
+  std::uint64_t kilobytes = 0;
+  meminfo >> key >> kilobytes;
+  ASSERT_EQ(key, "MemTotal:");
+  const auto total = kilobytes * 1024;
+  for (std::uint64_t swap = 0; meminfo >> key; meminfo.ignore(100, '\n'))
+    if (key == "SwapTotal:" && meminfo >> swap) kilobytes += swap;
+  EXPECT_GT(available_memory(), 0u);
+  EXPECT_LE(available_memory(), kilobytes * 1024);
+  EXPECT_GT(total, 0u);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses
+
+/// Whether `check` holds in a process of its own.
+bool holds_in_child(const std::function<bool()>& check) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(check() ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+std::uint64_t pages_taken(int field) {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t pages = 0;
+  for (int i = 0; i <= field; ++i) statm >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(AvailableMemory, FollowsTheLimitsOfTheProcess) {
+  constexpr std::uint64_t left = std::uint64_t{100} << 20, slack = std::uint64_t{8} << 20;
+  const auto limited = [&](auto resource, int field) {
+    return holds_in_child([&] {
+      const rlimit limit{pages_taken(field) + left, RLIM_INFINITY};
+      return ::setrlimit(resource, &limit) == 0 && available_memory() <= left && available_memory() >= left - slack &&
+             !complaint(left).empty() && complaint(left / 3).empty();
+    });
+  };
+  EXPECT_TRUE(limited(RLIMIT_AS, 0));
+  EXPECT_TRUE(limited(RLIMIT_DATA, 5));
+}
+
+#endif
+
+}  // namespace
+}  // namespace nextview

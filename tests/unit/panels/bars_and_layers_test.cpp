@@ -1,0 +1,198 @@
+// Control bar, status line, layers, log: numbers, units, states.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/unit/panels/made_scan.hpp"
+#include "tests/unit/panels/seen.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class Bars : public testing::Test {
+ protected:
+  Bars() { desk_.snapshot = scan_; }
+  std::string control_bar() { return seen_in("Control bar"); }
+  std::string status() { return seen_in("Status"); }
+  std::string seen_in(const char* window) {
+    desk_.frames();
+    return read(window);
+  }
+
+  std::shared_ptr<SessionSnapshot> scan_ = made_scan();
+  Desk desk_;
+};
+
+TEST_F(Bars, TheFiguresAreThoseOfTheLastView) {
+  const auto has = [&](const char* value, const char* name) {
+    EXPECT_THAT(control_bar(), HasSubstr(value));
+    EXPECT_THAT(control_bar(), HasSubstr(name));
+    const auto all = seen_texts();
+    const SeenText *v = find_text(all, value, "Control bar"), *n = find_text(all, name, "Control bar");
+    if (v && n) {
+      EXPECT_NEAR(v->to.x, n->to.x, 2) << value << " does not stand above " << name;
+    }
+  };
+  has("62.5 %", "of visible surface");
+  has("4.500 Mbit", "entropy");
+  has("2 / 4", "views");
+  desk_.snapshot = scanned(small_scan(), 0);
+  has("0.0 %", "of visible surface");
+  has(fmt::format("{:.3f} Mbit", double(scan_->grid.voxel_count()) / 1e6).c_str(), "entropy");
+  has("0 / 4", "views");
+  scan_->configuration.evaluation.enabled = false;
+  desk_.snapshot = scan_;
+  EXPECT_THAT(control_bar(), Not(HasSubstr("surface")));
+}
+
+TEST_F(Bars, SaysWhatItIsReadyFor) {
+  EXPECT_THAT(control_bar(), HasSubstr("Ready to take view 6"));
+  scan_->next_candidate.reset();
+  EXPECT_THAT(control_bar(), HasSubstr("No candidate is left"));
+  scan_->own_next_view = true;
+  EXPECT_THAT(control_bar(), HasSubstr("Ready to take your own view"));
+  scan_->finished = "the gain is small";
+  EXPECT_THAT(control_bar(), HasSubstr("Finished: the gain is small"));
+  desk_.snapshot = scanned(small_scan(), 0);
+  EXPECT_THAT(control_bar(), HasSubstr("Ready to take the start view"));
+  desk_.snapshot = std::make_shared<SessionSnapshot>();
+  EXPECT_THAT(control_bar(), HasSubstr("No object yet"));
+}
+
+TEST_F(Bars, SaysWhatRunsWhatWaitsAndForHowLong) {
+  desk_.progress.busy = true;
+  desk_.progress.what = "scoring";
+  desk_.progress.waiting = 2;
+  desk_.progress.seconds_left = 12;
+  desk_.progress.fraction = 0.25;
+  EXPECT_THAT(control_bar(), HasSubstr("scoring, 2 more to do, about 12 s left"));
+  EXPECT_THAT(control_bar(), Not(HasSubstr("Ready")));
+  const auto done = seen_areas(theme::series[0], "Control bar");  // the primary button and the bar
+  const auto all = seen_texts();
+  const SeenText *text = find_text(all, "scoring", "Control bar"), *cancel = find_text(all, "Cancel", "Control bar");
+  ASSERT_TRUE(text && cancel);
+  bool found = false;
+  for (const ImRect& area : done) {
+    if (area.GetHeight() > 9 || area.Min.x < text->from.x - 2) continue;
+    found = true;
+    EXPECT_NEAR(area.GetWidth() / (cancel->from.x - area.Min.x), 0.25, 0.05);
+  }
+  EXPECT_TRUE(found) << "there is no bar";
+  desk_.progress.paused = true;
+  EXPECT_THAT(control_bar(), HasSubstr("held: scoring"));
+  EXPECT_EQ(text_of(click_on(desk_, "Cancel", "Control bar")), "cancel");
+  desk_.progress = {};
+  desk_.progress.busy = desk_.progress.playing = true;
+  EXPECT_THAT(control_bar(), HasSubstr("between two views"));
+}
+
+TEST_F(Bars, PlayAndPauseAreOneButtonAndStepWaitsWhilePlaying) {
+  desk_.frames();
+  EXPECT_EQ(text_of(click_on(desk_, "Play", "Control bar")), "play");
+  EXPECT_EQ(text_of(click_on(desk_, "Step", "Control bar")), "step");
+  desk_.progress.busy = desk_.progress.playing = true;
+  desk_.frames();
+  EXPECT_EQ(text_of(click_on(desk_, "Pause", "Control bar")), "pause");
+  EXPECT_EQ(text_of(click_on(desk_, "Step", "Control bar")), "") << "views are being taken";
+  desk_.progress = {};
+  desk_.progress.pause_between_views = 1.5;
+  EXPECT_THAT(control_bar(), HasSubstr("+1.5 s"));
+}
+
+TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
+  EXPECT_THAT(status(), HasSubstr("View 2: 500 points, realised gain 321 nats, 15.75 s")) << "all stages";
+  const Eigen::Vector3i n = scan_->grid.size;
+  EXPECT_THAT(status(), HasSubstr(fmt::format("sphere · {} triangles · {} × {} × {} voxels of 40 mm",
+                                              scan_->mesh->triangles.size(), n.x(), n.y(), n.z())));
+  scan_->message = "it went wrong";
+  EXPECT_EQ(status(), "it went wrong");
+  desk_.snapshot = scanned(small_scan(), 0);
+  EXPECT_THAT(status(), HasSubstr("Nothing measured yet"));
+}
+
+class Layers : public Bars {
+ protected:
+  Layers() { desk_.window.bring_to_front(PanelName::layers); }
+  std::string panel() { return seen_in("Layers"); }
+  LayerChoice& layers() { return desk_.window.layers; }
+};
+
+TEST_F(Layers, TheSliceIsInMillimetresAndMovesInMetres) {
+  layers().voxels.slice = Slice{1, 0.05, 0.25};
+  EXPECT_THAT(panel(), HasSubstr("at [mm] 150"));
+  const auto all = seen_texts();
+  const SeenText* value = find_text(all, "150", "Layers");
+  ASSERT_NE(value, nullptr);
+  desk_.click(value->from.x + 30, value->middle());
+  const auto calls = desk_.frames();
+  ASSERT_FALSE(calls.empty());
+  EXPECT_EQ(calls.back().command->name, "slice-at");
+  const double at = std::stod(calls.back().arguments.at(0));
+  EXPECT_TRUE(at > 0.151 && at < scan_->grid.upper().y()) << at << " m";
+}
+
+TEST_F(Layers, ThresholdsShowTheirValuesWhereTheyMatter) {
+  layers().voxels.unknown = true;
+  layers().voxels.unknown_from = 0.35;
+  layers().voxels.entropy_from = 0.45;
+  EXPECT_THAT(panel(), HasSubstr("p from 0.35"));
+  EXPECT_THAT(panel(), Not(HasSubstr("0.45 nats")));
+  layers().voxels.uncertain = true;
+  EXPECT_THAT(panel(), HasSubstr("from 0.45 nats"));
+}
+
+TEST_F(Layers, EachLineSwitchesItsOwn) {
+  desk_.frames();
+  for (const auto& [label, command] : {std::pair{"Object", "toggle-object"},
+                                       {"Missed surface", "toggle-missed"},
+                                       {"Point cloud", "toggle-cloud"},
+                                       {"Octree", "toggle-octree"},
+                                       {"occupied", "toggle-occupied"},
+                                       {"free", "toggle-free"},
+                                       {"uncertain only", "toggle-uncertain"},
+                                       {"Candidate views", "toggle-views"},
+                                       {"Rays", "toggle-rays"},
+                                       {"Region of interest", "toggle-region"},
+                                       {"Lock colour ranges", "lock-ranges"},
+                                       {"wire", "object-style wire"}})
+    EXPECT_EQ(text_of(click_on(desk_, label, "Layers")), command) << label;
+  EXPECT_EQ(text_of(click_on(desk_, "y", "Layers")), "slice-axis y");
+  EXPECT_EQ(text_of(click_on(desk_, "all", "Layers")), "slice-axis none");
+}
+
+TEST_F(Layers, ListsNameWhatTheyChoose) {
+  desk_.frames();
+  for (const auto& [shown, entry, command] : {std::tuple{"conventional map", "Gibbs map", "voxel-map gibbs"},
+                                              {"class", "entropy", "voxel-colour entropy"},
+                                              {"class", "error against truth", "voxel-colour error"},
+                                              {"one colour", "height", "cloud-colour height"},
+                                              {"one colour", "distance to truth", "cloud-colour distance"}}) {
+    click_on(desk_, shown, "Layers");
+    EXPECT_EQ(text_of(click_on(desk_, entry, "##Combo_00")), command);
+  }
+  layers().map = MapChoice::gibbs;
+  layers().colouring = VoxelColouring::by_difference;
+  layers().cloud_colouring = CloudColouring::by_view;
+  EXPECT_THAT(panel(), HasSubstr("Coloured by view"));
+  EXPECT_THAT(panel(), HasSubstr("Of the Gibbs map Coloured by Gibbs − conv"));
+}
+
+TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {
+  desk_.window.bring_to_front(PanelName::log);
+  desk_.frames();
+  desk_.log = {{LogEntry::Level::note, "a note"},
+               {LogEntry::Level::success, "it is done"},
+               {LogEntry::Level::warning, "it went wrong"}};
+  EXPECT_EQ(seen_in("Log"), "a note it is done it went wrong");
+  EXPECT_EQ(read("Notifications"), "it is done it went wrong");
+  const auto all = seen_texts();
+  EXPECT_EQ(find_text(all, "it went wrong", "Log")->colour, to_imgui_u32(theme::chosen));
+  EXPECT_EQ(find_text(all, "it is done", "Log")->colour, to_imgui_u32(theme::series[2]));
+  for (int frame = 0; frame < 7 * 60; ++frame) desk_.frame();
+  EXPECT_EQ(read("Notifications"), "it went wrong") << "a warning stays longer";
+}
+
+}  // namespace
+}  // namespace nextview

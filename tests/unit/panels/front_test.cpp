@@ -1,0 +1,105 @@
+// What is in front of the panels has the keyboard: menus, lists, the palette, the sheet of keys, texts.
+#include <gmock/gmock.h>
+
+#include "tests/unit/panels/desk.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::IsEmpty;
+
+std::vector<std::string> names(const std::vector<CommandCall>& calls) {
+  std::vector<std::string> result;
+  for (const CommandCall& call : calls) result.push_back(call.text());
+  return result;
+}
+
+int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
+
+void open_menu(Desk& desk) {
+  desk.frames();
+  desk.click(20, desk.layout().menu.height / 2);
+  desk.frames();
+  ASSERT_EQ(open_popups(), 1) << "no menu opened";
+}
+
+TEST(Front, EscapeClosesAMenuAndNothingElse) {
+  Desk desk;
+  open_all_ways(desk);
+  const Selection selected = desk.window.selection;
+  open_menu(desk);
+  desk.type(Key::escape);
+  EXPECT_THAT(names(desk.frames()), IsEmpty());
+  EXPECT_EQ(open_popups(), 0);
+  EXPECT_EQ(desk.window.selection, selected);
+  desk.type(Key::escape);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"clear-selection"}) << "with nothing open it is a shortcut";
+}
+
+TEST(Front, NoShortcutFiresWhileAMenuIsOpen) {
+  Desk desk;
+  open_all_ways(desk);
+  for (const Command& command : commands())
+    for (const Shortcut& shortcut : command.shortcuts) {
+      if (shortcut.key == Key::escape) continue;
+      if (open_popups() == 0) open_menu(desk);
+      desk.type_with(shortcut.key, shortcut.control);
+      EXPECT_THAT(names(desk.frames()), IsEmpty()) << shortcut.text();
+    }
+}
+
+TEST(Front, EscapeClosesAListOfAPanel) {
+  Desk desk;
+  open_all_ways(desk);
+  const Rectangle left = desk.layout().left;
+  for (double y = left.y + 60; y < left.y + 120 && open_popups() == 0; y += 8) {
+    desk.click(left.x + 160, y);  // gain, semantics, sensor
+    desk.frames();
+  }
+  ASSERT_EQ(open_popups(), 1) << "no list opened";
+  desk.type(key('S'));
+  EXPECT_THAT(names(desk.frames()), IsEmpty());
+  desk.type(Key::escape);
+  EXPECT_THAT(names(desk.frames()), IsEmpty());
+  EXPECT_EQ(open_popups(), 0);
+}
+
+TEST(Front, PaletteAndSheetAreClosedOneAfterTheOther) {
+  Desk desk;
+  open_all_ways(desk);
+  desk.window.shortcuts_open = desk.window.palette_open = true;
+  desk.frames();
+  open_menu(desk);
+  const Selection selected = desk.window.selection;
+  desk.type(Key::escape);
+  desk.frames();
+  EXPECT_TRUE(desk.window.palette_open && desk.window.shortcuts_open && open_popups() == 0);
+  desk.type(Key::escape);
+  desk.frames();
+  EXPECT_TRUE(!desk.window.palette_open && desk.window.shortcuts_open);
+  desk.type(key('S'));
+  EXPECT_THAT(names(desk.frames()), IsEmpty()) << "a shortcut behind the sheet";
+  desk.type(Key::escape);
+  desk.frames();
+  EXPECT_FALSE(desk.window.shortcuts_open);
+  EXPECT_EQ(desk.window.selection, selected);
+}
+
+/// The chooser is where one goes after an object could not be opened.
+TEST(Front, AnObjectIsChosenWhenThereIsNone) {
+  Desk desk;
+  desk.frames();
+  const Rectangle left = desk.layout().left;
+  const double y = left.y + 32 + 10 + 12;
+  for (double x = left.x + 150; x < left.x + left.width && open_popups() == 0; x += 6) {
+    desk.click(x, y);
+    desk.frames();
+  }
+  ASSERT_EQ(open_popups(), 1) << "the list of objects does not open";
+  const ImRect list = ImGui::GetCurrentContext()->OpenPopupStack[0].Window->Rect();
+  desk.click(list.Min.x + 20, list.Min.y + 16);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"open slotted_housing"});
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,66 @@
+// The settings as the Session panel shows and changes them.
+#include <gmock/gmock.h>
+
+#include "tests/unit/panels/made_scan.hpp"
+#include "tests/unit/panels/seen.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::HasSubstr;
+
+class SessionPanelTest : public testing::Test {
+ protected:
+  SessionPanelTest() { desk_.snapshot = scan_; }
+  std::string panel() {
+    desk_.frames();
+    return read("Session");
+  }
+  /// Writes into the field that shows this.
+  std::string write_into(const std::string& shown, const std::string& text) {
+    click_on(desk_, shown, "Session");
+    desk_.type_with(key('A'), true);
+    desk_.write(text);
+    desk_.type(Key::enter);
+    return text_of(desk_.frames());
+  }
+
+  std::shared_ptr<SessionSnapshot> scan_ = made_scan();
+  Desk desk_;
+};
+
+TEST_F(SessionPanelTest, ShowsTheSettingsOfTheScan) {
+  scan_->configuration.seed = 77;
+  scan_->configuration.termination.views = 13;
+  scan_->configuration.map.resolution = 0.0275;
+  EXPECT_THAT(panel(), HasSubstr("Gain occlusion-aware"));
+  EXPECT_THAT(panel(), HasSubstr("Voxel [m] 0.0275"));
+  EXPECT_THAT(panel(), HasSubstr("Views 13"));
+  EXPECT_THAT(panel(), HasSubstr("Seed 77"));
+}
+
+TEST_F(SessionPanelTest, WhatIsWrittenIsSet) {
+  scan_->configuration.seed = 77;
+  scan_->configuration.map.resolution = 0.0275;
+  desk_.frames();
+  EXPECT_EQ(write_into("0.0275", "0.05"), "set map.resolution 0.05");
+  EXPECT_EQ(write_into("77", "12"), "set seed 12");
+}
+
+TEST_F(SessionPanelTest, AChoiceIsSetToo) {
+  desk_.frames();
+  click_on(desk_, "occlusion-aware", "Session");
+  EXPECT_EQ(text_of(click_on(desk_, "rear-side-voxel")), "set planner.gain rear-side-voxel");
+}
+
+/// Another scan's settings take the place of those that were shown.
+TEST_F(SessionPanelTest, FollowsTheScan) {
+  desk_.frames();
+  auto other = std::make_shared<SessionSnapshot>(*scan_);
+  other->configuration.planner.gain = "average-entropy";
+  desk_.snapshot = other;
+  EXPECT_THAT(panel(), HasSubstr("Gain average-entro"));
+}
+
+}  // namespace
+}  // namespace nextview
