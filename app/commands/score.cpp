@@ -9,7 +9,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
-#include "core/planner/next_best_view.hpp"
+#include "core/planner/policy.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/scene_scores.hpp"
 
@@ -23,8 +23,10 @@ struct ScoreArguments {
 /// The reference code knows no Gibbs map.
 std::vector<std::string> wanted_gains(const std::string& gain, Semantics semantics) {
   std::vector<std::string> known;
-  for (const std::string& name : gain_names())
-    if (!is_baseline(name) && !(name == "gibbs" && semantics == Semantics::reference)) known.push_back(name);
+  for (const PolicyEntry& policy : policies()) {
+    const bool on_posterior = policy.make({})->needs().posterior;
+    if (!policy.baseline && !(on_posterior && semantics == Semantics::reference)) known.push_back(policy.name);
+  }
   if (gain == "all") return known;
   if (std::find(known.begin(), known.end(), gain) == known.end())
     throw std::invalid_argument(

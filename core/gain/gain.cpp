@@ -131,11 +131,12 @@ struct Gibbs {
 
 template <class G>
 constexpr Gain make(std::string_view name, std::string_view unit, std::string_view summary,
-                    bool needs_occlusion = false) {
+                    bool needs_occlusion = false, bool needs_posterior = false) {
   return {name,
           unit,
           summary,
           needs_occlusion,
+          needs_posterior,
           [](const Ray& ray, GainSums& sums) {
             G::ray(ray, sums, [&sums](std::size_t, int k, double amount) { sums.sum[k] += amount; });
           },
@@ -154,7 +155,8 @@ constexpr std::array all_gains = {
     make<ProximityCount>("proximity-count", "voxels", "unmeasured voxels behind a surface, the nearer the more", true),
     make<AreaFactor>("area-factor", "", "nearness of the shares of occupied and occluded ends to 0.2 and 0.8", true),
     make<AverageEntropy>("average-entropy", "nats", "mean entropy of the voxels on rays that end on the object"),
-    make<Gibbs>("gibbs", "nats", "entropy of the Gibbs map along each ray, up to its first occupied voxel"),
+    make<Gibbs>("gibbs", "nats", "entropy of the Gibbs map along each ray, up to its first occupied voxel", false,
+                true),
 };
 
 constexpr std::array<WeightedGain, 2> prerelease = {{{"average-entropy", 30.0}, {"rear-side-entropy", 1.0}}};

@@ -37,6 +37,7 @@ struct Gain {
   std::string_view unit;     ///< "nats", "voxels", or "" if it has none
   std::string_view summary;  ///< one line for people
   bool needs_occlusion;      ///< wants OccupancyMap::mark_occlusions
+  bool needs_posterior;      ///< is of the Gibbs map, and has published semantics only
 
   /// Adds one ray to the sums of its view.
   void (*add_ray)(const Ray& ray, GainSums& sums);

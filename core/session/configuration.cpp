@@ -12,14 +12,12 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
-#include "core/gain/gain.hpp"
+#include "core/planner/gain_policies.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array baselines = {"random", "farthest", "fixed-order", "covering-order", "oracle"};
 
 /// Files are small: toml++ takes a table apart by recursion, and a larger one could nest deeper than the stack.
 constexpr std::uintmax_t largest_file = 1 << 15;
@@ -137,38 +135,6 @@ void validate_section(const Part& part, const std::string& section) {
 
 }  // namespace
 
-std::vector<std::string> gain_names() {
-  std::vector<std::string> names;
-  for (const Gain& g : gains()) names.emplace_back(g.name);
-  names.emplace_back("combined");
-  names.insert(names.end(), baselines.begin(), baselines.end());
-  return names;
-}
-
-bool is_baseline(const std::string& name) {
-  return std::find(baselines.begin(), baselines.end(), name) != baselines.end();
-}
-
-std::vector<std::pair<std::string, double>> parse_combined_weights(const std::string& text) {
-  std::vector<std::pair<std::string, double>> weights;
-  if (text.empty()) {
-    for (const WeightedGain& w : prerelease_weights()) weights.emplace_back(w.name, w.weight);
-    return weights;
-  }
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    const auto equals = part.find('=');
-    char* end = nullptr;
-    const double weight = equals == std::string::npos ? NAN : std::strtod(part.c_str() + equals + 1, &end);
-    require(std::isfinite(weight) && *end == '\0' && end != part.c_str() + equals + 1,
-            fmt::format("planner.combined_weights takes `gain=weight,gain=weight`, not '{}'", part));
-    weights.emplace_back(gain(part.substr(0, equals)).name, weight);
-  }
-  return weights;
-}
-
-bool needs_refinement(const Configuration& c) { return c.planner.gain == "gibbs"; }
-
 PosteriorSamplerConfig posterior_sampler_config(const Configuration& c) {
   return posterior_sampler_config(c.gibbs, c.sensor.range_noise, ray_pitch(c.sensor), c.map.resolution, c.seed);
 }
@@ -199,19 +165,21 @@ void Configuration::validate() const {
   in(planner.start_elevation, -90.0, 90.0, "planner.start_elevation", " deg");
   in(evaluation.d_reg, 1e-5, 1.0, "evaluation.d_reg", " m");
   in(evaluation.surface_samples, 1, 10'000'000, "evaluation.surface_samples", "");
-  const auto names = gain_names();
+  const auto names = policy_names();
   require(std::find(names.begin(), names.end(), planner.gain) != names.end(),
           fmt::format("there is no gain '{}'; did you mean '{}'?", planner.gain, nearest(planner.gain, names)));
-  const bool knows_object = planner.gain == "oracle" || planner.gain == "covering-order";
-  require(!knows_object || evaluation.enabled, fmt::format("planner.gain {} needs evaluation.enabled", planner.gain));
-  require(!needs_refinement(*this) || planner.semantics == Semantics::published,
-          "planner.gain gibbs has published semantics only: the reference code knows no Gibbs map");
+  const PolicyNeeds needs = make_policy(planner)->needs();
+  require(!needs.true_surface || evaluation.enabled,
+          fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", planner.gain));
+  require(
+      !needs.posterior || planner.semantics == Semantics::published,
+      fmt::format("planner.gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
   require(!map.model.range_dependent() || planner.semantics == Semantics::published,
           "map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no range");
   constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
   require(seed <= largest,
           fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));
-  parse_combined_weights(planner.combined_weights);
+  CombinedPolicy(planner.combined_weights);  // whether it can be read
 }
 
 Configuration read_configuration(const fs::path& file, const Configuration& base, SettingSources* sources) {

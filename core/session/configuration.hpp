@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
-#include "core/gain/ray.hpp"
 #include "core/map/occupancy.hpp"
-#include "core/planner/next_best_view.hpp"
+#include "core/planner/planner_config.hpp"
 #include "core/planner/termination.hpp"
 #include "core/sensor/depth_camera.hpp"
 #include "core/session/gibbs_config.hpp"
@@ -30,18 +29,6 @@ struct MapConfig {
   double region_edge = 1.28;  ///< edge of the region of interest, a cube around the object [m]
   Insertion insertion = Insertion::local_octree;
   InverseSensorModel model;
-};
-
-struct PlannerConfig {
-  std::string gain = "proximity-count";  ///< one of gain_names()
-  Semantics semantics = Semantics::published;
-  UtilityWeights weights = {1.0, 0.3};  ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
-  std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
-  int ray_columns = 38;                 ///< rays that score a view
-  int ray_rows = 25;
-  double ray_length = 1.5;        ///< [m]
-  double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
-  double start_elevation = 20.0;  ///< [deg]
 };
 
 struct EvaluationConfig {
@@ -69,18 +56,8 @@ struct Configuration {
   void validate() const;
 };
 
-/// Every name that `planner.gain` takes: the gains, the combination, and the baselines.
-std::vector<std::string> gain_names();
-/// 'random', 'farthest', 'fixed-order', 'covering-order' and 'oracle' rank views by other means than volumetric
-/// information.
-bool is_baseline(const std::string& gain);
-/// Whether `planner.gain` looks at the Gibbs map, which is then refined after each view.
-bool needs_refinement(const Configuration& configuration);
 /// The sampler's configuration for this camera and map.
 PosteriorSamplerConfig posterior_sampler_config(const Configuration& configuration);
-
-/// `average-entropy=30,rear-side-entropy=1`. @throws std::invalid_argument
-std::vector<std::pair<std::string, double>> parse_combined_weights(const std::string& text);
 
 /// One setting of a configuration. Files, the command line, `--help` and panels are all made from the list of these.
 struct Setting {

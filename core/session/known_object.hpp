@@ -9,6 +9,7 @@
 #include "core/evaluation/coverage.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/surface_samples.hpp"
+#include "core/planner/policy.hpp"
 #include "core/sensor/depth_camera.hpp"
 
 namespace nextview {
@@ -18,7 +19,7 @@ using Progress = std::function<void(double fraction, std::string_view what)>;
 
 /// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it
 /// (oracle, covering order).
-class KnownObject {
+class KnownObject : public TrueSurface {
  public:
   /// The paper's registration distance [m], reported beside the chosen one.
   static constexpr double paper_d_reg = 0.0005;
@@ -43,9 +44,9 @@ class KnownObject {
   void go_back(const Seen& seen);
 
   /// How many surface samples the candidate would see that no view has seen yet (the oracle's gain).
-  std::size_t new_samples(std::size_t candidate) const;
+  std::size_t new_samples(std::size_t candidate) const override;
   /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
-  std::vector<std::size_t> covering_order(std::uint64_t seed) const;
+  std::vector<std::size_t> covering_order(std::uint64_t seed) const override;
 
   const GroundTruth& truth() const { return truth_; }
   const SurfaceCoverage& coverage() const { return coverage_; }

@@ -13,7 +13,7 @@ namespace nextview {
 namespace {
 
 std::string steps_csv(const Session& session) {
-  const std::string unit = gain_unit(session.configuration().planner.gain);
+  const std::string unit = session.policy().unit();
   const auto d_reg = session.configuration().evaluation.d_reg;
   std::string csv = fmt::format(
       "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],returns,points,"
@@ -37,9 +37,8 @@ std::string steps_csv(const Session& session) {
 
 std::string scores_csv(const Session& session) {
   const bool refined = session.refinement() != nullptr;
-  std::string csv =
-      fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", gain_unit(session.configuration().planner.gain),
-                  refined ? ",gain_on_conventional_map[nats]" : "");
+  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", session.policy().unit(),
+                                refined ? ",gain_on_conventional_map[nats]" : "");
   for (const StepRecord& r : session.records())
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
       const Candidate& c = r.candidates[v];

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/map/occupancy_map.hpp"
+#include "core/planner/policy.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/scene_parameters.hpp"
@@ -65,40 +67,41 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
                         std::stop_token stop) {
   if (scene.views.empty()) throw std::invalid_argument("the scene has no candidate views (`view` lines)");
   const SceneParameters parameters = scene_parameters(scene, warn);
-  const auto wants = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  const SceneRays built = build(scene, parameters, semantics, progress, stop);
+  const double reach = 2.0 * parameters.map.occlusion_distance / parameters.map.resolution;
+  // The gains of single views share one cast of the rays; the others follow, a column each.
   SceneScores scores;
-  std::vector<const Gain*> all;
-  for (const std::string& name : names)
-    if (name != "combined" && name != "gibbs") {
-      all.push_back(&gain(name));
+  std::vector<const Gain*> gains;
+  std::vector<PlannerConfig> others;
+  for (const std::string& name : names) {
+    PlannerConfig planner;
+    planner.gain = name;
+    planner.semantics = semantics;
+    const auto policy = make_policy(planner);
+    if (!policy->gain() || policy->needs().posterior) {
+      others.push_back(planner);
+    } else {
+      gains.push_back(policy->gain());
       scores.gains.push_back(name);
     }
-  const std::size_t plain = all.size();
-  std::vector<double> weights;
-  if (wants("combined"))
-    for (const WeightedGain& w : prerelease_weights()) {
-      all.push_back(&gain(w.name));
-      weights.push_back(w.weight);
-    }
-  const SceneRays built = build(scene, parameters, semantics, progress, stop);
-  if (progress) progress(0.0, "scoring the candidate views");
-  scores.views = score_views(*built.caster, scene.views, parameters.rays, all,
-                             {semantics, 2.0 * parameters.map.occlusion_distance / parameters.map.resolution}, stop);
-  throw_if_stopped(stop);
-  std::vector<std::vector<double>> values(weights.size());
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    for (const ViewScore& v : scores.views) values[k].push_back(v.gains[plain + k]);
-  const auto add_column = [&](const char* name, const std::vector<double>& column) {
-    scores.gains.emplace_back(name);
-    for (std::size_t v = 0; v < column.size(); ++v) scores.views[v].gains.push_back(column[v]);
-  };
-  for (ViewScore& view : scores.views) view.gains.resize(plain);
-  if (wants("gibbs")) {
-    if (semantics == Semantics::reference)
-      throw std::invalid_argument("the gain gibbs has published semantics only: the reference code knows no Gibbs map");
-    add_column("gibbs", gibbs_gains(scene, progress, stop));
   }
-  if (wants("combined")) add_column("combined", combine(weights, values, semantics));
+  if (progress) progress(0.0, "scoring the candidate views");
+  scores.views = score_views(*built.caster, scene.views, parameters.rays, gains, {semantics, reach}, stop);
+  throw_if_stopped(stop);
+  std::vector<std::size_t> all(scene.views.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  for (const PlannerConfig& planner : others) {
+    const auto policy = make_policy(planner);
+    const bool on_posterior = policy->needs().posterior;
+    if (on_posterior && semantics == Semantics::reference)
+      throw std::invalid_argument(
+          fmt::format("the gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
+    const PlanningState state{planner, 1, reach, *built.caster, parameters.rays, nullptr, scene.views, {}};
+    const auto column = on_posterior ? gibbs_gains(scene, progress, stop) : policy->values(state, all, stop);
+    throw_if_stopped(stop);
+    scores.gains.push_back(planner.gain);
+    for (std::size_t v = 0; v < column.size(); ++v) scores.views[v].gains.push_back(column[v]);
+  }
   return scores;
 }
 

@@ -49,6 +49,7 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
       planning_rays_(configured_rays(configuration_, map_.grid(), planning_voxels())),
       reference_map_(make_reference_map(configuration_)),
       bundle_(scoring_rays(configuration_, camera_.camera())),
+      policy_(make_policy(configuration_.planner)),
       robot_(std::make_unique<FreeFlyingCamera>(start_view_)),
       visited_(candidates_.size()),
       visited_voxels_(map_.grid().voxel_count()) {
@@ -187,7 +188,7 @@ void Session::update_map(const Measurement& measurement, StepRecord& record, Map
     } else {
       map_.insert(scan, max_range, stop, &undo);
     }
-    if (needs_occlusion(configuration_))
+    if (policy_->needs().occlusions)
       map_.mark_occlusions(scan, max_range, 0.5 * occlusion_reach(configuration_) * configuration_.map.resolution, stop,
                            &undo);
     if (reference_map_) reference_map_->insert(scan.origin, scan.returns, stop);
@@ -241,10 +242,8 @@ void Session::evaluate(const Measurement& measurement, StepRecord& record, const
 
 void Session::rank(StepRecord& record, const std::stop_token& stop) const {
   Stopwatch watch(record.seconds.score);
-  const PlanningState state{configuration_, caster(), bundle_, known_object_.get(), candidates_, taken_};
-  rank_candidates(state, *robot_, visited_, record, stop);
-  if (record.refinement)
-    compare_rankings({configuration_, map_rays_, bundle_, known_object_.get(), candidates_, taken_}, record, stop);
+  rank_candidates(*policy_, planning_state(caster()), *robot_, visited_, record, stop);
+  if (record.refinement) compare_rankings(*policy_, planning_state(map_rays_), record, stop);
 }
 
 void Session::override_next_view(std::size_t candidate) {
@@ -283,6 +282,17 @@ void Session::require_first_step() const {
 
 Pose Session::next_view() const { return own_view_ ? *own_view_ : next_ ? candidates_[*next_] : start_view_; }
 
+PlanningState Session::planning_state(const RayCaster& rays) const {
+  return {configuration_.planner,
+          configuration_.seed,
+          occlusion_reach(configuration_),
+          rays,
+          bundle_,
+          known_object_.get(),
+          candidates_,
+          taken_};
+}
+
 const RayCaster& Session::caster() const {
   if (reference_map_) return *reference_map_;
   return planning_rays_;
@@ -293,10 +303,7 @@ std::optional<ScoreExplanation> Session::explain(std::size_t candidate) const {
 }
 
 std::optional<ScoreExplanation> Session::explain(const Pose& T_world_camera) const {
-  const PlannerConfig& planner = configuration_.planner;
-  if (is_baseline(planner.gain) || planner.gain == "combined") return std::nullopt;
-  return explain_score(caster(), T_world_camera, bundle_, gain(planner.gain),
-                       {planner.semantics, occlusion_reach(configuration_)});
+  return nextview::explain(*policy_, planning_state(caster()), T_world_camera);
 }
 
 }  // namespace nextview

@@ -7,7 +7,7 @@
 #include "core/gain/view_score.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/mesh/mesh_file.hpp"
-#include "core/session/candidate_gains.hpp"
+#include "core/planner/policy.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/known_object.hpp"
 #include "core/session/map_refinement.hpp"
@@ -63,7 +63,8 @@ class Session {
   std::optional<std::size_t> next_candidate() const { return next_; }
   /// Whether it is a view of the operator's own.
   bool next_view_is_own() const { return own_view_.has_value(); }
-  /// Why a candidate has its score now. Nothing for the combination and the baselines, which have no rays of their own.
+  const Policy& policy() const { return *policy_; }
+  /// Why a candidate has its score now. Nothing if no rays explain the policy's values.
   std::optional<ScoreExplanation> explain(std::size_t candidate) const;
   /// What any other view would score now, taken apart. @pre is_rigid(T_world_camera)
   std::optional<ScoreExplanation> explain(const Pose& T_world_camera) const;
@@ -97,6 +98,8 @@ class Session {
   void evaluate(const Measurement& measurement, StepRecord& record, const std::stop_token& stop);
   void rank(StepRecord& record, const std::stop_token& stop) const;
   void require_first_step() const;
+  /// What the candidates are valued on; `rays` through one of the maps.
+  PlanningState planning_state(const RayCaster& rays) const;
   const RayCaster& caster() const;
 
   Configuration configuration_;
@@ -112,6 +115,7 @@ class Session {
   MapRays map_rays_, planning_rays_;
   std::unique_ptr<ReferenceMap> reference_map_;  ///< reference semantics only
   RayBundle bundle_;
+  std::unique_ptr<const Policy> policy_;
   std::unique_ptr<Robot> robot_;
   std::unique_ptr<KnownObject> known_object_;
 

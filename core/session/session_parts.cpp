@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/memory/available_memory.hpp"
+#include "core/planner/policy.hpp"
 
 namespace nextview {
 namespace {
@@ -28,7 +29,8 @@ std::uint64_t map_bytes(const Configuration& c) {
   const VoxelGrid grid = configured_region(c);
   const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;
   const std::uint64_t truth = c.evaluation.enabled ? 10 : 0;
-  const std::uint64_t sampler = needs_refinement(c) ? 40 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
+  const std::uint64_t sampler =
+      make_policy(c.planner)->needs().posterior ? 40 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
   return maps * OccupancyMap::bytes(grid) + (truth + sampler) * grid.voxel_count();
 }
 
@@ -105,7 +107,7 @@ std::unique_ptr<ReferenceMap> make_reference_map(const Configuration& c) {
 }
 
 std::unique_ptr<MapRefinement> make_refinement(const Configuration& c) {
-  if (!needs_refinement(c)) return nullptr;
+  if (!make_policy(c.planner)->needs().posterior) return nullptr;
   return std::make_unique<MapRefinement>(configured_region(c), posterior_sampler_config(c), c.map.model,
                                          c.sensor.max_range);
 }
@@ -113,6 +115,8 @@ std::unique_ptr<MapRefinement> make_refinement(const Configuration& c) {
 MapRays configured_rays(const Configuration& c, const VoxelGrid& grid, std::span<const Voxel> voxels) {
   return MapRays(grid, voxels, c.map.model.occupancy_threshold, c.planner.ray_length);
 }
+
+double occlusion_reach(const Configuration& c) { return 2.0 * occlusion_distance / c.map.resolution; }
 
 Configuration validated(Configuration c) {
   c.validate();

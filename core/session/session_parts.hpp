@@ -29,7 +29,11 @@ RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& 
 MapRays configured_rays(const Configuration& configuration, const VoxelGrid& grid, std::span<const Voxel> voxels);
 /// Null unless the semantics are the reference's.
 std::unique_ptr<ReferenceMap> make_reference_map(const Configuration& configuration);
-/// Null unless the gain needs the Gibbs map.
+/// How far behind a surface voxels are marked as occluded [m] (Isler et al. 2016).
+constexpr double occlusion_distance = 0.3;
+/// d_max of proximity count [voxels].
+double occlusion_reach(const Configuration& configuration);
+/// Null unless the policy needs the Gibbs map.
 std::unique_ptr<MapRefinement> make_refinement(const Configuration& configuration);
 
 }  // namespace nextview

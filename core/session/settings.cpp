@@ -4,7 +4,7 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "core/gain/gain.hpp"
+#include "core/planner/policy.hpp"
 #include "core/session/configuration.hpp"
 
 namespace nextview {
@@ -17,12 +17,12 @@ Setting::Choice choice(Enum& value, std::vector<std::string> names) {
 }
 
 Setting::Choice gain_choice(std::string& gain) {
-  return {gain_names(),
+  return {policy_names(),
           [&gain] {
-            const auto names = gain_names();
+            const auto names = policy_names();
             return static_cast<std::size_t>(std::find(names.begin(), names.end(), gain) - names.begin());
           },
-          [&gain](std::size_t i) { gain = gain_names()[i]; }};
+          [&gain](std::size_t i) { gain = policy_names()[i]; }};
 }
 
 template <class Number>

@@ -107,7 +107,7 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
   warn(s.far, fmt::format("farther from the object than sensor.max_range ({}), where nothing is seen; the farthest is "
                           "{} off: raise sensor.max_range, or change {}",
                           metres(c.sensor.max_range), metres(s.farthest), stand));
-  if (!is_baseline(c.planner.gain))
+  if (!policy_entry(c.planner.gain).baseline)
     warn(s.beyond_rays, fmt::format("scored by rays that end before the object: planner.ray_length is {}, and it is up "
                                     "to {} off: raise planner.ray_length",
                                     metres(c.planner.ray_length), metres(s.farthest)));

@@ -24,8 +24,8 @@ double best_gain(const StepRecord& record) {
 
 }  // namespace
 
-void rank_candidates(const PlanningState& state, const Robot& robot, const std::vector<bool>& visited,
-                     StepRecord& record, const std::stop_token& stop) {
+void rank_candidates(const Policy& policy, const PlanningState& state, const Robot& robot,
+                     const std::vector<bool>& visited, StepRecord& record, const std::stop_token& stop) {
   record.candidates.assign(state.candidates.size(), {});
   for (std::size_t v = 0; v < record.candidates.size(); ++v) {
     Candidate& c = record.candidates[v];
@@ -33,17 +33,16 @@ void rank_candidates(const PlanningState& state, const Robot& robot, const std::
     c.available = !visited[v] && !robot.unreachable(state.candidates[v]);
   }
   const auto left = available(record.candidates);
-  const auto gains = candidate_gains(state, left, stop);
+  const auto gains = policy.values(state, left, stop);
   throw_if_stopped(stop);  // or the ranking would be half one
   for (std::size_t i = 0; i < left.size(); ++i) record.candidates[left[i]].gain = gains[i];
-  // Baselines stand for a policy of their own, in which the way there has no say.
-  const PlannerConfig& planner = state.configuration.planner;
-  record.ranking = rank(record.candidates, is_baseline(planner.gain) ? UtilityWeights{1.0, 0.0} : planner.weights);
+  record.ranking = rank(record.candidates, policy.weights(state.config));
 }
 
-void compare_rankings(const PlanningState& conventional, StepRecord& record, const std::stop_token& stop) {
+void compare_rankings(const Policy& policy, const PlanningState& conventional, StepRecord& record,
+                      const std::stop_token& stop) {
   const auto left = available(record.candidates);
-  const auto gains = candidate_gains(conventional, left, stop);
+  const auto gains = policy.values(conventional, left, stop);
   throw_if_stopped(stop);
   auto candidates = record.candidates;
   std::vector<double> refined;
@@ -54,7 +53,7 @@ void compare_rankings(const PlanningState& conventional, StepRecord& record, con
     candidates[left[i]].gain = refinement.conventional_gains[left[i]] = gains[i];
   }
   refinement.rank_correlation = rank_correlation(refined, gains);
-  refinement.conventional_best = rank(candidates, conventional.configuration.planner.weights).best;
+  refinement.conventional_best = rank(candidates, policy.weights(conventional.config)).best;
 }
 
 std::string termination(const TerminationConfig& config, std::span<const StepRecord> records, std::size_t voxels) {

@@ -48,7 +48,7 @@ StepPicture step_picture(const Session& session) {
   picture.step_count = c.termination.views;
   picture.object_name = session.object_file().stem().string();
   picture.gain_name = c.planner.gain;
-  picture.gain_unit = gain_unit(c.planner.gain);
+  picture.gain_unit = session.policy().unit();
   picture.object = session.mesh().get();
   picture.grid = session.map().grid();
   picture.voxels = session.planning_voxels();

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/gibbs/full_conditional.hpp"
-#include "core/session/candidate_gains.hpp"
+#include "core/planner/policy.hpp"
 #include "core/session/session_parts.hpp"
 #include "ui/window/view_sight.hpp"
 
@@ -100,15 +100,14 @@ ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection
 
 void Inspector::explain(const SessionSnapshot& s, ViewInspection& view) {
   const PlannerConfig& planner = s.configuration.planner;
+  const auto policy = make_policy(planner);
   if (s.records.empty()) {
     view.no_explanation = "The start view is not ranked: nothing is known yet.";
-  } else if (is_baseline(planner.gain)) {
-    view.no_explanation = "'" + planner.gain + "' ranks views without rays.";
-  } else if (planner.gain == "combined") {
-    view.no_explanation = "'combined' weighs several gains over all candidates; it has no rays of its own.";
+  } else if (!policy->gain()) {
+    view.no_explanation = "'" + planner.gain + "' " + policy->no_explanation() + ".";
   } else {
     view.explanation = std::make_shared<const ScoreExplanation>(
-        explain_score(caster(s), view.T_world_camera, scoring_rays(s.configuration, s.camera), gain(planner.gain),
+        explain_score(caster(s), view.T_world_camera, scoring_rays(s.configuration, s.camera), *policy->gain(),
                       {planner.semantics, occlusion_reach(s.configuration)}));
   }
 }

@@ -226,7 +226,8 @@ void SessionRunner::adopt(std::unique_ptr<Session> session, SessionSnapshot next
   next.grid = session_->map().grid();
   next.camera = session_->camera().camera();
   next.candidates = session_->candidates();
-  next.gain_unit = gain_unit(next.configuration.planner.gain);
+  next.gain_unit = session_->policy().unit();
+  next.planned_on_posterior = session_->policy().needs().posterior;
   show_map(std::move(next));
 }
 

@@ -83,6 +83,7 @@ struct SessionSnapshot {
   std::vector<Pose> candidates;  ///< T_world_camera
   std::vector<StepRecord> records;
   std::string gain_unit;
+  bool planned_on_posterior = false;                     ///< the policy looks at the Gibbs map
   std::shared_ptr<const std::vector<Run>> earlier_runs;  ///< oldest first; may be null
 
   Pose next_view = Pose::Identity();                    ///< T_world_camera
@@ -99,9 +100,7 @@ struct SessionSnapshot {
     return !records.empty() && candidate < candidates.size() && records.back().candidates[candidate].available;
   }
   /// The map that views are planned on.
-  std::span<const Voxel> planning_voxels() const {
-    return needs_refinement(configuration) && gibbs ? gibbs->voxels : *voxels;
-  }
+  std::span<const Voxel> planning_voxels() const { return planned_on_posterior && gibbs ? gibbs->voxels : *voxels; }
 };
 
 /// What the session worker is doing right now.

@@ -56,7 +56,8 @@ TEST(SessionRecords, UtilityWeighsGainAgainstTheWay) {
     Configuration c = small_scan();
     c.planner.gain = gain;
     c.planner.weights = weights;
-    const UtilityWeights expected = is_baseline(gain) ? UtilityWeights{1.0, 0.0} : weights;  // a policy of its own
+    const UtilityWeights expected =
+        policy_entry(gain).baseline ? UtilityWeights{1.0, 0.0} : weights;  // a policy of its own
     Session session(c);
     finish(session);
     for (const StepRecord& r : session.records()) {

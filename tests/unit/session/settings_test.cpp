@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/planner/gain_policies.hpp"
 #include "core/session/configuration.hpp"
 
 namespace nextview {
@@ -152,7 +153,7 @@ TEST(Validate, TheStartViewNeedsARadiusWhateverTheLayout) {
 }
 
 TEST(Validate, BaselinesThatKnowTheObjectNeedTheEvaluation) {
-  for (const std::string& gain : gain_names()) {
+  for (const std::string& gain : policy_names()) {
     Configuration configuration;
     configuration.planner.gain = gain;
     EXPECT_NO_THROW(configuration.validate()) << gain;
@@ -177,28 +178,27 @@ TEST(Validate, TheReferenceCodeKnowsNoDecayOfTerms) {
 }
 
 TEST(CombinedWeights, AreReadOrRefused) {
-  using Weights = std::vector<std::pair<std::string, double>>;
-  EXPECT_EQ(parse_combined_weights("average-entropy=2.5,rear-side-voxel=1"),
-            (Weights{{"average-entropy", 2.5}, {"rear-side-voxel", 1.0}}));
-  const Weights prerelease = parse_combined_weights("");
-  EXPECT_EQ(prerelease.size(), 2u);
+  for (const char* good : {"", "average-entropy=2.5,rear-side-voxel=1", "gibbs=1e-3"})
+    EXPECT_NO_THROW(CombinedPolicy policy(good)) << good;
   for (const char* bad : {"average-entropy", "average-entropy=", "average-entropy=x", "average-entropy=1x", "=1", ",",
                           "average-entropy=nan", "average-entropy=inf", "unknown=1", "combined=1", "random=1",
                           "average-entropy=1,,rear-side-voxel=1", "average-entropy=1;rear-side-voxel=1"}) {
-    EXPECT_THROW(parse_combined_weights(bad), std::invalid_argument) << bad;
+    EXPECT_THROW(CombinedPolicy policy(bad), std::invalid_argument) << bad;
     Configuration configuration;
     configuration.planner.combined_weights = bad;
     EXPECT_THROW(configuration.validate(), std::invalid_argument) << bad;
   }
 }
 
-TEST(GainNames, AreThoseOfTheGainsTheCombinationAndTheBaselines) {
-  const auto names = gain_names();
+TEST(Policies, AreTheGainsTheCombinationAndTheBaselines) {
+  const auto names = policy_names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   EXPECT_GE(names.size(), 13u);
-  EXPECT_EQ(std::count_if(names.begin(), names.end(), is_baseline), 5);
-  EXPECT_FALSE(is_baseline("combined"));
-  EXPECT_FALSE(is_baseline("occlusion-aware"));
+  EXPECT_EQ(std::ranges::count_if(policies(), &PolicyEntry::baseline), 5);
+  for (const PolicyEntry& policy : policies())
+    if (policy.name == "combined" || policy.name == "occlusion-aware") {
+      EXPECT_FALSE(policy.baseline) << policy.name;
+    }
 }
 
 TEST(Configurations, ThoseThatComeWithTheProgramAreGoodAndChangeSomething) {

@@ -55,13 +55,14 @@ TEST(Explanation, TheReferenceMapFollowsUndo) {
 }
 
 TEST(Explanation, WhatHasNoRaysSaysSo) {
-  for (const std::string& gain : gain_names()) {
+  for (const PolicyEntry& policy : policies()) {
+    const std::string& gain = policy.name;
     LookedAtScan scan(scan_by(gain));
     EXPECT_EQ(scan.look_at({}).explanation, nullptr);
     EXPECT_THAT(scan.look_at({}).no_explanation, testing::HasSubstr("start view"));
     scan.step();
     const ViewInspection view = scan.look_at({});
-    EXPECT_EQ(view.explanation == nullptr, is_baseline(gain) || gain == "combined") << gain;
+    EXPECT_EQ(view.explanation == nullptr, policy.baseline || gain == "combined") << gain;
     EXPECT_EQ(view.explanation == nullptr, !view.no_explanation.empty()) << gain;
     EXPECT_EQ(view.explanation == nullptr, scan.now().explanation == nullptr) << gain;
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/session/candidate_gains.hpp"
 #include "tests/unit/window/small_scan.hpp"
 #include "ui/window/inspection.hpp"
 #include "ui/window/session_runner.hpp"

@@ -1,0 +1,47 @@
+#include "core/planner/baseline_policies.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/random/counter_random.hpp"
+
+namespace nextview {
+
+std::vector<double> BaselinePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                           std::stop_token) const {
+  std::vector<double> values;
+  for (const std::size_t candidate : available) values.push_back(value(state, candidate));
+  return values;
+}
+
+double RandomPolicy::value(const PlanningState& state, std::size_t candidate) const {
+  const auto step = static_cast<std::uint32_t>(state.taken.size());
+  return CounterRandom(state.seed, random_stream::random_planner, step).uniform(candidate)[0];
+}
+
+double FarthestPolicy::value(const PlanningState& state, std::size_t candidate) const {
+  if (state.taken.empty()) return 0.0;
+  double nearest = std::numeric_limits<double>::max();
+  for (const Pose& taken : state.taken)
+    nearest = std::min(nearest, (taken.translation() - state.candidates[candidate].translation()).norm());
+  return nearest;
+}
+
+double FixedOrderPolicy::value(const PlanningState& state, std::size_t candidate) const {
+  return static_cast<double>(state.candidates.size() - candidate);
+}
+
+std::vector<double> CoveringOrderPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                                std::stop_token) const {
+  const auto order = state.true_surface->covering_order(state.seed);
+  std::vector<double> values;
+  for (const std::size_t candidate : available)
+    values.push_back(static_cast<double>(order.end() - std::ranges::find(order, candidate)));
+  return values;
+}
+
+double OraclePolicy::value(const PlanningState& state, std::size_t candidate) const {
+  return static_cast<double>(state.true_surface->new_samples(candidate));
+}
+
+}  // namespace nextview

@@ -1,0 +1,58 @@
+#pragma once
+#include "core/planner/policy.hpp"
+
+namespace nextview {
+
+/// What a planner is compared with. It ranks by other means than volumetric information.
+class BaselinePolicy : public Policy {
+ public:
+  UtilityWeights weights(const PlannerConfig&) const override { return {1.0, 0.0}; }
+  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
+                             std::stop_token stop) const override;
+
+ protected:
+  /// The larger, the sooner.
+  virtual double value(const PlanningState& state, std::size_t candidate) const = 0;
+};
+
+/// Draws a number for each candidate; others at each step.
+class RandomPolicy : public BaselinePolicy {
+  double value(const PlanningState& state, std::size_t candidate) const override;
+};
+
+/// Measures the distance to the nearest view taken.
+class FarthestPolicy : public BaselinePolicy {
+ public:
+  std::string unit() const override { return "m"; }
+
+ private:
+  double value(const PlanningState& state, std::size_t candidate) const override;
+};
+
+/// Counts down.
+class FixedOrderPolicy : public BaselinePolicy {
+  double value(const PlanningState& state, std::size_t candidate) const override;
+};
+
+/// The random order of a model-based covering set (the paper's VI-E).
+class CoveringOrderPolicy : public BaselinePolicy {
+ public:
+  PolicyNeeds needs() const override { return {false, false, true}; }
+  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
+                             std::stop_token stop) const override;
+
+ private:
+  double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are ordered at once
+};
+
+/// Counts the surface samples that would be seen for the first time.
+class OraclePolicy : public BaselinePolicy {
+ public:
+  std::string unit() const override { return "samples"; }
+  PolicyNeeds needs() const override { return {false, false, true}; }
+
+ private:
+  double value(const PlanningState& state, std::size_t candidate) const override;
+};
+
+}  // namespace nextview

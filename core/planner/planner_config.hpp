@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+
+#include "core/gain/ray.hpp"
+#include "core/planner/next_best_view.hpp"
+
+namespace nextview {
+
+struct PlannerConfig {
+  std::string gain = "proximity-count";  ///< the name of a policy (policy_names)
+  Semantics semantics = Semantics::published;
+  UtilityWeights weights = {1.0, 0.3};  ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
+  std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
+  int ray_columns = 38;                 ///< rays that score a view
+  int ray_rows = 25;
+  double ray_length = 1.5;        ///< [m]
+  double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
+  double start_elevation = 20.0;  ///< [deg]
+};
+
+}  // namespace nextview

@@ -1,0 +1,82 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/gain/view_score.hpp"
+#include "core/planner/planner_config.hpp"
+
+namespace nextview {
+
+/// What has to be kept for a policy while a scan runs.
+struct PolicyNeeds {
+  bool occlusions = false;  ///< how far voxels lie behind a surface (OccupancyMap::mark_occlusions)
+  bool posterior = false;   ///< the Gibbs map, refined after each view; published semantics only
+  bool true_surface = false;
+};
+
+/// The true surface of a simulated scan, for the baselines that may look at it.
+class TrueSurface {
+ public:
+  virtual ~TrueSurface() = default;
+  /// How many surface samples the candidate would see that no view has seen yet.
+  virtual std::size_t new_samples(std::size_t candidate) const = 0;
+  /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
+  virtual std::vector<std::size_t> covering_order(std::uint64_t seed) const = 0;
+};
+
+/// What the candidate views are valued on.
+struct PlanningState {
+  const PlannerConfig& config;
+  std::uint64_t seed;
+  double occlusion_reach;  ///< d_max of proximity count [voxels]
+  const RayCaster& caster;
+  const RayBundle& bundle;
+  const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
+  std::span<const Pose> candidates;
+  std::span<const Pose> taken;  ///< the views taken so far, in order
+};
+
+/// What a view is worth: a volumetric information, or a baseline that stands for one. Eq. 13 weighs it against the way.
+class Policy {
+ public:
+  virtual ~Policy() = default;
+  /// Of its values, for people: "nats", "voxels", "m", "samples", or "" if they have none.
+  virtual std::string unit() const { return ""; }
+  virtual PolicyNeeds needs() const { return {}; }
+  /// Of Eq. 13. A baseline is a policy of its own, in which the way there has no say.
+  virtual UtilityWeights weights(const PlannerConfig& config) const { return config.weights; }
+  /// The value of each candidate in `available`. A requested stop leaves what is not valued yet at 0.
+  virtual std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
+                                     std::stop_token stop) const = 0;
+  /// The gain that its value of a single view is, whose rays then explain it; null if it is none.
+  virtual const Gain* gain() const { return nullptr; }
+  /// Why no rays explain it, to be read behind its name; empty if they do.
+  virtual std::string no_explanation() const { return "ranks views without rays"; }
+};
+
+/// A policy as it is offered.
+struct PolicyEntry {
+  std::string name;                                                   ///< what `planner.gain` takes
+  std::string summary;                                                ///< one line for people
+  bool baseline;                                                      ///< there to be compared with: it looks at no map
+  std::function<std::unique_ptr<Policy>(const PlannerConfig&)> make;  ///< @throws std::invalid_argument
+};
+
+/// Every policy there is: the gains, their combination, the baselines. A new one is a file and a line in policy.cpp.
+std::span<const PolicyEntry> policies();
+std::vector<std::string> policy_names();
+/// @throws std::invalid_argument naming the known ones.
+const PolicyEntry& policy_entry(const std::string& name);
+/// @throws std::invalid_argument for an unknown name, or settings that the policy cannot do with.
+std::unique_ptr<Policy> make_policy(const PlannerConfig& config);
+
+/// Why a view would have its value; nothing if no rays explain the policy's.
+std::optional<ScoreExplanation> explain(const Policy& policy, const PlanningState& state, const Pose& T_world_camera);
+
+}  // namespace nextview
