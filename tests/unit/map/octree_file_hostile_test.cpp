@@ -5,8 +5,8 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
-#include "tests/unit/map/random_scans.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
+#include "tests/unit/map/random_scans.hpp"
 
 namespace nextview {
 namespace {

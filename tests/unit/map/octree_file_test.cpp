@@ -10,9 +10,9 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/gzip_file.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/map/octomap_twin.hpp"
 #include "tests/unit/map/random_scans.hpp"
-#include "tests/unit/map/in_temporary_folder.hpp"
 
 namespace nextview {
 namespace {
