@@ -9,6 +9,7 @@
 
 #include "core/evaluation/signed_distance.hpp"
 #include "core/mesh/surface_samples.hpp"
+#include "core/planner/policy.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {

@@ -157,12 +157,13 @@ TEST_F(OutputFolder, BadInputLeavesTheResultsOfAnEarlierRun) {
 }
 
 TEST_F(OutputFolder, AStoppedOrKilledRunLeavesARightList) {
-  const std::string scan =
-      "'" NEXTVIEW_PROGRAM "' scan sphere --no-pictures --views 20 --out '" + in("out").string() + "'";
+  const std::string scan = "env --default-signal=INT '" NEXTVIEW_PROGRAM
+                           "' scan sphere --no-pictures --views 20 --out '" +
+                           in("out").string() + "'";
   const std::string list = in("out/manifest.json").string();
   for (const std::string signal : {"INT", "KILL"}) {
     fs::remove_all(in("out"));
-    // bash -m: a shell's background jobs would not hear Ctrl+C otherwise.
+    // Neither a shell's background jobs (but for bash -m) nor what a job of one starts hears Ctrl+C otherwise.
     const std::string command = "bash -mc \"" + scan + " >/dev/null 2>&1 & while kill -0 \\$! 2>/dev/null && ! [ -e '" +
                                 list + "' ]; do sleep 0.05; done; kill -" + signal + " \\$!; wait \\$!\" 2>/dev/null";
     EXPECT_NE(std::system(command.c_str()), 0) << signal << ": it was not stopped";

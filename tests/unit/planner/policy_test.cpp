@@ -1,0 +1,143 @@
+#include "core/planner/policy.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+
+namespace nextview {
+namespace {
+
+using testing::HasSubstr;
+
+Pose at(double x, double y, double z) { return look_at(Vector3(x, y, z), Vector3::Zero()); }
+
+/// Every ray meets one unmeasured voxel behind a surface, then an occupied one.
+struct TwoVoxels : RayCaster {
+  void cast(const Vector3&, const Vector3&, std::vector<RayVoxel>& visited) const override {
+    RayVoxel hidden, wall;
+    hidden.occlusion_distance = 3;
+    wall.measured = true;
+    wall.probability = 0.9f;
+    wall.entropy = static_cast<float>(entropy(0.9));
+    wall.voxel_class = VoxelClass::occupied;
+    visited = {hidden, wall};
+  }
+};
+
+struct KnownSurface : TrueSurface {
+  std::size_t new_samples(std::size_t candidate) const override { return 10 * candidate; }
+  std::vector<std::size_t> covering_order(std::uint64_t) const override { return {2, 0, 3, 1}; }
+};
+
+struct Policies : ::testing::Test {
+  std::vector<double> values(const Policy& policy) const { return policy.values(state(), available, {}); }
+  PlanningState state() const { return {config, seed, 60.0, rays, bundle, &surface, candidates, taken}; }
+  std::unique_ptr<Policy> made(const std::string& name) {
+    config.gain = name;
+    return make_policy(config);
+  }
+
+  PlannerConfig config;
+  std::uint64_t seed = 1;
+  TwoVoxels rays;
+  RayBundle bundle{{Vector3::UnitZ(), Vector3(0, 0.6, 0.8)}};
+  KnownSurface surface;
+  std::vector<Pose> candidates = {at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(-1, 0, 0)};
+  std::vector<Pose> taken = {at(1, 0, 0.1)};
+  std::vector<std::size_t> available = {1, 2, 3};
+};
+
+TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
+  std::set<std::string> names;
+  for (const PolicyEntry& entry : policies()) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    EXPECT_FALSE(entry.summary.empty()) << entry.name;
+    const auto policy = made(entry.name);
+    EXPECT_EQ(policy->gain() == nullptr, !policy->no_explanation().empty()) << entry.name;
+    EXPECT_EQ(policy->weights(config).cost == 0.0, entry.baseline)
+        << entry.name << ": the way has no say in a baseline";
+    EXPECT_FALSE(entry.baseline && policy->needs().posterior) << entry.name;
+  }
+  EXPECT_EQ(names.size(), gains().size() + 6);
+}
+
+TEST_F(Policies, UnknownOnesAreRefusedWithTheNamesThereAre) {
+  for (const char* bad : {"", "oracel", "Random"}) try {
+      made(bad);
+      ADD_FAILURE() << bad;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr("covering-order"));
+    }
+}
+
+TEST_F(Policies, SayWhatTheyNeed) {
+  EXPECT_TRUE(made("proximity-count")->needs().occlusions);
+  EXPECT_FALSE(made("occlusion-aware")->needs().occlusions);
+  EXPECT_TRUE(made("gibbs")->needs().posterior);
+  EXPECT_TRUE(made("oracle")->needs().true_surface && made("covering-order")->needs().true_surface);
+  config.combined_weights = "area-factor=1";
+  EXPECT_TRUE(made("combined")->needs().occlusions);
+  config.combined_weights = "average-entropy=1";
+  EXPECT_FALSE(made("combined")->needs().occlusions);
+}
+
+TEST_F(Policies, BaselinesByHand) {
+  EXPECT_EQ(values(*made("fixed-order")), (std::vector<double>{3, 2, 1}));
+  EXPECT_EQ(values(*made("oracle")), (std::vector<double>{10, 20, 30}));
+  EXPECT_EQ(values(*made("covering-order")), (std::vector<double>{1, 4, 2}));
+  const auto far = values(*made("farthest"));
+  ASSERT_EQ(far.size(), 3u);
+  EXPECT_NEAR(far[0], std::sqrt(2.01), 1e-12);
+  EXPECT_NEAR(far[1], std::sqrt(1.0 + 0.81), 1e-12);
+  EXPECT_NEAR(far[2], std::sqrt(4.01), 1e-12);
+  taken.clear();
+  EXPECT_EQ(values(*made("farthest")), (std::vector<double>{0, 0, 0}));
+}
+
+TEST_F(Policies, RandomDrawsByTheSeedAndAnewAtEachStep) {
+  const auto random = made("random");
+  const auto first = values(*random);
+  EXPECT_EQ(values(*random), first);
+  taken.push_back(at(0, -1, 0));
+  const auto next = values(*random);
+  EXPECT_NE(next, first);
+  seed = 2;
+  EXPECT_NE(values(*random), next);
+  available = {3};
+  EXPECT_NE(values(*random).front(), first.front()) << "a number of each candidate's own";
+}
+
+TEST_F(Policies, AGainIsItsVolumetricInformationAndExplained) {
+  const double of_unmeasured = entropy(0.5), of_wall = entropy(static_cast<double>(0.9f));
+  const auto policy = made("occlusion-aware");
+  const auto found = values(*policy);
+  for (const double value : found) EXPECT_NEAR(value, 2.0 * (of_unmeasured + 0.5 * of_wall), 1e-6);
+  const auto why = explain(*policy, state(), candidates[1]);
+  ASSERT_TRUE(why);
+  EXPECT_DOUBLE_EQ(why->value, found[0]);
+  EXPECT_EQ(values(*made("proximity-count")), (std::vector<double>{114, 114, 114}));  // 60 - 3 on each of two rays
+  for (const char* without : {"combined", "random"}) EXPECT_FALSE(explain(*made(without), state(), candidates[1]));
+}
+
+TEST_F(Policies, CombinedWeighsSharesOfEachGain) {
+  config.combined_weights = "proximity-count=2,rear-side-voxel=3";
+  for (const double value : values(*made("combined"))) EXPECT_NEAR(value, (2.0 + 3.0) / 3.0, 1e-12);
+}
+
+/// As an exercise: a policy of one's own is a class, and ranks like any other.
+struct Highest : Policy {
+  std::vector<double> values(const PlanningState& s, std::span<const std::size_t> left,
+                             std::stop_token) const override {
+    std::vector<double> heights;
+    for (const std::size_t v : left) heights.push_back(s.candidates[v].translation().z());
+    return heights;
+  }
+  std::string unit() const override { return "m"; }
+};
+
+TEST_F(Policies, OneOfOnesOwnRanksLikeAnyOther) { EXPECT_EQ(values(Highest()), (std::vector<double>{0, 1, 0})); }
+
+}  // namespace
+}  // namespace nextview
