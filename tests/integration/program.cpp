@@ -27,7 +27,7 @@ Result run(const std::string& prefix, const std::string& arguments) {
 Result nextview(const std::string& arguments) { return run("", arguments); }
 
 Result nextview_interrupted(double seconds, const std::string& arguments) {
-  return run(fmt::format("timeout --preserve-status --signal=INT {}", seconds), arguments);
+  return run(fmt::format("timeout --preserve-status --signal=INT {} env --default-signal=INT", seconds), arguments);
 }
 
 Result nextview_behind(const std::string& commands, const std::string& arguments) { return run(commands, arguments); }
