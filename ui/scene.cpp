@@ -109,10 +109,13 @@ void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
 void Scene::annotate() {
   overlay_->item->legends.clear();
   overlay_->item->labels.clear();
+  // In a window as narrow as this they would cover most of the scene.
+  const double width = renderer_->GetSize()[0] / overlay_->item->scale;
+  const bool legends = legends_ && !(overlay_->item->backed && width < 2 * (usual_legend_width + 36));
   for (const Layer* layer : layers()) {
     if (!layer->visible()) continue;
     overlay_->item->labels.insert(overlay_->item->labels.end(), layer->labels().begin(), layer->labels().end());
-    if (legends_)
+    if (legends)
       overlay_->item->legends.insert(overlay_->item->legends.end(), layer->legends().begin(), layer->legends().end());
   }
 }
