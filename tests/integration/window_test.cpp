@@ -203,7 +203,10 @@ TEST(Window, APersonCanTakeAnotherView) {
 }
 
 TEST(Window, WhereAVoxelIsDrawnAClickInspectsIt) {
-  Person person(small_scan());
+  Configuration configuration = small_scan();
+  configuration.planner.gain = "occlusion-aware";  // goes to the nearest view: what both saw is occupied
+  configuration.planner.weights = {1.0, 1.0};
+  Person person(configuration);
   person.run("step\nstep\ntoggle-views\ntoggle-rays\ntoggle-cloud\ntoggle-object\n");
   const Rectangle scene = person.window().layout().scene;
   const Image image = person.look();

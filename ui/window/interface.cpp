@@ -114,7 +114,7 @@ void Interface::open(const Configuration& configuration) {
   parts_->worker.post(request::Load{configuration});
 }
 void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
-bool Interface::script_is_done() const { return parts_->script.done(); }
+bool Interface::script_is_done() const { return parts_->script.done() || parts_->state.quit; }
 ScriptPlayer& Interface::script() { return parts_->script; }
 bool Interface::wants_to_quit() const { return parts_->state.quit && !parts_->state.picture_file; }
 const Layout& Interface::layout() const { return parts_->layout; }

@@ -28,7 +28,7 @@ class Interface {
   void open(const Configuration& configuration);
   /// Does these calls one after the other, each when the one before has had its effect.
   void run_script(std::vector<CommandCall> calls);
-  bool script_is_done() const;
+  bool script_is_done() const;  ///< or the window is about to close: what is left of it is not done
   ScriptPlayer& script();
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
   double seconds_to_next_frame() const;
