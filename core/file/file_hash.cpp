@@ -4,29 +4,25 @@
 #include <zlib.h>
 
 #include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <stdexcept>
 #include <vector>
+
+#include "core/file/read_file.hpp"
 
 namespace nextview {
 
 FileHash file_hash(const std::filesystem::path& file) {
-  const auto failure = [&](int error) {
-    return std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(error ? error : EIO)));
-  };
-  if (!std::filesystem::is_regular_file(file)) throw failure(std::filesystem::exists(file) ? EINVAL : ENOENT);
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw failure(errno);
+  const Descriptor descriptor = open_regular_file(file);
   FileHash hash;
   uLong crc = ::crc32(0, nullptr, 0);
-  std::vector<char> part(1 << 20);
-  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
-    crc = ::crc32(crc, reinterpret_cast<const Bytef*>(part.data()), static_cast<uInt>(in.gcount()));
-    hash.bytes += static_cast<std::uintmax_t>(in.gcount());
+  std::vector<unsigned char> part(1 << 20);
+  for (;;) {
+    const ssize_t got = ::read(descriptor.get(), part.data(), part.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw file_error(file, "read", errno);
+    if (got == 0) break;
+    crc = ::crc32(crc, part.data(), static_cast<uInt>(got));
+    hash.bytes += static_cast<std::uintmax_t>(got);
   }
-  if (in.bad()) throw failure(errno);
   hash.crc32 = fmt::format("{:08x}", crc);
   return hash;
 }

@@ -106,11 +106,6 @@ bool is_step_picture(std::string_view name) {
   return digits && (number.size() == 2 || (number.size() <= 6 && number[0] != '0'));
 }
 
-bool is_plain_file(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(fs::symlink_status(path, error));
-}
-
 bool begins_with(const fs::path& file, std::string_view text) {
   if (!is_plain_file(file)) return false;
   std::ifstream in(file, std::ios::binary);
@@ -137,6 +132,11 @@ Manifest manifest_of(const Json& json) {
 }
 
 }  // namespace
+
+bool is_plain_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(fs::symlink_status(path, error));
+}
 
 std::span<const std::string_view> fixed_result_names() { return names; }
 

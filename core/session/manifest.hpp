@@ -31,6 +31,9 @@ std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 /// @throws std::runtime_error naming the file and the reason.
 void write_manifest(const Manifest& manifest, const std::filesystem::path& folder);
 
+/// Whether this is a regular file itself: no link to one, no folder.
+bool is_plain_file(const std::filesystem::path& path);
+
 /// Every name that results have, but for the pictures of steps.
 std::span<const std::string_view> fixed_result_names();
 /// Whether results have this name: one of the above, or step_01.png, …

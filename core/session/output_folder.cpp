@@ -29,11 +29,6 @@ std::vector<fs::path> result_files(const fs::path& folder) {
   return files;
 }
 
-bool is_plain_file(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(fs::symlink_status(path, error));
-}
-
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, std::span<const InputFile> inputs, std::string_view option)
