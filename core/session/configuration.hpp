@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
-#include "core/map/occupancy.hpp"
+#include "core/map/occupancy_map.hpp"
 #include "core/planner/planner_config.hpp"
 #include "core/planner/termination.hpp"
 #include "core/sensor/depth_camera.hpp"
@@ -21,8 +21,6 @@ struct ObjectConfig {
   std::string file;           ///< mesh file; empty: the default object
   double longest_side = 0.5;  ///< the mesh is scaled to this [m]; 0 keeps its size
 };
-
-enum class Insertion { local_octree, direct };
 
 struct MapConfig {
   double resolution = 0.01;   ///< voxel edge [m]

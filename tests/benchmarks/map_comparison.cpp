@@ -14,7 +14,7 @@
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
 #include "core/session/refinement.hpp"
-#include "core/session/visited_voxels.hpp"
+#include "core/evaluation/visited_voxels.hpp"
 #include "tests/benchmarks/simulated_views.hpp"
 
 namespace nextview {

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/session/map_refinement.hpp"
+#include "core/gibbs/map_refinement.hpp"
 #include "core/session/session.hpp"
 #include "ui/window/seen_surface.hpp"
 #include "ui/window/session_snapshot.hpp"

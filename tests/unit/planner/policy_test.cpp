@@ -44,8 +44,8 @@ struct Policies : ::testing::Test {
   TwoVoxels rays;
   RayBundle bundle{{Vector3::UnitZ(), Vector3(0, 0.6, 0.8)}};
   KnownSurface surface;
-  std::vector<Pose> candidates = {at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(-1, 0, 0)};
-  std::vector<Pose> taken = {at(1, 0, 0.1)};
+  std::vector<View> candidates = {{at(1, 0, 0)}, {at(0, 1, 0)}, {at(0, 0, 1)}, {at(-1, 0, 0)}};
+  std::vector<TakenView> taken = {{{}, at(1, 0, 0.1)}};
   std::vector<std::size_t> available = {1, 2, 3};
 };
 

@@ -1,4 +1,4 @@
-#include "core/session/map_refinement.hpp"
+#include "core/gibbs/map_refinement.hpp"
 
 #include <gtest/gtest.h>
 
