@@ -6,16 +6,21 @@ namespace nextview {
 
 MapRefinement::MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config,
                              const InverseSensorModel& classes, double max_range)
-    : config_(config), classes_(classes), measurements_{max_range, {}, {}}, voxels_(grid.voxel_count()) {
+    : config_(config),
+      classes_(classes),
+      measurements_(std::make_shared<const RangeMeasurements>(RangeMeasurements{max_range, {}, {}})),
+      posterior_(std::make_shared<const GibbsPosterior>(GibbsPosterior{grid, {}, {}, {}, {}, {}, {}})),
+      voxels_(std::make_shared<const std::vector<Voxel>>(grid.voxel_count())) {
   config_.validate();
-  posterior_.grid = grid;
 }
 
 void MapRefinement::add(const Scan& scan) {
-  RangeMeasurements view{measurements_.max_range, {}, {}};
+  RangeMeasurements view{measurements_->max_range, {}, {}};
   view.add(scan);
+  auto all = std::make_shared<RangeMeasurements>(*measurements_);
+  all->append(join_rays(view, posterior_->grid, config_.ray_spacing));
   measured_rays_ += view.rays.size();
-  measurements_.append(join_rays(view, posterior_.grid, config_.ray_spacing));
+  measurements_ = std::move(all);
 }
 
 void MapRefinement::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
@@ -26,17 +31,11 @@ void MapRefinement::refine(std::span<const float> conventional, int sweeps, cons
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
   config.burn_in = std::min(config.burn_in, config.sweeps / 2);
-  posterior_ =
-      sample_posterior(posterior_.grid, measurements_, config, conventional, posterior_.states, progress, stop);
-  posterior_.diagnostics.measured_rays = measured_rays_;
-  std::ranges::copy(posterior_.voxels(classes_), voxels_.begin());
-}
-
-void MapRefinement::go_back(const MapRefinement& before) {
-  std::vector<Voxel> voxels = std::move(voxels_);  // where rays look for them
-  *this = before;
-  voxels_ = std::move(voxels);
-  std::ranges::copy(before.voxels_, voxels_.begin());
+  auto posterior = std::make_shared<GibbsPosterior>(
+      sample_posterior(posterior_->grid, *measurements_, config, conventional, posterior_->states, progress, stop));
+  posterior->diagnostics.measured_rays = measured_rays_;
+  voxels_ = std::make_shared<const std::vector<Voxel>>(posterior->voxels(classes_));
+  posterior_ = std::move(posterior);
 }
 
 OccupancyMap to_occupancy_map(const GibbsPosterior& posterior, const InverseSensorModel& classes) {

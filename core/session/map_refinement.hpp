@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string_view>
 
@@ -9,7 +10,7 @@
 namespace nextview {
 
 /// The Gibbs map of a scan that is under way: it grows view by view, and each refinement starts from the last one's
-/// maps.
+/// maps. A value: a copy shares what is large, which never changes once it is made.
 class MapRefinement {
  public:
   MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes,
@@ -22,14 +23,15 @@ class MapRefinement {
   /// can be refined on.
   void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
 
-  /// To what it was when `before` was copied from it.
-  void go_back(const MapRefinement& before);
-
-  /// One a voxel of the grid; the span stays valid. Unmeasured before the first refinement.
-  std::span<const Voxel> voxels() const { return voxels_; }
-  const GibbsPosterior& posterior() const { return posterior_; }
+  /// One a voxel of the grid. Unmeasured before the first refinement. Until the next one the span stays valid; what is
+  /// shared stays as it is.
+  std::span<const Voxel> voxels() const { return *voxels_; }
+  std::shared_ptr<const std::vector<Voxel>> shared_voxels() const { return voxels_; }
+  const GibbsPosterior& posterior() const { return *posterior_; }
+  std::shared_ptr<const GibbsPosterior> shared_posterior() const { return posterior_; }
   /// The rays of all views so far, joined.
-  const RangeMeasurements& measurements() const { return measurements_; }
+  const RangeMeasurements& measurements() const { return *measurements_; }
+  std::shared_ptr<const RangeMeasurements> shared_measurements() const { return measurements_; }
   const PosteriorSamplerConfig& config() const { return config_; }
   /// Whether the posteriors of refinements to come keep their traces.
   void keep_traces(bool keep) { config_.keep_traces = keep; }
@@ -39,9 +41,9 @@ class MapRefinement {
   InverseSensorModel classes_;
   std::size_t measured_rays_ = 0;
   std::uint64_t refinements_ = 0;
-  RangeMeasurements measurements_;
-  GibbsPosterior posterior_;
-  std::vector<Voxel> voxels_;
+  std::shared_ptr<const RangeMeasurements> measurements_;
+  std::shared_ptr<const GibbsPosterior> posterior_;
+  std::shared_ptr<const std::vector<Voxel>> voxels_;
 };
 
 /// The posterior as an occupancy map, to be saved as an octree: log-odds where informed, unmeasured elsewhere. Kept off

@@ -141,7 +141,10 @@ Session::Before Session::remember() const {
 void Session::go_back(const Before& before) {
   robot_->move_to(before.T_world_camera);
   map_.go_back(before.map);
-  if (refinement_) refinement_->go_back(*before.refinement);
+  if (refinement_) {
+    *refinement_ = *before.refinement;
+    planning_rays_ = configured_rays(configuration_, map_.grid(), planning_voxels());
+  }
   if (reference_map_) reference_map_->swap(*before.reference_map);
   visited_ = before.visited;
   visited_voxels_ = before.visited_voxels;
@@ -209,6 +212,7 @@ void Session::refine_map(const Measurement& measurement, StepRecord& record, con
       if (progress) progress(0.5 + 0.1 * fraction, what);
     };
     refinement_->refine(probabilities(map_.voxels()), configuration_.gibbs.view_sweeps, tell, stop);
+    planning_rays_ = configured_rays(configuration_, map_.grid(), planning_voxels());
     throw_if_stopped(stop);
     record.refinement.emplace();
     record.refinement->diagnostics = refinement_->posterior().diagnostics;
