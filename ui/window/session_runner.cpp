@@ -7,10 +7,10 @@
 #include "core/evaluation/map_quality.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/known_objects.hpp"
 #include "core/session/scan_files.hpp"
 #include "core/session/scan_surfaces.hpp"
 #include "core/session/session_parts.hpp"
-#include "ui/window/known_objects.hpp"
 #include "ui/window/overloaded.hpp"
 
 namespace nextview {
