@@ -13,11 +13,11 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
+#include "core/session/known_objects.hpp"
 #include "core/session/map_calibration.hpp"
 #include "core/session/output_folder.hpp"
 #include "core/view/candidate_views.hpp"
 #include "ui/figures/calibration_figure.hpp"
-#include "ui/window/known_objects.hpp"
 
 namespace nextview {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/file/read_file.hpp"
 #include "core/session/configuration.hpp"
-#include "ui/window/known_objects.hpp"
+#include "core/session/known_objects.hpp"
 
 namespace nextview {
 namespace {

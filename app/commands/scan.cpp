@@ -10,10 +10,10 @@
 #include "app/commands/surface_output.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
+#include "core/session/known_objects.hpp"
 #include "core/session/scan_files.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
-#include "ui/window/known_objects.hpp"
 
 namespace nextview {
 namespace {

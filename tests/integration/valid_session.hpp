@@ -24,8 +24,8 @@ inline void expect_gibbs(const SessionSnapshot& s) {
   if (!s.gibbs) return;
   EXPECT_LE(s.gibbs->views, s.records.size());
   EXPECT_GT(s.gibbs->views, 0u);
-  EXPECT_EQ(s.gibbs->voxels.size(), s.grid.voxel_count());
-  for (const Voxel& v : s.gibbs->voxels) ASSERT_TRUE(v.probability >= 0 && v.probability <= 1);
+  EXPECT_EQ(s.gibbs->voxels->size(), s.grid.voxel_count());
+  for (const Voxel& v : *s.gibbs->voxels) ASSERT_TRUE(v.probability >= 0 && v.probability <= 1);
 }
 
 /// What is true of every snapshot.

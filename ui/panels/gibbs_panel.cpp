@@ -145,11 +145,11 @@ void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
   if (s.gibbs->views < s.records.size())
     small_text(context.style, fmt::format("This is the map of the first {} views: refine again.", s.gibbs->views),
                theme::chosen);
-  draw_stationarity(context, s.gibbs->posterior.diagnostics);
+  draw_stationarity(context, s.gibbs->posterior->diagnostics);
   draw_before_and_after(context);
   draw_changes(context, s.gibbs->change);
   draw_histograms(context, s.gibbs->change);
-  draw_traces(context, s.gibbs->posterior.diagnostics);
+  draw_traces(context, s.gibbs->posterior->diagnostics);
 }
 
 }  // namespace nextview

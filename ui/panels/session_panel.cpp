@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/session/known_objects.hpp"
 #include "ui/panels/setting_control.hpp"
-#include "ui/window/known_objects.hpp"
 
 namespace nextview {
 namespace {

@@ -38,7 +38,7 @@ void draw_summary(const PanelContext& context, std::uint32_t voxel) {
   table_row("centre", fmt::format("{:.0f}, {:.0f}, {:.0f} mm", centre.x(), centre.y(), centre.z()));
   table_row("conventional", text_of((*s.voxels)[voxel]), "In the occupancy map");
   if (s.gibbs) {
-    const Voxel& v = s.gibbs->voxels[voxel];
+    const Voxel& v = (*s.gibbs->voxels)[voxel];
     table_row("Gibbs", v.measured ? text_of(v) : "not informed",
               "Posterior mean; of not informed voxels fewer than half a ray tells anything");
   }

@@ -11,15 +11,16 @@ namespace {
 std::vector<float> differences(const SessionSnapshot& s) {
   std::vector<float> values(s.voxels->size(), std::numeric_limits<float>::quiet_NaN());
   if (!s.gibbs) return values;
+  const std::vector<Voxel>& gibbs = *s.gibbs->voxels;
   for (std::size_t v = 0; v < values.size(); ++v)
-    if (s.gibbs->voxels[v].measured) values[v] = s.gibbs->voxels[v].probability - (*s.voxels)[v].probability;
+    if (gibbs[v].measured) values[v] = gibbs[v].probability - (*s.voxels)[v].probability;
   return values;
 }
 
 }  // namespace
 
 std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) {
-  return map == MapChoice::gibbs && s.gibbs ? std::span<const Voxel>(s.gibbs->voxels) : *s.voxels;
+  return map == MapChoice::gibbs && s.gibbs ? *s.gibbs->voxels : *s.voxels;
 }
 
 std::vector<float> chosen_values(const SessionSnapshot& s, const LayerChoice& choice) {

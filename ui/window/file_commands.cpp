@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/file/atomic_file.hpp"
+#include "core/session/known_objects.hpp"
 #include "ui/window/command_list.hpp"
-#include "ui/window/known_objects.hpp"
 
 namespace nextview {
 namespace {

@@ -137,10 +137,10 @@ VoxelInspection Inspector::inspect_voxel(const SessionSnapshot& s, std::uint32_t
   result.voxel = voxel;
   result.history = voxel_history(s.grid, s.configuration.map.model, s.scans, voxel, max_range);
   for (const auto& scan : s.scans) result.rays.push_back(thinned(rays_through(s.grid, *scan, voxel, max_range)));
-  if (s.gibbs && !s.gibbs->posterior.states.empty()) {
-    result.conditional = full_conditional(s.grid, s.gibbs->measurements, s.gibbs->config.model, s.gibbs->config.prior,
-                                          s.gibbs->posterior.states.front(), voxel);
-    result.trace = trace_of(s.gibbs->posterior, voxel);
+  if (s.gibbs && !s.gibbs->posterior->states.empty()) {
+    result.conditional = full_conditional(s.grid, *s.gibbs->measurements, s.gibbs->config.model, s.gibbs->config.prior,
+                                          s.gibbs->posterior->states.front(), voxel);
+    result.trace = trace_of(*s.gibbs->posterior, voxel);
   }
   return result;
 }

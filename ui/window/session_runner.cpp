@@ -7,10 +7,10 @@
 #include "core/evaluation/map_quality.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/known_objects.hpp"
 #include "core/session/scan_files.hpp"
 #include "core/session/scan_surfaces.hpp"
 #include "core/session/session_parts.hpp"
-#include "ui/window/known_objects.hpp"
 #include "ui/window/overloaded.hpp"
 
 namespace nextview {
@@ -248,13 +248,10 @@ void SessionRunner::show_map(SessionSnapshot next) {
 
 void SessionRunner::show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement) {
   ++snapshot.map;
-  snapshot.gibbs =
-      std::make_shared<const GibbsMap>(GibbsMap{session_->scans().size(),
-                                                refinement.posterior(),
-                                                {refinement.voxels().begin(), refinement.voxels().end()},
-                                                refinement.measurements(),
-                                                refinement.config(),
-                                                map_change(session_->map().voxels(), refinement.voxels())});
+  snapshot.gibbs = std::make_shared<const GibbsMap>(
+      GibbsMap{session_->scans().size(), refinement.shared_posterior(), refinement.shared_voxels(),
+               refinement.shared_measurements(), refinement.config(),
+               map_change(session_->map().voxels(), refinement.voxels())});
 }
 
 void SessionRunner::show_next_view(SessionSnapshot& snapshot) const {

@@ -32,12 +32,12 @@ struct MapChange {
 
 MapChange map_change(std::span<const Voxel> conventional, std::span<const Voxel> refined);
 
-/// The Gibbs map of the first views of a scan.
+/// The Gibbs map of the first views of a scan. What is large is shared with the refinement that made it.
 struct GibbsMap {
   std::size_t views = 0;  ///< that it is made of; fewer than were taken: it is out of date
-  GibbsPosterior posterior;
-  std::vector<Voxel> voxels;       ///< the posterior as the scene and the gains see it
-  RangeMeasurements measurements;  ///< what it was sampled from
+  std::shared_ptr<const GibbsPosterior> posterior;
+  std::shared_ptr<const std::vector<Voxel>> voxels;       ///< the posterior as the scene and the gains see it
+  std::shared_ptr<const RangeMeasurements> measurements;  ///< what it was sampled from
   PosteriorSamplerConfig config;
   MapChange change;  ///< against the conventional map of the same views
 };
@@ -100,7 +100,7 @@ struct SessionSnapshot {
     return !records.empty() && candidate < candidates.size() && records.back().candidates[candidate].available;
   }
   /// The map that views are planned on.
-  std::span<const Voxel> planning_voxels() const { return planned_on_posterior && gibbs ? gibbs->voxels : *voxels; }
+  std::span<const Voxel> planning_voxels() const { return planned_on_posterior && gibbs ? *gibbs->voxels : *voxels; }
 };
 
 /// What the session worker is doing right now.

@@ -36,7 +36,7 @@ Configuration with_file(Configuration configuration, const std::filesystem::path
 /// How a refinement went; of one that was cancelled, what is left of it.
 LogEntry refined(const GibbsMap& gibbs, bool cancelled) {
   using Level = LogEntry::Level;
-  const SamplerDiagnostics& d = gibbs.posterior.diagnostics;
+  const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
   const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
   if (cancelled) return {Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps)};
   if (d.stationary) return {Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps)};

@@ -20,7 +20,17 @@ class GibbsPanelTest : public testing::Test {
   static GibbsMap made_map() {
     GibbsMap map;
     map.views = 2;
-    SamplerDiagnostics& d = map.posterior.diagnostics;
+    map.posterior = std::make_shared<const GibbsPosterior>(made_posterior());
+    map.change.changed_class = 2000;
+    map.change.entropy_before = 9000;
+    map.change.entropy_after = 4000;
+    map.change.before[19] = 99;
+    map.change.after[19] = 9;
+    return map;
+  }
+  static GibbsPosterior made_posterior() {
+    GibbsPosterior posterior;
+    SamplerDiagnostics& d = posterior.diagnostics;
     d.stationary = true;
     d.sweeps = 3;
     d.r_hat = 1.0125;
@@ -33,12 +43,7 @@ class GibbsPanelTest : public testing::Test {
     d.build_seconds = 0.5;
     d.sample_seconds = 2;
     d.log_posterior = {{-9000, -3000, -2000}, {-8000, -4000, -1000}};
-    map.change.changed_class = 2000;
-    map.change.entropy_before = 9000;
-    map.change.entropy_after = 4000;
-    map.change.before[19] = 99;
-    map.change.after[19] = 9;
-    return map;
+    return posterior;
   }
   std::string panel(const GibbsMap& map) {
     scan_->gibbs = std::make_shared<const GibbsMap>(map);
@@ -86,8 +91,10 @@ TEST_F(GibbsPanelTest, EachDiagnosticStandsAtItsName) {
 
 TEST_F(GibbsPanelTest, ChainsThatAreNotStationarySaySoInRed) {
   GibbsMap map = made_map();
-  map.posterior.diagnostics.stationary = false;
-  map.posterior.diagnostics.warning = "not stationary after 3 sweeps";
+  GibbsPosterior posterior = made_posterior();
+  posterior.diagnostics.stationary = false;
+  posterior.diagnostics.warning = "not stationary after 3 sweeps";
+  map.posterior = std::make_shared<const GibbsPosterior>(posterior);
   const std::string text = panel(map);
   EXPECT_THAT(text, HasSubstr("not stationary after 3 sweeps"));
   EXPECT_THAT(text, Not(HasSubstr("Stationary after")));
@@ -123,7 +130,7 @@ TEST_F(GibbsPanelTest, ThePlotsHaveTheValuesOfTheChainsAndOfTheHistograms) {
   EXPECT_EQ(read_tooltip(), "p 0.975 conventional: 2 Gibbs: 1") << "log10 of 1 + 99 and 1 + 9";
   scan_->gibbs = nullptr;
   desk_.progress.busy = desk_.progress.refining = true;
-  desk_.progress.sampler = std::make_shared<const SamplerDiagnostics>(made_map().posterior.diagnostics);
+  desk_.progress.sampler = std::make_shared<const SamplerDiagnostics>(made_posterior().diagnostics);
   desk_.move(1, 1);
   desk_.frames();
   EXPECT_THAT(read("Gibbs"), HasSubstr("3 sweeps so far"));

@@ -127,8 +127,10 @@ TEST_F(InspectedVoxel, TheTruthIsSaidInWords) {
 TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   GibbsMap gibbs;
   gibbs.views = 1;
-  gibbs.voxels = *scan_->voxels;
-  gibbs.voxels[voxel_] = {0.25f, 0.4375f, VoxelClass::unknown, true, 0};
+  std::vector<Voxel> voxels = *scan_->voxels;
+  voxels[voxel_] = {0.25f, 0.4375f, VoxelClass::unknown, true, 0};
+  gibbs.posterior = std::make_shared<const GibbsPosterior>();
+  gibbs.voxels = std::make_shared<const std::vector<Voxel>>(voxels);
   scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
   FullConditional f;
   f.probability = {0.875, 0.125};
@@ -144,7 +146,8 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   desk_.inspection.voxel->conditional = f;
   text = panel();
   EXPECT_THAT(text, HasSubstr("free 0.5000 level 1 0.2500 level 2 0.2500"));
-  gibbs.voxels[voxel_].measured = false;
+  voxels[voxel_].measured = false;
+  gibbs.voxels = std::make_shared<const std::vector<Voxel>>(voxels);
   scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
   EXPECT_THAT(panel(), HasSubstr("Gibbs not informed"));
 }

@@ -137,7 +137,7 @@ TEST_P(Panels, AreDrawnWhileSomethingRuns) {
   desk.snapshot = states()[3].snapshot;
   for (WorkerProgress progress : all_progress()) {
     if (progress.refining)
-      progress.sampler = std::make_shared<const SamplerDiagnostics>(desk.snapshot->gibbs->posterior.diagnostics);
+      progress.sampler = std::make_shared<const SamplerDiagnostics>(desk.snapshot->gibbs->posterior->diagnostics);
     desk.progress = progress;
     desk.window.bring_to_front(PanelName::gibbs);
     EXPECT_TRUE(desk.frames().empty());

@@ -71,6 +71,24 @@ TEST(MapRefinement, AStopAtAnyMomentLeavesThePosteriorSoFar) {
   }
 }
 
+TEST(MapRefinement, ACopySharesWhatIsLargeAndGoesItsOwnWay) {
+  MapRefinement refinement = two_views();
+  refinement.refine({}, 8, {}, {});
+  MapRefinement copy = refinement;
+  EXPECT_EQ(&copy.posterior(), &refinement.posterior());
+  EXPECT_EQ(&copy.measurements(), &refinement.measurements());
+  EXPECT_EQ(copy.voxels().data(), refinement.voxels().data());
+  const auto posterior = refinement.shared_posterior();
+  const auto occupied = posterior->occupied;
+  copy.refine({}, 8, {}, {});
+  EXPECT_EQ(refinement.shared_posterior(), posterior);
+  EXPECT_EQ(posterior->occupied, occupied);
+  EXPECT_NE(copy.posterior().occupied, occupied);
+  refinement.refine({}, 8, {}, {});
+  EXPECT_EQ(refinement.posterior().occupied, copy.posterior().occupied);
+  EXPECT_EQ(posterior->occupied, occupied) << "who holds it keeps it as it was";
+}
+
 TEST(MapRefinement, TellsWhatItWasMadeOf) {
   const MapRefinement refinement = two_views();
   EXPECT_EQ(refinement.measurements().origins.size(), 2u);

@@ -11,10 +11,10 @@ TEST(InspectedChain, TheConditionalIsGivenTheLastMapOfTheFirst) {
   scan.runner.refine(2, 8, told());
   const GibbsMap& gibbs = *scan.now().gibbs;
   std::size_t tell_chains_apart = 0;
-  for (std::uint32_t v = 0; v < gibbs.voxels.size(); v += 7) {
+  for (std::uint32_t v = 0; v < gibbs.voxels->size(); v += 7) {
     const auto of_chain = [&](std::size_t chain) {
-      return full_conditional(scan.now().grid, gibbs.measurements, gibbs.config.model, gibbs.config.prior,
-                              gibbs.posterior.states[chain], v)
+      return full_conditional(scan.now().grid, *gibbs.measurements, gibbs.config.model, gibbs.config.prior,
+                              gibbs.posterior->states[chain], v)
           .probability;
     };
     const auto first = of_chain(0);

@@ -53,7 +53,7 @@ TEST(Inspection, TheConditionalSumsToOneAndItsRaysToTheOdds) {
     scan.runner.refine(2, 40, told());
     const auto gibbs = scan.now().gibbs;
     std::size_t with_rays = 0, with_trace = 0;
-    for (std::uint32_t v = 0; v < gibbs->voxels.size(); v += 13) {
+    for (std::uint32_t v = 0; v < gibbs->voxels->size(); v += 13) {
       const Selection selection = only_voxel(v);
       const VoxelInspection voxel = scan.look(selection).voxel.value();
       ASSERT_TRUE(voxel.conditional);
@@ -71,7 +71,7 @@ TEST(Inspection, TheConditionalSumsToOneAndItsRaysToTheOdds) {
       ASSERT_EQ(voxel.trace.size(), 2u) << "one a chain";
       EXPECT_EQ(voxel.trace[0].size(), voxel.trace[1].size());
       for (std::size_t chain = 0; chain < 2; ++chain)
-        EXPECT_EQ(voxel.trace[chain].back(), gibbs->posterior.states[chain][v]) << v << ": it does not end at its map";
+        EXPECT_EQ(voxel.trace[chain].back(), gibbs->posterior->states[chain][v]) << v << ": it does not end at its map";
     }
     EXPECT_GT(with_rays, 20u);
     EXPECT_GT(with_trace, 5u);

@@ -50,7 +50,7 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   expect_last(Level::success, "The scan is finished: " + now()->finished);
   worker_.post(request::Refine{2, 8});
   wait_until_idle();
-  expect_last(Level::warning, "Gibbs map of 4 views: " + now()->gibbs->posterior.diagnostics.warning);
+  expect_last(Level::warning, "Gibbs map of 4 views: " + now()->gibbs->posterior->diagnostics.warning);
   const auto folder = std::filesystem::path(testing::TempDir()) / "nextview-log-test";
   worker_.post(request::Export{folder});
   wait_until_idle();
@@ -132,10 +132,10 @@ TEST_F(SessionRunnerTest, RefiningTakesNewNumbersOfChainsAndSweeps) {
     const GibbsMap& gibbs = *now().gibbs;
     EXPECT_EQ(gibbs.config.chains, chains);
     EXPECT_EQ(gibbs.config.sweeps, sweeps);
-    EXPECT_EQ(gibbs.posterior.diagnostics.sweeps, sweeps) << "so few are never stationary";
-    EXPECT_EQ(gibbs.posterior.diagnostics.log_posterior.size(), std::size_t(chains));
-    EXPECT_EQ(gibbs.posterior.diagnostics.log_posterior[0].size(), std::size_t(sweeps));
-    EXPECT_EQ(gibbs.posterior.traces.levels.size(), std::size_t(chains));
+    EXPECT_EQ(gibbs.posterior->diagnostics.sweeps, sweeps) << "so few are never stationary";
+    EXPECT_EQ(gibbs.posterior->diagnostics.log_posterior.size(), std::size_t(chains));
+    EXPECT_EQ(gibbs.posterior->diagnostics.log_posterior[0].size(), std::size_t(sweeps));
+    EXPECT_EQ(gibbs.posterior->traces.levels.size(), std::size_t(chains));
   }
 }
 

@@ -23,7 +23,7 @@ TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
   ASSERT_NE(first, nullptr);
   EXPECT_GT(told_of_sampler, 0);
   EXPECT_EQ(first->views, 2u);
-  EXPECT_EQ(first->voxels.size(), now().voxels->size());
+  EXPECT_EQ(first->voxels->size(), now().voxels->size());
   EXPECT_EQ(now().voxels, before->voxels) << "the conventional map is another";
   EXPECT_EQ(now().records.size(), 2u);
   EXPECT_NE(now().map, before->map);
@@ -37,7 +37,7 @@ TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
   runner_.refine(1, 12, told());
   EXPECT_EQ(now().gibbs->config.chains, 1);
   EXPECT_EQ(now().gibbs->views, 3u);
-  EXPECT_EQ(now().gibbs->posterior.traces.levels.size(), 1u);
+  EXPECT_EQ(now().gibbs->posterior->traces.levels.size(), 1u);
   runner_.undo(told());
   EXPECT_EQ(now().gibbs, nullptr) << "a map of views that are no more";
   EXPECT_THROW(runner_.refine(0, 8, told()), std::invalid_argument);
@@ -54,7 +54,7 @@ TEST_F(SessionRunnerTest, RefiningTwiceIsAsOnceAnew) {
   other.refine(2, 20, told());
   const auto probability = [](const SessionRunner& runner) {
     std::vector<float> p;
-    for (const Voxel& v : runner.snapshot()->gibbs->voxels) p.push_back(v.probability);
+    for (const Voxel& v : *runner.snapshot()->gibbs->voxels) p.push_back(v.probability);
     return p;
   };
   EXPECT_EQ(probability(runner_), probability(other));
@@ -68,7 +68,7 @@ TEST_F(SessionRunnerTest, TheChangeCountsWhatTheMapsSay) {
   steps(2);
   runner_.refine(2, 40, told());
   const auto& before = *now().voxels;
-  const auto& after = now().gibbs->voxels;
+  const auto& after = *now().gibbs->voxels;
   std::size_t classes = 0, both = 0, in_bins = 0, in_bins_after = 0;
   double entropy = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {
@@ -97,7 +97,7 @@ TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
   stopping.sampler = [&](const SamplerDiagnostics&) { stop.request_stop(); };
   runner_.refine(2, 100'000, stopping);
   ASSERT_NE(now().gibbs, nullptr);
-  EXPECT_LT(now().gibbs->posterior.diagnostics.sweeps, 1000);
+  EXPECT_LT(now().gibbs->posterior->diagnostics.sweeps, 1000);
   runner_.refine(2, 30, told());
   EXPECT_EQ(now().gibbs->views, 2u);
   std::stop_source stopped;

@@ -127,7 +127,7 @@ TEST_F(WorkerQueue, ARefinementIsHeldAndCancelled) {
   EXPECT_EQ(worker_.progress(), WorkerProgress{});
   EXPECT_EQ(now()->records.size(), 1u);
   ASSERT_NE(now()->gibbs, nullptr);
-  const int sweeps = now()->gibbs->posterior.diagnostics.sweeps;
+  const int sweeps = now()->gibbs->posterior->diagnostics.sweeps;
   EXPECT_LT(sweeps, 1000);
   EXPECT_EQ(last_entry().text, "Cancelled: the Gibbs map of 1 view keeps its " + std::to_string(sweeps) + " sweeps");
   EXPECT_EQ(last_entry().level, LogEntry::Level::note) << "it is what was asked for";
@@ -144,7 +144,7 @@ TEST_F(WorkerQueue, ARefinementThatGoesOnEndsByItself) {
   worker_.hold_refinement(false);
   wait_until_idle();
   ASSERT_NE(now()->gibbs, nullptr);
-  EXPECT_EQ(now()->gibbs->posterior.diagnostics.sweeps, 12);
+  EXPECT_EQ(now()->gibbs->posterior->diagnostics.sweeps, 12);
   EXPECT_THAT(last_entry().text, StartsWith("Gibbs map of 1 view"));
 }
 

@@ -1,4 +1,4 @@
-#include "ui/window/known_objects.hpp"
+#include "core/session/known_objects.hpp"
 
 #include <array>
 #include <stdexcept>

@@ -5,7 +5,7 @@
 
 namespace nextview {
 
-/// What `object.file` takes besides paths: the objects that the window offers.
+/// What `object.file` takes besides paths: the objects that the program knows.
 std::span<const char* const> known_objects();
 
 /// What people call the object of this file: the name of a known object, or the file's.
