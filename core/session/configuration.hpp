@@ -102,7 +102,7 @@ std::string to_toml(const Configuration& configuration, const std::filesystem::p
 /// @throws std::runtime_error
 void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources = nullptr);
 
-/// Files that come with the program. NEXTVIEW_ASSETS in the environment overrides where they are.
+/// Files that come with Nextview: where NEXTVIEW_ASSETS in the environment says, or as shared_folder finds them.
 std::filesystem::path assets_folder();
 /// The file of a sensor that comes with the program, if there is one of this name.
 std::filesystem::path named_sensor(const std::string& preset);
