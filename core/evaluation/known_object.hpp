@@ -19,6 +19,8 @@ struct EvaluationState {
   SurfaceCoverage coverage;                ///< by the points of the views, at d_reg
   SurfaceCoverage coverage_paper;          ///< at the paper's
   std::vector<std::uint8_t> visited_voxels;  ///< one a voxel, 1: a noise-free ray visited it
+
+  std::size_t bytes() const { return seen.size() + 2 * coverage.observed().size() + visited_voxels.size(); }
 };
 
 /// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it

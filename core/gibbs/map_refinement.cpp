@@ -39,6 +39,16 @@ void MapRefinement::refine(std::span<const float> conventional, int sweeps, cons
   posterior_ = std::move(posterior);
 }
 
+std::size_t MapRefinement::bytes(const MapRefinement* other) const {
+  std::size_t bytes = other ? voxels_.bytes_beside(other->voxels_) : voxels_.bytes();
+  if (!other || measurements_ != other->measurements_) bytes += measurements_->rays.size() * sizeof(RangeMeasurement);
+  if (other && posterior_ == other->posterior_) return bytes;
+  const GibbsPosterior& p = *posterior_;
+  bytes += p.occupied.size() * (sizeof p.occupied[0] + sizeof p.upper[0] + sizeof p.informed[0]);
+  for (const auto& state : p.states) bytes += state.size();
+  return bytes;
+}
+
 OccupancyMap to_occupancy_map(const GibbsPosterior& posterior, const InverseSensorModel& classes) {
   InverseSensorModel model = classes;
   model.clamp_min = 1e-6;

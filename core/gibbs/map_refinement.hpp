@@ -29,6 +29,8 @@ class MapRefinement {
   const RangeMeasurements& measurements() const { return *measurements_; }
   std::shared_ptr<const RangeMeasurements> shared_measurements() const { return measurements_; }
   const PosteriorSamplerConfig& config() const { return config_; }
+  /// What its maps take that another of the same scan, if given, does not share [bytes].
+  std::size_t bytes(const MapRefinement* other = nullptr) const;
   /// Whether the posteriors of refinements to come keep their traces.
   void keep_traces(bool keep) { config_.keep_traces = keep; }
 

@@ -38,7 +38,7 @@ Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_
   const auto tell = [&](double fraction, std::string_view what) {
     if (progress) progress(fraction, what);
   };
-  Refinement r{OccupancyMap(job.grid, job.model), {}, {}, {}, {}, 0.0, {}, {}};
+  Refinement r{OccupancyMap(job.grid, job.model), {}, VoxelBricks(), {}, {}, 0.0, {}, {}};
   for (std::size_t k = 0; k < job.scans.size(); ++k) {
     tell(0.2 * double(k) / double(job.scans.size()), "making the conventional map");
     r.conventional.insert(job.scans[k], stop);

@@ -126,6 +126,25 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
   return after;
 }
 
+std::size_t bytes_of(const ScanState& state, const ScanState* other) {
+  if (!state.has_maps) return 0;
+  const Knowledge& known = state.known;
+  const Knowledge* const beside = other ? &other->known : nullptr;
+  std::size_t bytes = beside ? known.map.voxels().bytes_beside(beside->map.voxels()) : known.map.voxels().bytes();
+  if (known.posterior) bytes += known.posterior->bytes(beside ? beside->posterior.get() : nullptr);
+  if (state.evaluation && !(other && other->evaluation == state.evaluation)) bytes += state.evaluation->bytes();
+  return bytes;
+}
+
+void drop_maps(const ScanSetup& setup, ScanState& state) {
+  std::vector<TakenView> taken = std::move(state.known.taken);
+  ScanState nothing = nothing_scanned(setup, state.T_world_camera);
+  state.known = std::move(nothing.known);
+  state.known.taken = std::move(taken);
+  state.evaluation = std::move(nothing.evaluation);
+  state.has_maps = false;
+}
+
 void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, const Progress& progress,
             const std::stop_token& stop) {
   Knowledge known = from.known;
@@ -136,13 +155,14 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
     if (evaluation)
       setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->returns, stop);
   }
-  known.taken = std::move(state.known.taken);
+  known.taken = state.known.taken;
   state.known = std::move(known);
   state.evaluation = std::move(evaluation);
+  state.has_maps = true;
 }
 
 ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera) {
-  ScanState state{nothing_known(setup.configuration, setup.region, setup.planner->needs())};
+  ScanState state{.known = nothing_known(setup.configuration, setup.region, setup.planner->needs())};
   if (setup.truth) state.evaluation = std::make_shared<const EvaluationState>(setup.truth->nothing_seen());
   state.candidates = setup.candidates->candidates(state.known);
   state.next.view = setup.start;

@@ -23,11 +23,19 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
 ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Progress& progress,
                const std::stop_token& stop);
 
+/// The view that the planner wants next. @pre !state.records.empty(), ranked
+NextView proposal(const ScanSetup& setup, const ScanState& state);
+
 /// The state before the first view.
 ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera);
 
-/// Knowledge and evaluation made again from the scans of a state that has lost them: the same bytes. They begin with
-/// those of `from`, an earlier state of the same scan. @throws Stopped
+/// What a state's maps and evaluation take that another of the same scan, if given, does not share [bytes].
+std::size_t bytes_of(const ScanState& state, const ScanState* other = nullptr);
+
+/// Gives back the memory of a state's maps and evaluation. Its scans and records stay: remake() brings the rest back.
+void drop_maps(const ScanSetup& setup, ScanState& state);
+/// Makes the maps and the evaluation of a state that has none again from its scans: the same bytes. They begin with
+/// those of `from`, an earlier state of the same scan that has them. @throws Stopped; then the state is as it was.
 void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, const Progress& progress,
             const std::stop_token& stop);
 

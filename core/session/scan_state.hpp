@@ -46,6 +46,7 @@ struct ScanState {
   NextView next;                 ///< of no meaning once finished
   std::string finished;          ///< why the scan is done; empty while it is not
   Pose T_world_camera = Pose::Identity();  ///< where the robot is
+  bool has_maps = true;                    ///< false after drop_maps
 };
 
 /// A view that was taken and is not absorbed yet: the operator may look at it, and refuse it.

@@ -125,6 +125,10 @@ void Session::override_next_view(const Pose& T_world_camera) {
   state_.next = {{pose}, std::nullopt, true, true, expected ? expected->value : 0.0, 0.0};
 }
 
+void Session::take_proposal() {
+  if (!records_.empty()) state_.next = proposal(setup_, state_);
+}
+
 void Session::set_termination(const TerminationConfig& config) {
   config.validate();
   setup_.configuration.termination = config;

@@ -53,6 +53,9 @@ class Session {
   /// finite and rigid (is_rigid), or if the robot cannot reach it.
   void override_next_view(const Pose& T_world_camera);
 
+  /// Leaves the choice of the next view to the planner again.
+  void take_proposal();
+
   /// Changes when the scan is done, and keeps all else; a finished scan may go on by it.
   /// @throws std::invalid_argument if it is not valid.
   void set_termination(const TerminationConfig& config);

@@ -89,13 +89,18 @@ ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Prog
     record->ranking = std::move(plan.ranking);
     if (record->refinement) compare_with_conventional(setup, state, input, candidates, *record, stop);
   }
-  state.next = {setup.start};
-  if (const auto best = record->ranking.best)  // p <- next best view
-    state.next = {state.candidates[*best], best, false, false, record->candidates[*best].gain,
-                  record->candidates[*best].utility};
   state.records.back() = std::move(record);
+  state.next = proposal(setup, state);  // p <- next best view
   state.finished = termination(setup.configuration.termination, state);  // if p meets the terminal criterion, finish
   return state;
+}
+
+NextView proposal(const ScanSetup& setup, const ScanState& state) {
+  const StepRecord& record = *state.records.back();
+  const auto best = record.ranking.best;
+  if (!best) return {setup.start};
+  const Candidate& c = record.candidates[*best];
+  return {state.candidates[*best], best, false, false, c.gain, c.utility};
 }
 
 std::string termination(const TerminationConfig& config, const ScanState& state) {
