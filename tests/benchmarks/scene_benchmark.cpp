@@ -15,7 +15,7 @@
 
 #include "core/random/counter_random.hpp"
 #include "ui/layers/voxel_polydata.hpp"
-#include "ui/scene.hpp"
+#include "ui/scene/scene.hpp"
 #include "ui/surface/headless.hpp"
 #include "ui/surface/offscreen_surface.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "tests/render/render_test.hpp"
-#include "ui/window/layout.hpp"
+#include "ui/panels/layout.hpp"
 
 namespace nextview {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/window/command.hpp"
+#include "ui/commands/command.hpp"
 
 namespace nextview {
 

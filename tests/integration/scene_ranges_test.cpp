@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "tests/integration/person.hpp"
-#include "tests/unit/window/small_scan.hpp"
+#include "tests/unit/workbench/small_scan.hpp"
 
 namespace nextview {
 namespace {

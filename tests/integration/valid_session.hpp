@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "ui/window/command.hpp"
+#include "ui/commands/command.hpp"
 
 namespace nextview {
 

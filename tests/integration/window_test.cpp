@@ -7,7 +7,7 @@
 #include "tests/integration/person.hpp"
 #include "tests/integration/small_scan.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
-#include "ui/theme.hpp"
+#include "ui/appearance/theme.hpp"
 
 namespace nextview {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
-#include "ui/scene_overlay.hpp"
+#include "ui/scene/scene_overlay.hpp"
 #include "ui/surface/offscreen_surface.hpp"
 
 /// What the layers' colours and legends say, by pixels and by words.

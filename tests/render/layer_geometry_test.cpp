@@ -3,11 +3,11 @@
 #include <set>
 
 #include "core/random/counter_random.hpp"
-#include "ui/camera_framing.hpp"
-#include "ui/colour_map.hpp"
-#include "ui/figures/chart.hpp"
+#include "ui/appearance/colour_map.hpp"
+#include "ui/charts/chart.hpp"
 #include "ui/figures/step_figure.hpp"
 #include "ui/layers/voxel_faces.hpp"
+#include "ui/scene/camera_framing.hpp"
 
 namespace nextview {
 namespace {

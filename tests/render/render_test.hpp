@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/render/picture_comparison.hpp"
-#include "ui/scene.hpp"
+#include "ui/scene/scene.hpp"
 
 namespace nextview {
 

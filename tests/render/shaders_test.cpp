@@ -10,9 +10,9 @@
 #include <fstream>
 
 #include "tests/render/samples.hpp"
+#include "ui/drawing/shader_file.hpp"
 #include "ui/layers/geometry.hpp"
-#include "ui/scene.hpp"
-#include "ui/shader_file.hpp"
+#include "ui/scene/scene.hpp"
 #include "ui/surface/offscreen_surface.hpp"
 
 namespace nextview {

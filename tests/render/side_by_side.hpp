@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/scene.hpp"
+#include "ui/scene/scene.hpp"
 #include "ui/surface/image.hpp"
 
 namespace nextview {

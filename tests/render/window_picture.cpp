@@ -1,7 +1,7 @@
 #include "tests/render/window_picture.hpp"
 
 #include "tests/render/samples.hpp"
-#include "ui/scene.hpp"
+#include "ui/scene/scene.hpp"
 #include "ui/surface/window_surface.hpp"
 
 namespace nextview {

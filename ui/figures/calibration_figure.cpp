@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ui/charts/curve_plot.hpp"
 #include "ui/figures/calibration_table.hpp"
-#include "ui/figures/curve_plot.hpp"
 
 namespace nextview {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/session/map_calibration.hpp"
-#include "ui/figures/page.hpp"
+#include "ui/charts/page.hpp"
 
 namespace nextview {
 

@@ -6,7 +6,7 @@
 #include "core/map/voxel_grid.hpp"
 #include "core/mesh/parts.hpp"
 #include "core/mesh/triangle_mesh.hpp"
-#include "ui/figures/page.hpp"
+#include "ui/charts/page.hpp"
 
 namespace nextview {
 

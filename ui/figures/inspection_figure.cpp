@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ui/figures/curve_plot.hpp"
+#include "ui/charts/curve_plot.hpp"
 #include "ui/figures/surface_views.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
 

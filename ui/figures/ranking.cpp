@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "ui/painter.hpp"
+#include "ui/drawing/painter.hpp"
 
 namespace nextview {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ui/figures/curve_plot.hpp"
+#include "ui/charts/curve_plot.hpp"
 #include "ui/figures/slice.hpp"
 
 namespace nextview {

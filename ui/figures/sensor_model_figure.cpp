@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "ui/figures/curve_plot.hpp"
+#include "ui/charts/curve_plot.hpp"
 
 namespace nextview {
 namespace {

@@ -12,11 +12,6 @@ namespace nextview {
 /// @pre the session has taken a step
 StepPicture step_picture(const Session& session);
 
-/// Rays of a score, thinned to about `count`, each as a segment to the last voxel it visits, valued by what it
-/// contributes.
-std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution,
-                                     std::size_t count = 110);
-
 /// Draws a session's steps headless, one after the other.
 class SessionFigure {
  public:

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/map/occupancy.hpp"
 #include "core/map/voxel_grid.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "ui/charts/page.hpp"
 #include "ui/figures/grid_slice.hpp"
-#include "ui/figures/page.hpp"
 
 namespace nextview {
 

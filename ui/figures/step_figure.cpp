@@ -11,8 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/drawing/painter.hpp"
 #include "ui/figures/ranking.hpp"
-#include "ui/painter.hpp"
 #include "ui/surface/offscreen_surface.hpp"
 
 namespace nextview {

@@ -9,8 +9,8 @@
 #include "core/map/voxel_grid.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/view/pinhole_camera.hpp"
-#include "ui/figures/chart.hpp"
-#include "ui/scene.hpp"
+#include "ui/charts/chart.hpp"
+#include "ui/scene/scene.hpp"
 
 namespace nextview {
 

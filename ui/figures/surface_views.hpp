@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "ui/figures/page.hpp"
-#include "ui/scene.hpp"
+#include "ui/charts/page.hpp"
+#include "ui/scene/scene.hpp"
 
 namespace nextview {
 

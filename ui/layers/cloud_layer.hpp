@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "core/cloud/point_cloud.hpp"
+#include "ui/appearance/styles.hpp"
 #include "ui/layers/layer.hpp"
-#include "ui/layers/styles.hpp"
 
 class vtkActor;
 class vtkPolyDataMapper;

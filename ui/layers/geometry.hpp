@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.hpp"
-#include "ui/theme.hpp"
+#include "ui/appearance/theme.hpp"
 
 class vtkPolyData;
 

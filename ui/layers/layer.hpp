@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/view/pose.hpp"
-#include "ui/legend.hpp"
+#include "ui/appearance/legend.hpp"
 
 class vtkProp;
 class vtkProperty;

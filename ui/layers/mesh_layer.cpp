@@ -17,8 +17,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ui/drawing/shader_file.hpp"
 #include "ui/layers/geometry.hpp"
-#include "ui/shader_file.hpp"
 
 namespace nextview {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "core/mesh/triangle_mesh.hpp"
+#include "ui/appearance/styles.hpp"
 #include "ui/layers/layer.hpp"
-#include "ui/layers/styles.hpp"
 
 class vtkActor;
 class vtkOpenGLPolyDataMapper;

@@ -18,8 +18,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ui/drawing/shader_file.hpp"
 #include "ui/layers/voxel_polydata.hpp"
-#include "ui/shader_file.hpp"
 
 namespace nextview {
 namespace {

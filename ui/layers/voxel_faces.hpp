@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ui/layers/voxel_filter.hpp"
+#include "ui/appearance/voxel_filter.hpp"
 
 namespace nextview {
 

@@ -2,9 +2,9 @@
 #include <optional>
 #include <vector>
 
-#include "ui/layers/styles.hpp"
-#include "ui/layers/voxel_filter.hpp"
-#include "ui/legend.hpp"
+#include "ui/appearance/legend.hpp"
+#include "ui/appearance/styles.hpp"
+#include "ui/appearance/voxel_filter.hpp"
 
 namespace nextview {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "ui/figures/chart.hpp"
+#include "ui/charts/chart.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 #include "ui/panels/plot.hpp"
 
 namespace nextview {

@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "ui/commands/command.hpp"
+#include "ui/panels/layout.hpp"
 #include "ui/panels/panel_pictures.hpp"
 #include "ui/panels/style.hpp"
-#include "ui/window/command.hpp"
-#include "ui/window/inspection.hpp"
-#include "ui/window/layout.hpp"
+#include "ui/workbench/inspection.hpp"
 
 namespace nextview {
 

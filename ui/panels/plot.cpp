@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
 namespace {

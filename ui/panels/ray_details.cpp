@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "ui/colour_map.hpp"
-#include "ui/text.hpp"
+#include "ui/appearance/colour_map.hpp"
+#include "ui/drawing/text.hpp"
 
 namespace nextview {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <imgui.h>
 
-#include "ui/theme.hpp"
+#include "ui/appearance/theme.hpp"
 
 namespace nextview {
 

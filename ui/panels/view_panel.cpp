@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 #include "ui/panels/view_pictures.hpp"
 
 namespace nextview {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/session/session_parts.hpp"
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 #include "ui/panels/plot.hpp"
 
 namespace nextview {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "ui/shader_file.hpp"
+#include "ui/drawing/shader_file.hpp"
 #include "ui/surface/vtk_messages.hpp"
 
 namespace nextview {

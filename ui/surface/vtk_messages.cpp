@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "ui/shader_file.hpp"
+#include "ui/drawing/shader_file.hpp"
 
 namespace nextview {
 

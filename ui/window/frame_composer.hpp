@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/window/layout.hpp"
+#include "ui/panels/layout.hpp"
 
 class vtkOpenGLFramebufferObject;
 struct ImDrawData;

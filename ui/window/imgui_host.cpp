@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "ui/window/overloaded.hpp"
+#include "ui/workbench/overloaded.hpp"
 
 namespace nextview {
 namespace {

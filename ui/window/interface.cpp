@@ -6,13 +6,13 @@
 
 #include <algorithm>
 
+#include "ui/commands/starting_script.hpp"
 #include "ui/panels/all_panels.hpp"
 #include "ui/window/frame_composer.hpp"
 #include "ui/window/imgui_host.hpp"
 #include "ui/window/panels_alone.hpp"
 #include "ui/window/scene_pointer.hpp"
 #include "ui/window/selection_overlay.hpp"
-#include "ui/window/starting_script.hpp"
 
 namespace nextview {
 namespace {

@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 
+#include "ui/commands/command.hpp"
+#include "ui/commands/script_player.hpp"
 #include "ui/surface/render_surface.hpp"
 #include "ui/window/clipboard.hpp"
-#include "ui/window/command.hpp"
-#include "ui/window/inspection_worker.hpp"
 #include "ui/window/scene_view.hpp"
-#include "ui/window/script_player.hpp"
+#include "ui/workbench/inspection_worker.hpp"
 
 namespace nextview {
 

@@ -10,9 +10,9 @@
 #include <limits>
 #include <numbers>
 
-#include "ui/figures/session_figure.hpp"
+#include "ui/layers/ray_segments.hpp"
 #include "ui/window/camera_control.hpp"
-#include "ui/window/chosen_voxels.hpp"
+#include "ui/workbench/chosen_voxels.hpp"
 
 namespace nextview {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 #include <optional>
 
-#include "ui/scene.hpp"
-#include "ui/window/inspection.hpp"
-#include "ui/window/layout.hpp"
-#include "ui/window/session_snapshot.hpp"
+#include "ui/panels/layout.hpp"
+#include "ui/scene/scene.hpp"
+#include "ui/workbench/inspection.hpp"
+#include "ui/workbench/session_snapshot.hpp"
 
 namespace nextview {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 #include "ui/layers/views_layer.hpp"
 
 namespace nextview {

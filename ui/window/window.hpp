@@ -1,6 +1,6 @@
 #pragma once
 #include "core/session/configuration.hpp"
-#include "ui/window/command.hpp"
+#include "ui/commands/command.hpp"
 
 namespace nextview {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <set>
 
-#include "tests/unit/window/small_scan.hpp"
+#include "tests/unit/workbench/small_scan.hpp"
 #include "ui/panels/all_panels.hpp"
 #include "ui/window/imgui_host.hpp"
-#include "ui/window/session_runner.hpp"
+#include "ui/workbench/session_runner.hpp"
 
 namespace nextview {
 

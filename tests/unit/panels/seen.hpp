@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/unit/panels/desk.hpp"
-#include "ui/colour_map.hpp"
+#include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
 

@@ -1,0 +1,268 @@
+// What each command of scene, selection and window does to the window's state, and that it does nothing else.
+#include <gmock/gmock.h>
+
+#include "tests/unit/workbench/gated_worker.hpp"
+#include "tests/unit/workbench/inspected_scan.hpp"
+#include "ui/commands/command.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Kind = LookedAt::Kind;
+
+/// All of the state that scene commands change, to be compared.
+auto scene_state(const WindowState& w) {
+  const LayerChoice& l = w.layers;
+  const VoxelFilter& v = l.voxels;
+  return std::tuple(l.object, l.cloud, l.octree, l.views, l.rays, l.region, l.missed, l.object_style, l.cloud_colouring,
+                    l.map, l.colouring, l.ranges_locked, v.occupied, v.unknown, v.free, v.uncertain, v.unknown_from,
+                    v.entropy_from, v.slice.has_value(), w.front, w.curves, w.sort_column, w.sort_ascending,
+                    w.palette_open, w.shortcuts_open, w.picture_file, w.quit);
+}
+
+class CommandEffects : public testing::Test {
+ protected:
+  CommandEffects() : scan_(small_scan()) {
+    scan_.step();
+    scan_.step();
+  }
+  void run(const std::string& line) {
+    CommandTarget target{worker_, window_, scan_.now(), {}};
+    execute(parse_call(line), target);
+  }
+  /// That a line changes what `change` changes.
+  void expect_effect(const std::string& line, const std::function<void(WindowState&)>& change) {
+    WindowState expected = window_;
+    change(expected);
+    EXPECT_NE(scene_state(expected), scene_state(window_)) << line << " is to change nothing";
+    run(line);
+    EXPECT_EQ(scene_state(window_), scene_state(expected)) << line;
+  }
+  std::string error_of(const std::string& line) {
+    try {
+      run(line);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  LookedAtScan scan_;
+  SessionWorker worker_;
+  WindowState window_;
+};
+
+TEST_F(CommandEffects, EachLayerIsSwitchedByItsOwn) {
+  for (int twice = 0; twice < 2; ++twice) {
+    expect_effect("toggle-object", [](WindowState& w) { w.layers.object ^= true; });
+    expect_effect("toggle-cloud", [](WindowState& w) { w.layers.cloud ^= true; });
+    expect_effect("toggle-octree", [](WindowState& w) { w.layers.octree ^= true; });
+    expect_effect("toggle-views", [](WindowState& w) { w.layers.views ^= true; });
+    expect_effect("toggle-rays", [](WindowState& w) { w.layers.rays ^= true; });
+    expect_effect("toggle-region", [](WindowState& w) { w.layers.region ^= true; });
+    expect_effect("toggle-missed", [](WindowState& w) { w.layers.missed ^= true; });
+    expect_effect("toggle-occupied", [](WindowState& w) { w.layers.voxels.occupied ^= true; });
+    expect_effect("toggle-unknown", [](WindowState& w) { w.layers.voxels.unknown ^= true; });
+    expect_effect("toggle-free", [](WindowState& w) { w.layers.voxels.free ^= true; });
+    expect_effect("toggle-uncertain", [](WindowState& w) { w.layers.voxels.uncertain ^= true; });
+    expect_effect("lock-ranges", [](WindowState& w) { w.layers.ranges_locked ^= true; });
+    expect_effect("palette", [](WindowState& w) { w.palette_open ^= true; });
+    expect_effect("shortcuts", [](WindowState& w) { w.shortcuts_open ^= true; });
+  }
+}
+
+TEST_F(CommandEffects, EachChoiceIsTheOneOfItsName) {
+  expect_effect("object-style wire", [](WindowState& w) { w.layers.object_style = MeshStyle::wire; });
+  expect_effect("object-style solid", [](WindowState& w) { w.layers.object_style = MeshStyle::solid; });
+  expect_effect("cloud-colour view", [](WindowState& w) { w.layers.cloud_colouring = CloudColouring::by_view; });
+  expect_effect("cloud-colour height", [](WindowState& w) { w.layers.cloud_colouring = CloudColouring::by_height; });
+  expect_effect("cloud-colour distance",
+                [](WindowState& w) { w.layers.cloud_colouring = CloudColouring::by_distance; });
+  expect_effect("voxel-map gibbs", [](WindowState& w) { w.layers.map = MapChoice::gibbs; });
+  expect_effect("voxel-colour probability",
+                [](WindowState& w) { w.layers.colouring = VoxelColouring::by_probability; });
+  expect_effect("voxel-colour entropy", [](WindowState& w) { w.layers.colouring = VoxelColouring::by_entropy; });
+  expect_effect("voxel-colour difference", [](WindowState& w) { w.layers.colouring = VoxelColouring::by_difference; });
+  expect_effect("voxel-colour error", [](WindowState& w) { w.layers.colouring = VoxelColouring::by_error; });
+  expect_effect("threshold 0.4", [](WindowState& w) { w.layers.voxels.unknown_from = 0.4; });
+  expect_effect("uncertain-from 0.3", [](WindowState& w) { w.layers.voxels.entropy_from = 0.3; });
+  expect_effect("panel gibbs", [](WindowState& w) { w.front = {w.front[0], PanelName::gibbs, w.front[2]}; });
+  expect_effect("panel layers", [](WindowState& w) { w.front = {PanelName::layers, w.front[1], w.front[2]}; });
+  expect_effect("panel log", [](WindowState& w) { w.front = {w.front[0], w.front[1], PanelName::log}; });
+  expect_effect("curves gain time", [](WindowState& w) {
+    w.curves = {CurveKind::gain, CurveKind::time};
+    w.front[2] = PanelName::curves;
+  });
+  expect_effect("curves divergence coverage", [](WindowState& w) {
+    w.curves = {CurveKind::divergence, CurveKind::coverage};
+  });
+  expect_effect("sort cost ascending", [](WindowState& w) {
+    w.sort_column = CandidateColumn::cost;
+    w.sort_ascending = true;
+  });
+  expect_effect("sort gain descending", [](WindowState& w) {
+    w.sort_column = CandidateColumn::gain;
+    w.sort_ascending = false;
+  });
+  expect_effect("save-picture a.png", [](WindowState& w) { w.picture_file = "a.png"; });
+  expect_effect("quit", [](WindowState& w) { w.quit = true; });
+}
+
+TEST_F(CommandEffects, ASliceStandsWhereItIsSaid) {
+  const auto expect_slice = [&](int axis, double low, double high) {
+    ASSERT_TRUE(window_.layers.voxels.slice);
+    EXPECT_EQ(window_.layers.voxels.slice->axis, axis);
+    EXPECT_NEAR(window_.layers.voxels.slice->low, low, 1e-12);
+    EXPECT_NEAR(window_.layers.voxels.slice->high, high, 1e-12);
+  };
+  const VoxelGrid& grid = scan_.now().grid;
+  run("slice-axis z");
+  const double middle = (grid.lower().z() + grid.upper().z()) / 2;
+  expect_slice(2, middle - grid.resolution, middle + grid.resolution);
+  run("slice-axis y");
+  EXPECT_EQ(window_.layers.voxels.slice->axis, 1);
+  run("slice-at 0.05 0.2");
+  expect_slice(1, -0.05, 0.15);
+  run("slice-at -0.1");
+  expect_slice(1, -0.2, 0.0);
+  run("slice-axis none");
+  EXPECT_FALSE(window_.layers.voxels.slice);
+}
+
+TEST_F(CommandEffects, SelectionFollowsItsRules) {
+  Selection& s = window_.selection;
+  s.ray = 3;
+  run("select-view 4");
+  EXPECT_TRUE(s.view.is(Kind::candidate, 4));
+  EXPECT_FALSE(s.ray) << "a ray of another view";
+  s.ray = 3;
+  run("select-view 4");
+  EXPECT_EQ(s.ray, 3u) << "a ray of the same view";
+  run("select-taken 2");
+  EXPECT_TRUE(s.view.is(Kind::taken, 1)) << "people count views from 1";
+  EXPECT_FALSE(s.ray);
+  EXPECT_EQ(error_of("select-taken 3"), "select-taken: 2 views were taken");
+  EXPECT_EQ(error_of("select-view 8"), "select-view: there are 8 candidates, from 0");
+  EXPECT_TRUE(s.view.is(Kind::taken, 1)) << "what failed changed something";
+  s.ray = 3;
+  run("inspect-voxel 0.01 -0.05 0.1");
+  const VoxelGrid& grid = scan_.now().grid;
+  EXPECT_LT((grid.centre(s.voxel.value()) - Vector3(0.01, -0.05, 0.1)).cwiseAbs().maxCoeff(), 0.5001 * grid.resolution);
+  EXPECT_FALSE(s.ray);
+  EXPECT_EQ(window_.in_front(Side::right), PanelName::inspector);
+  EXPECT_THAT(error_of("inspect-voxel 5 0 0"), HasSubstr("outside of the region"));
+  run("inspect-ray 7");
+  EXPECT_EQ(s.ray, 7u);
+  EXPECT_FALSE(s.voxel);
+  run("select-next");
+  EXPECT_TRUE(s.view == LookedAt{});
+  run("inspect-voxel 0 0 0");
+  run("clear-selection");
+  EXPECT_EQ(s, Selection{});
+}
+
+TEST_F(CommandEffects, AnOwnViewStandsWhereItIsSaidAndLooksThere) {
+  run("own-view 0.6 -0.5 0.4 0.1 0.2 0.3");
+  const Vector3 from(0.6, -0.5, 0.4), to(0.1, 0.2, 0.3);
+  const Pose pose = window_.selection.own_view.value();
+  EXPECT_LT((pose.translation() - from).norm(), 1e-12);
+  EXPECT_LT((pose.linear().col(2) - (to - from).normalized()).norm(), 1e-9) << "z is forward";
+  EXPECT_TRUE(window_.selection.view.is(Kind::own, 0));
+  EXPECT_EQ(window_.in_front(Side::right), PanelName::view);
+  window_.scene_camera = look_at(Vector3(1, 1, 1), Vector3::Zero());
+  run("own-view");
+  EXPECT_TRUE(window_.selection.own_view->isApprox(window_.scene_camera));
+  run("look-through");
+  run("select-taken 1");
+  run("look-through");
+  run("look-from 30 20");
+  run("zoom -2");
+  run("frame");
+  const auto& motions = window_.camera_motions;
+  ASSERT_EQ(motions.size(), 5u);
+  const auto through = [&](int i) { return std::get<camera_motion::LookThrough>(motions[i]).T_world_camera; };
+  EXPECT_TRUE(through(0).isApprox(window_.scene_camera));
+  EXPECT_TRUE(through(1).isApprox(scan_.now().records[0].T_world_camera));
+  EXPECT_EQ(std::get<camera_motion::LookFrom>(motions[2]).azimuth, 30);
+  EXPECT_EQ(std::get<camera_motion::LookFrom>(motions[2]).elevation, 20);
+  EXPECT_EQ(std::get<camera_motion::Zoom>(motions[3]).steps, -2);
+  EXPECT_TRUE(std::holds_alternative<camera_motion::Frame>(motions[4]));
+}
+
+/// Commands that ask the worker for something, with what they ask.
+class AskedOfTheWorker : public GatedWorker {
+ protected:
+  void run(const std::string& line) {
+    const auto snapshot = now();
+    const WorkerProgress progress = worker_.progress();
+    CommandTarget target{worker_, window_, *snapshot, progress};
+    execute(parse_call(line), target);
+    wait_until_idle();
+  }
+  WindowState window_;
+};
+
+TEST_F(AskedOfTheWorker, RefineHasItsNumbersOrThoseOfTheSettings) {
+  Configuration c = small_scan();
+  c.gibbs.sampler.chains = 3;
+  c.gibbs.sampler.sweeps = 9;
+  load(c);
+  step();
+  for (const auto& [line, chains, sweeps] :
+       {std::tuple{"refine", 3, 9}, {"refine 1", 1, 9}, {"refine 1 14", 1, 14}, {"refine 2 5", 2, 5}}) {
+    run(line);
+    EXPECT_EQ(now()->gibbs->config.chains, chains) << line;
+    EXPECT_EQ(now()->gibbs->config.sweeps, sweeps) << line;
+    EXPECT_EQ(window_.in_front(Side::right), PanelName::gibbs);
+  }
+}
+
+TEST_F(AskedOfTheWorker, ViewsAreTakenAsAsked) {
+  load();
+  step();
+  const std::size_t proposed = *now()->proposal(), other = proposed == 3 ? 4 : 3, third = proposed == 5 ? 6 : 5;
+  window_.selection.view = {Kind::candidate, other};
+  window_.selection.ray = 3;
+  run("take-view");
+  EXPECT_EQ(now()->next_candidate, other) << "the selected one";
+  EXPECT_TRUE(window_.selection.view == LookedAt{}) << "it is the next view now";
+  EXPECT_FALSE(window_.selection.ray);
+  run("take-proposal");
+  EXPECT_EQ(now()->next_candidate, proposed);
+  run("take-view " + std::to_string(third));
+  EXPECT_EQ(now()->next_candidate, third);
+  window_.selection.own_view = own_view();
+  run("take-own-view");
+  EXPECT_TRUE(now()->own_next_view);
+  EXPECT_TRUE(now()->next_view.isApprox(own_view()));
+  run("step");
+  EXPECT_EQ(now()->records.size(), 2u);
+  EXPECT_THROW(run("take-view"), std::invalid_argument) << "nothing is selected";
+  run("undo");
+  EXPECT_EQ(now()->records.size(), 1u);
+  run("redo");
+  EXPECT_EQ(now()->records.size(), 2u);
+  run("reset");
+  EXPECT_EQ(now()->records.size(), 0u);
+}
+
+TEST_F(AskedOfTheWorker, SettingsAndSpeed) {
+  load();
+  run("set termination.views 7");
+  EXPECT_EQ(now()->configuration.termination.views, 7);
+  EXPECT_EQ(now()->configuration.views.count, 8) << "the others stay";
+  run("reset-setting termination.views");
+  EXPECT_EQ(now()->configuration.termination.views, Configuration().termination.views);
+  EXPECT_EQ(now()->configuration.views.count, 8);
+  run("speed 1.5");
+  EXPECT_EQ(worker_.progress().pause_between_views, 1.5);
+  run("open box");
+  EXPECT_EQ(now()->object_name, "box");
+  EXPECT_THROW(run("set map.resolution -1"), std::invalid_argument);
+  EXPECT_EQ(now()->object_name, "box");
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,113 @@
+// What ends a scan changes while it goes on, and the scan is kept.
+#include <gmock/gmock.h>
+
+#include "tests/unit/workbench/session_runner_test.hpp"
+#include "ui/commands/command.hpp"
+
+namespace nextview {
+namespace {
+
+Configuration with_views(int views) {
+  Configuration c = small_scan();
+  c.termination.views = views;
+  return c;
+}
+
+using TerminationChange = SessionRunnerTest;
+
+TEST_F(TerminationChange, AFinishedScanGoesOn) {
+  runner_.load(with_views(3), told());
+  steps(3);
+  ASSERT_FALSE(now().finished.empty());
+  const std::uint64_t session = now().session;
+  runner_.set_termination(with_views(5).termination);
+  EXPECT_EQ(now().session, session) << "the scan is another one";
+  EXPECT_EQ(now().records.size(), 3u);
+  EXPECT_EQ(now().finished, "");
+  EXPECT_EQ(now().configuration.termination.views, 5);
+  EXPECT_NE(now().explanation, nullptr) << "the next view is not explained";
+  steps(1);
+  expect_same_scan(now(), *fresh(4, with_views(5)));
+  steps(2);
+  expect_same_scan(now(), *fresh(5, with_views(5)));
+}
+
+TEST_F(TerminationChange, AScanEndsAtOnceIfItHasEnough) {
+  runner_.load(with_views(5), told());
+  steps(3);
+  runner_.set_termination(with_views(2).termination);
+  EXPECT_EQ(now().records.size(), 3u);
+  EXPECT_EQ(now().finished, "3 views taken");
+  const auto finished = runner_.snapshot();
+  steps(1);
+  EXPECT_EQ(runner_.snapshot(), finished);
+  EXPECT_THROW(runner_.set_termination(TerminationConfig{.views = 0}), std::invalid_argument);
+  EXPECT_EQ(runner_.snapshot(), finished);
+}
+
+TEST_F(TerminationChange, IsUndoneAndRedone) {
+  runner_.load(with_views(3), told());
+  steps(3);
+  const auto before = runner_.snapshot();
+  runner_.set_termination(with_views(6).termination);
+  steps(2);
+  const auto all = runner_.snapshot();
+  runner_.set_termination(with_views(4).termination);
+  EXPECT_FALSE(now().finished.empty());
+  runner_.undo(told());
+  expect_same_scan(now(), *all);
+  for (int i = 0; i < 3; ++i) runner_.undo(told());
+  expect_same_scan(now(), *before);
+  EXPECT_EQ(now().session, before->session);
+  runner_.undo(told());
+  expect_same_scan(now(), *fresh(2, with_views(3)));
+  for (int i = 0; i < 5; ++i) runner_.redo(told());
+  EXPECT_EQ(now().finished, "5 views taken") << "the last change is the end of the way";
+  EXPECT_FALSE(now().can_redo);
+  runner_.undo(told());
+  expect_same_scan(now(), *all);
+}
+
+TEST_F(TerminationChange, NothingToChangeIsFound) {
+  runner_.set_termination(with_views(3).termination);
+  EXPECT_FALSE(now().loaded());
+  EXPECT_FALSE(now().can_undo);
+}
+
+/// As somebody does it who presses + at Views: by the command.
+TEST(TerminationCommand, KeepsTheScan) {
+  SessionWorker worker;
+  WindowState window;
+  const auto wait = [&] {
+    while (worker.progress().busy) std::this_thread::yield();
+  };
+  const auto run = [&](const char* line) {
+    const auto snapshot = worker.snapshot();
+    const WorkerProgress progress = worker.progress();
+    CommandTarget target{worker, window, *snapshot, progress};
+    execute(parse_call(line), target);
+    wait();
+  };
+  worker.post(request::Load{with_views(2)});
+  wait();
+  run("step");
+  run("step");
+  run("set termination.views 3");
+  EXPECT_EQ(worker.snapshot()->records.size(), 2u);
+  EXPECT_EQ(worker.snapshot()->finished, "");
+  run("set termination.views 3");
+  run("set planner.gain occlusion-aware");
+  run("set planner.gain occlusion-aware");
+  EXPECT_EQ(worker.snapshot()->session, 2u) << "what is so already started the scan over";
+  run("step");
+  run("reset-setting termination.views");
+  EXPECT_EQ(worker.snapshot()->records.size(), 1u);
+  EXPECT_EQ(worker.snapshot()->configuration.termination.views, 20);
+  std::string log;
+  for (const LogEntry& entry : *worker.log().entries()) log += entry.text + "\n";
+  EXPECT_THAT(log, testing::HasSubstr("The scan goes on"));
+  EXPECT_THAT(log, testing::HasSubstr("This setting starts the scan over; undo (Ctrl+Z) brings its 2 views back"));
+}
+
+}  // namespace
+}  // namespace nextview

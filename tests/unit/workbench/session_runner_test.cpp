@@ -1,0 +1,234 @@
+#include "tests/unit/workbench/session_runner_test.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/file/atomic_file.hpp"
+#include "core/progress/stopped.hpp"
+#include "core/session/scan_files.hpp"
+
+namespace nextview {
+namespace {
+
+TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
+  runner_.load(small_scan(), told());
+  runner_.refine(2, 8, told());
+  EXPECT_EQ(now().gibbs, nullptr) << "there was no view";
+  steps(2);
+  const auto before = runner_.snapshot();
+  int told_of_sampler = 0;
+  SessionRunner::Told listening = told();
+  listening.sampler = [&](const SamplerDiagnostics&) { ++told_of_sampler; };
+  runner_.refine(2, 40, listening);
+  const auto first = now().gibbs;
+  ASSERT_NE(first, nullptr);
+  EXPECT_GT(told_of_sampler, 0);
+  EXPECT_EQ(first->views, 2u);
+  EXPECT_EQ(first->voxels->size(), now().voxels->size());
+  EXPECT_EQ(now().voxels, before->voxels) << "the conventional map is another";
+  EXPECT_EQ(now().records.size(), 2u);
+  EXPECT_NE(now().map, before->map);
+  steps(1);
+  EXPECT_EQ(now().gibbs, first) << "it stays until it is made again";
+  EXPECT_LT(now().gibbs->views, now().records.size());
+  expect_same_scan(now(), *fresh(3));
+  runner_.refine(2, 40, told());
+  EXPECT_EQ(now().gibbs->views, 3u);
+  EXPECT_EQ(first->views, 2u);
+  runner_.refine(1, 12, told());
+  EXPECT_EQ(now().gibbs->config.chains, 1);
+  EXPECT_EQ(now().gibbs->views, 3u);
+  EXPECT_EQ(now().gibbs->posterior->traces.levels.size(), 1u);
+  runner_.undo(told());
+  EXPECT_EQ(now().gibbs, nullptr) << "a map of views that are no more";
+  EXPECT_THROW(runner_.refine(0, 8, told()), std::invalid_argument);
+}
+
+TEST_F(SessionRunnerTest, RefiningTwiceIsAsOnceAnew) {
+  runner_.load(small_scan(), told());
+  steps(2);
+  runner_.refine(2, 20, told());
+  SessionRunner other;
+  other.load(small_scan(), told());
+  other.step(told());
+  other.step(told());
+  other.refine(2, 20, told());
+  const auto probability = [](const SessionRunner& runner) {
+    std::vector<float> p;
+    for (const Voxel& v : *runner.snapshot()->gibbs->voxels) p.push_back(v.probability);
+    return p;
+  };
+  EXPECT_EQ(probability(runner_), probability(other));
+  runner_.refine(2, 20, told());
+  other.refine(2, 20, told());
+  EXPECT_EQ(probability(runner_), probability(other));
+}
+
+TEST_F(SessionRunnerTest, TheChangeCountsWhatTheMapsSay) {
+  runner_.load(small_scan(), told());
+  steps(2);
+  runner_.refine(2, 40, told());
+  const auto& before = *now().voxels;
+  const auto& after = *now().gibbs->voxels;
+  std::size_t classes = 0, both = 0, in_bins = 0, in_bins_after = 0;
+  double entropy = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    classes += before[v].voxel_class != after[v].voxel_class;
+    both += before[v].measured && after[v].measured;
+    entropy += after[v].entropy;
+  }
+  const MapChange& change = now().gibbs->change;
+  for (std::size_t b = 0; b < change.before.size(); ++b) {
+    in_bins += change.before[b];
+    in_bins_after += change.after[b];
+  }
+  EXPECT_EQ(change.changed_class, classes);
+  EXPECT_EQ(in_bins, both);
+  EXPECT_EQ(in_bins_after, both);
+  EXPECT_GT(both, 100u);
+  EXPECT_NEAR(change.entropy_after, entropy, 1e-9 * entropy);
+}
+
+TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
+  runner_.load(small_scan(), told());
+  steps(2);
+  std::stop_source stop;
+  SessionRunner::Told stopping = told();
+  stopping.stop = stop.get_token();
+  stopping.sampler = [&](const SamplerDiagnostics&) { stop.request_stop(); };
+  runner_.refine(2, 100'000, stopping);
+  ASSERT_NE(now().gibbs, nullptr);
+  EXPECT_LT(now().gibbs->posterior->diagnostics.sweeps, 1000);
+  runner_.refine(2, 30, told());
+  EXPECT_EQ(now().gibbs->views, 2u);
+  std::stop_source stopped;
+  stopped.request_stop();
+  steps(1);
+  const auto before = runner_.snapshot();
+  SessionRunner::Told never = told();
+  never.stop = stopped.get_token();
+  EXPECT_THROW(runner_.refine(2, 30, never), Stopped);
+  EXPECT_EQ(runner_.snapshot(), before);
+  runner_.refine(2, 30, told());
+  EXPECT_EQ(now().gibbs->views, 3u);
+}
+
+TEST_F(SessionRunnerTest, ExportsWhatAScanWrites) {
+  runner_.load(small_scan(), told());
+  EXPECT_THROW(runner_.write(folder_ / "none", told()), std::invalid_argument);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+  steps(2);
+  runner_.take_own_view(own_view());
+  steps(1);
+  runner_.undo(told());
+  runner_.redo(told());
+  runner_.write(folder_ / "window", told());
+  Session session(small_scan());
+  session.step();
+  session.step();
+  session.override_next_view(own_view());
+  session.step();
+  OutputFolder out(folder_ / "scan", {});
+  out.begin("scan", session.object_file());
+  write_scan(session, out);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "scan")) {
+    const auto name = entry.path().filename();
+    ASSERT_TRUE(std::filesystem::exists(folder_ / "window" / name)) << name;
+    if (name == "timings.csv" || name == "manifest.json") continue;  // the latter lists the surfaces too
+    { EXPECT_EQ(read_file(folder_ / "window" / name), read_file(entry.path())) << name; }
+    ++files;
+  }
+  EXPECT_GE(files, 8u);
+  std::size_t surfaces = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "window"))
+    surfaces += !std::filesystem::exists(folder_ / "scan" / entry.path().filename());
+  EXPECT_GT(surfaces, 0u) << "the surfaces are not there";
+}
+
+TEST_F(SessionRunnerTest, AnExportReplacesNothingThatTheScanWasReadFrom) {
+  const auto copy = folder_ / "export" / "cloud.ply";
+  std::filesystem::create_directories(folder_ / "export");
+  Configuration c = small_scan();
+  std::filesystem::copy_file(resolve_object(c.object.file), copy);
+  const std::string bytes = read_file(copy);
+  c.object.file = copy.string();
+  runner_.load(c, told());
+  steps(1);
+  try {
+    runner_.write(folder_ / "export", told());
+    ADD_FAILURE() << "no error";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(copy.string()));
+  }
+  EXPECT_EQ(read_file(copy), bytes);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "export" / "steps.csv"));
+}
+
+TEST_F(SessionRunnerTest, AnExportTellsHowMuchOfEachSurfaceWasSeen) {
+  runner_.load(small_scan(), told());
+  steps(1);
+  const auto lines = runner_.write(folder_ / "export", told());
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_THAT(lines[0], testing::HasSubstr("% of it was seen: "));
+}
+
+TEST_F(SessionRunnerTest, AnExportThatCannotBeWrittenSaysSo) {
+  runner_.load(small_scan(), told());
+  steps(1);
+  write_file(folder_ / "file", "x");
+  try {
+    runner_.write(folder_ / "file", told());
+    ADD_FAILURE() << "no error";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr((folder_ / "file").string()));
+  }
+}
+
+TEST_F(SessionRunnerTest, EarlierRunsStayForTheirCurves) {
+  Configuration c = small_scan();
+  runner_.load(c, told());
+  runner_.load(c, told());
+  EXPECT_EQ(now().earlier_runs, nullptr) << "a run without views has no curve";
+  for (int run = 0; run < 8; ++run) {
+    steps(1 + run % 2);
+    c.seed = std::uint64_t(run + 2);
+    runner_.load(c, told());
+  }
+  ASSERT_NE(now().earlier_runs, nullptr);
+  const auto& runs = *now().earlier_runs;
+  ASSERT_EQ(runs.size(), 6u) << "the oldest ones go";
+  EXPECT_EQ(runs.back().records.size(), 2u);
+  EXPECT_EQ(runs.front().records.size(), 1u);
+  EXPECT_EQ(runs.front().name, "sphere, proximity-count");
+  for (const nextview::Run& run : runs)
+    for (const StepRecord& record : run.records) EXPECT_TRUE(record.candidates.empty());
+  steps(1);
+  EXPECT_EQ(now().earlier_runs->size(), 6u);
+  runner_.forget_runs();
+  EXPECT_EQ(now().earlier_runs, nullptr);
+  EXPECT_EQ(now().records.size(), 1u);
+}
+
+TEST_F(SessionRunnerTest, WithoutEvaluationThereIsNoTruth) {
+  Configuration c = small_scan();
+  c.evaluation.enabled = false;
+  runner_.load(c, told());
+  steps(2);
+  EXPECT_EQ(now().truth, nullptr);
+  EXPECT_EQ(now().missed, nullptr);
+  EXPECT_TRUE(now().cloud->distances.empty());
+  EXPECT_FALSE(now().cloud->points.empty());
+  EXPECT_EQ(now().cloud->views.size(), now().cloud->points.size());
+}
+
+TEST_F(SessionRunnerTest, AMessageGoesWithWhatWorksNext) {
+  runner_.load(small_scan(), told());
+  runner_.set_message("no");
+  EXPECT_EQ(now().message, "no");
+  EXPECT_TRUE(now().loaded());
+  steps(1);
+  EXPECT_EQ(now().message, "");
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,78 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include "tests/unit/map/in_temporary_folder.hpp"
+#include "tests/unit/workbench/small_scan.hpp"
+#include "ui/workbench/session_runner.hpp"
+
+namespace nextview {
+
+inline SessionRunner::Told told() {
+  return {[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
+}
+
+inline Pose own_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
+
+inline bool same_candidates(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Candidate& x, const Candidate& y) {
+    return x.available == y.available && x.gain == y.gain && x.cost == y.cost && x.utility == y.utility;
+  });
+}
+
+/// All that a snapshot says of the scan, to the bit; seconds aside.
+inline void expect_same_scan(const SessionSnapshot& a, const SessionSnapshot& b) {
+  EXPECT_EQ(to_toml(a.configuration), to_toml(b.configuration));
+  EXPECT_EQ(a.object_name, b.object_name);
+  EXPECT_EQ(a.finished, b.finished);
+  EXPECT_EQ(a.next_candidate, b.next_candidate);
+  EXPECT_EQ(a.next_view.matrix(), b.next_view.matrix());
+  EXPECT_EQ(a.own_next_view, b.own_next_view);
+  EXPECT_EQ(a.explanation != nullptr, b.explanation != nullptr);
+  if (a.explanation && b.explanation) {
+    EXPECT_EQ(a.explanation->value, b.explanation->value);
+  }
+  ASSERT_EQ(a.records.size(), b.records.size());
+  for (std::size_t k = 0; k < a.records.size(); ++k) {
+    const StepRecord &x = a.records[k], &y = b.records[k];
+    EXPECT_EQ(x.view, y.view) << k;
+    EXPECT_EQ(x.overridden, y.overridden) << k;
+    EXPECT_EQ(x.T_world_camera.matrix(), y.T_world_camera.matrix()) << k;
+    EXPECT_EQ(x.gain, y.gain) << k;
+    EXPECT_EQ(x.entropy, y.entropy) << k;
+    EXPECT_EQ(x.coverage, y.coverage) << k;
+    EXPECT_EQ(x.realised_gain, y.realised_gain) << k;
+    EXPECT_TRUE(same_candidates(x.candidates, y.candidates)) << k;
+    EXPECT_EQ(a.scans[k]->returns, b.scans[k]->returns) << k;
+    EXPECT_EQ(a.scans[k]->passes, b.scans[k]->passes) << k;
+  }
+  EXPECT_TRUE(std::equal(a.voxels->begin(), a.voxels->end(), b.voxels->begin(), b.voxels->end(),
+                         [](const Voxel& x, const Voxel& y) {
+                           return x.probability == y.probability && x.measured == y.measured &&
+                                  x.occlusion_distance == y.occlusion_distance;
+                         }));
+  EXPECT_EQ(a.cloud->points, b.cloud->points);
+  EXPECT_EQ(a.cloud->views, b.cloud->views);
+  EXPECT_EQ(a.cloud->distances, b.cloud->distances);
+  if (a.missed && b.missed) {
+    EXPECT_EQ(a.missed->observed, b.missed->observed);
+  }
+}
+
+class SessionRunnerTest : public InTemporaryFolder {
+ protected:
+  const SessionSnapshot& now() { return *runner_.snapshot(); }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) runner_.step(told());
+  }
+  /// What a person sees who never did anything else than this.
+  static std::shared_ptr<const SessionSnapshot> fresh(int steps, const Configuration& configuration = small_scan()) {
+    SessionRunner runner;
+    runner.load(configuration, told());
+    for (int i = 0; i < steps; ++i) runner.step(told());
+    return runner.snapshot();
+  }
+
+  SessionRunner runner_;
+};
+
+}  // namespace nextview

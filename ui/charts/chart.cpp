@@ -1,0 +1,189 @@
+#include "ui/charts/chart.hpp"
+
+#include <fmt/format.h>
+#include <vtkAxis.h>
+#include <vtkChartLegend.h>
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderer.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ui/drawing/painter.hpp"
+
+namespace nextview {
+namespace {
+
+unsigned char channel(double value) { return static_cast<unsigned char>(std::lround(value * 255)); }
+
+void set_pen(vtkPen& pen, const Colour& colour, double width) {
+  pen.SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), 255);
+  pen.SetWidth(float(width));
+}
+
+/// Large values are shown in thousands or millions, named in the axis title.
+struct Scale {
+  double factor = 1.0;
+  std::string word;
+
+  explicit Scale(double largest) {
+    if (largest >= 1e6)
+      *this = Scale(1e6, "million ");
+    else if (largest >= 1e4)
+      *this = Scale(1e3, "thousand ");
+  }
+  Scale(double by, std::string name) : factor(by), word(std::move(name)) {}
+
+  std::string title(const std::string& label, const std::string& unit) const {
+    const std::string inside = word + unit;
+    return inside.empty()
+               ? label
+               : fmt::format("{} [{}]", label, inside.back() == ' ' ? inside.substr(0, inside.size() - 1) : inside);
+  }
+};
+
+/// The margins are shares of the range that stay free at its ends, so that no marker is cut.
+void set_ticks(vtkAxis& axis, const std::vector<double>& ticks, double low_margin, double high_margin) {
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (const double tick : ticks) {
+    positions->InsertNextValue(tick);
+    labels->InsertNextValue(fmt::format("{:g}", std::abs(tick) < 1e-12 ? 0.0 : tick));
+  }
+  axis.SetCustomTickPositions(positions, labels);
+  axis.SetBehavior(vtkAxis::FIXED);
+  const double range = ticks.back() - ticks.front();
+  axis.SetRange(ticks.front() - low_margin * range, ticks.back() + high_margin * range);
+}
+
+void style_axis(vtkAxis& axis, const std::string& title) {
+  axis.SetTitle(title);
+  set_text(*axis.GetTitleProperties(), theme::small_text, theme::soft_ink);
+  set_text(*axis.GetLabelProperties(), theme::small_text, theme::soft_ink);
+  set_pen(*axis.GetPen(), theme::soft_ink, 1);
+  set_pen(*axis.GetGridPen(), theme::hairline, 1);
+}
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return low > high; }
+};
+
+void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colour, double y_factor) {
+  vtkNew<vtkDoubleArray> x, y;
+  x->SetName("x");
+  y->SetName(series.name.c_str());
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    x->InsertNextValue(series.x[i]);
+    y->InsertNextValue(series.y[i] / y_factor);
+  }
+  vtkNew<vtkTable> table;
+  table->AddColumn(x);
+  table->AddColumn(y);
+  // VTK takes a line through a single point for an error.
+  auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(series.x.size() > 1 ? vtkChart::LINE : vtkChart::POINTS));
+  plot->SetInputData(table, 0, 1);
+  set_pen(*plot->GetPen(), colour, 2);
+  plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  plot->SetMarkerSize(6);
+}
+
+/// A chart with its title at the left, as all panels have it, and a margin all around.
+class TitledChart : public vtkChartXY {
+ public:
+  static TitledChart* New();
+  vtkTypeMacro(TitledChart, vtkChartXY)
+
+      bool Paint(vtkContext2D* context) override {
+    constexpr float margin = 16, title = 36;
+    const auto width = float(GetScene()->GetSceneWidth()), height = float(GetScene()->GetSceneHeight());
+    SetSize(vtkRectf(margin, 4, width - 2 * margin, height - title - 8));
+    Painter(*context).text(margin, height - 30, heading, theme::caption, theme::ink, TextWeight::semi_bold);
+    return vtkChartXY::Paint(context);
+  }
+
+  std::string heading;
+};
+
+vtkStandardNewMacro(TitledChart);
+
+}  // namespace
+
+struct Chart::Parts {
+  vtkNew<vtkContextActor> actor;
+  vtkNew<TitledChart> chart;
+};
+
+Chart::Chart() : renderer_(vtkSmartPointer<vtkRenderer>::New()), parts_(std::make_unique<Parts>()) {
+  renderer_->SetBackground(theme::paper.data());
+  vtkChartXY& chart = *parts_->chart;
+  chart.SetAutoSize(false);
+  set_text(*chart.GetLegend()->GetLabelProperties(), theme::small_text, theme::ink);
+  chart.GetLegend()->GetPen()->SetOpacity(0);
+  chart.GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
+  chart.SetInteractive(false);
+  parts_->actor->GetScene()->AddItem(&chart);
+  parts_->actor->GetScene()->SetRenderer(renderer_);
+  renderer_->AddActor(parts_->actor);
+}
+
+Chart::~Chart() {
+  parts_->actor->GetScene()->SetRenderer(nullptr);
+  if (vtkRenderWindow* window = renderer_->GetRenderWindow()) window->RemoveRenderer(renderer_);
+}
+
+void Chart::attach(RenderSurface& surface, const Viewport& viewport) {
+  renderer_->SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
+  surface.window().AddRenderer(renderer_);
+}
+
+void Chart::show(const ChartContent& content) {
+  Extent x, y;
+  for (const ChartSeries& series : content.series) {
+    if (series.x.size() != series.y.size()) {
+      throw std::invalid_argument(
+          fmt::format("series '{}': {} x for {} y", series.name, series.x.size(), series.y.size()));
+    }
+    std::for_each(series.x.begin(), series.x.end(), [&](double value) { x.add(value); });
+    std::for_each(series.y.begin(), series.y.end(), [&](double value) { y.add(value); });
+  }
+  if (x.empty() || y.empty()) x.low = 0, x.high = 1, y.low = 0, y.high = 1;
+  const double top = content.y_high.value_or(y.high);
+  const Scale scale(std::max(std::abs(y.low), std::abs(top)));
+  TitledChart& chart = *parts_->chart;
+  chart.ClearPlots();
+  chart.heading = content.title;
+  chart.SetShowLegend(content.series.size() > 1);
+  for (std::size_t i = 0; i < content.series.size(); ++i) {
+    add_series(chart, content.series[i], theme::series[i % theme::series.size()], scale.factor);
+  }
+  const bool rising = !content.series.empty() && !content.series[0].y.empty() &&
+                      content.series[0].y.back() > content.series[0].y.front();
+  chart.GetLegend()->SetVerticalAlignment(rising ? vtkChartLegend::BOTTOM : vtkChartLegend::TOP);
+  style_axis(*chart.GetAxis(vtkAxis::BOTTOM), Scale(1.0, "").title(content.x_label, content.x_unit));
+  style_axis(*chart.GetAxis(vtkAxis::LEFT), scale.title(content.y_label, content.y_unit));
+  set_ticks(*chart.GetAxis(vtkAxis::BOTTOM), round_ticks(x.low, x.high, 8, content.whole_x), 0.02, 0.02);
+  set_ticks(*chart.GetAxis(vtkAxis::LEFT),
+            round_ticks(std::min(0.0, y.low) / scale.factor, top / scale.factor, 5, false), 0.0, 0.03);
+}
+
+}  // namespace nextview

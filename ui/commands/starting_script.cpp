@@ -1,0 +1,33 @@
+#include "ui/commands/starting_script.hpp"
+
+#include "ui/commands/command.hpp"
+
+namespace nextview {
+namespace {
+
+/// As it is found from any folder; known objects by their names.
+std::string place_of(const std::string& object) {
+  std::error_code error;
+  return std::filesystem::exists(object, error) ? std::filesystem::absolute(object).string() : object;
+}
+
+}  // namespace
+
+std::vector<std::string> starting_script(const Configuration& configuration) {
+  std::vector<std::string> script;
+  Configuration reached, wanted = configuration;
+  if (wanted.object.file != reached.object.file) {
+    script.push_back(make_call("open", {place_of(wanted.object.file)}).text());
+    reached.object.file = wanted.object.file;
+  }
+  if (wanted.sensor_preset != reached.sensor_preset) {  // sets other settings, too
+    script.push_back(make_call("set", {"sensor.preset", wanted.sensor_preset}).text());
+    apply_sensor_preset(reached, wanted.sensor_preset);
+  }
+  const auto from = settings(reached), to = settings(wanted);
+  for (std::size_t i = 0; i < to.size(); ++i)
+    if (from[i].text() != to[i].text()) script.push_back(make_call("set", {to[i].key, to[i].text()}).text());
+  return script;
+}
+
+}  // namespace nextview

@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/view/pose.hpp"
+#include "ui/workbench/candidate_order.hpp"
+#include "ui/workbench/layer_choice.hpp"
+#include "ui/workbench/selection.hpp"
+
+namespace nextview {
+
+/// Panels; those of a side share its place, one in front.
+enum class PanelName { session, layers, candidates, view, inspector, gibbs, curves, log, count };
+enum class Side { left, right, bottom };
+constexpr Side side_of(PanelName panel) {
+  return panel <= PanelName::layers ? Side::left : panel <= PanelName::gibbs ? Side::right : Side::bottom;
+}
+
+/// As commands name them, in the order of PanelName.
+std::span<const std::string> panel_names();
+
+enum class CurveKind { entropy, coverage, divergence, gain, time };
+
+/// What the scene's camera is to do.
+namespace camera_motion {
+struct Frame {};
+struct LookFrom {
+  double azimuth, elevation;  ///< [deg]
+};
+struct LookThrough {
+  Pose T_world_camera;
+};
+struct Zoom {
+  double steps;
+};
+}  // namespace camera_motion
+using CameraMotion =
+    std::variant<camera_motion::Frame, camera_motion::LookFrom, camera_motion::LookThrough, camera_motion::Zoom>;
+
+/// Everything that is the window's own and not the session's; only commands change it.
+struct WindowState {
+  LayerChoice layers;
+  Selection selection;
+  std::array<PanelName, 3> front = {PanelName::session, PanelName::candidates, PanelName::curves};  ///< by Side
+  Side open = Side::right;  ///< the side whose panels were asked for last: it is shown where there is room for one
+  std::array<CurveKind, 2> curves = {CurveKind::entropy, CurveKind::coverage};  ///< left and right plot
+  CandidateColumn sort_column = CandidateColumn::utility;
+  bool sort_ascending = false;
+  bool palette_open = false, shortcuts_open = false;
+  std::string palette_text;  ///< what the palette starts with
+  bool quit = false;
+
+  Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene
+  std::vector<CameraMotion> camera_motions;  ///< to be made
+  std::optional<std::string> picture_file;   ///< the window's picture is to be written here
+  std::vector<std::string> script;           ///< the commands so far, a line each
+
+  PanelName in_front(Side side) const { return front[static_cast<std::size_t>(side)]; }
+  void bring_to_front(PanelName panel) {
+    open = side_of(panel);
+    front[static_cast<std::size_t>(open)] = panel;
+  }
+};
+
+}  // namespace nextview

@@ -1,0 +1,26 @@
+#include "ui/drawing/text.hpp"
+
+#include <vtkTextProperty.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace nextview {
+
+std::filesystem::path font_file(TextWeight weight) {
+  const std::string name = weight == TextWeight::semi_bold ? "Inter-SemiBold" : "Inter-Regular";
+  const std::filesystem::path fonts = "/usr/share/fonts";
+  for (const auto& file : {fonts / "opentype/inter" / (name + ".otf"), fonts / "truetype/inter" / (name + ".ttf")}) {
+    if (std::filesystem::exists(file)) return file;
+  }
+  throw std::runtime_error("the font " + name + " is missing from /usr/share/fonts; install the package fonts-inter");
+}
+
+void set_text(vtkTextProperty& property, int size, const Colour& colour, TextWeight weight) {
+  property.SetFontFamily(VTK_FONT_FILE);
+  property.SetFontFile(font_file(weight).c_str());
+  property.SetFontSize(size);
+  property.SetColor(colour[0], colour[1], colour[2]);
+}
+
+}  // namespace nextview

@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "core/gain/view_score.hpp"
+#include "ui/layers/rays_layer.hpp"
+
+namespace nextview {
+
+/// Rays of a score, thinned to about `count`, each as a segment to the last voxel it visits, valued by what it
+/// contributes.
+std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution,
+                                     std::size_t count = 110);
+
+}  // namespace nextview

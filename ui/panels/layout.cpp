@@ -1,0 +1,68 @@
+#include "ui/panels/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nextview {
+namespace {
+
+// [px] on a display that does not scale
+constexpr double menu_height = 27, bar_height = 50, status_height = 26, left_width = 272, right_width = 336;
+constexpr double bottom_height = 236;
+/// Panels are this far apart: a hairline, in the colour behind them.
+constexpr double gap = 1;
+/// With less than this for the scene, panels are folded [px].
+constexpr double least_scene_width = 300, least_scene_height = 160;
+/// With less than this between menu and status line, there is neither control bar nor status line [px].
+constexpr double least_middle = 130;
+/// Of the window's width that a column takes at most, where there is one.
+constexpr double widest_column = 0.55;
+
+}  // namespace
+
+Viewport Rectangle::in(int surface_width, int surface_height) const {
+  return {x / surface_width, 1 - (y + height) / surface_height, (x + width) / surface_width, 1 - y / surface_height};
+}
+
+Layout::Layout(int w, int h, double scale, Side open) : width(w), height(h), open_(open) {
+  const auto px = [&](double length) { return std::round(length * scale); };
+  menu = {0, 0, width, std::min(px(menu_height), height)};
+  double top = menu.height + gap, end = height;
+  if (end - top - px(status_height) - gap >= px(least_middle)) {
+    end -= px(status_height) + gap;
+    status = {0, end + gap, width, px(status_height)};
+  }
+  if (end - top - px(bar_height) - gap >= px(least_middle)) {
+    control_bar = {0, top, width, px(bar_height)};
+    top += control_bar.height + gap;
+  }
+  const double middle = std::max(end - top, 0.0);
+  left_folded = width < px(left_width) + px(right_width) + px(least_scene_width) + 2 * gap;
+  bottom_folded = middle < px(bottom_height) + px(least_scene_height) + gap;
+
+  const double column = left_folded ? std::min(px(right_width), std::floor(widest_column * width)) : px(right_width);
+  const double begin_x = left_folded ? 0 : px(left_width) + gap, end_x = std::max(width - column - gap, begin_x);
+  const double lower = bottom_folded ? end : end - px(bottom_height);
+  scene = {begin_x, top, end_x - begin_x, std::max(lower - (bottom_folded ? 0 : gap) - top, 0.0)};
+  if (!left_folded) left = {0, top, px(left_width), middle};
+  if (!bottom_folded) bottom = {begin_x, lower, end_x - begin_x, end - lower};
+  fold({end_x + gap, top, column, middle}, px(tabs_height));
+}
+
+/// Those that are folded and the right place, one above the other; all but one are a row of tabs.
+void Layout::fold(const Rectangle& column, double tabs) {
+  if (!is_in_column(open_)) open_ = Side::right;
+  const int closed = int(left_folded) + int(bottom_folded);
+  const double row = std::min(tabs, std::floor(column.height / (closed + 2)));
+  double y = column.y;
+  const auto place = [&](Side side) {
+    const Rectangle rectangle{column.x, y, column.width, side == open_ ? column.height - closed * row : row};
+    y += rectangle.height;
+    return rectangle;
+  };
+  if (left_folded) left = place(Side::left);
+  right = place(Side::right);
+  if (bottom_folded) bottom = place(Side::bottom);
+}
+
+}  // namespace nextview

@@ -1,0 +1,176 @@
+#include "ui/scene/scene.hpp"
+
+#include <vtkCamera.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ui/drawing/painter.hpp"
+#include "ui/scene/scene_overlay.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double vertical_angle = 28.0;  // [deg] a long lens: little distortion
+
+/// Lights that travel with the camera: a key from the upper left, a weaker fill from the right, a little from the
+/// front.
+void add_lights(vtkRenderer& renderer) {
+  struct Placement {
+    Vector3 position;  ///< x right, y up, z from the scene to the camera
+    double intensity;
+  };
+  for (const auto& [position, intensity] :
+       {Placement{{-0.8, 1.5, 1.3}, 0.62}, Placement{{1.6, 0.3, 0.9}, 0.30}, Placement{{0.0, 0.0, 1.0}, 0.26}}) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(position.x(), position.y(), position.z());
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(intensity);
+    renderer.AddLight(light);
+  }
+}
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+}  // namespace
+
+struct Scene::Overlay {
+  vtkNew<SceneOverlay> item;
+  vtkNew<vtkContextActor> actor;
+};
+
+Scene::Scene()
+    : renderer_(vtkSmartPointer<vtkRenderer>::New()),
+      mesh_(std::make_unique<MeshLayer>(*renderer_)),
+      cloud_(std::make_unique<CloudLayer>(*renderer_)),
+      octree_(std::make_unique<OctreeLayer>(*renderer_)),
+      views_(std::make_unique<ViewsLayer>(*renderer_)),
+      rays_(std::make_unique<RaysLayer>(*renderer_)),
+      region_(std::make_unique<RegionLayer>(*renderer_)),
+      overlay_(std::make_unique<Overlay>()) {
+  renderer_->GradientBackgroundOn();
+  renderer_->SetBackground(theme::ground.data());
+  renderer_->SetBackground2(theme::sky.data());
+  renderer_->AutomaticLightCreationOff();
+  renderer_->GetActiveCamera()->SetViewAngle(vertical_angle);
+  add_lights(*renderer_);
+  overlay_->item->renderer = renderer_;
+  overlay_->actor->GetScene()->AddItem(overlay_->item);
+  overlay_->actor->GetScene()->SetRenderer(renderer_);
+  renderer_->AddActor(overlay_->actor);
+}
+
+Scene::~Scene() {
+  overlay_->actor->GetScene()->SetRenderer(nullptr);
+  if (vtkRenderWindow* window = renderer_->GetRenderWindow()) window->RemoveRenderer(renderer_);
+}
+
+vtkRenderer& Scene::renderer() { return *renderer_; }
+
+void Scene::attach(RenderSurface& surface, const Viewport& viewport) {
+  renderer_->SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
+  surface.window().AddRenderer(renderer_);
+}
+
+std::array<Layer*, 6> Scene::layers() const {
+  return {views_.get(), rays_.get(), octree_.get(), cloud_.get(), mesh_.get(), region_.get()};
+}
+
+void Scene::set_caption(const std::string& caption) { overlay_->item->caption = caption; }
+
+void Scene::set_axes(bool axes, bool scale_bar) {
+  overlay_->item->axes = axes;
+  overlay_->item->scale_bar = scale_bar;
+}
+
+void Scene::set_scale(double scale) {
+  if (scale == overlay_->item->scale) return;
+  overlay_->item->scale = scale;
+  for (Layer* layer : layers()) layer->set_scale(scale);
+}
+
+void Scene::set_moving(bool moving) {
+  vtkRenderWindow* window = renderer_->GetRenderWindow();
+  if (!window || moving == moving_) return;
+  if (moving) samples_at_rest_ = window->GetMultiSamples();
+  window->SetMultiSamples(moving ? 0 : samples_at_rest_);
+  moving_ = moving;
+}
+
+void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
+
+void Scene::annotate() {
+  overlay_->item->legends.clear();
+  overlay_->item->labels.clear();
+  // In a window as narrow as this they would cover most of the scene.
+  const double width = renderer_->GetSize()[0] / overlay_->item->scale;
+  const bool legends = legends_ && !(overlay_->item->backed && width < 2 * (usual_legend_width + 36));
+  for (const Layer* layer : layers()) {
+    if (!layer->visible()) continue;
+    overlay_->item->labels.insert(overlay_->item->labels.end(), layer->labels().begin(), layer->labels().end());
+    if (legends)
+      overlay_->item->legends.insert(overlay_->item->legends.end(), layer->legends().begin(), layer->legends().end());
+  }
+}
+
+void Scene::frame(const ViewDirection& direction) {
+  std::vector<Vector3> points;
+  for (const Layer* layer : layers()) {
+    if (layer->visible()) points.insert(points.end(), layer->outline().begin(), layer->outline().end());
+  }
+  if (points.empty()) points = corners({Vector3::Constant(-0.5), Vector3::Constant(0.5)});
+  frame(points, direction);
+}
+
+/// The nearest camera of this orientation that shows all points clear of the legends.
+Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const {
+  const SceneOverlay& overlay = *overlay_->item;
+  const double width = std::max(renderer_->GetSize()[0], 1) / overlay.scale;  // [px] of the design, as the margins
+  const double height = std::max(renderer_->GetSize()[1], 1) / overlay.scale;
+  const auto framed = [&](const FrameMargins& margins) {
+    return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
+  };
+  const auto share = [](double margin, double whole) { return std::min(margin / whole, 0.25); };  // some is left
+  const FrameMargins centred{share(20, width), share(20, width), share(44, height),
+                             share(overlay.caption.empty() ? 24 : 46, height)};
+  Vector3 middle = framed(centred);
+  if (overlay.legends.empty()) return middle;
+  FrameMargins beside = centred, beneath = centred;
+  beside.right = std::min((usual_legend_width + 36) / width, 0.5);
+  beneath.top = std::clamp(overlay.legends_height() / height, centred.top, 0.5);
+  if (clears_upper_right(R_world_camera, middle, radians(vertical_angle), width / height,
+                         {1 - beside.right, 1 - beneath.top}, points)) {
+    return middle;
+  }
+  const Vector3 left = framed(beside), lower = framed(beneath), forward = R_world_camera.col(2);
+  return forward.dot(left) > forward.dot(lower) ? left : lower;
+}
+
+void Scene::frame(std::span<const Vector3> points, const ViewDirection& direction) {
+  annotate();
+  const double azimuth = radians(direction.azimuth), elevation = radians(direction.elevation);
+  const Vector3 towards_camera(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+                               std::sin(elevation));
+  const Eigen::Matrix3d R_world_camera = look_at(towards_camera, Vector3::Zero()).linear();
+  const Vector3 position = camera_position(R_world_camera, points);
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : points) box.extend(point);
+  const Vector3 focus = position - towards_camera * towards_camera.dot(position - box.center());
+  const Vector3 up = -R_world_camera.col(1);
+  vtkCamera& camera = *renderer_->GetActiveCamera();
+  camera.SetPosition(position.data());
+  camera.SetFocalPoint(focus.data());
+  camera.SetViewUp(up.data());
+  camera.SetViewAngle(vertical_angle);
+  renderer_->ResetCameraClippingRange();
+  overlay_->item->scale_reference = box.center();
+}
+
+}  // namespace nextview

@@ -1,0 +1,83 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "ui/drawing/viewport.hpp"
+#include "ui/layers/cloud_layer.hpp"
+#include "ui/layers/mesh_layer.hpp"
+#include "ui/layers/octree_layer.hpp"
+#include "ui/layers/rays_layer.hpp"
+#include "ui/layers/region_layer.hpp"
+#include "ui/layers/views_layer.hpp"
+#include "ui/scene/camera_framing.hpp"
+#include "ui/surface/render_surface.hpp"
+
+namespace nextview {
+
+/// Where the camera looks from, seen from what it looks at.
+struct ViewDirection {
+  double azimuth = -50.0;   ///< from the x axis towards the y axis [deg]
+  double elevation = 24.0;  ///< above the horizon [deg]
+};
+
+/// One 3D picture: layers, light, background, orientation axes, scale bar and the legends of what is visible. z is up.
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// Draws into this part of the surface from now on. The surface may go before the scene.
+  void attach(RenderSurface& surface, const Viewport& viewport = {});
+
+  MeshLayer& mesh() { return *mesh_; }
+  CloudLayer& cloud() { return *cloud_; }
+  OctreeLayer& octree() { return *octree_; }
+  ViewsLayer& views() { return *views_; }
+  RaysLayer& rays() { return *rays_; }
+  RegionLayer& region() { return *region_; }
+
+  void set_caption(const std::string& caption);
+  void set_axes(bool axes, bool scale_bar);
+  /// Pixels of the display a pixel of the design: 2 on a HiDPI display, 1 unless told otherwise. Lines, points, text
+  /// and legends become as much larger.
+  void set_scale(double scale);
+  /// While the camera moves, edges may be rough: drawing in software then takes a third of the time. Holds for the
+  /// whole surface, from the next drawing on. Does nothing without a surface.
+  void set_moving(bool moving);
+  /// Whether paper lies behind the legends: for scenes that people move, where anything may come to lie there. It does
+  /// not unless told otherwise.
+  void set_backed(bool backed);
+  /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
+  void set_legends(bool legends) { legends_ = legends; }
+
+  /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a surface, for its
+  /// proportions.
+  void frame(const ViewDirection& direction = {});
+  /// Frames these points [m, world].
+  void frame(std::span<const Vector3> points, const ViewDirection& direction = {});
+
+  /// Takes over the layers' legends and labels; call it after layers changed. frame() does so too.
+  void annotate();
+
+  vtkRenderer& renderer();
+
+ private:
+  std::array<Layer*, 6> layers() const;  ///< in the order of their legends
+  Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
+
+  struct Overlay;
+  bool legends_ = true, moving_ = false;
+  int samples_at_rest_ = 0;  ///< of a pixel, while moving
+  vtkSmartPointer<vtkRenderer> renderer_;
+  std::unique_ptr<MeshLayer> mesh_;
+  std::unique_ptr<CloudLayer> cloud_;
+  std::unique_ptr<OctreeLayer> octree_;
+  std::unique_ptr<ViewsLayer> views_;
+  std::unique_ptr<RaysLayer> rays_;
+  std::unique_ptr<RegionLayer> region_;
+  std::unique_ptr<Overlay> overlay_;
+};
+
+}  // namespace nextview

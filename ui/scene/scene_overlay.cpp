@@ -1,0 +1,194 @@
+#include "ui/scene/scene_overlay.hpp"
+
+#include <fmt/format.h>
+#include <vtkCamera.h>
+#include <vtkContext2D.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "ui/drawing/painter.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double margin = 16.0;        // [px]
+constexpr double axis_length = 30.0;   // [px]
+constexpr double legend_gap = 14.0;    // [px]
+constexpr double longest_bar = 150.0;  // [px]
+
+struct Axis {
+  const char* name;
+  Vector3 in_view;  ///< x right, y up, z towards the viewer
+};
+
+std::array<Axis, 3> axes_in_view(vtkCamera& camera) {
+  vtkMatrix4x4* view = camera.GetViewTransformMatrix();
+  std::array<Axis, 3> axes{{{"x", {}}, {"y", {}}, {"z", {}}}};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int row = 0; row < 3; ++row) axes[axis].in_view[row] = view->GetElement(row, axis);
+  }
+  // The axis that points away from the viewer most is drawn first.
+  std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.in_view.z() < b.in_view.z(); });
+  return axes;
+}
+
+void paint_axes(Painter& painter, vtkCamera& camera) {
+  const double x = margin + axis_length + 8, y = margin + axis_length;
+  for (const Axis& axis : axes_in_view(camera)) {
+    const Eigen::Vector2d tip = axis.in_view.head<2>() * axis_length;
+    painter.line(x, y, x + tip.x(), y + tip.y(), 2, theme::ink);
+    const Eigen::Vector2d label =
+        tip + (tip.norm() > 1 ? Eigen::Vector2d(tip.normalized() * 9) : Eigen::Vector2d::Zero());
+    painter.text(x + label.x(), y + label.y() - 8, axis.name, theme::small_text, theme::ink, TextWeight::semi_bold,
+                 TextAlign::centre);
+  }
+}
+
+/// The longest of 1, 2 or 5 times a power of ten that fits.
+double round_length(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= longest) return factor * power;
+  }
+  return power;
+}
+
+/// Of the picture [px at scale 1].
+Eigen::Vector2d picture_size(vtkRenderer& renderer, double scale) {
+  return Eigen::Vector2d(renderer.GetSize()[0], renderer.GetSize()[1]) / scale;
+}
+
+void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, const Vector3& reference) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 position(camera.GetPosition());
+  const double distance = Vector3(camera.GetDirectionOfProjection()).dot(reference - position);
+  if (distance <= 0) return;
+  const double height = 2 * distance * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
+  const double pixels_per_metre = picture_size(renderer, scale).y() / height;
+  const double length = round_length(longest_bar / pixels_per_metre);
+  const double x = margin + 2 * axis_length + 44, y = margin + 4, width = length * pixels_per_metre;
+  painter.line(x, y, x + width, y, 2, theme::ink);
+  painter.line(x, y - 4, x, y + 4, 2, theme::ink);
+  painter.line(x + width, y - 4, x + width, y + 4, 2, theme::ink);
+  const std::string text = length >= 0.1 ? fmt::format("{:g} m", length) : fmt::format("{:g} mm", length * 1000);
+  painter.text(x + width / 2, y + 6, text, theme::small_text, theme::ink, TextWeight::regular, TextAlign::centre);
+}
+
+/// Pixels at scale 1, if in front of the camera.
+std::optional<Eigen::Vector2d> project(vtkRenderer& renderer, double scale, const Vector3& point) {
+  vtkMatrix4x4* projection =
+      renderer.GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer.GetTiledAspectRatio(), -1, 1);
+  double clip[4] = {point.x(), point.y(), point.z(), 1.0};
+  projection->MultiplyPoint(clip, clip);
+  if (clip[3] <= 0) return {};
+  const Eigen::Vector2d size = picture_size(renderer, scale);
+  return Eigen::Vector2d((clip[0] / clip[3] + 1) / 2 * size.x(), (clip[1] / clip[3] + 1) / 2 * size.y());
+}
+
+/// The lower left part of the picture that axes and scale bar take [px].
+Eigen::Vector2d corner_size(bool axes, bool scale_bar) {
+  return {scale_bar ? margin + 2 * axis_length + 44 + longest_bar : margin + 2 * axis_length + 20,
+          axes ? margin + 2 * axis_length + 16 : margin + 24};
+}
+
+/// How much of `box` lies on any of `others` [px^2].
+double overlap(const Eigen::AlignedBox2d& box, const std::vector<Eigen::AlignedBox2d>& others) {
+  double area = 0;
+  for (const Eigen::AlignedBox2d& other : others) {
+    const Eigen::AlignedBox2d common = box.intersection(other);
+    if (!common.isEmpty()) area += common.volume();
+  }
+  return area;
+}
+
+/// Where a label's box may be: beside its place if it can, else left of it, above it, beneath it, or
+/// left of what is in its way.
+Eigen::AlignedBox2d place_label(const Eigen::Vector2d& place, const Eigen::Vector2d& label, bool above,
+                                const Eigen::Vector2d& picture, const std::vector<Eigen::AlignedBox2d>& taken) {
+  const double right = place.x() + 6, left = place.x() - label.x() - 6, middle = place.x() - label.x() / 2;
+  const double usual = place.y() + (above ? 7 : -9), high = place.y() + 12, low = place.y() - label.y() - 12;
+  std::vector<Eigen::Vector2d> corners{{right, usual}, {left, usual}, {middle, high},
+                                       {middle, low},  {right, low},  {left, low}};
+  for (const Eigen::AlignedBox2d& other : taken) corners.emplace_back(other.min().x() - label.x() - 2, usual);
+  std::optional<Eigen::AlignedBox2d> best;
+  for (const Eigen::Vector2d& corner : corners) {
+    const Eigen::Vector2d farthest = (picture - label).cwiseMax(0) - Eigen::Vector2d(4, 1);
+    const Eigen::Vector2d inside = corner.cwiseMin(farthest).cwiseMax(Eigen::Vector2d(0, 1));
+    const Eigen::AlignedBox2d box(inside, inside + label);
+    if (!best || overlap(box, taken) < overlap(*best, taken)) best = box;
+  }
+  return *best;
+}
+
+/// Paints it clear of what is taken, where it can, and takes its place.
+void paint_label(Painter& painter, vtkRenderer& renderer, double scale, const Label& label,
+                 std::vector<Eigen::AlignedBox2d>& taken) {
+  std::optional<Eigen::Vector2d> place;
+  for (const Vector3& candidate : label.places) {
+    const auto pixel = project(renderer, scale, candidate);
+    if (pixel && (!place || pixel->y() < place->y())) place = pixel;
+  }
+  if (!place) return;
+  const auto weight = label.strong ? TextWeight::semi_bold : TextWeight::regular;
+  const Eigen::Vector2d size(painter.text_width(label.text, theme::small_text, weight) + 8, 20);
+  const bool above = label.places.size() == 1;  // of several, the lowest was taken: there is room beneath it
+  const Eigen::AlignedBox2d box = place_label(*place, size, above, picture_size(renderer, scale), taken);
+  painter.box(box.min().x(), box.min().y(), size.x(), size.y(), theme::paper, 0.75);
+  painter.text(box.min().x() + 4, box.min().y() + 3, label.text, theme::small_text, label.colour, weight);
+  taken.push_back(box);
+}
+
+}  // namespace
+
+vtkStandardNewMacro(SceneOverlay);
+
+double SceneOverlay::legends_height() const {
+  double height = margin;
+  for (const Legend& legend : legends) height += Painter::legend_height(legend) + legend_gap;
+  return height;
+}
+
+/// Paper behind what must be legible whatever lies there.
+void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& size) const {
+  constexpr double opacity = 0.72;
+  if (legends.empty()) return;
+  double width = 0;
+  for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
+  const double height = legends_height() - margin;
+  painter.box(size.x() - margin - width - 10, size.y() - margin - height + 4, width + 20, height + 4, theme::sky,
+              opacity);
+}
+
+bool SceneOverlay::Paint(vtkContext2D* context) {
+  Painter painter(*context, scale);
+  const Eigen::Vector2d size = picture_size(*renderer, scale);
+  if (backed) paint_backing(painter, size);
+  if (axes) paint_axes(painter, *renderer->GetActiveCamera());
+  if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference);
+  double width = 0;
+  for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
+  const double left = size.x() - margin - width;
+  std::vector<Eigen::AlignedBox2d> taken;  // by what labels must not cover
+  double y = size.y() - margin;
+  for (const Legend& legend : legends) {
+    const double height = Painter::legend_height(legend);
+    taken.emplace_back(Eigen::Vector2d(left - 8, y - height - 4), Eigen::Vector2d(size.x(), y));
+    y -= height + legend_gap;
+  }
+  if (axes || scale_bar) taken.emplace_back(Eigen::Vector2d(0, 0), corner_size(axes, scale_bar));
+  for (const Label& label : labels) paint_label(painter, *renderer, scale, label, taken);
+  if (!caption.empty())
+    painter.text(margin, size.y() - margin - 18, caption, theme::caption, theme::ink, TextWeight::semi_bold);
+  y = size.y() - margin;
+  for (const Legend& legend : legends) y -= painter.legend(left, y, legend) + legend_gap;
+  return true;
+}
+
+}  // namespace nextview

@@ -1,0 +1,39 @@
+#pragma once
+#include <vtkContextItem.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+#include "core/view/pose.hpp"
+#include "ui/appearance/legend.hpp"
+
+class vtkRenderer;
+
+namespace nextview {
+
+class Painter;
+
+/// The flat part of a 3D scene: caption, orientation axes, scale bar, legends. Follows the renderer's camera.
+class SceneOverlay : public vtkContextItem {
+ public:
+  static SceneOverlay* New();
+  vtkTypeMacro(SceneOverlay, vtkContextItem)
+
+      double legends_height() const;  ///< from the upper border [px at scale 1]
+  bool Paint(vtkContext2D* context) override;
+
+  vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
+  bool backed = false;                        ///< paper lies behind the legends
+  std::string caption;                        ///< upper left
+  std::vector<Legend> legends;                ///< upper right, from top to bottom
+  std::vector<Label> labels;                  ///< beside their places
+  Vector3 scale_reference = Vector3::Zero();  ///< where the scale bar is true [m, world]
+  bool axes = true, scale_bar = true;
+  double scale = 1.0;  ///< pixels of the display a pixel of the design
+
+ private:
+  void paint_backing(Painter& painter, const Eigen::Vector2d& size) const;
+};
+
+}  // namespace nextview

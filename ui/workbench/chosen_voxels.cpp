@@ -1,0 +1,32 @@
+#include "ui/workbench/chosen_voxels.hpp"
+
+#include <limits>
+
+#include "core/evaluation/map_quality.hpp"
+#include "core/evaluation/voxel_errors.hpp"
+
+namespace nextview {
+namespace {
+
+std::vector<float> differences(const SessionSnapshot& s) {
+  std::vector<float> values(s.voxels->size(), std::numeric_limits<float>::quiet_NaN());
+  if (!s.gibbs) return values;
+  const std::vector<Voxel>& gibbs = *s.gibbs->voxels;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (gibbs[v].measured) values[v] = gibbs[v].probability - (*s.voxels)[v].probability;
+  return values;
+}
+
+}  // namespace
+
+std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) {
+  return map == MapChoice::gibbs && s.gibbs ? *s.gibbs->voxels : *s.voxels;
+}
+
+std::vector<float> chosen_values(const SessionSnapshot& s, const LayerChoice& choice) {
+  if (choice.colouring == VoxelColouring::by_difference) return differences(s);
+  if (choice.colouring != VoxelColouring::by_error || !s.truth) return {};
+  return voxel_errors(probabilities(chosen_voxels(s, choice.map)), *s.truth, TruthConvention::touch);
+}
+
+}  // namespace nextview

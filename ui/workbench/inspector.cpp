@@ -1,0 +1,133 @@
+#include "ui/workbench/inspector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gibbs/full_conditional.hpp"
+#include "core/planner/policy.hpp"
+#include "core/session/session_parts.hpp"
+#include "ui/workbench/view_sight.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr int expected_columns = 128;         ///< of the picture of a view
+constexpr std::size_t most_rays_a_view = 60;  ///< through a voxel: more would only hide each other
+
+/// What the view measured, in the cells of the expected view: the nearest point of each.
+std::vector<float> measured_depth(const Scan& scan, const Pose& T_world_camera, const PinholeCamera& camera,
+                                  const ExpectedView& cells) {
+  std::vector<float> depth(cells.depth.size(), -1.0f);
+  const Pose T_camera_world = T_world_camera.inverse();
+  for (const Eigen::Vector3f& point : scan.returns) {
+    const Vector3 p = T_camera_world * point.cast<double>();
+    if (p.z() <= 0) continue;
+    const Eigen::Vector2d pixel = camera.project(p);
+    const int column = int(std::floor((pixel.x() + 0.5) * cells.columns / camera.width));
+    const int row = int(std::floor((pixel.y() + 0.5) * cells.rows / camera.height));
+    if (column < 0 || row < 0 || column >= cells.columns || row >= cells.rows) continue;
+    float& nearest = depth[std::size_t(row) * cells.columns + column];
+    if (nearest < 0 || p.z() < nearest) nearest = static_cast<float>(p.z());
+  }
+  return depth;
+}
+
+std::vector<VoxelRay> thinned(const std::vector<VoxelRay>& rays) {
+  const std::size_t stride = std::max<std::size_t>(1, (rays.size() + most_rays_a_view - 1) / most_rays_a_view);
+  std::vector<VoxelRay> result;
+  for (std::size_t i = 0; i < rays.size(); i += stride) result.push_back(rays[i]);
+  return result;
+}
+
+/// Its level after each sweep, if the sampler kept it.
+std::vector<std::vector<std::uint8_t>> trace_of(const GibbsPosterior& posterior, std::uint32_t voxel) {
+  const auto& voxels = posterior.traces.voxels;
+  const auto found = std::lower_bound(voxels.begin(), voxels.end(), voxel);
+  std::vector<std::vector<std::uint8_t>> result;
+  if (found == voxels.end() || *found != voxel) return result;
+  const auto at = static_cast<std::size_t>(found - voxels.begin());
+  for (const auto& chain : posterior.traces.levels) {
+    result.emplace_back();
+    for (const auto& sweep : chain) result.back().push_back(sweep[at]);
+  }
+  return result;
+}
+
+}  // namespace
+
+Inspection Inspector::inspect(std::shared_ptr<const SessionSnapshot> session, const Selection& selection) {
+  Inspection result{++count_, session, selection, {}, {}};
+  if (!session->loaded()) return result;
+  if (looked_at_pose(*session, selection)) result.view = inspect_view(*session, selection);
+  if (selection.voxel && *selection.voxel < session->grid.voxel_count())
+    result.voxel = inspect_voxel(*session, *selection.voxel);
+  return result;
+}
+
+ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection& selection) {
+  ViewInspection view;
+  view.view = selection.view;
+  view.T_world_camera = *looked_at_pose(s, selection);
+  const int rows = std::max(1, expected_columns * s.camera.height / s.camera.width);
+  const double threshold = s.configuration.map.model.occupancy_threshold;
+  const MapRays rays = configured_rays(s.configuration, s.grid, s.planning_voxels());
+  view.expected =
+      expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
+  if (selection.view.kind == LookedAt::Kind::taken) {
+    view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera, view.expected);
+    view.no_explanation = "This view has been taken: its gain was predicted on the map before it.";
+  } else {
+    view.why_empty = why_empty(s, view.T_world_camera);
+    explain(s, view);
+  }
+  return view;
+}
+
+void Inspector::explain(const SessionSnapshot& s, ViewInspection& view) {
+  const PlannerConfig& planner = s.configuration.planner;
+  const auto policy = make_policy(planner);
+  if (s.records.empty()) {
+    view.no_explanation = "The start view is not ranked: nothing is known yet.";
+  } else if (!policy->gain()) {
+    view.no_explanation = "'" + planner.gain + "' " + policy->no_explanation() + ".";
+  } else {
+    view.explanation = std::make_shared<const ScoreExplanation>(
+        explain_score(caster(s), view.T_world_camera, scoring_rays(s.configuration, s.camera), *policy->gain(),
+                      {planner.semantics, occlusion_reach(s.configuration)}));
+  }
+}
+
+/// The rays that the planner casts. The reference semantics have a map of their own, kept from one snapshot to the
+/// next.
+const RayCaster& Inspector::caster(const SessionSnapshot& s) {
+  if (s.configuration.planner.semantics != Semantics::reference)
+    return rays_.emplace(configured_rays(s.configuration, s.grid, s.planning_voxels()));
+  const bool continues = reference_ && reference_session_ == s.session && reference_scans_.size() <= s.scans.size() &&
+                         std::equal(reference_scans_.begin(), reference_scans_.end(), s.scans.begin());
+  if (!continues) {
+    reference_ = make_reference_map(s.configuration);
+    reference_scans_.clear();
+    reference_session_ = s.session;
+  }
+  for (std::size_t k = reference_scans_.size(); k < s.scans.size(); ++k) {
+    reference_->insert(s.scans[k]->origin, s.scans[k]->returns);
+    reference_scans_.push_back(s.scans[k]);
+  }
+  return *reference_;
+}
+
+VoxelInspection Inspector::inspect_voxel(const SessionSnapshot& s, std::uint32_t voxel) const {
+  const double max_range = s.configuration.sensor.max_range;
+  VoxelInspection result;
+  result.voxel = voxel;
+  result.history = voxel_history(s.grid, s.configuration.map.model, s.scans, voxel, max_range);
+  for (const auto& scan : s.scans) result.rays.push_back(thinned(rays_through(s.grid, *scan, voxel, max_range)));
+  if (s.gibbs && !s.gibbs->posterior->states.empty()) {
+    result.conditional = full_conditional(s.grid, *s.gibbs->measurements, s.gibbs->config.model, s.gibbs->config.prior,
+                                          s.gibbs->posterior->states.front(), voxel);
+    result.trace = trace_of(*s.gibbs->posterior, voxel);
+  }
+  return result;
+}
+
+}  // namespace nextview

@@ -1,0 +1,40 @@
+#include "ui/workbench/seen_surface.hpp"
+
+namespace nextview {
+namespace {
+
+/// Points kept of a view, at most: more do not show, and a software renderer feels each.
+constexpr std::size_t points_a_view = 8'000;
+
+}  // namespace
+
+SeenSurface::SeenSurface(const Session& session) {
+  const KnownObject* object = session.known_object();
+  if (!object) return;
+  truth_ = {session.setup().truth, &object->truth()};
+  surface_ = std::make_shared<const MeshDistance>(*session.mesh());
+  missed_.emplace(*session.mesh(), session.configuration().evaluation.d_reg);
+}
+
+void SeenSurface::follow(const Session& session) {
+  auto cloud = std::make_shared<SeenCloud>(*cloud_);
+  for (; scans_ < session.scans().size(); ++scans_) {
+    const PointCloud& returns = session.scans()[scans_]->returns;
+    if (missed_) missed_->add(returns);
+    const std::size_t stride = returns.size() / points_a_view + 1;
+    for (std::size_t i = 0; i < returns.size(); i += stride) {
+      cloud->points.push_back(returns[i]);
+      cloud->views.push_back(static_cast<std::uint16_t>(scans_));
+      if (surface_) cloud->distances.push_back(static_cast<float>((*surface_)(returns[i])));
+    }
+  }
+  cloud_ = std::move(cloud);
+}
+
+std::shared_ptr<const MissedPicture> SeenSurface::missed() const {
+  if (!missed_) return nullptr;
+  return std::make_shared<MissedPicture>(
+      MissedPicture{missed_->mesh(), {missed_->observed().begin(), missed_->observed().end()}});
+}
+
+}  // namespace nextview

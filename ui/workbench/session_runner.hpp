@@ -1,0 +1,77 @@
+#pragma once
+#include <memory>
+#include <stop_token>
+#include <variant>
+#include <vector>
+
+#include "core/gibbs/map_refinement.hpp"
+#include "core/session/session.hpp"
+#include "ui/workbench/seen_surface.hpp"
+#include "ui/workbench/session_snapshot.hpp"
+
+namespace nextview {
+
+/// Does what a window wants of sessions, one thing after the other, on the thread that calls: starting them, stepping,
+/// going back, refining. What came of it is in snapshot().
+class SessionRunner {
+ public:
+  struct Told {
+    Progress progress;                                       ///< of the job
+    std::function<void(const SamplerDiagnostics&)> sampler;  ///< how the refinement goes
+    std::stop_token stop;
+  };
+
+  /// Never null. The snapshot before stays as it was.
+  std::shared_ptr<const SessionSnapshot> snapshot() const { return snapshot_; }
+  bool can_step() const { return session_ && session_->finished().empty(); }
+  Configuration configuration() const { return session_ ? session_->configuration() : wanted_; }
+
+  /// The session before stays if this one cannot be made. @throws std::exception, Stopped
+  void load(Configuration configuration, const Told& told);
+  /// The scan stays; what it has taken so far may be all there is to it, or it may go on.
+  /// @throws std::invalid_argument if it is not valid
+  void set_termination(const TerminationConfig& termination);
+  /// Nothing without a session that can step.
+  void step(const Told& told);
+  void take_view(std::size_t candidate);
+  void take_own_view(const Pose& T_world_camera);
+  void undo(const Told& told);
+  void redo(const Told& told);
+  void refine(int chains, int sweeps, const Told& told);
+  /// Writes what `nextview scan` writes. Returns a line for people on each surface.
+  std::vector<std::string> write(const std::filesystem::path& folder, const Told& told) const;
+  void forget_runs();
+  /// Shown until the next thing that works.
+  void set_message(const std::string& message);
+
+ private:
+  using Override = std::variant<std::monostate, std::size_t, Pose>;  ///< of the next view, by the operator
+  /// All that a session comes from.
+  struct Trail {
+    Configuration configuration;
+    std::vector<Override> views;
+  };
+  std::unique_ptr<Session> follow(const Trail& trail, const Told& told) const;
+  void travel(std::vector<Trail>& from, std::vector<Trail>& to, const Told& told);
+  void take(const Override& view);
+  static void remember_run(SessionSnapshot& snapshot);
+  /// From here on the session is another; `next` is the snapshot to fill.
+  void adopt(std::unique_ptr<Session> session, SessionSnapshot next);
+  void show_termination();
+  void show_map(SessionSnapshot next);
+  void show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement);
+  void show_next_view(SessionSnapshot& snapshot) const;
+  void publish(SessionSnapshot snapshot);
+
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<MapRefinement> refinement_;  ///< the window's own; null if the planner has one, or none was asked for
+  std::size_t refined_scans_ = 0;              ///< that it holds
+  std::unique_ptr<SeenSurface> seen_;
+  Trail trail_;
+  Configuration wanted_;  ///< of the last session that could not be made; while there is none
+  Override next_;
+  std::vector<Trail> undo_, redo_;
+  std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
+};
+
+}  // namespace nextview

@@ -1,0 +1,280 @@
+#include "ui/workbench/session_worker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "core/progress/stopped.hpp"
+#include "core/session/setup_warnings.hpp"
+#include "ui/workbench/overloaded.hpp"
+
+namespace nextview {
+namespace {
+
+/// Smaller steps of progress are no news.
+constexpr double least_progress = 0.01;
+/// Nobody needs to be told how long a shorter job will take [s].
+constexpr double least_to_estimate = 1.0;
+
+template <class Request>
+bool is(const SessionRequest& request) {
+  return std::holds_alternative<Request>(request);
+}
+
+bool starts_anew(const SessionRequest& r) {
+  return is<request::Load>(r) || is<request::OpenFile>(r) || is<request::Reset>(r);
+}
+
+Configuration with_file(Configuration configuration, const std::filesystem::path& file) {
+  if (file.extension() == ".toml") return read_configuration(file, configuration);
+  configuration.object.file = file.string();
+  return configuration;
+}
+
+/// How a refinement went; of one that was cancelled, what is left of it.
+LogEntry refined(const GibbsMap& gibbs, bool cancelled) {
+  using Level = LogEntry::Level;
+  const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
+  const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
+  if (cancelled) return {Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps)};
+  if (d.stationary) return {Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps)};
+  return {Level::warning, fmt::format("{}: {}", map, d.warning)};
+}
+
+}  // namespace
+
+SessionWorker::SessionWorker(std::function<void()> on_news)
+    : on_news_(std::move(on_news)), thread_([this](std::stop_token stop) { run(stop); }) {}
+
+SessionWorker::~SessionWorker() {
+  cancel();
+  thread_.request_stop();
+  wake_.notify_all();
+}
+
+void SessionWorker::news() const {
+  if (on_news_) on_news_();
+}
+
+std::shared_ptr<const SessionSnapshot> SessionWorker::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return snapshot_;
+}
+
+WorkerProgress SessionWorker::progress() const {
+  const std::lock_guard lock(mutex_);
+  WorkerProgress progress = progress_;
+  progress.busy = running_ || progress_.playing || !queue_.empty();
+  progress.waiting = queue_.size();
+  const double elapsed = std::chrono::duration<double>(Clock::now() - job_start_).count();
+  if (running_ && !progress.paused && progress.fraction > 0.02 && elapsed > least_to_estimate)
+    progress.seconds_left = std::ceil(elapsed * (1 - progress.fraction) / progress.fraction);
+  return progress;
+}
+
+void SessionWorker::drop_all() {
+  queue_.clear();
+  progress_.playing = progress_.paused = false;
+  job_.request_stop();
+}
+
+void SessionWorker::cancel() {
+  {
+    const std::lock_guard lock(mutex_);
+    drop_all();
+  }
+  wake_.notify_all();
+  news();
+}
+
+void SessionWorker::hold_refinement(bool hold) {
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.paused = hold && progress_.refining;
+  }
+  wake_.notify_all();
+  news();
+}
+
+void SessionWorker::set_pause_between_views(double seconds) {
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.pause_between_views = std::max(seconds, 0.0);
+    next_play_ = Clock::now();
+  }
+  wake_.notify_all();
+  news();
+}
+
+void SessionWorker::post(SessionRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (starts_anew(request)) drop_all();
+    if (is<request::Pause>(request)) {
+      progress_.playing = false;
+      std::erase_if(queue_, is<request::Play>);
+    } else {
+      queue_.push_back(std::move(request));
+    }
+  }
+  wake_.notify_all();
+  news();
+}
+
+std::optional<SessionRequest> SessionWorker::next_request(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
+    if (stop.stop_requested()) return std::nullopt;
+    if (!queue_.empty() || next_play_ <= Clock::now()) break;
+    wake_.wait_until(lock, stop, next_play_, [&] { return !queue_.empty() || !progress_.playing; });
+  }
+  job_ = std::stop_source();
+  job_start_ = Clock::now();
+  running_ = true;
+  if (queue_.empty()) return request::Step{};
+  SessionRequest request = std::move(queue_.front());
+  queue_.pop_front();
+  return request;
+}
+
+void SessionWorker::run(std::stop_token stop) {
+  while (const auto request = next_request(stop)) {
+    attempt(*request);
+    {
+      const std::lock_guard lock(mutex_);
+      running_ = progress_.refining = progress_.paused = false;
+      progress_.fraction = 0.0;
+      progress_.what.clear();
+      progress_.sampler = nullptr;
+      const std::chrono::duration<double> pause(progress_.pause_between_views);
+      next_play_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(pause);
+    }
+    news();
+  }
+}
+
+/// Executes a request and publishes what came of it, also if it failed.
+void SessionWorker::attempt(const SessionRequest& request) {
+  const auto before = runner_.snapshot();
+  bool failed = false;
+  try {
+    execute(request);
+  } catch (const std::exception& error) {
+    failed = true;
+    const bool cancelled = [&] {
+      const std::lock_guard lock(mutex_);
+      return job_.stop_requested();
+    }();
+    if (!cancelled) runner_.set_message(error.what());
+    log_.add(cancelled ? LogEntry::Level::note : LogEntry::Level::warning, cancelled ? "Cancelled" : error.what());
+  }
+  const auto after = runner_.snapshot();
+  if (!failed) finish(request, *before);
+  const std::lock_guard lock(mutex_);
+  if (failed || !runner_.can_step()) progress_.playing = false;
+  snapshot_ = after;
+}
+
+void SessionWorker::execute(const SessionRequest& request) {
+  std::visit(Overloaded{
+                 [&](const request::Load& r) { runner_.load(r.configuration, told()); },
+                 [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), told()); },
+                 [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
+                 [&](request::Reset) { runner_.load(runner_.configuration(), told()); },
+                 [&](request::Step) { runner_.step(told()); },
+                 [&](request::Play) {
+                   const std::lock_guard lock(mutex_);
+                   progress_.playing = runner_.can_step();
+                   next_play_ = Clock::now();
+                 },
+                 [](request::Pause) {},  // done when it was posted
+                 [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
+                 [&](const request::TakeOwnView& r) { runner_.take_own_view(r.T_world_camera); },
+                 [&](request::Undo) { runner_.undo(told()); },
+                 [&](request::Redo) { runner_.redo(told()); },
+                 [&](const request::Refine& r) {
+                   {
+                     const std::lock_guard lock(mutex_);
+                     progress_.refining = true;
+                   }
+                   runner_.refine(r.chains, r.sweeps, told());
+                 },
+                 [&](const request::Export& r) {
+                   for (const std::string& line : runner_.write(r.folder, told()))
+                     log_.add(LogEntry::Level::note, line);
+                 },
+                 [&](request::ForgetRuns) { runner_.forget_runs(); },
+             },
+             request);
+}
+
+/// Tells the log what was done.
+void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
+  using Level = LogEntry::Level;
+  const SessionSnapshot& s = *runner_.snapshot();
+  if (s.session != before.session) {
+    if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
+      log_.add(is<request::Load>(request) ? Level::warning : Level::note,
+               fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
+                           is<request::Load>(request)       ? "This setting"
+                           : is<request::OpenFile>(request) ? "Another file"
+                                                            : "Start over",
+                           views == 1 ? "view" : fmt::format("{} views", views)));
+    log_.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", s.object_name,
+                                      s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
+    for (const std::string& warning : setup_warnings(s.configuration, *s.mesh, s.candidates))
+      log_.add(Level::warning, warning);
+  } else if (s.records.size() > before.records.size()) {
+    const StepRecord& r = s.records.back();
+    const std::string from =
+        r.view < 0 ? r.overridden ? "your own view" : "the start view" : fmt::format("candidate {}", r.view);
+    log_.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
+                                      r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
+    if (!r.ranking.degenerate.empty())
+      log_.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
+    if (!s.finished.empty()) log_.add(Level::success, "The scan is finished: " + s.finished);
+  } else if (is<request::SetTermination>(request)) {
+    if (s.finished != before.finished)
+      log_.add(s.finished.empty() ? Level::note : Level::success,
+               s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
+  } else if (s.map != before.map && !is<request::Refine>(request)) {
+    log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
+  }
+  if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs) {
+    auto [level, text] = refined(*s.gibbs, told().stop.stop_requested());
+    log_.add(level, std::move(text));
+  }
+  if (const auto* e = std::get_if<request::Export>(&request))
+    log_.add(Level::success, "Scan written to " + e->folder.string());
+}
+
+SessionRunner::Told SessionWorker::told() {
+  const std::lock_guard lock(mutex_);
+  return {[this](double fraction, std::string_view what) { tell(fraction, what); },
+          [this](const SamplerDiagnostics& so_far) { tell_sampler(so_far); }, job_.get_token()};
+}
+
+void SessionWorker::tell(double fraction, std::string_view what) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (progress_.what == what && std::abs(fraction - progress_.fraction) < least_progress) return;
+    progress_.fraction = fraction;
+    progress_.what = what;
+  }
+  news();
+}
+
+void SessionWorker::tell_sampler(const SamplerDiagnostics& so_far) {
+  auto copy = std::make_shared<const SamplerDiagnostics>(so_far);
+  std::unique_lock lock(mutex_);
+  progress_.sampler = std::move(copy);
+  lock.unlock();
+  news();
+  lock.lock();
+  wake_.wait(lock, job_.get_token(), [&] { return !progress_.paused; });
+}
+
+}  // namespace nextview

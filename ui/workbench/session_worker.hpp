@@ -1,0 +1,71 @@
+#pragma once
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "ui/workbench/session_log.hpp"
+#include "ui/workbench/session_request.hpp"
+#include "ui/workbench/session_runner.hpp"
+
+namespace nextview {
+
+/// Runs sessions on a thread of its own. Requests wait in a queue; every function returns at once, from any thread.
+class SessionWorker {
+ public:
+  /// `on_news` is called, from other threads, when snapshot(), progress() or the log may have changed.
+  explicit SessionWorker(std::function<void()> on_news = {});
+  /// Cancels what runs and waits for it.
+  ~SessionWorker();
+  SessionWorker(const SessionWorker&) = delete;
+  SessionWorker& operator=(const SessionWorker&) = delete;
+
+  /// What starts a session anew takes the place of whatever runs or waits. Steps of a finished scan are ignored.
+  void post(SessionRequest request);
+  /// Drops what waits and stops what runs as soon as that is possible; a step that is not complete is taken back, a
+  /// refinement keeps its sweeps so far.
+  void cancel();
+  /// Holds a refinement between two sweeps, or lets it go on.
+  void hold_refinement(bool hold);
+  /// Waits this long before each view but the first while playing [s].
+  void set_pause_between_views(double seconds);
+
+  std::shared_ptr<const SessionSnapshot> snapshot() const;  ///< never null
+  WorkerProgress progress() const;
+  SessionLog& log() { return log_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void run(std::stop_token stop);
+  /// Waits for the next request; none if the worker is to end.
+  std::optional<SessionRequest> next_request(std::stop_token stop);
+  void execute(const SessionRequest& request);
+  void attempt(const SessionRequest& request);
+  void finish(const SessionRequest& request, const SessionSnapshot& before);
+  void drop_all();  ///< of the queue and the job; the mutex must be held
+  void tell(double fraction, std::string_view what);
+  void tell_sampler(const SamplerDiagnostics& so_far);
+  SessionRunner::Told told();
+  void news() const;
+
+  const std::function<void()> on_news_;
+  SessionLog log_;
+  SessionRunner runner_;  ///< the worker thread's alone
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::condition_variable_any wake_;
+  std::deque<SessionRequest> queue_;
+  std::stop_source job_;
+  Clock::time_point job_start_, next_play_;
+  bool running_ = false;     ///< a request is being executed
+  WorkerProgress progress_;  ///< but for what progress() works out
+  std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
+
+  std::jthread thread_;  ///< the last member: it ends before the others do
+};
+
+}  // namespace nextview

@@ -1,0 +1,89 @@
+#include "ui/workbench/view_sight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nextview {
+namespace {
+
+/// Of the points of the object's surface that face a camera, those that it could measure if nothing else were in front
+/// of them.
+struct Sight {
+  std::size_t in_picture = 0, measurable = 0;
+  double nearest = 1e30;  ///< of those in the picture [m]
+};
+
+Sight sight_of(const SessionSnapshot& s, const Pose& T_world_camera) {
+  const Pose T_camera_world = T_world_camera.inverse();
+  const DepthCameraConfig& sensor = s.configuration.sensor;
+  const Eigen::Vector3f camera = T_world_camera.translation().cast<float>();
+  const auto& [points, outward] = *s.surface_points;
+  Sight sight;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 p = T_camera_world * points[i].cast<double>();
+    if (p.z() <= 0 || (!outward.empty() && outward[i].dot(camera - points[i]) <= 0.0f)) continue;
+    const Eigen::Vector2d pixel = s.camera.project(p);
+    if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > s.camera.width - 0.5 || pixel.y() > s.camera.height - 0.5)
+      continue;
+    ++sight.in_picture;
+    sight.nearest = std::min(sight.nearest, p.norm());
+    sight.measurable += p.norm() >= sensor.min_range && p.norm() <= sensor.max_range;
+  }
+  return sight;
+}
+
+/// By the solid angle that the surface takes: a whole sphere's from within, nothing from outside. Turned triangles
+/// count the other way round, so of a mesh that has many this may say no.
+bool is_within(const TriangleMesh& mesh, const Vector3& point) {
+  double angle = 0;
+  for (const auto& t : mesh.triangles) {
+    const std::array<Vector3, 3> v{mesh.vertices[t[0]].cast<double>() - point,
+                                   mesh.vertices[t[1]].cast<double>() - point,
+                                   mesh.vertices[t[2]].cast<double>() - point};
+    const double a = v[0].norm(), b = v[1].norm(), c = v[2].norm();
+    angle += 2 * std::atan2(v[0].dot(v[1].cross(v[2])),
+                            a * b * c + v[0].dot(v[1]) * c + v[1].dot(v[2]) * a + v[2].dot(v[0]) * b);
+  }
+  return std::abs(angle) > 6.2831853;  // half of a whole sphere's
+}
+
+}  // namespace
+
+std::string why_empty(const SessionSnapshot& s, const Pose& T_world_camera) {
+  if (!s.mesh || !s.surface_points) return "";
+  const Vector3 camera = T_world_camera.translation();
+  if (s.mesh->bounding_box().contains(camera) && is_within(*s.mesh, camera)) return "the camera is inside the object";
+  const Sight sight = sight_of(s, T_world_camera);
+  if (sight.measurable > 0) return "";
+  const DepthCameraConfig& sensor = s.configuration.sensor;
+  if (sight.in_picture == 0) return "it looks past the object";
+  if (sight.nearest > sensor.max_range)
+    return fmt::format("the object is {:.2f} m away, and the sensor reaches {:g} m", sight.nearest, sensor.max_range);
+  return fmt::format("the object is {:.2f} m away, and the sensor needs {:g} m", sight.nearest, sensor.min_range);
+}
+
+PlacedView within_sight(const SessionSnapshot& s, const Pose& T_world_camera) {
+  PlacedView placed{T_world_camera};
+  if (!s.mesh || !s.surface_points || why_empty(s, T_world_camera).empty()) return placed;
+  const Eigen::AlignedBox3d box = s.mesh->bounding_box();
+  const Vector3 forward = T_world_camera.linear().col(2), to_object = box.center() - T_world_camera.translation();
+  // From as far as the next view, which is where the sensor is of use; else as near as the sensor allows.
+  const DepthCameraConfig& sensor = s.configuration.sensor;
+  const double radius = 0.5 * box.diagonal().norm(), reach = 0.9 * sensor.max_range;
+  const double usual = (s.next_view.translation() - box.center()).norm();
+  // Along the axis; else, if the object is so far from it that it leaves the picture, towards the object.
+  for (const Vector3& direction : {forward, Vector3(to_object.normalized())}) {
+    for (const double distance : {std::min(usual, reach), std::min(sensor.min_range + radius, reach)}) {
+      const double by = to_object.dot(direction) - distance;
+      Pose moved = T_world_camera;
+      moved.translation() += by * direction;
+      if (why_empty(s, moved).empty()) return {moved, by};
+    }
+  }
+  return placed;
+}
+
+}  // namespace nextview
