@@ -35,6 +35,11 @@ struct EvaluationConfig {
   int surface_samples = 50'000;
 };
 
+/// What the window keeps to go back to. It decides nothing of a scan.
+struct HistoryConfig {
+  double memory = 1.0;  ///< that the maps of earlier views may take [GiB]; older ones are made again from the scans
+};
+
 /// Everything that decides what a scan does: the same configuration gives the same bytes.
 struct Configuration {
   std::uint64_t seed = 1;
@@ -48,6 +53,7 @@ struct Configuration {
   PlannerConfig planner;
   TerminationConfig termination;
   EvaluationConfig evaluation;
+  HistoryConfig history;
   std::vector<std::filesystem::path> read_from;  ///< the files it comes from, no setting: nothing may replace them
 
   /// @throws std::invalid_argument naming the field and its bounds.

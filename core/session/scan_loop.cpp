@@ -162,7 +162,8 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
 }
 
 ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera) {
-  ScanState state{.known = nothing_known(setup.configuration, setup.region, setup.planner->needs())};
+  ScanState state;
+  state.known = nothing_known(setup.configuration, setup.region, setup.planner->needs());
   if (setup.truth) state.evaluation = std::make_shared<const EvaluationState>(setup.truth->nothing_seen());
   state.candidates = setup.candidates->candidates(state.known);
   state.next.view = setup.start;
