@@ -63,6 +63,8 @@ OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& mode
   model.validate();
 }
 
+OccupancyMap::OccupancyMap() : OccupancyMap(VoxelGrid{}) {}
+
 /// A measured voxel with these log-odds.
 Voxel OccupancyMap::measured_voxel(float log_odds) const {
   const double p = probability(log_odds);

@@ -20,7 +20,8 @@ class OccupancyMap {
   static std::uint64_t bytes(const VoxelGrid& grid);
 
   /// @throws std::invalid_argument if the model is not valid; OutOfMemory if so many voxels do not fit.
-  explicit OccupancyMap(const VoxelGrid& grid = {}, const InverseSensorModel& model = {});
+  explicit OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model = {});
+  OccupancyMap();  ///< of no voxels
 
   /// Updates each voxel at most once: a hit where a return ends, a miss where a ray passes and none ends (as OctoMap's
   /// insertPointCloud). Rays longer than the scan's maximum range carve up to it and end nowhere; passes carve only. If

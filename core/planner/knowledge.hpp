@@ -20,7 +20,7 @@ struct TakenView {
 /// All that a scan has learned, and all that a fork of it copies: a few pointers, as copies share what they have in
 /// common.
 struct Knowledge {
-  OccupancyMap map{};
+  OccupancyMap map;
   std::shared_ptr<const MapRefinement> posterior = {};  ///< the Gibbs map; null if the planner needs none
   std::shared_ptr<const ReferenceMap> reference = {};   ///< reference semantics only
   std::vector<TakenView> taken = {};
