@@ -93,8 +93,10 @@ Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& sourc
   Acquired acquired{view, {}, robot.reach(robot.pose(), {&view, 1}).front().cost};
   const Result<Pose> reached = robot.move_to(view, stop);
   if (const auto* failure = std::get_if<Failure>(&reached)) return *failure;
-  Stopwatch watch(acquired.sense_seconds);
-  Result<Capture> capture = source.capture({std::get<Pose>(reached), view.frame}, step, stop);
+  Result<Capture> capture = [&] {
+    Stopwatch watch(acquired.sense_seconds);
+    return source.capture({std::get<Pose>(reached), view.frame}, step, stop);
+  }();
   if (auto* failure = std::get_if<Failure>(&capture)) return *failure;
   acquired.capture = std::get<Capture>(std::move(capture));
   return acquired;
@@ -105,8 +107,10 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
   StepRecord record = begin_record(state, acquired);
   ScanState after = state;
   report(progress, stop, 0.1, "cleaning the cloud");
-  CapturedScan captured = to_scan(acquired.capture, &setup.configuration.cloud, stop);
-  record.seconds.clean = captured.clean_seconds;
+  CapturedScan captured = [&] {
+    Stopwatch watch(record.seconds.clean);
+    return to_scan(acquired.capture, &setup.configuration.cloud, stop);
+  }();
   record.returns = captured.returns;
   record.passes = captured.scan.passes.size();
   record.points = captured.scan.returns.size();

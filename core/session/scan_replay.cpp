@@ -16,9 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The poses that views.csv says were taken. Candidates are looked up, as the text of a pose rounds.
+/// The poses that views.csv says were taken. Where that is a candidate's or the start view it is looked up, as the text
+/// of a pose rounds.
 std::vector<Pose> views_taken(const fs::path& file, const Configuration& configuration) {
   const auto candidates = candidate_views(configuration.views, Vector3::Zero());
+  const Pose start = configured_start_view(configuration);
   std::istringstream text(read_file(file, std::uintmax_t{1} << 24));
   std::string line;
   std::getline(text, line);
@@ -33,12 +35,10 @@ std::vector<Pose> views_taken(const fs::path& file, const Configuration& configu
     const bool whole = !row.fail() && (row >> std::ws).eof();
     if (!whole || view < -1 || view >= int(candidates.size()) || std::abs(q.norm() - 1.0) > 1e-6 || !p.allFinite())
       throw std::runtime_error(fmt::format("{}:{}: not a view of this scan", file.string(), number));
-    if (view >= 0)
-      poses.push_back(candidates[view]);
-    else if (step == 1)
-      poses.push_back(configured_start_view(configuration));
-    else
-      poses.push_back(make_pose(p, q));
+    const Pose written = make_pose(p, q);
+    const Pose& exact = view >= 0 ? candidates[view] : start;
+    const bool is_exact = (view >= 0 || step == 1) && written.isApprox(exact, 1e-6);
+    poses.push_back(is_exact ? exact : written);
   }
   if (poses.empty()) throw std::runtime_error(fmt::format("{}: holds no view", file.string()));
   return poses;

@@ -80,6 +80,7 @@ VoxelGrid configured_region(const Configuration& c) {
 }
 
 View start_view(const Configuration& c, const SourceDescription& source, const Robot* robot) {
+  if (!source.frames.empty()) return source.frames.front();
   if (source.start) return {*source.start};
   return {robot ? robot->pose() : configured_start_view(c)};
 }

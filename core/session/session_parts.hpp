@@ -20,7 +20,8 @@ Configuration affordable(Configuration configuration);
 std::string not_enough_memory(const Configuration& configuration);
 
 Pose configured_start_view(const Configuration& configuration);
-/// Where to begin: where the source says, else where a robot of its own is, else as configured.
+/// Where to begin: with the source's first frame, or where it says, else where a robot of its own is, else as
+/// configured.
 View start_view(const Configuration& configuration, const SourceDescription& source, const Robot* robot);
 VoxelGrid configured_region(const Configuration& configuration);
 /// The source's region, if it has one.

@@ -3,13 +3,11 @@
 #include <stdexcept>
 
 #include "core/progress/stopped.hpp"
-#include "core/progress/stopwatch.hpp"
 
 namespace nextview {
 
 CapturedScan to_scan(const Capture& capture, const CloudConfig* cleaning, const std::stop_token& stop) {
   CapturedScan captured;
-  Stopwatch watch(captured.clean_seconds);
   Scan& scan = captured.scan;
   if (const auto* image = std::get_if<DepthImage>(&capture.measured)) {
     scan = back_project(*image, capture.T_world_camera, capture.max_range, stop);

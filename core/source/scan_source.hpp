@@ -44,9 +44,8 @@ class ScanSource {
 
 /// A capture as the map takes it.
 struct CapturedScan {
-  Scan scan;                   ///< its returns cleaned
-  std::size_t returns = 0;     ///< before they were cleaned
-  double clean_seconds = 0.0;  ///< how long it took
+  Scan scan;                ///< its returns cleaned
+  std::size_t returns = 0;  ///< before they were cleaned
 };
 
 /// Back-projects a capture, and cleans its returns unless `cleaning` is null. Points have no passes.
