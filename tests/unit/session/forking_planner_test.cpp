@@ -14,8 +14,8 @@ Scan expected_scan(const View& view, std::uint32_t number) {
   scan.origin = view.T_world_camera.translation();
   scan.max_range = 1.5;
   const Vector3 towards = -scan.origin.normalized(), across = towards.unitOrthogonal();
-  for (std::uint32_t i = 0; i < 40; ++i) {
-    const double angle = 0.15 * i + 0.01 * number;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const double angle = 0.5 * i + 0.01 * number;
     const Vector3 offset = 0.2 * std::sin(angle) * across + 0.2 * std::cos(angle) * towards.cross(across);
     scan.returns.push_back((offset - 0.1 * towards).cast<float>());
   }
@@ -82,7 +82,7 @@ TEST(ForkingPlanner, TenThousandForksTakeLittleMemory) {
   ASSERT_EQ(grid.voxel_count(), 128u * 128u * 128u);
   Knowledge root{OccupancyMap(grid)};
   for (std::uint32_t k = 0; k < 5; ++k) fuse(root, expected_scan(view_number(k), k), {Insertion::direct});
-  Tree tree(root, 300);
+  Tree tree(root, 200);
   constexpr std::uint32_t branching = 10;
   std::size_t most = 0;
   for (std::uint32_t k = 1; k <= 10'000; ++k) {

@@ -48,9 +48,9 @@ TEST(OwnParts, ThePoseThatCountsIsTheOneThatWasReached) {
     EXPECT_EQ(session.scans().back()->origin, record.T_world_camera.translation());
     EXPECT_EQ(session.state().known.taken.back().wanted.T_world_camera.matrix(), wanted.matrix());
     EXPECT_EQ(session.state().known.taken.back().T_world_camera.matrix(), record.T_world_camera.matrix());
-    if (candidate) EXPECT_FALSE(record.candidates[*candidate].available) << "it was taken, if not quite";
+    EXPECT_FALSE(candidate && record.candidates[*candidate].available) << "it was taken, if not quite";
     for (std::size_t v = 0; v < session.candidates().size(); ++v)
-      if (session.candidates()[v].translation().z() < -0.5) EXPECT_FALSE(record.candidates[v].available);
+      EXPECT_FALSE(session.candidates()[v].translation().z() < -0.5 && record.candidates[v].available);
   }
 }
 
