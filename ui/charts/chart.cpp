@@ -23,6 +23,7 @@
 #include <stdexcept>
 
 #include "ui/drawing/painter.hpp"
+#include "ui/surface/render_surface.hpp"
 
 namespace nextview {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 class vtkRenderer;
 
 namespace nextview {
+
+class RenderSurface;
 
 struct ChartSeries {
   std::string name;

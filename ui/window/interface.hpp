@@ -7,8 +7,10 @@
 #include "ui/commands/script_player.hpp"
 #include "ui/surface/render_surface.hpp"
 #include "ui/window/clipboard.hpp"
+#include "ui/window/input.hpp"
 #include "ui/window/scene_view.hpp"
 #include "ui/workbench/inspection_worker.hpp"
+#include "ui/workbench/session_worker.hpp"
 
 namespace nextview {
 
