@@ -63,16 +63,12 @@ Answers answer(const GibbsToy& toy, const PosteriorSamplerConfig& config) {
   const auto tell = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
     progress(fraction, what);
   };
-  RangeMeasurements measurements;
-  measurements.max_range = toy.max_range;
+  const RangeMeasurements measurements = measurements_of(toy.scans);
   OccupancyMap map(toy.grid, {});
-  for (const Scan& scan : toy.scans) {
-    measurements.add(scan);
-    map.insert(scan, toy.max_range);
-  }
+  for (const Scan& scan : toy.scans) map.insert(scan);
   Answers answers{exact_posterior(toy.grid, measurements, config.model, config.prior),
                   sample_posterior(toy.grid, measurements, config, {}, {}, tell, stop.token()),
-                  {map.voxels().begin(), map.voxels().end()}};
+                  map.voxels().dense()};
   throw_if_stopped(stop.token());
   progress.clear();
   return answers;

@@ -50,7 +50,7 @@ std::vector<RefinementNumber> numbers(const Refinement& r) {
       add("rows open through solid walls", percent(a.openings.leaks()), percent(b.openings.leaks()), "%");
     }
   }
-  const auto count = [](std::span<const Voxel> voxels, auto which) {
+  const auto count = [](const VoxelBricks& voxels, auto which) {
     return fmt::format("{}", std::count_if(voxels.begin(), voxels.end(), which));
   };
   const auto occupied = [](const Voxel& v) { return v.measured && v.probability >= 0.5f; };
@@ -88,8 +88,9 @@ void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder&
   picture.remark = fmt::format("{}, model {}", counted(job.scans.size(), "view"), name(job.sampler.model.kind));
   picture.caption = diagnostics_line(r.posterior.diagnostics);
   picture.grid = job.grid;
-  picture.conventional = r.conventional.voxels();
-  picture.gibbs = r.refined;
+  const std::vector<Voxel> conventional = r.conventional.voxels().dense(), gibbs = r.refined.dense();
+  picture.conventional = conventional;
+  picture.gibbs = gibbs;
   picture.diagnostics = r.posterior.diagnostics;
   if (job.truth) {
     picture.object = job.truth->mesh.get();
@@ -98,7 +99,8 @@ void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder&
   }
   picture.numbers = numbers(r);
   write_png(draw_refinement_figure(picture), out.claim("refinement.png"));
-  write_png(draw_sensor_model_figure({job.sampler.model, job.grid.resolution, 0.6 * job.max_range, job.max_range}),
+  const double max_range = job.scans.front().max_range;
+  write_png(draw_sensor_model_figure({job.sampler.model, job.grid.resolution, 0.6 * max_range, max_range}),
             out.claim("sensor_models.png"));
 }
 

@@ -26,7 +26,7 @@ struct ScanArguments {
 
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
-  const std::string unit = session.policy().unit();
+  const std::string unit = session.planner().unit();
   fmt::print("{}: {}\n", printable(session.object_file().filename().string()), session.object_topology().summary());
   fmt::print("{}, ranked by {}{} ({} semantics)\n\n", counted(session.candidates().size(), "candidate view"),
              c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),

@@ -6,6 +6,7 @@ namespace nextview {
 Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range, const std::stop_token& stop) {
   Scan scan;
   scan.origin = T_world_camera.translation();
+  scan.max_range = max_range;
   const auto& camera = image.camera;
   scan.returns.reserve(image.range.size());
   for (int v = 0; v < camera.height; ++v) {

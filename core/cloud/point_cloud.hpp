@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct Scan {
   Vector3 origin = Vector3::Zero();  ///< camera centre [m, world]
   PointCloud returns;                ///< where rays met a surface
   PointCloud passes;                 ///< where rays beyond range were given up (at the maximum range); they carve only
+  double max_range = std::numeric_limits<double>::infinity();  ///< longer rays count up to here and end nowhere [m]
 };
 
 /// Returns and passes of a depth image; invalid pixels give neither. Points in pixel order. @throws Stopped

@@ -25,7 +25,7 @@ enum class Touch : bool { pass, hit };
 
 /// Calls `visit(voxel, touch)` for each voxel that a ray passes or ends in, ray after ray, along each in order.
 template <class Visit>
-void visit_rays(const VoxelGrid& grid, const Scan& scan, double max_range, Visit visit) {
+void visit_rays(const VoxelGrid& grid, const Scan& scan, Visit visit) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
   const auto carve = [&](const Eigen::Vector3f& end) {
     bool inside = false;
@@ -38,8 +38,8 @@ void visit_rays(const VoxelGrid& grid, const Scan& scan, double max_range, Visit
   };
   for (const auto* ends : {&scan.returns, &scan.passes})
     for (const Eigen::Vector3f& point : *ends) {
-      const bool in_range = ray_length(origin, point) <= max_range;
-      carve(in_range ? point : point_on_ray(origin, point, max_range));
+      const bool in_range = ray_length(origin, point) <= scan.max_range;
+      carve(in_range ? point : point_on_ray(origin, point, scan.max_range));
       const Eigen::Vector3i cell = grid.cell_at(point.cast<double>());
       if (ends == &scan.returns && in_range && grid.contains(cell)) visit(grid.index(cell), Touch::hit);
     }
@@ -65,12 +65,13 @@ double beta_binomial(const RayCounts& counts) {
   return probability(log_odds(prior_occupied) + log_if_occupied - log_if_free);
 }
 
-BaselineMaps::BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, double max_range,
+BaselineMaps::BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans,
                            const InverseSensorModel& model)
-    : grid_(grid), scans_(scans), max_range_(max_range), model_(model), counts_(grid.voxel_count()) {
+    : grid_(grid), scans_(scans), model_(model), counts_(grid.voxel_count()) {
   model.validate();
-  if (!(max_range > 0.0))
-    throw std::invalid_argument(fmt::format("baseline maps: max_range must be over 0 m, not {}", max_range));
+  for (const Scan& scan : scans)
+    if (!(scan.max_range > 0.0))
+      throw std::invalid_argument(fmt::format("baseline maps: max_range must be over 0 m, not {}", scan.max_range));
   count_rays();
 }
 
@@ -78,7 +79,7 @@ void BaselineMaps::count_rays() {
   constexpr std::uint8_t passed = 1, hit = 2;
   std::vector<std::uint8_t> touched(counts_.size());  // by the rays of one scan
   for (const Scan& scan : scans_) {
-    visit_rays(grid_, scan, max_range_, [&](std::uint32_t voxel, Touch touch) {
+    visit_rays(grid_, scan, [&](std::uint32_t voxel, Touch touch) {
       ++(touch == Touch::hit ? counts_[voxel].hits : counts_[voxel].passes);
       touched[voxel] |= touch == Touch::hit ? hit : passed;
     });
@@ -119,8 +120,8 @@ std::vector<Voxel> BaselineMaps::visited_voxels(Probability p_of) const {
 
 std::vector<Voxel> BaselineMaps::octomap() const {
   OccupancyMap map(grid_, model_);
-  for (const Scan& scan : scans_) map.insert(scan, max_range_);
-  return {map.voxels().begin(), map.voxels().end()};
+  for (const Scan& scan : scans_) map.insert(scan);
+  return map.voxels().dense();
 }
 
 double BaselineMaps::update_term(const Scan& scan, std::uint32_t voxel, bool is_hit) const {
@@ -133,7 +134,7 @@ std::vector<Voxel> BaselineMaps::per_ray() const {
   const double lowest = log_odds(model_.clamp_min), highest = log_odds(model_.clamp_max);
   std::vector<double> sums(counts_.size());
   for (const Scan& scan : scans_)
-    visit_rays(grid_, scan, max_range_, [&](std::uint32_t voxel, Touch touch) {
+    visit_rays(grid_, scan, [&](std::uint32_t voxel, Touch touch) {
       double term = touch == Touch::hit ? hit : miss;
       if (model_.range_dependent()) term = update_term(scan, voxel, touch == Touch::hit);
       sums[voxel] = std::clamp(sums[voxel] + term, lowest, highest);
@@ -145,7 +146,7 @@ std::vector<Voxel> BaselineMaps::no_clamps() const {
   std::vector<double> sums(counts_.size());
   if (model_.range_dependent()) {
     for (const Scan& scan : scans_)
-      visit_touched_voxels(grid_, scan, max_range_, {},
+      visit_touched_voxels(grid_, scan, {},
                            [&](std::uint32_t voxel, bool is_hit) { sums[voxel] += update_term(scan, voxel, is_hit); });
   } else {
     const double hit = model_.hit_term(1.0), miss = model_.miss_term(1.0);

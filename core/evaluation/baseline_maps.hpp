@@ -53,12 +53,11 @@ double beta_binomial(const RayCounts& counts);
 /// Makes the baseline maps of one set of scans. The rays are counted once, for all of them.
 class BaselineMaps {
  public:
-  /// `max_range` in metres. The scans must outlive this. Of the model `per_ray` uses the terms and clamps, `no_clamps`
+  /// The scans must outlive this. Of the model `per_ray` uses the terms and clamps, `no_clamps`
   /// the terms, and all of them the bounds of the classes. Terms that depend on the range have, for rays as for scans,
   /// that from the camera to the voxel's centre.
-  /// @throws std::invalid_argument if the model is not valid or `max_range` is not over 0.
-  BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, double max_range,
-               const InverseSensorModel& model = {});
+  /// @throws std::invalid_argument if the model is not valid or a scan's maximum range is not over 0.
+  BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, const InverseSensorModel& model = {});
 
   /// One voxel a voxel of the grid; where no ray went p is 0.5 and nothing is measured. `per_ray` depends on the order
   /// of the rays: scan after scan, in each the returns first.
@@ -78,7 +77,6 @@ class BaselineMaps {
 
   VoxelGrid grid_;
   std::span<const Scan> scans_;
-  double max_range_;
   InverseSensorModel model_;
   std::vector<RayCounts> counts_;
 };

@@ -17,7 +17,11 @@ constexpr double cells_along_longest_side = 128.0;  // about as many cells as sa
 
 SurfaceCoverage::SurfaceCoverage(std::span<const Eigen::Vector3f> samples, std::span<const std::uint8_t> visible,
                                  double d_reg)
-    : d_reg_(d_reg), visible_(visible.begin(), visible.end()), observed_(samples.size(), 0) {
+    : cells_(make_cells(samples, visible, d_reg)), observed_(samples.size(), 0) {}
+
+std::shared_ptr<const SurfaceCoverage::Cells> SurfaceCoverage::make_cells(std::span<const Eigen::Vector3f> samples,
+                                                                          std::span<const std::uint8_t> visible,
+                                                                          double d_reg) {
   if (samples.empty()) throw std::invalid_argument("coverage: there are no surface samples");
   if (visible.size() != samples.size())
     throw std::invalid_argument(
@@ -27,38 +31,44 @@ SurfaceCoverage::SurfaceCoverage(std::span<const Eigen::Vector3f> samples, std::
 
   Eigen::AlignedBox3f box;
   for (const auto& sample : samples) box.extend(sample);
-  lower_ = box.min().cast<double>();
-  const Vector3 extent = box.max().cast<double>() - lower_;
-  edge_ = std::max(d_reg, extent.maxCoeff() / cells_along_longest_side);
-  size_ = (extent / edge_).array().floor().matrix().cast<int>() + Eigen::Vector3i::Ones();
+  auto cells = std::make_shared<Cells>();
+  cells->d_reg = d_reg;
+  cells->visible.assign(visible.begin(), visible.end());
+  cells->lower = box.min().cast<double>();
+  const Vector3 extent = box.max().cast<double>() - cells->lower;
+  cells->edge = std::max(d_reg, extent.maxCoeff() / cells_along_longest_side);
+  cells->size = (extent / cells->edge).array().floor().matrix().cast<int>() + Eigen::Vector3i::Ones();
 
-  cell_begin_.assign(std::size_t(size_.x()) * size_.y() * size_.z() + 1, 0);
-  const auto cell_of = [&](const Eigen::Vector3f& p) { return cell_index(cell_at(p.cast<double>())); };
-  for (const auto& sample : samples) ++cell_begin_[cell_of(sample)];
-  std::exclusive_scan(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin(), 0u);
-  std::vector<std::uint32_t> next = cell_begin_;
-  samples_.resize(samples.size());
-  for (std::uint32_t i = 0; i < samples.size(); ++i) samples_[next[cell_of(samples[i])]++] = {samples[i], i};
+  std::vector<std::uint32_t>& begin = cells->begin;
+  begin.assign(std::size_t(cells->size.x()) * cells->size.y() * cells->size.z() + 1, 0);
+  const auto cell_of = [&](const Eigen::Vector3f& p) { return cells->index(cells->at(p.cast<double>())); };
+  for (const auto& sample : samples) ++begin[cell_of(sample)];
+  std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+  std::vector<std::uint32_t> next = begin;
+  cells->samples.resize(samples.size());
+  for (std::uint32_t i = 0; i < samples.size(); ++i) cells->samples[next[cell_of(samples[i])]++] = {samples[i], i};
+  return cells;
 }
 
 /// Limited to the grid and one cell around it, so that any coordinate fits an int.
-Eigen::Vector3i SurfaceCoverage::cell_at(const Vector3& point) const {
-  const Vector3 position = (point - lower_) / edge_;
-  return position.cwiseMax(-1.0).cwiseMin(size_.cast<double>()).array().floor().matrix().cast<int>();
+Eigen::Vector3i SurfaceCoverage::Cells::at(const Vector3& point) const {
+  const Vector3 position = (point - lower) / edge;
+  return position.cwiseMax(-1.0).cwiseMin(size.cast<double>()).array().floor().matrix().cast<int>();
 }
 
 void SurfaceCoverage::observe_around(const Eigen::Vector3f& point) {
+  const Cells& c = *cells_;
   const Vector3 p = point.cast<double>();
-  const Eigen::Vector3i first = cell_at(p - Vector3::Constant(d_reg_)).cwiseMax(0);
-  const Eigen::Vector3i last = cell_at(p + Vector3::Constant(d_reg_)).cwiseMin(size_ - Eigen::Vector3i::Ones());
+  const Eigen::Vector3i first = c.at(p - Vector3::Constant(c.d_reg)).cwiseMax(0);
+  const Eigen::Vector3i last = c.at(p + Vector3::Constant(c.d_reg)).cwiseMin(c.size - Eigen::Vector3i::Ones());
   if (first.x() > last.x()) return;
   for (int z = first.z(); z <= last.z(); ++z)
     for (int y = first.y(); y <= last.y(); ++y) {
-      const std::uint32_t end = cell_begin_[cell_index({last.x(), y, z}) + 1];
-      for (std::uint32_t i = cell_begin_[cell_index({first.x(), y, z})]; i < end; ++i) {
-        if ((samples_[i].point.cast<double>() - p).squaredNorm() > d_reg_ * d_reg_) continue;
+      const std::uint32_t end = c.begin[c.index({last.x(), y, z}) + 1];
+      for (std::uint32_t i = c.begin[c.index({first.x(), y, z})]; i < end; ++i) {
+        if ((c.samples[i].point.cast<double>() - p).squaredNorm() > c.d_reg * c.d_reg) continue;
         // Other threads may observe the same sample; they all write the same.
-        std::atomic_ref(observed_[samples_[i].index]).store(1, std::memory_order_relaxed);
+        std::atomic_ref(observed_[c.samples[i].index]).store(1, std::memory_order_relaxed);
       }
     }
 }
@@ -70,10 +80,6 @@ void SurfaceCoverage::add(const PointCloud& points, const std::stop_token& stop)
   throw_if_stopped(stop);
 }
 
-void SurfaceCoverage::go_back(std::span<const std::uint8_t> observed) {
-  std::copy(observed.begin(), observed.end(), observed_.begin());
-}
-
 double SurfaceCoverage::of_all() const {  // Eq. 17
   return double(std::count(observed_.begin(), observed_.end(), 1)) / double(observed_.size());
 }
@@ -81,8 +87,8 @@ double SurfaceCoverage::of_all() const {  // Eq. 17
 double SurfaceCoverage::of_visible() const {  // Eq. 17 over the visible samples
   std::size_t visible = 0, seen = 0;
   for (std::size_t i = 0; i < observed_.size(); ++i) {
-    visible += visible_[i] != 0;
-    seen += visible_[i] && observed_[i];
+    visible += cells_->visible[i] != 0;
+    seen += cells_->visible[i] && observed_[i];
   }
   return visible == 0 ? 0.0 : double(seen) / double(visible);
 }

@@ -2,21 +2,21 @@
 #include <cstdint>
 #include <span>
 
-#include "core/map/occupancy.hpp"
+#include "core/map/voxel_bricks.hpp"
 
 namespace nextview {
 
 /// Entropy of the maximum-likelihood map (Eq. 18) [bits]: a measured voxel is decided, an unmeasured one is worth one
 /// bit.
-double unmeasured_entropy(std::span<const Voxel> voxels);
+double unmeasured_entropy(const VoxelBricks& voxels);
 
 /// The full entropy, the sum of H(p) over the voxels [bits].
-double total_entropy(std::span<const Voxel> voxels);
+double total_entropy(const VoxelBricks& voxels);
 
 /// Realised gain (Eq. 12) [nats]: the entropy that the voxels lost from `before` to `after`; negative if they became
 /// less certain. With a mask only the voxels where it is not 0 count, such as those in the frustum.
 /// @throws std::invalid_argument if lengths differ.
-double realised_gain(std::span<const Voxel> before, std::span<const Voxel> after,
+double realised_gain(const VoxelBricks& before, const VoxelBricks& after,
                      std::span<const std::uint8_t> mask = {});
 
 }  // namespace nextview

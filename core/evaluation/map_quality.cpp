@@ -106,10 +106,4 @@ MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& 
   return means(sums);
 }
 
-std::vector<float> probabilities(std::span<const Voxel> voxels) {
-  std::vector<float> result(voxels.size());
-  std::transform(voxels.begin(), voxels.end(), result.begin(), [](const Voxel& voxel) { return voxel.probability; });
-  return result;
-}
-
 }  // namespace nextview

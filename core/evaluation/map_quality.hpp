@@ -50,6 +50,6 @@ struct MapQuality {
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,
                        ScoredSet set, std::span<const std::uint8_t> visited = {});
 
-std::vector<float> probabilities(std::span<const Voxel> voxels);
+
 
 }  // namespace nextview

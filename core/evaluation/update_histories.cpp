@@ -69,10 +69,11 @@ double surprise(double log_odds) {
   return log_odds > 0.0 ? std::log1p(std::exp(-log_odds)) : std::log1p(std::exp(log_odds)) - log_odds;
 }
 
-void require_sizes_and_targets(const VoxelGrid& grid, double max_range, std::span<const float> target,
+void require_sizes_and_targets(const VoxelGrid& grid, std::span<const Scan> scans, std::span<const float> target,
                                std::span<const std::uint8_t> mask) {
-  if (!(max_range > 0.0))
-    throw std::invalid_argument(fmt::format("update histories: max_range must be over 0 m, not {}", max_range));
+  for (const Scan& scan : scans)
+    if (!(scan.max_range > 0.0))
+      throw std::invalid_argument(fmt::format("update histories: max_range must be over 0 m, not {}", scan.max_range));
   if (target.size() != grid.voxel_count() || mask.size() != grid.voxel_count())
     throw std::invalid_argument(fmt::format("update histories: {} targets and a mask of {} for a grid of {} voxels",
                                             target.size(), mask.size(), grid.voxel_count()));
@@ -84,15 +85,15 @@ void require_sizes_and_targets(const VoxelGrid& grid, double max_range, std::spa
 
 }  // namespace
 
-void UpdateHistories::add(const VoxelGrid& grid, std::span<const Scan> scans, double max_range,
+void UpdateHistories::add(const VoxelGrid& grid, std::span<const Scan> scans,
                           std::span<const float> target, std::span<const std::uint8_t> mask,
                           const std::stop_token& stop) {
-  require_sizes_and_targets(grid, max_range, target, mask);
+  require_sizes_and_targets(grid, scans, target, mask);
   std::vector<std::vector<std::uint8_t>> touches;  // [scan][voxel]
   std::size_t count = 0;
   for (const Scan& scan : scans) {
     auto& touched = touches.emplace_back(grid.voxel_count(), untouched);
-    visit_touched_voxels(grid, scan, max_range, stop, [&](std::uint32_t voxel, bool hit) {
+    visit_touched_voxels(grid, scan, stop, [&](std::uint32_t voxel, bool hit) {
       touched[voxel] = mask[voxel] == 0 ? untouched : hit ? was_hit : missed;
       count += mask[voxel] != 0;
     });

@@ -33,8 +33,8 @@ class UpdateHistories {
   /// Replays scans over a grid, as OccupancyMap::insert takes them. Kept are the voxels with mask != 0 that a scan
   /// touched. May be called again for other grids, objects and views; 4 bytes a voxel and scan that touches it.
   /// @throws std::invalid_argument if `target` or `mask` is not of the grid's size, a target of the mask is not from 0
-  ///         to 1, or `max_range` [m] is not over 0; Stopped. Nothing is added then.
-  void add(const VoxelGrid& grid, std::span<const Scan> scans, double max_range, std::span<const float> target,
+  ///         to 1, or a scan's maximum range is not over 0; Stopped. Nothing is added then.
+  void add(const VoxelGrid& grid, std::span<const Scan> scans, std::span<const float> target,
            std::span<const std::uint8_t> mask, const std::stop_token& stop = {});
 
   /// Adds the voxels of others behind these.

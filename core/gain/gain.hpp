@@ -9,6 +9,11 @@
 
 namespace nextview {
 
+/// How far behind a surface voxels are marked as occluded [m], where a scene does not say (Isler et al. 2016).
+constexpr double default_occlusion_distance = 0.3;
+/// d_max of proximity count [voxels]: twice as far as voxels of this edge [m] are marked [m].
+constexpr double occlusion_reach(double distance, double resolution) { return 2.0 * distance / resolution; }
+
 /// One ray as a gain sees it.
 struct Ray {
   std::span<const RayVoxel> voxels;    ///< v_0 ... v_N

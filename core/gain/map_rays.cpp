@@ -4,15 +4,15 @@
 
 namespace nextview {
 
-MapRays::MapRays(const VoxelGrid& grid, std::span<const Voxel> voxels, double occupancy_threshold, double max_range)
-    : grid_(grid), voxels_(voxels), occupancy_threshold_(occupancy_threshold), max_range_(max_range) {}
+MapRays::MapRays(const VoxelGrid& grid, VoxelBricks voxels, double occupancy_threshold, double max_range)
+    : grid_(grid), voxels_(std::move(voxels)), occupancy_threshold_(occupancy_threshold), max_range_(max_range) {}
 
 void MapRays::cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const {
   // Room for the longest ray through the grid, so that the loop writes through a bare pointer.
   visited.resize(grid_.size.sum() + 3);
   RayVoxel* next = visited.data();
   walk_ray(grid_, origin, direction, max_range_, [&](int x, int y, int z) {
-    const Voxel& voxel = voxels_[grid_.index({x, y, z})];
+    const Voxel& voxel = voxels_.at(x, y, z);
     RayVoxel& seen = *next++;
     static_cast<Voxel&>(seen) = voxel;
     seen.has_node = voxel.measured || voxel.occlusion_distance > 0;

@@ -2,21 +2,20 @@
 #include <memory>
 #include <stop_token>
 
-#include "core/gain/ray.hpp"
+#include "core/gain/gain.hpp"
 #include "core/map/occupancy_map.hpp"
 
 namespace nextview {
 
-/// Rays through a dense map, clipped to its region of interest (published semantics). The map, or whatever else made
-/// the voxels, must outlive it.
+/// Rays through a map, clipped to its region of interest (published semantics). It has its own copy of the voxels.
 class MapRays : public RayCaster {
  public:
-  MapRays(const VoxelGrid& grid, std::span<const Voxel> voxels, double occupancy_threshold, double max_range);
+  MapRays(const VoxelGrid& grid, VoxelBricks voxels, double occupancy_threshold, double max_range);
   void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const override;
 
  private:
   VoxelGrid grid_;
-  std::span<const Voxel> voxels_;
+  VoxelBricks voxels_;
   double occupancy_threshold_;
   double max_range_;
 };
@@ -32,7 +31,7 @@ class ReferenceMap : public RayCaster {
     Vector3 lower = Vector3::Zero();  ///< bounding box [m, world]; points outside are dropped
     Vector3 upper = Vector3::Zero();
     double max_sensor_range = 1.5;    ///< [m]; negative: no limit
-    double occlusion_distance = 0.3;  ///< [m]
+    double occlusion_distance = default_occlusion_distance;  ///< [m]
     double max_ray_depth = 1.5;       ///< [m]
   };
 
@@ -40,7 +39,6 @@ class ReferenceMap : public RayCaster {
   ~ReferenceMap() override;
   /// A map of its own with the same content.
   std::unique_ptr<ReferenceMap> copy() const;
-  void swap(ReferenceMap& other) { tree_.swap(other.tree_); }
 
   /// @throws Stopped; then the map is half made and to be thrown away.
   void insert(const Vector3& origin, std::span<const Eigen::Vector3f> points, const std::stop_token& stop = {});

@@ -115,6 +115,12 @@ void RangeMeasurements::add(const Scan& scan) {
   for (const Eigen::Vector3f& end : scan.passes) append(end, true);
 }
 
+RangeMeasurements measurements_of(std::span<const Scan> scans) {
+  RangeMeasurements measurements{scans.front().max_range, {}, {}};
+  for (const Scan& scan : scans) measurements.add(scan);
+  return measurements;
+}
+
 void RangeMeasurements::validate() const {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("range measurements: ") + what);

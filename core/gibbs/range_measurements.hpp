@@ -39,6 +39,9 @@ struct RangeMeasurements {
   }
 };
 
+/// The rays of scans of one maximum range. @pre !scans.empty()
+RangeMeasurements measurements_of(std::span<const Scan> scans);
+
 /// Joins rays of one origin that see the same: that lie in one cell of a grid of directions, `spacing` [rad] wide, and
 /// whose ranges are at most `spread` [m] apart (beyond range joins with beyond range). The joined ray has the mean end
 /// and the sum of the weights; its likelihood counts that often. Dense images come down to what the voxels can tell

@@ -7,10 +7,10 @@ namespace nextview {
 namespace {
 
 constexpr double edge = 0.01;  ///< of a voxel [m]
-constexpr double max_range = 0.15;
+constexpr double max_range = 0.15;  ///< of the sensor [m]
 
 /// One ray along the corridor's axis that ended at `x` [m].
-Scan along_corridor(float x) { return {{-0.05, 0.005, 0.005}, {{x, 0.005f, 0.005f}}, {}}; }
+Scan along_corridor(float x) { return {{-0.05, 0.005, 0.005}, {{x, 0.005f, 0.005f}}, {}, max_range}; }
 
 GibbsToy corridor() {
   return {"corridor",
@@ -19,7 +19,6 @@ GibbsToy corridor() {
           "surface:\n"
           "5 explains all four, so 6 keeps little more than its prior, and of what is behind nothing is known.",
           {edge, {0, 0, 0}, {10, 1, 1}},
-          max_range,
           0.002,
           {along_corridor(0.0580f), along_corridor(0.0606f), along_corridor(0.0588f), along_corridor(0.0574f)}};
 }
@@ -32,7 +31,6 @@ GibbsToy contradiction() {
       "centre.\n"
       "With --model beam a voxel stops every ray or none: half of them must be outliers, and which is a toss-up.",
       {edge, {0, 0, 0}, {10, 1, 1}},
-      max_range,
       0.002,
       {}};
   for (const float x : {0.044f, 0.0745f, 0.0455f, 0.0755f, 0.0463f, 0.0761f}) toy.scans.push_back(along_corridor(x));
@@ -44,9 +42,12 @@ GibbsToy slot() {
   const auto at = [](float x, float y) { return Eigen::Vector3f(x, y, 0.005f); };
   Scan left{{-0.02, -0.03, 0.005},
             {at(0.002f, 0.0125f), at(0.006f, 0.0118f), at(0.0196f, 0.0155f), at(0.026f, 0.0122f), at(0.033f, 0.0118f)},
-            {}};
+            {},
+            max_range};
   Scan right{
-      {0.06, -0.03, 0.005}, {at(0.036f, 0.0121f), at(0.030f, 0.0117f), at(0.024f, 0.0124f), at(0.0104f, 0.0133f)}, {}};
+      {0.06, -0.03, 0.005}, {at(0.036f, 0.0121f), at(0.030f, 0.0117f), at(0.024f, 0.0124f), at(0.0104f, 0.0133f)},
+      {},
+      max_range};
   const auto pass = [&](Scan& scan, float x) {  // crosses the front of the wall at x
     const Vector3 direction = (at(x, 0.012f).cast<double>() - scan.origin).normalized();
     scan.passes.push_back((scan.origin + max_range * direction).cast<float>());
@@ -59,14 +60,13 @@ GibbsToy slot() {
       "Through voxel 5 eight rays pass; two that hit its sides end in it, by noise. OctoMap lets one hit of a scan\n"
       "outweigh all its passes and closes the opening; the rays taken together leave it open.",
       {edge, {0, 0, 0}, {4, 3, 1}},
-      max_range,
       0.002,
       {left, right}};
 }
 
 /// The plane x + z = 22 mm cuts the voxels aslant; one camera looks along x, one down along z.
 GibbsToy grid() {
-  Scan side{{-0.04, 0.01, 0.011}, {}, {}}, above{{0.011, 0.01, 0.06}, {}, {}};
+  Scan side{{-0.04, 0.01, 0.011}, {}, {}, max_range}, above{{0.011, 0.01, 0.06}, {}, {}, max_range};
   for (Scan* scan : {&side, &above})
     for (const double y : {0.004, 0.014})
       for (const double across : {0.003, 0.008, 0.013, 0.017}) {
@@ -78,7 +78,6 @@ GibbsToy grid() {
           "Two rays cross voxel 7, two cross 0. OctoMap counts a scan once, be it two rays or two thousand: both stay\n"
           "unknown at 0.40, while the rays say that they are free. Behind the plane (2, 8) only the prior is left.",
           {edge, {0, 0, 0}, {3, 2, 2}},
-          max_range,
           0.002,
           {side, above}};
 }

@@ -14,8 +14,7 @@ struct GibbsToy {
   std::string_view summary;
   std::string_view look_at;  ///< two lines: which voxels tell the story
   VoxelGrid grid;
-  double max_range = 0.0;  ///< of the sensor [m]
-  double sigma = 0.0;      ///< noise of its ranges [m]
+  double sigma = 0.0;  ///< noise of its ranges [m]
   std::vector<Scan> scans;
 };
 

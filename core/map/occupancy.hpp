@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace nextview {
 
@@ -24,7 +25,17 @@ struct Voxel {
   bool measured = false;  ///< a measurement has touched it (a Gibbs map: it is informed)
   std::uint16_t occlusion_distance =
       0;  ///< how far behind a measured surface it lies [voxels along the ray]; 0: not behind one
+  float log_odds = 0.0f;  ///< of `probability`, as the occupancy map adds them up; 0 in other maps
 };
+
+/// Of voxels in the grid's order.
+template <class Voxels>
+std::vector<float> probabilities(const Voxels& voxels) {
+  std::vector<float> result;
+  result.reserve(voxels.size());
+  for (const Voxel& voxel : voxels) result.push_back(voxel.probability);
+  return result;
+}
 
 /// How large an update term is at `range` [m] from the camera, as a share of what it is at 1 m; `decay` in 1/m. The
 /// exponent is kept within 80, so that in single precision too a term neither overflows nor vanishes.

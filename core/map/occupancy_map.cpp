@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "core/map/huge_pages.hpp"
 #include "core/map/traversal.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/stopped.hpp"
@@ -17,7 +17,12 @@
 namespace nextview {
 namespace {
 
+/// What a scan does to a voxel.
 enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
+
+/// A value for each place of a map's bricks, 0 at first. It is of one insertion: a copy of the map has none.
+template <class T>
+using Scratch = std::vector<T, HugePages<T>>;
 
 /// Before any of it is taken: memory that is promised and not there ends the program without a word.
 const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
@@ -29,48 +34,66 @@ const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
   return grid;
 }
 
+/// Calls `visit(brick)` for the bricks in whose part of the scratch anything is not 0, several at once.
+template <class T, class Visit>
+void for_each_touched_brick(std::span<const T> scratch, Visit visit) {
+  constexpr std::size_t volume = VoxelBricks::brick_voxels;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scratch.size() / volume, 16), [&](const auto& range) {
+    for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
+      const T* const begin = &scratch[brick * volume];
+      std::uint64_t any = 0;
+      for (std::size_t at = 0; at < volume * sizeof(T); at += sizeof any) {  // most bricks are untouched
+        std::uint64_t word;
+        std::memcpy(&word, reinterpret_cast<const char*>(begin) + at, sizeof word);
+        any |= word;
+      }
+      if (any != 0) visit(brick);
+    }
+  });
+}
+
 }  // namespace
 
 std::uint64_t OccupancyMap::bytes(const VoxelGrid& grid) {
-  return grid.voxel_count() * (sizeof(float) + sizeof(Voxel) + sizeof(std::uint8_t));
+  return grid.voxel_count() * (sizeof(Voxel) + sizeof(Touch));
 }
 
 OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model)
-    : grid_(require_memory_for(grid)),
-      model_(model),
-      log_odds_(grid.voxel_count()),
-      voxels_(grid.voxel_count()),
-      touched_(grid.voxel_count()) {
+    : grid_(require_memory_for(grid)), model_(model), voxels_(grid.size) {
   model.validate();
 }
+
+OccupancyMap::OccupancyMap() : OccupancyMap(VoxelGrid{}) {}
 
 /// A measured voxel with these log-odds.
 Voxel OccupancyMap::measured_voxel(float log_odds) const {
   const double p = probability(log_odds);
-  return {static_cast<float>(p), static_cast<float>(entropy(p)), model_.classify(p), true};
+  return {static_cast<float>(p), static_cast<float>(entropy(p)), model_.classify(p), true, 0, log_odds};
 }
 
 void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
-  log_odds_[voxel] = log_odds;
-  voxels_[voxel] = measured_voxel(log_odds);
+  const Eigen::Vector3i cell = grid_.cell(voxel);
+  voxels_.change(voxels_.place(cell.x(), cell.y(), cell.z())) = measured_voxel(log_odds);
 }
 
-void OccupancyMap::insert(const Scan& scan, double max_range, const std::stop_token& stop, MapChanges* undo) try {
+void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
+  Scratch<std::uint8_t> touched(voxels_.brick_count() * VoxelBricks::brick_voxels);
   // Hits first: a voxel where a ray ends is a hit, whatever else passes through it.
   for (const auto& point : scan.returns) {
     const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
-    if (grid_.contains(cell) && ray_length(origin, point) <= max_range) touched_[grid_.index(cell)] = hit;
+    if (grid_.contains(cell) && ray_length(origin, point) <= scan.max_range)
+      touched[voxels_.place(cell.x(), cell.y(), cell.z())] = hit;
   }
   // Rays side by side: they only ever turn `untouched` into `passed`, so their order does not matter.
   const auto pass = [&](const PointCloud& ends) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 1024), [&](const auto& range) {
       if (stop.stop_requested()) return;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        const bool short_enough = ray_length(origin, ends[i]) <= max_range;
-        const Eigen::Vector3f end = short_enough ? ends[i] : point_on_ray(origin, ends[i], max_range);
+        const bool short_enough = ray_length(origin, ends[i]) <= scan.max_range;
+        const Eigen::Vector3f end = short_enough ? ends[i] : point_on_ray(origin, ends[i], scan.max_range);
         walk_segment_inside(grid_, origin, end, [&](int x, int y, int z) {
-          std::atomic_ref<std::uint8_t> touch(touched_[grid_.index({x, y, z})]);
+          std::atomic_ref<std::uint8_t> touch(touched[voxels_.place(x, y, z)]);
           if (touch.load(std::memory_order_relaxed) == untouched) touch.store(passed, std::memory_order_relaxed);
           return true;
         });
@@ -80,120 +103,111 @@ void OccupancyMap::insert(const Scan& scan, double max_range, const std::stop_to
   pass(scan.returns);
   pass(scan.passes);
   throw_if_stopped(stop);
-  if (undo) remember_touched(*undo);
-  update_touched(scan.origin);
-} catch (...) {
-  std::ranges::fill(touched_, untouched);
-  throw;
+  add(touched, scan.origin);
 }
 
-void OccupancyMap::remember_touched(MapChanges& undo) const {
-  for (std::uint32_t v = 0; v < touched_.size(); ++v)
-    if (touched_[v] != untouched) undo.changes.push_back({v, log_odds_[v], voxels_[v]});
+void OccupancyMap::insert(const Scan& scan, Insertion insertion, const std::stop_token& stop) {
+  if (insertion == Insertion::direct) return insert(scan, stop);
+  OccupancyMap local(grid_, model_);
+  local.insert(scan, stop);
+  register_local(local, scan.origin);
 }
 
 /// Adds the hit or the miss, as the model has them for a camera at `origin`, to the log-odds of each touched voxel.
-void OccupancyMap::update_touched(const Vector3& origin) {
+void OccupancyMap::add(std::span<const std::uint8_t> touched, const Vector3& origin) {
   if (model_.range_dependent()) {
-    add_to_touched([&](std::uint32_t voxel, bool is_hit) {
-      const double range = (grid_.centre(voxel) - origin).norm();
+    add_terms(touched, [&](std::size_t place, bool is_hit) {
+      const double range = (grid_.centre(grid_.index(voxels_.cell(place))) - origin).norm();
       return static_cast<float>(is_hit ? model_.hit_term(range) : model_.miss_term(range));
     });
   } else {
     const auto hit_update = static_cast<float>(model_.hit_term(1.0));
     const auto miss_update = static_cast<float>(model_.miss_term(1.0));
-    add_to_touched([=](std::uint32_t, bool is_hit) { return is_hit ? hit_update : miss_update; });
+    add_terms(touched, [=](std::size_t, bool is_hit) { return is_hit ? hit_update : miss_update; });
   }
 }
 
-/// Adds `term(voxel, is_hit)` to the log-odds of each touched voxel, clamps, and clears the scratch.
+/// Adds `term(place, is_hit)` to the log-odds of each touched voxel, and clamps.
 template <class Term>
-void OccupancyMap::add_to_touched(Term term) {
+void OccupancyMap::add_terms(std::span<const std::uint8_t> touched, Term term) {
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
-  constexpr std::size_t chunk = 8;  // eight touches are looked at as one word: most voxels are untouched
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (touched_.size() + chunk - 1) / chunk, 4096),
-                    [&](const auto& range) {
-                      float last_log_odds = 0.0f;  // neighbours often have the same, and logarithms are dear
-                      Voxel last_voxel = measured_voxel(last_log_odds);
-                      for (std::size_t c = range.begin(); c != range.end(); ++c) {
-                        const std::size_t first = c * chunk, last = std::min(first + chunk, touched_.size());
-                        if (last - first == chunk) {
-                          std::uint64_t word;
-                          std::memcpy(&word, &touched_[first], chunk);
-                          if (word == 0) continue;
-                        }
-                        for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
-                          if (touched_[v] == untouched) continue;
-                          log_odds_[v] = std::clamp(log_odds_[v] + term(v, touched_[v] == hit), lowest, highest);
-                          if (log_odds_[v] != last_log_odds) last_voxel = measured_voxel(last_log_odds = log_odds_[v]);
-                          voxels_[v] = last_voxel;
-                          touched_[v] = untouched;
-                        }
-                      }
-                    });
+  VoxelBricks after = voxels_;  // the map stays as it was if memory runs out
+  const auto bricks = after.change_bricks();
+  for_each_touched_brick(touched, [&](std::size_t brick) {
+    const std::size_t begin = brick * VoxelBricks::brick_voxels;
+    Voxel last = measured_voxel(0.0f);  // neighbours often have the same log-odds, and logarithms are expensive
+    VoxelBricks::Brick& voxels = bricks[brick].change();
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+      const std::uint8_t touch = touched[begin + i];
+      if (touch == untouched) continue;
+      const float log_odds = std::clamp(voxels[i].log_odds + term(begin + i, touch == hit), lowest, highest);
+      if (log_odds != last.log_odds) last = measured_voxel(log_odds);
+      voxels[i] = last;
+    }
+  });
+  voxels_ = std::move(after);
 }
 
-void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin, MapChanges* undo) try {
+void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin) {
   const bool same_grid =
       local.grid_.first == grid_.first && local.grid_.size == grid_.size && local.grid_.resolution == grid_.resolution;
   if (!same_grid || !(local.model_ == model_))
     throw std::invalid_argument(
         "occupancy map: a local map must have the grid and the model of the map it is registered into");
   // One scan's log-odds tell hits from passes; they may be clamped already, so they are not what is added.
-  for (std::size_t v = 0; v < voxels_.size(); ++v)
-    touched_[v] = !local.voxels_[v].measured ? untouched : local.log_odds_[v] > 0.0f ? hit : passed;
-  if (undo) remember_touched(*undo);
-  update_touched(origin);
-} catch (...) {
-  std::ranges::fill(touched_, untouched);
-  throw;
+  Scratch<std::uint8_t> touched(voxels_.brick_count() * VoxelBricks::brick_voxels);
+  const auto bricks = local.voxels_.bricks();
+  tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t brick) {
+    const VoxelBricks::Brick& voxels = *bricks[brick];
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+      if (voxels[i].measured)
+        touched[brick * VoxelBricks::brick_voxels + i] = voxels[i].log_odds > 0.0f ? hit : passed;
+  });
+  add(touched, origin);
 }
 
-void OccupancyMap::mark_occlusions(const Scan& scan, double max_range, double reach, const std::stop_token& stop,
-                                   MapChanges* undo) {
+void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
-  tbb::combinable<std::vector<MapChanges::Change>> changes;
+  Scratch<std::uint16_t> nearest_behind(voxels_.brick_count() * VoxelBricks::brick_voxels);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.returns.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
-    auto& own_changes = changes.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Eigen::Vector3f& point = scan.returns[i];
       const double length = ray_length(origin, point);
-      if (length > max_range || length == 0.0 || !grid_.contains(grid_.cell_at(point.cast<double>()))) continue;
-      const Eigen::Vector3f end = point_on_ray(origin, point, length + reach);
+      if (length > scan.max_range || length == 0.0 || !grid_.contains(grid_.cell_at(point.cast<double>()))) continue;
+      const Eigen::Vector3f end = point_on_ray(origin, point, length + distance);
       int behind = -1;  // the return's own voxel is no. 0
       walk_segment(grid_, point, end, [&](int x, int y, int z) {
         if (!grid_.contains({x, y, z}) || ++behind > 65535) return false;
-        Voxel& voxel = voxels_[grid_.index({x, y, z})];
-        if (behind == 0 || voxel.measured) return true;
-        std::atomic_ref<std::uint16_t> nearest(voxel.occlusion_distance);
+        if (behind == 0) return true;
+        std::atomic_ref<std::uint16_t> nearest(nearest_behind[voxels_.place(x, y, z)]);
         std::uint16_t seen = nearest.load(std::memory_order_relaxed);
-        while (seen == 0 || behind < seen) {
-          if (!nearest.compare_exchange_weak(seen, static_cast<std::uint16_t>(behind), std::memory_order_relaxed))
-            continue;
-          if (undo) own_changes.push_back({grid_.index({x, y, z}), 0.0f, Voxel{.occlusion_distance = seen}});
-          break;
+        while ((seen == 0 || behind < seen) &&
+               !nearest.compare_exchange_weak(seen, static_cast<std::uint16_t>(behind), std::memory_order_relaxed)) {
         }
         return true;
       });
     }
   });
-  if (undo)
-    changes.combine_each(
-        [&](const auto& some) { undo->changes.insert(undo->changes.end(), some.begin(), some.end()); });
   throw_if_stopped(stop);
-}
-
-void OccupancyMap::go_back(const MapChanges& undo) {
-  const auto weaker = [](std::uint16_t a, std::uint16_t b) { return b != 0 && (a == 0 || a > b); };
-  for (const auto& [voxel, log_odds, before] : undo.changes) {
-    Voxel& now = voxels_[voxel];
-    // A mark can have been bettered several times, by several threads: the weakest is the first.
-    if (!now.measured && !weaker(before.occlusion_distance, now.occlusion_distance)) continue;
-    log_odds_[voxel] = log_odds;
-    now = before;
-  }
+  VoxelBricks after = voxels_;
+  const auto bricks = after.change_bricks();
+  for_each_touched_brick<std::uint16_t>(nearest_behind, [&](std::size_t brick) {
+    const std::uint16_t* const nearest = &nearest_behind[brick * VoxelBricks::brick_voxels];
+    const auto better = [&](std::size_t i, const Voxel& voxel) {
+      return nearest[i] != 0 && !voxel.measured &&
+             (voxel.occlusion_distance == 0 || nearest[i] < voxel.occlusion_distance);
+    };
+    const VoxelBricks::Brick& before = *bricks[brick];
+    std::size_t i = 0;
+    while (i < before.size() && !better(i, before[i])) ++i;
+    if (i == before.size()) return;  // and it stays shared
+    VoxelBricks::Brick& voxels = bricks[brick].change();
+    for (; i < voxels.size(); ++i)
+      if (better(i, voxels[i])) voxels[i].occlusion_distance = nearest[i];
+  });
+  voxels_ = std::move(after);
 }
 
 }  // namespace nextview

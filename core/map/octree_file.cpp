@@ -28,11 +28,12 @@ octomap::OcTree to_octree(const OccupancyMap& map) {
   tree.setClampingThresMin(model.clamp_min);
   tree.setClampingThresMax(model.clamp_max);
   tree.setOccupancyThres(model.occupancy_threshold);
-  for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
-    if (!map.voxels()[v].measured) continue;
+  std::uint32_t v = 0;
+  for (auto voxel = map.voxels().begin(); voxel != map.voxels().end(); ++voxel, ++v) {
+    if (!voxel->measured) continue;
     const Eigen::Vector3i lattice = map.grid().first + map.grid().cell(v);
     const octomap::OcTreeKey key(lattice.x() + key_offset, lattice.y() + key_offset, lattice.z() + key_offset);
-    tree.setNodeValue(key, map.log_odds()[v], true);
+    tree.setNodeValue(key, voxel->log_odds, true);
   }
   tree.updateInnerOccupancy();
   tree.prune();

@@ -51,7 +51,7 @@ bool passes_through(const VoxelGrid& grid, const Eigen::Vector3f& origin, const 
 
 }  // namespace
 
-std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std::uint32_t voxel, double max_range) {
+std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std::uint32_t voxel) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
   const Eigen::Vector3i cell = grid.cell(voxel);
   const NearbyRays nearby(grid, voxel, origin);
@@ -59,8 +59,8 @@ std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std:
   const auto add = [&](const PointCloud& ends, bool returns) {
     for (const Eigen::Vector3f& point : ends) {
       if (!nearby.may_touch(point)) continue;
-      const bool in_range = ray_length(origin, point) <= max_range;
-      const Eigen::Vector3f end = in_range ? point : point_on_ray(origin, point, max_range);
+      const bool in_range = ray_length(origin, point) <= scan.max_range;
+      const Eigen::Vector3f end = in_range ? point : point_on_ray(origin, point, scan.max_range);
       const bool met_surface = returns && in_range;
       const bool hit = met_surface && grid.cell_at(point.cast<double>()) == cell;
       if (hit || passes_through(grid, origin, end, cell)) rays.push_back({end, hit, met_surface});
@@ -72,11 +72,10 @@ std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std:
 }
 
 std::vector<VoxelUpdate> voxel_history(const VoxelGrid& grid, const InverseSensorModel& model,
-                                       std::span<const std::shared_ptr<const Scan>> scans, std::uint32_t voxel,
-                                       double max_range) {
+                                       std::span<const std::shared_ptr<const Scan>> scans, std::uint32_t voxel) {
   std::vector<VoxelUpdate> history(scans.size());
   tbb::parallel_for(std::size_t{0}, scans.size(), [&](std::size_t k) {
-    for (const VoxelRay& ray : rays_through(grid, *scans[k], voxel, max_range))
+    for (const VoxelRay& ray : rays_through(grid, *scans[k], voxel))
       ++(ray.hit ? history[k].hits : history[k].passes);
   });
   const auto lowest = static_cast<float>(log_odds(model.clamp_min));

@@ -17,8 +17,8 @@ struct VoxelRay {
 };
 
 /// The rays of a scan that OccupancyMap::insert has touch the voxel, returns first, each kind in the scan's order. Rays
-/// longer than `max_range` [m] are cut there and end nowhere. @pre the voxel is one of the grid
-std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std::uint32_t voxel, double max_range);
+/// longer than the scan's maximum range are cut there and end nowhere. @pre the voxel is one of the grid
+std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std::uint32_t voxel);
 
 /// What one scan did to a voxel of an occupancy map.
 struct VoxelUpdate {
@@ -33,7 +33,6 @@ struct VoxelUpdate {
 /// How a voxel came by its probability, scan by scan: what an OccupancyMap of this grid and model, empty at first, made
 /// of these scans, inserted directly or by way of local maps. The last entry has the map's own bits.
 std::vector<VoxelUpdate> voxel_history(const VoxelGrid& grid, const InverseSensorModel& model,
-                                       std::span<const std::shared_ptr<const Scan>> scans, std::uint32_t voxel,
-                                       double max_range);
+                                       std::span<const std::shared_ptr<const Scan>> scans, std::uint32_t voxel);
 
 }  // namespace nextview

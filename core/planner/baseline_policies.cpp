@@ -22,8 +22,8 @@ double RandomPolicy::value(const PlanningState& state, std::size_t candidate) co
 double FarthestPolicy::value(const PlanningState& state, std::size_t candidate) const {
   if (state.taken.empty()) return 0.0;
   double nearest = std::numeric_limits<double>::max();
-  for (const Pose& taken : state.taken)
-    nearest = std::min(nearest, (taken.translation() - state.candidates[candidate].translation()).norm());
+  for (const TakenView& taken : state.taken)
+    nearest = std::min(nearest, (taken.T_world_camera.translation() - state.candidates[candidate].T_world_camera.translation()).norm());
   return nearest;
 }
 

@@ -15,7 +15,7 @@ namespace {
 std::vector<std::vector<double>> gain_values(const PlanningState& state, std::span<const std::size_t> available,
                                              std::span<const Gain* const> gains, std::stop_token stop) {
   std::vector<Pose> views;
-  for (const std::size_t v : available) views.push_back(state.candidates[v]);
+  for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
   const auto scores =
       score_views(state.caster, views, state.bundle, gains, {state.config.semantics, state.occlusion_reach}, stop);
   std::vector<std::vector<double>> values(gains.size());

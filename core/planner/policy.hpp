@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/gain/view_score.hpp"
+#include "core/planner/knowledge.hpp"
 #include "core/planner/planner_config.hpp"
 
 namespace nextview {
@@ -38,8 +39,8 @@ struct PlanningState {
   const RayCaster& caster;
   const RayBundle& bundle;
   const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
-  std::span<const Pose> candidates;
-  std::span<const Pose> taken;  ///< the views taken so far, in order
+  std::span<const View> candidates;
+  std::span<const TakenView> taken;  ///< so far, in order
 };
 
 /// What a view is worth: a volumetric information, or a baseline that stands for one. Eq. 13 weighs it against the way.

@@ -1,8 +1,11 @@
 #pragma once
-#include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
+#include <vector>
 
-#include "core/view/pose.hpp"
+#include "core/progress/result.hpp"
+#include "core/view/view.hpp"
 
 namespace nextview {
 
@@ -13,28 +16,37 @@ struct MotionCost {
   double seconds = 0.0;
 };
 
+/// Whether a view can be reached, and at what cost.
+struct Reach {
+  std::string unreachable;  ///< why it cannot; empty if it can
+  MotionCost cost;
+};
+
 /// The paper's robot interface: the planner sees this alone. A driver translates it for one robot.
 class Robot {
  public:
   virtual ~Robot() = default;
-  /// Why the camera cannot be brought to the pose; nothing if it can.
-  virtual std::optional<std::string> unreachable(const Pose& T_world_camera) const = 0;
-  virtual MotionCost cost(const Pose& from, const Pose& to) const = 0;
-  /// @throws std::runtime_error if the pose cannot be reached; the robot stays where it is.
-  virtual void move_to(const Pose& T_world_camera) = 0;
-  virtual const Pose& pose() const = 0;
+  /// Where the camera is, as the robot knows it: T_world_camera.
+  virtual Pose pose() const = 0;
+  /// Whether the camera can be brought from a pose to each of the views. One exchange for all of them.
+  virtual std::vector<Reach> reach(const Pose& from, std::span<const View> views) = 0;
+  /// Moves the camera. Returns the pose that it reached, which counts from then on, or why it did not get there.
+  virtual Result<Pose> move_to(const View& view, std::stop_token stop) = 0;
+  /// The scan has gone back to when the camera was here: simulated robots go there at no cost, real ones stay.
+  virtual void restored(const Pose&) {}
 };
 
-/// The ideal free-flying camera: every pose is reachable on a straight line.
+/// The ideal free-flying camera: every finite pose is reachable on a straight line, exactly.
 class FreeFlyingCamera : public Robot {
  public:
   /// `speed` [m/s] and `turn_rate` [rad/s] give the seconds of a move; the slower of the two counts.
+  /// @throws std::invalid_argument if one is not over 0.
   explicit FreeFlyingCamera(const Pose& start, double speed = 0.25, double turn_rate = 1.0);
 
-  std::optional<std::string> unreachable(const Pose& T_world_camera) const override;
-  MotionCost cost(const Pose& from, const Pose& to) const override;
-  void move_to(const Pose& T_world_camera) override;
-  const Pose& pose() const override { return pose_; }
+  Pose pose() const override { return pose_; }
+  std::vector<Reach> reach(const Pose& from, std::span<const View> views) override;
+  Result<Pose> move_to(const View& view, std::stop_token stop) override;
+  void restored(const Pose& T_world_camera) override { pose_ = T_world_camera; }
 
  private:
   Pose pose_;

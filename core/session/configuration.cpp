@@ -165,6 +165,7 @@ void Configuration::validate() const {
   in(planner.start_elevation, -90.0, 90.0, "planner.start_elevation", " deg");
   in(evaluation.d_reg, 1e-5, 1.0, "evaluation.d_reg", " m");
   in(evaluation.surface_samples, 1, 10'000'000, "evaluation.surface_samples", "");
+  in(history.memory, 0.0, 1024.0, "history.memory", "GiB");
   const auto names = policy_names();
   require(std::find(names.begin(), names.end(), planner.gain) != names.end(),
           fmt::format("there is no gain '{}'; did you mean '{}'?", planner.gain, nearest(planner.gain, names)));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
-#include "core/map/occupancy.hpp"
+#include "core/map/occupancy_map.hpp"
 #include "core/planner/planner_config.hpp"
 #include "core/planner/termination.hpp"
 #include "core/sensor/depth_camera.hpp"
@@ -22,8 +22,6 @@ struct ObjectConfig {
   double longest_side = 0.5;  ///< the mesh is scaled to this [m]; 0 keeps its size
 };
 
-enum class Insertion { local_octree, direct };
-
 struct MapConfig {
   double resolution = 0.01;   ///< voxel edge [m]
   double region_edge = 1.28;  ///< edge of the region of interest, a cube around the object [m]
@@ -35,6 +33,11 @@ struct EvaluationConfig {
   bool enabled = true;   ///< compare with the mesh after each view
   double d_reg = 0.005;  ///< registration distance of surface coverage [m]; the paper's 0.0005 is always reported too
   int surface_samples = 50'000;
+};
+
+/// What the window keeps to go back to. It decides nothing of a scan.
+struct HistoryConfig {
+  double memory = 1.0;  ///< that the maps of earlier views may take [GiB]; older ones are made again from the scans
 };
 
 /// Everything that decides what a scan does: the same configuration gives the same bytes.
@@ -50,6 +53,7 @@ struct Configuration {
   PlannerConfig planner;
   TerminationConfig termination;
   EvaluationConfig evaluation;
+  HistoryConfig history;
   std::vector<std::filesystem::path> read_from;  ///< the files it comes from, no setting: nothing may replace them
 
   /// @throws std::invalid_argument naming the field and its bounds.
@@ -104,7 +108,7 @@ std::string to_toml(const Configuration& configuration, const std::filesystem::p
 /// @throws std::runtime_error
 void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources = nullptr);
 
-/// Files that come with the program. NEXTVIEW_ASSETS in the environment overrides where they are.
+/// Files that come with Nextview: where NEXTVIEW_ASSETS in the environment says, or as shared_folder finds them.
 std::filesystem::path assets_folder();
 /// The file of a sensor that comes with the program, if there is one of this name.
 std::filesystem::path named_sensor(const std::string& preset);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "core/file/installation.hpp"
 #include "core/file/read_file.hpp"
 #include "core/session/configuration.hpp"
 #include "core/session/output_folder.hpp"
@@ -25,7 +26,7 @@ std::string to_toml(const Configuration& configuration, const fs::path& folder) 
 
 fs::path assets_folder() {
   const char* folder = std::getenv("NEXTVIEW_ASSETS");
-  return folder ? folder : NEXTVIEW_ASSETS_DIR;
+  return folder ? fs::path(folder) : shared_folder("assets");
 }
 
 fs::path named_sensor(const std::string& preset) { return assets_folder() / "sensors" / (preset + ".toml"); }

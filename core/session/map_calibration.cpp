@@ -27,7 +27,7 @@ std::vector<std::uint8_t> grown(const VoxelGrid& grid, std::vector<std::uint8_t>
 }
 
 /// The voxels that count, see MapCalibrationConfig::band.
-std::vector<std::uint8_t> scored_voxels(const GibbsPosterior& posterior, std::span<const Voxel> conventional,
+std::vector<std::uint8_t> scored_voxels(const GibbsPosterior& posterior, const VoxelBricks& conventional,
                                         int band) {
   const std::size_t voxels = posterior.occupied.size();
   std::vector<std::uint8_t> near(voxels, 1);
@@ -35,11 +35,12 @@ std::vector<std::uint8_t> scored_voxels(const GibbsPosterior& posterior, std::sp
     for (std::size_t v = 0; v < voxels; ++v) near[v] = posterior.informed[v] && posterior.occupied[v] >= 0.5f;
     near = grown(posterior.grid, std::move(near), band);
   }
-  for (std::size_t v = 0; v < voxels; ++v) near[v] &= posterior.informed[v] && conventional[v].measured;
+  auto voxel = conventional.begin();
+  for (std::size_t v = 0; v < voxels; ++v, ++voxel) near[v] &= posterior.informed[v] && voxel->measured;
   return near;
 }
 
-GibbsReliability reliability(std::span<const Voxel> conventional, std::span<const float> gibbs,
+GibbsReliability reliability(const VoxelBricks& conventional, std::span<const float> gibbs,
                              std::span<const std::uint8_t> mask) {
   GibbsReliability bins;
   for (std::size_t v = 0; v < mask.size(); ++v) {
@@ -79,7 +80,7 @@ ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, 
   scores.gibbs = prepared.refinement.scores_after;
   const auto made_with = [&](const InverseSensorModel& model) {
     OccupancyMap map(job.grid, model);
-    for (const Scan& scan : job.scans) map.insert(scan, job.max_range, stop);
+    for (const Scan& scan : job.scans) map.insert(scan, stop);
     return map;
   };
   const OccupancyMap map_before = job.model == before ? prepared.refinement.conventional : made_with(before);
@@ -132,7 +133,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     check_stop();
     auto mask = scored_voxels(refinement.posterior, refinement.conventional.voxels(), config.band);
     UpdateHistories of_example;
-    of_example.add(job.grid, job.scans, job.max_range, refinement.posterior.occupied, mask, stop);
+    of_example.add(job.grid, job.scans, refinement.posterior.occupied, mask, stop);
     if (!examples[e].held_out) histories.append(of_example);
     prepared.push_back({examples[e], std::move(refinement), std::move(mask), std::move(of_example)});
   }

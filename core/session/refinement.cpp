@@ -6,7 +6,7 @@
 namespace nextview {
 namespace {
 
-std::vector<double> gibbs_gains(const RefinementJob& job, std::span<const Voxel> voxels) {
+std::vector<double> gibbs_gains(const RefinementJob& job, const VoxelBricks& voxels) {
   const MapRays rays(job.grid, voxels, job.model.occupancy_threshold, job.ray_length);
   const Gain* gibbs = &gain("gibbs");
   std::vector<double> gains;
@@ -24,9 +24,8 @@ RefinementJob refinement_job(const RecordedScene& scene, const GibbsConfig& gibb
   RefinementJob job;
   job.grid = parameters.grid();
   job.model = parameters.map.model;
-  job.max_range = parameters.max_range();
   job.ray_length = parameters.map.max_ray_depth;
-  for (const RecordedScan& recorded : scene.scans) job.scans.push_back(to_scan(recorded));
+  job.scans = scans_of(scene, parameters);
   job.candidates = scene.views;
   job.bundle = parameters.rays;
   const double resolution = parameters.map.resolution;
@@ -39,18 +38,16 @@ Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_
   const auto tell = [&](double fraction, std::string_view what) {
     if (progress) progress(fraction, what);
   };
-  Refinement r{OccupancyMap(job.grid, job.model), {}, {}, {}, {}, 0.0, {}, {}};
-  RangeMeasurements measurements{job.max_range, {}, {}};
+  Refinement r{OccupancyMap(job.grid, job.model), {}, VoxelBricks(), {}, {}, 0.0, {}, {}};
   for (std::size_t k = 0; k < job.scans.size(); ++k) {
     tell(0.2 * double(k) / double(job.scans.size()), "making the conventional map");
-    r.conventional.insert(job.scans[k], job.max_range);
-    measurements.add(job.scans[k]);
+    r.conventional.insert(job.scans[k], stop);
   }
   r.posterior = sample_posterior(
-      job.grid, measurements, job.sampler, probabilities(r.conventional.voxels()), {},
+      job.grid, measurements_of(job.scans), job.sampler, probabilities(r.conventional.voxels()), {},
       [&](double fraction, std::string_view what, const SamplerDiagnostics&) { tell(0.2 + 0.7 * fraction, what); },
       stop);
-  r.refined = r.posterior.voxels(job.model);
+  r.refined = VoxelBricks(job.grid.size, r.posterior.voxels(job.model));
   tell(0.9, "scoring the candidate views");
   r.gains_before = gibbs_gains(job, r.conventional.voxels());
   r.gains_after = gibbs_gains(job, r.refined);
@@ -60,8 +57,9 @@ Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_
   return r;
 }
 
-std::optional<MapScores> score_map(std::span<const Voxel> voxels, const std::optional<RefinementTruth>& truth) {
+std::optional<MapScores> score_map(const VoxelBricks& map, const std::optional<RefinementTruth>& truth) {
   if (!truth) return std::nullopt;
+  const std::vector<Voxel> voxels = map.dense();
   const auto p = probabilities(voxels);
   const auto quality = [&](TruthConvention convention, ScoredSet set) {
     return map_quality(p, truth->voxels, convention, set, truth->visited);

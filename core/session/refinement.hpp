@@ -7,8 +7,8 @@
 #include "core/evaluation/openings.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/session/configuration.hpp"
-#include "core/session/known_object.hpp"
-#include "core/session/map_refinement.hpp"
+#include "core/evaluation/known_object.hpp"
+#include "core/gibbs/map_refinement.hpp"
 #include "core/session/output_folder.hpp"
 #include "core/session/scene_parameters.hpp"
 
@@ -30,7 +30,6 @@ struct RefinementJob {
   std::optional<std::filesystem::path> object;  ///< its file, if it was a simulation
   VoxelGrid grid;
   InverseSensorModel model;
-  double max_range = 1.5;   ///< [m]
   double ray_length = 1.5;  ///< of rays that score a view [m]
   std::vector<Scan> scans;
   std::vector<Pose> candidates;
@@ -68,14 +67,14 @@ struct MapScores {
 struct Refinement {
   OccupancyMap conventional;
   GibbsPosterior posterior;
-  std::vector<Voxel> refined;                     ///< the posterior as gains see it
+  VoxelBricks refined;                            ///< the posterior as gains see it
   std::vector<double> gains_before, gains_after;  ///< the gain `gibbs` of each candidate on either map [nats]
   double rank_correlation = 0.0;                  ///< Spearman's
   std::optional<MapScores> scores_before, scores_after;
 };
 
 Refinement refine(const RefinementJob& job, const Progress& progress = {}, std::stop_token stop = {});
-std::optional<MapScores> score_map(std::span<const Voxel> voxels, const std::optional<RefinementTruth>& truth);
+std::optional<MapScores> score_map(const VoxelBricks& map, const std::optional<RefinementTruth>& truth);
 
 /// Writes posterior.ot, posterior.bt and conventional.ot, scores.csv (each candidate before and after), trace.csv (each
 /// sweep of each chain), metrics.json (diagnostics, and scores where there is a truth), config.toml; timings.csv is the

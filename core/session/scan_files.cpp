@@ -13,7 +13,7 @@ namespace nextview {
 namespace {
 
 std::string steps_csv(const Session& session) {
-  const std::string unit = session.policy().unit();
+  const std::string unit = session.planner().unit();
   const auto d_reg = session.configuration().evaluation.d_reg;
   std::string csv = fmt::format(
       "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],returns,points,"
@@ -37,7 +37,7 @@ std::string steps_csv(const Session& session) {
 
 std::string scores_csv(const Session& session) {
   const bool refined = session.refinement() != nullptr;
-  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", session.policy().unit(),
+  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", session.planner().unit(),
                                 refined ? ",gain_on_conventional_map[nats]" : "");
   for (const StepRecord& r : session.records())
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
@@ -104,12 +104,13 @@ nlohmann::ordered_json evaluation_json(const Session& session, const PointCloud&
     const Accuracy a = accuracy(cloud, MeshDistance(*session.mesh()));
     json["accuracy_m"] = {{"points", a.points}, {"mean", a.mean}, {"rms", a.rms}, {"percentile_95", a.percentile_95}};
   }
-  const auto p = probabilities(session.map().voxels());
+  const std::vector<Voxel> voxels = session.map().voxels().dense();
+  const auto p = probabilities(voxels);
   for (const TruthConvention convention : {TruthConvention::touch, TruthConvention::centre}) {
     for (const ScoredSet set : {ScoredSet::visited, ScoredSet::visited_band, ScoredSet::region})
       json["map"][std::string(name(convention)) + " truth"][std::string(name(set))] =
-          to_json(map_quality(p, object.truth(), convention, set, session.visited_voxels()));
-    const auto recall = surface_recall(session.map().voxels(), object.truth(), convention, session.visited_voxels());
+          to_json(map_quality(p, object.truth(), convention, set, session.evaluation()->visited_voxels));
+    const auto recall = surface_recall(voxels, object.truth(), convention, session.evaluation()->visited_voxels);
     if (recall) json["map"][std::string(name(convention)) + " truth"]["surface_recall"] = *recall;
   }
   return json;

@@ -9,16 +9,18 @@
 #include "core/progress/stopped.hpp"
 #include "core/session/refinement.hpp"
 #include "core/session/session_parts.hpp"
-#include "core/session/visited_voxels.hpp"
+#include "core/source/simulated_source.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The poses that views.csv says were taken. Candidates are looked up, as the text of a pose rounds.
+/// The poses that views.csv says were taken. Where that is a candidate's or the start view it is looked up, as the text
+/// of a pose rounds.
 std::vector<Pose> views_taken(const fs::path& file, const Configuration& configuration) {
   const auto candidates = candidate_views(configuration.views, Vector3::Zero());
+  const Pose start = configured_start_view(configuration);
   std::istringstream text(read_file(file, std::uintmax_t{1} << 24));
   std::string line;
   std::getline(text, line);
@@ -33,12 +35,10 @@ std::vector<Pose> views_taken(const fs::path& file, const Configuration& configu
     const bool whole = !row.fail() && (row >> std::ws).eof();
     if (!whole || view < -1 || view >= int(candidates.size()) || std::abs(q.norm() - 1.0) > 1e-6 || !p.allFinite())
       throw std::runtime_error(fmt::format("{}:{}: not a view of this scan", file.string(), number));
-    if (view >= 0)
-      poses.push_back(candidates[view]);
-    else if (step == 1)
-      poses.push_back(configured_start_view(configuration));
-    else
-      poses.push_back(make_pose(p, q));
+    const Pose written = make_pose(p, q);
+    const Pose& exact = view >= 0 ? candidates[view] : start;
+    const bool is_exact = (view >= 0 || step == 1) && written.isApprox(exact, 1e-6);
+    poses.push_back(is_exact ? exact : written);
   }
   if (poses.empty()) throw std::runtime_error(fmt::format("{}: holds no view", file.string()));
   return poses;
@@ -90,40 +90,32 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
                              std::stop_token stop) {
   const Configuration c = affordable(configuration);
   const fs::path object = resolve_object(c.object.file);
-  PlacedMesh mesh = load_placed_mesh(object, {c.object.longest_side}, stop);
-  require_within_region(mesh.mesh, c, object);
-  const RayScene scene(mesh.mesh, stop);
-  const DepthCamera camera(c.sensor, stop);
+  const auto mesh = std::make_shared<PlacedMesh>(load_placed_mesh(object, {c.object.longest_side}, stop));
+  require_within_region(mesh->mesh, c, object);
+  const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);
 
   RefinementJob job;
   job.name = object.stem().string();
   job.object = object;
   job.grid = configured_region(c);
   job.model = c.map.model;
-  job.max_range = c.sensor.max_range;
   job.ray_length = c.planner.ray_length;
   job.candidates = candidate_views(c.views, Vector3::Zero());
-  job.bundle = scoring_rays(c, camera.camera());
+  job.bundle = scoring_rays(c, world->camera.camera());
   job.sampler = posterior_sampler_config(c);
   job.configuration = c;
   job.inputs = input_files(c);
-  std::vector<std::uint8_t> visited(job.grid.voxel_count());
-  for (std::size_t k = 0; k < views.size(); ++k) {
-    if (progress) progress(double(k) / double(views.size()), "taking the views");
-    throw_if_stopped(stop);
-    Scan scan = back_project(camera.sense(scene, views[k], c.seed, static_cast<std::uint32_t>(k + 1), stop), views[k],
-                             c.sensor.max_range, stop);
-    scan.returns = clean(scan.returns, c.cloud, stop);
-    job.scans.push_back(std::move(scan));
-    const DepthImage ideal = camera.sense_ideal(scene, views[k], stop);
-    mark_visited(job.grid, back_project(ideal, views[k], c.sensor.max_range, stop), visited, stop);
-  }
-  const KnownObject known(mesh.mesh, scene, camera, job.candidates, job.grid, c.evaluation.surface_samples,
-                          c.evaluation.d_reg, c.seed, progress, stop);
-  job.truth = RefinementTruth{std::make_shared<TriangleMesh>(std::move(mesh.mesh)),
+  SimulatedSource source(world, c.seed);
+  job.scans = take_scans(source, views_at(views), &c.cloud, progress, stop);
+  const KnownObject known(mesh->mesh, std::shared_ptr<const RayScene>(world, &world->scene), world->camera,
+                          job.candidates, job.grid, c.evaluation.surface_samples, c.evaluation.d_reg, c.seed, progress,
+                          stop);
+  EvaluationState evaluation = known.nothing_seen();
+  for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].returns, stop);
+  job.truth = RefinementTruth{std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),
                               known.truth(),
-                              std::move(visited),
-                              known_openings(object, mesh.placement, job.notices),
+                              std::move(evaluation.visited_voxels),
+                              known_openings(object, mesh->placement, job.notices),
                               known.samples(),
                               {known.visible().begin(), known.visible().end()}};
   return job;

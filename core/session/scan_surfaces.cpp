@@ -130,8 +130,9 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
   std::vector<const Scan*> scans;
   for (const auto& scan : session.scans()) scans.push_back(scan.get());
   const KnownObject* known = session.known_object();
+  const std::vector<Voxel> voxels = session.planning_voxels().dense();
   return scan_surfaces(
-      {session.map().grid(), session.planning_voxels(),
+      {session.map().grid(), voxels,
        session.refinement() ? std::optional(session.configuration().gibbs.sampler.prior) : std::nullopt, scans,
        known ? session.mesh().get() : nullptr, known ? &known->samples() : nullptr,
        known ? known->visible() : std::span<const std::uint8_t>{}},
@@ -143,7 +144,8 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
   const RefinementTruth* truth = job.truth ? &*job.truth : nullptr;
   std::vector<const Scan*> scans;
   for (const Scan& scan : job.scans) scans.push_back(&scan);
-  return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
+  const std::vector<Voxel> voxels = refinement.refined.dense();
+  return scan_surfaces({job.grid, voxels, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
                         truth ? &truth->samples : nullptr,
                         truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
                        progress, stop);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/source/recorded_source.hpp"
+
 namespace nextview {
 namespace {
 
@@ -136,11 +138,9 @@ SceneParameters scene_parameters(const RecordedScene& scene, const std::function
   return result;
 }
 
-Scan to_scan(const RecordedScan& recorded) {
-  Scan scan;
-  scan.origin = recorded.T_world_camera.translation();
-  for (const Vector3& p : recorded.points) scan.returns.push_back((recorded.T_world_camera * p).cast<float>());
-  return scan;
+std::vector<Scan> scans_of(const RecordedScene& scene, const SceneParameters& parameters) {
+  RecordedSource source(scene.scans, parameters.max_range());
+  return take_scans(source, source.describe().frames, nullptr);
 }
 
 }  // namespace nextview

@@ -23,6 +23,7 @@ struct SceneParameters {
 /// @throws std::invalid_argument for a parameter that makes no sense, or a scan or view out of an octree's reach.
 SceneParameters scene_parameters(const RecordedScene& scene, const std::function<void(const std::string&)>& warn = {});
 
-Scan to_scan(const RecordedScan& recorded);
+/// The scans of a scene, as they are.
+std::vector<Scan> scans_of(const RecordedScene& scene, const SceneParameters& parameters);
 
 }  // namespace nextview

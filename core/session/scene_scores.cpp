@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <stdexcept>
 
-#include "core/map/occupancy_map.hpp"
 #include "core/planner/policy.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/refinement.hpp"
@@ -16,40 +14,19 @@
 namespace nextview {
 namespace {
 
-/// A map of the scene and the rays through it.
-struct SceneRays {
-  std::unique_ptr<OccupancyMap> map;  ///< published
-  std::unique_ptr<RayCaster> caster;
-};
-
-SceneRays build(const RecordedScene& scene, const SceneParameters& parameters, Semantics semantics,
-                const Progress& progress, const std::stop_token& stop) {
-  SceneRays rays;
-  std::size_t inserted = 0;
-  const auto tell = [&] {
-    if (progress) progress(double(inserted++) / double(scene.scans.size()), "making the map");
-  };
-  const ReferenceMap::Parameters& p = parameters.map;
-  if (semantics == Semantics::reference) {
-    auto map = std::make_unique<ReferenceMap>(p);
-    for (const RecordedScan& recorded : scene.scans) {
-      tell();
-      const Scan scan = to_scan(recorded);
-      map->insert(scan.origin, scan.returns, stop);
-    }
-    rays.caster = std::move(map);
-    return rays;
+/// What is known after all scans of the scene. Of the reference semantics there is their own map alone.
+Knowledge scanned(const RecordedScene& scene, const SceneParameters& parameters, Semantics semantics,
+                  const Progress& progress, const std::stop_token& stop) {
+  const bool reference = semantics == Semantics::reference;
+  Knowledge known{OccupancyMap(reference ? VoxelGrid{} : parameters.grid(), parameters.map.model)};
+  if (reference) known.reference = std::make_shared<ReferenceMap>(parameters.map);
+  const FusionConfig fusion{Insertion::direct, parameters.map.occlusion_distance};
+  const std::vector<Scan> scans = scans_of(scene, parameters);
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    if (progress) progress(double(k) / double(scans.size()), "making the map");
+    fuse(known, scans[k], fusion, {}, stop);
   }
-  rays.map = std::make_unique<OccupancyMap>(parameters.grid(), p.model);
-  for (const RecordedScan& recorded : scene.scans) {
-    tell();
-    const Scan scan = to_scan(recorded);
-    rays.map->insert(scan, parameters.max_range(), stop);
-    rays.map->mark_occlusions(scan, parameters.max_range(), p.occlusion_distance, stop);
-  }
-  rays.caster =
-      std::make_unique<MapRays>(rays.map->grid(), rays.map->voxels(), p.model.occupancy_threshold, p.max_ray_depth);
-  return rays;
+  return known;
 }
 
 /// The gains of the views on the Gibbs map of the scene.
@@ -67,8 +44,10 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
                         std::stop_token stop) {
   if (scene.views.empty()) throw std::invalid_argument("the scene has no candidate views (`view` lines)");
   const SceneParameters parameters = scene_parameters(scene, warn);
-  const SceneRays built = build(scene, parameters, semantics, progress, stop);
-  const double reach = 2.0 * parameters.map.occlusion_distance / parameters.map.resolution;
+  const Knowledge known = scanned(scene, parameters, semantics, progress, stop);
+  const auto rays = planning_rays(known, parameters.map.max_ray_depth);
+  const double reach = occlusion_reach(parameters.map.occlusion_distance, parameters.map.resolution);
+  const std::vector<View> candidates = views_at(scene.views);
   // The gains of single views share one cast of the rays; the others follow, a column each.
   SceneScores scores;
   std::vector<const Gain*> gains;
@@ -86,7 +65,7 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
     }
   }
   if (progress) progress(0.0, "scoring the candidate views");
-  scores.views = score_views(*built.caster, scene.views, parameters.rays, gains, {semantics, reach}, stop);
+  scores.views = score_views(*rays, scene.views, parameters.rays, gains, {semantics, reach}, stop);
   throw_if_stopped(stop);
   std::vector<std::size_t> all(scene.views.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -96,7 +75,7 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
     if (on_posterior && semantics == Semantics::reference)
       throw std::invalid_argument(
           fmt::format("the gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
-    const PlanningState state{planner, 1, reach, *built.caster, parameters.rays, nullptr, scene.views, {}};
+    const PlanningState state{planner, 1, reach, *rays, parameters.rays, nullptr, candidates, {}};
     const auto column = on_posterior ? gibbs_gains(scene, progress, stop) : policy->values(state, all, stop);
     throw_if_stopped(stop);
     scores.gains.push_back(planner.gain);

@@ -6,7 +6,7 @@
 
 #include "core/gain/view_score.hpp"
 #include "core/sensor/recorded_scans.hpp"
-#include "core/session/known_object.hpp"
+#include "core/evaluation/known_object.hpp"
 
 namespace nextview {
 

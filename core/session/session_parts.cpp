@@ -79,6 +79,23 @@ VoxelGrid configured_region(const Configuration& c) {
   return region_of_interest(Vector3::Zero(), c.map.region_edge, c.map.resolution);  // load_mesh centres the object
 }
 
+View start_view(const Configuration& c, const SourceDescription& source, const Robot* robot) {
+  if (!source.frames.empty()) return source.frames.front();
+  if (source.start) return {*source.start};
+  return {robot ? robot->pose() : configured_start_view(c)};
+}
+
+VoxelGrid configured_region(const Configuration& c, const SourceDescription& source) {
+  if (!source.region) return configured_region(c);
+  return region_of_interest(source.region->center(), source.region->sizes().maxCoeff(), c.map.resolution);
+}
+
+std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& c,
+                                                                const SourceDescription& source) {
+  return std::make_shared<FixedCandidates>(
+      source.frames.empty() ? views_at(candidate_views(c.views, Vector3::Zero())) : source.frames);
+}
+
 void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {
   const double longest = object.bounding_box().sizes().maxCoeff();
   if (longest > c.map.region_edge)
@@ -94,29 +111,32 @@ RayBundle scoring_rays(const Configuration& c, const PinholeCamera& camera) {
   return RayBundle::regular(camera, c.planner.ray_columns, c.planner.ray_rows);
 }
 
-std::unique_ptr<ReferenceMap> make_reference_map(const Configuration& c) {
-  if (c.planner.semantics != Semantics::reference) return nullptr;
+namespace {
+
+std::shared_ptr<const ReferenceMap> empty_reference_map(const Configuration& c, const VoxelGrid& region) {
   ReferenceMap::Parameters p;
   p.resolution = c.map.resolution;
   p.model = c.map.model;
-  p.lower = configured_region(c).lower();
-  p.upper = configured_region(c).upper();
+  p.lower = region.lower();
+  p.upper = region.upper();
   p.max_sensor_range = c.sensor.max_range;
   p.max_ray_depth = c.planner.ray_length;
-  return std::make_unique<ReferenceMap>(p);
+  return std::make_shared<ReferenceMap>(p);
 }
 
-std::unique_ptr<MapRefinement> make_refinement(const Configuration& c) {
-  if (!make_policy(c.planner)->needs().posterior) return nullptr;
-  return std::make_unique<MapRefinement>(configured_region(c), posterior_sampler_config(c), c.map.model,
-                                         c.sensor.max_range);
+}  // namespace
+
+Knowledge nothing_known(const Configuration& c, const VoxelGrid& region, const PolicyNeeds& needs) {
+  Knowledge known{OccupancyMap(region, c.map.model)};
+  if (c.planner.semantics == Semantics::reference) known.reference = empty_reference_map(c, region);
+  if (needs.posterior)
+    known.posterior = std::make_shared<MapRefinement>(region, posterior_sampler_config(c), c.map.model);
+  return known;
 }
 
-MapRays configured_rays(const Configuration& c, const VoxelGrid& grid, std::span<const Voxel> voxels) {
-  return MapRays(grid, voxels, c.map.model.occupancy_threshold, c.planner.ray_length);
+double occlusion_reach(const Configuration& c) {
+  return occlusion_reach(default_occlusion_distance, c.map.resolution);
 }
-
-double occlusion_reach(const Configuration& c) { return 2.0 * occlusion_distance / c.map.resolution; }
 
 Configuration validated(Configuration c) {
   c.validate();

@@ -2,9 +2,10 @@
 #include <memory>
 #include <string>
 
-#include "core/gain/map_rays.hpp"
 #include "core/session/configuration.hpp"
-#include "core/session/map_refinement.hpp"
+#include "core/planner/planner.hpp"
+#include "core/robot/robot.hpp"
+#include "core/source/scan_source.hpp"
 
 namespace nextview {
 
@@ -19,21 +20,23 @@ Configuration affordable(Configuration configuration);
 std::string not_enough_memory(const Configuration& configuration);
 
 Pose configured_start_view(const Configuration& configuration);
+/// Where to begin: with the source's first frame, or where it says, else where a robot of its own is, else as
+/// configured.
+View start_view(const Configuration& configuration, const SourceDescription& source, const Robot* robot);
 VoxelGrid configured_region(const Configuration& configuration);
+/// The source's region, if it has one.
+VoxelGrid configured_region(const Configuration& configuration, const SourceDescription& source);
+/// A recording's frames, if the source is one.
+std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& configuration,
+                                                                const SourceDescription& source);
 /// @throws std::invalid_argument naming the file if the object reaches beyond the region of interest.
 void require_within_region(const TriangleMesh& object, const Configuration& configuration,
                            const std::filesystem::path& file);
 /// The rays that score a view.
 RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& camera);
-/// Rays through a map; the voxels must outlive them.
-MapRays configured_rays(const Configuration& configuration, const VoxelGrid& grid, std::span<const Voxel> voxels);
-/// Null unless the semantics are the reference's.
-std::unique_ptr<ReferenceMap> make_reference_map(const Configuration& configuration);
-/// How far behind a surface voxels are marked as occluded [m] (Isler et al. 2016).
-constexpr double occlusion_distance = 0.3;
 /// d_max of proximity count [voxels].
 double occlusion_reach(const Configuration& configuration);
-/// Null unless the policy needs the Gibbs map.
-std::unique_ptr<MapRefinement> make_refinement(const Configuration& configuration);
+/// What is known before the first view, for a planner of these needs.
+Knowledge nothing_known(const Configuration& configuration, const VoxelGrid& region, const PolicyNeeds& needs);
 
 }  // namespace nextview

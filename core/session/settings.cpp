@@ -191,6 +191,8 @@ std::vector<Setting> settings(Configuration& c) {
       {"evaluation.enabled", "", "compare with the mesh after each view", &c.evaluation.enabled},
       {"evaluation.d_reg", "m", "registration distance of surface coverage", &c.evaluation.d_reg},
       {"evaluation.surface_samples", "", "points spread over the true surface", &c.evaluation.surface_samples},
+      {"history.memory", "GiB", "that the maps of earlier views may take; older ones are made again from the scans",
+       &c.history.memory},
   };
 }
 

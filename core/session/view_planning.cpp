@@ -1,18 +1,68 @@
-#include "core/session/view_planning.hpp"
-
 #include <algorithm>
 
 #include "core/planner/rank_correlation.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/progress/stopwatch.hpp"
+#include "core/session/scan_loop.hpp"
+#include "core/session/session_parts.hpp"
 
 namespace nextview {
 namespace {
 
-std::vector<std::size_t> available(std::span<const Candidate> candidates) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t v = 0; v < candidates.size(); ++v)
-    if (candidates[v].available) numbers.push_back(v);
-  return numbers;
+/// The true surface as the views so far have seen it.
+class SurfaceLeft : public TrueSurface {
+ public:
+  SurfaceLeft(const KnownObject& object, const EvaluationState& state) : object_(object), state_(state) {}
+  std::size_t new_samples(std::size_t candidate) const override { return object_.new_samples(state_, candidate); }
+  std::vector<std::size_t> covering_order(std::uint64_t seed) const override { return object_.covering_order(seed); }
+
+ private:
+  const KnownObject& object_;
+  const EvaluationState& state_;
+};
+
+/// What a planner is given besides the knowledge; valid as long as the setup and the state are.
+struct PlanningInput {
+  PlanningInput(const ScanSetup& scan, const ScanState& state)
+      : setup{scan.configuration.planner, scan.configuration.seed, occlusion_reach(scan.configuration), scan.bundle,
+              nullptr} {
+    if (state.evaluation) setup.true_surface = &surface.emplace(*scan.truth, *state.evaluation);
+  }
+  PlanningInput(const PlanningInput&) = delete;
+
+  std::optional<SurfaceLeft> surface;
+  PlanningSetup setup;
+};
+
+/// The candidates with what the robot says of them. Views that were taken are not available.
+std::vector<Candidate> reachable_candidates(const ScanState& state, Robot& robot) {
+  const std::vector<View>& views = state.candidates;
+  const std::vector<Reach> reach = robot.reach(robot.pose(), views);
+  std::vector<Candidate> candidates(views.size());
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    candidates[v].cost = reach.at(v).cost.distance;
+    candidates[v].available = reach[v].unreachable.empty() && !state.known.has_taken(views[v]);
+  }
+  return candidates;
+}
+
+/// What the same planner would have made of the conventional map.
+void compare_with_conventional(const ScanSetup& setup, const ScanState& state, const PlanningInput& input,
+                               std::vector<Candidate> candidates, StepRecord& record, const std::stop_token& stop) {
+  Knowledge conventional = state.known;
+  conventional.posterior = nullptr;
+  const Plan plan = setup.planner->plan(input.setup, conventional, state.candidates, std::move(candidates), stop);
+  RefinementRecord& refinement = *record.refinement;
+  std::vector<double> refined_gains, conventional_gains;
+  refinement.conventional_gains.assign(plan.candidates.size(), 0.0);
+  for (std::size_t v = 0; v < plan.candidates.size(); ++v) {
+    if (!plan.candidates[v].available) continue;
+    refinement.conventional_gains[v] = plan.candidates[v].gain;
+    conventional_gains.push_back(plan.candidates[v].gain);
+    refined_gains.push_back(record.candidates[v].gain);
+  }
+  refinement.rank_correlation = rank_correlation(refined_gains, conventional_gains);
+  refinement.conventional_best = plan.ranking.best;
 }
 
 double best_gain(const StepRecord& record) {
@@ -24,49 +74,52 @@ double best_gain(const StepRecord& record) {
 
 }  // namespace
 
-void rank_candidates(const Policy& policy, const PlanningState& state, const Robot& robot,
-                     const std::vector<bool>& visited, StepRecord& record, const std::stop_token& stop) {
-  record.candidates.assign(state.candidates.size(), {});
-  for (std::size_t v = 0; v < record.candidates.size(); ++v) {
-    Candidate& c = record.candidates[v];
-    c.cost = robot.cost(robot.pose(), state.candidates[v]).distance;
-    c.available = !visited[v] && !robot.unreachable(state.candidates[v]);
-  }
-  const auto left = available(record.candidates);
-  const auto gains = policy.values(state, left, stop);
-  throw_if_stopped(stop);  // or the ranking would be half one
-  for (std::size_t i = 0; i < left.size(); ++i) record.candidates[left[i]].gain = gains[i];
-  record.ranking = rank(record.candidates, policy.weights(state.config));
-}
-
-void compare_rankings(const Policy& policy, const PlanningState& conventional, StepRecord& record,
-                      const std::stop_token& stop) {
-  const auto left = available(record.candidates);
-  const auto gains = policy.values(conventional, left, stop);
+ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Progress& progress,
+               const std::stop_token& stop) {
+  if (progress) progress(0.7, "scoring the candidate views");
   throw_if_stopped(stop);
-  auto candidates = record.candidates;
-  std::vector<double> refined;
-  RefinementRecord& refinement = *record.refinement;
-  refinement.conventional_gains.assign(candidates.size(), 0.0);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    refined.push_back(candidates[left[i]].gain);
-    candidates[left[i]].gain = refinement.conventional_gains[left[i]] = gains[i];
+  auto record = std::make_shared<StepRecord>(*state.records.back());
+  {
+    Stopwatch watch(record->seconds.score);
+    state.candidates = setup.candidates->candidates(state.known);
+    const auto candidates = reachable_candidates(state, robot);
+    const PlanningInput input(setup, state);
+    Plan plan = setup.planner->plan(input.setup, state.known, state.candidates, candidates, stop);
+    record->candidates = std::move(plan.candidates);
+    record->ranking = std::move(plan.ranking);
+    if (record->refinement) compare_with_conventional(setup, state, input, candidates, *record, stop);
   }
-  refinement.rank_correlation = rank_correlation(refined, gains);
-  refinement.conventional_best = rank(candidates, policy.weights(conventional.config)).best;
+  state.records.back() = std::move(record);
+  state.next = proposal(setup, state);  // p <- next best view
+  state.finished = termination(setup.configuration.termination, state);  // if p meets the terminal criterion, finish
+  return state;
 }
 
-std::string termination(const TerminationConfig& config, std::span<const StepRecord> records, std::size_t voxels) {
-  const StepRecord& last = records.back();
+NextView proposal(const ScanSetup& setup, const ScanState& state) {
+  const StepRecord& record = *state.records.back();
+  const auto best = record.ranking.best;
+  if (!best) return {setup.start};
+  const Candidate& c = record.candidates[*best];
+  return {state.candidates[*best], best, false, false, c.gain, c.utility};
+}
+
+std::string termination(const TerminationConfig& config, const ScanState& state) {
+  const StepRecord& last = *state.records.back();
   ScanProgress progress;
-  progress.views = static_cast<int>(records.size());
+  progress.views = static_cast<int>(state.records.size());
   progress.coverage = last.coverage_visible;
   progress.candidates_left = last.ranking.best.has_value();
   progress.best_gain = best_gain(last);
-  progress.first_gain = best_gain(records.front());
-  progress.new_voxel_share = double(last.new_voxels) / double(voxels);
-  if (records.size() > 1) progress.entropy_drop_share = 1.0 - last.entropy / records[records.size() - 2].entropy;
+  progress.first_gain = best_gain(*state.records.front());
+  progress.new_voxel_share = double(last.new_voxels) / double(state.known.map.voxels().size());
+  if (state.records.size() > 1)
+    progress.entropy_drop_share = 1.0 - last.entropy / state.records[state.records.size() - 2]->entropy;
   return termination_reason(config, progress);
+}
+
+std::optional<ScoreExplanation> explain(const ScanSetup& setup, const ScanState& state, const Pose& T_world_camera) {
+  const PlanningInput input(setup, state);
+  return setup.planner->explain(input.setup, state.known, T_world_camera);
 }
 
 }  // namespace nextview

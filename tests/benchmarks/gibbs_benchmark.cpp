@@ -31,9 +31,9 @@ struct Setup {
     OccupancyMap map(grid, InverseSensorModel{});
     for (const Scan& scan : simulate_views(load_mesh(default_object()), camera, 20).scans) {
       measurements.add(scan);
-      map.insert(scan, camera.max_range);
+      map.insert(scan);
     }
-    for (const Voxel& v : map.voxels()) conventional.push_back(v.probability);
+    conventional = probabilities(map.voxels());
   }
 };
 

@@ -10,11 +10,11 @@
 #include <cstdio>
 
 #include "core/evaluation/baseline_maps.hpp"
+#include "core/evaluation/visited_voxels.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
 #include "core/session/refinement.hpp"
-#include "core/session/visited_voxels.hpp"
 #include "tests/benchmarks/simulated_views.hpp"
 
 namespace nextview {
@@ -125,7 +125,7 @@ class Comparison {
   }
 
   void run() {
-    const BaselineMaps baselines(grid_, views_.scans, camera_.max_range, InverseSensorModel{});
+    const BaselineMaps baselines(grid_, views_.scans);
     std::vector<float> conventional;
     for (const BaselineMapInfo& info : baseline_maps) {
       const auto voxels = baselines.make(info.map);
@@ -158,7 +158,7 @@ class Comparison {
 
  private:
   void row(const std::string& map, std::span<const Voxel> voxels, double seconds, const std::string& remark) const {
-    const MapScores s = *score_map(voxels, truth_);
+    const MapScores s = *score_map({grid_.size, voxels}, truth_);
     fmt::print("{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.0f},{:.0f},{},{},{},{},{:.1f},{}\n", label_, map,
                s.touch_band.log_loss, s.touch_band.brier, s.centre_band.log_loss, s.centre_band.brier,
                s.touch_visited.log_loss, s.touch_visited.divergence, s.centre_visited.divergence,

@@ -37,7 +37,7 @@ struct Setup {
   Setup() {
     for (int v = 0; v < views_before; ++v) {
       const Scan scan = sense(9 * v);
-      map.insert(scan, max_range);
+      map.insert(scan);
       insert_into_tree(scan);
     }
   }
@@ -94,7 +94,7 @@ void Step_Nextview(benchmark::State& state) {
   Setup& s = setup();
   for (auto _ : state) {
     const Scan scan = s.sense(20);
-    s.map.insert(scan, max_range);
+    s.map.insert(scan);
     benchmark::DoNotOptimize(s.score());
   }
 }
@@ -116,7 +116,7 @@ void Stage_Sense(benchmark::State& state) {
 void Stage_Insert(benchmark::State& state) {
   Setup& s = setup();
   const Scan scan = s.sense(20);
-  for (auto _ : state) s.map.insert(scan, max_range);
+  for (auto _ : state) s.map.insert(scan);
   state.counters["rays/s"] = benchmark::Counter(double(scan.returns.size() + scan.passes.size()),
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }

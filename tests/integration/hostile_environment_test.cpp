@@ -20,7 +20,7 @@ const char* const drawn_scan =
 
 class HostileEnvironment : public ::testing::Test {
  protected:
-  /// The program and its library, in a folder of this name.
+  /// The program, its library and its files, in a folder of this name.
   fs::path installed_in(const std::string& name) {
     const fs::path program = NEXTVIEW_PROGRAM, folder = folder_.path() / name;
     fs::create_directories(folder);
@@ -29,6 +29,7 @@ class HostileEnvironment : public ::testing::Test {
       fs::create_hard_link(file, folder / file.filename(), other_disk);
       if (other_disk) fs::copy(file, folder / file.filename());
     }
+    if (!fs::exists(folder / "share")) fs::create_directory_symlink(program.parent_path() / "share", folder / "share");
     return folder / program.filename();
   }
   void plant(const fs::path& name) {

@@ -51,9 +51,9 @@ std::vector<Pose> views() {
   return poses;
 }
 
-void mark_visited(const VoxelGrid& grid, const Scan& scan, double max_range, std::vector<std::uint8_t>& visited) {
+void mark_visited(const VoxelGrid& grid, const Scan& scan, std::vector<std::uint8_t>& visited) {
   RangeMeasurements rays;
-  rays.max_range = max_range;
+  rays.max_range = scan.max_range;
   rays.add(scan);
   for (const RangeMeasurement& ray : rays.rays)
     walk_ray(grid, scan.origin, rays.direction(ray), rays.range(ray), [&](int x, int y, int z) {
@@ -104,12 +104,11 @@ RefinedPlate refined_plate(std::uint64_t seed) {
   std::uint32_t view = 0;
   for (const Pose& pose : views()) {
     const Scan scan = back_project(camera.sense(scene, pose, seed, view++), pose, config.max_range);
-    map.insert(scan, config.max_range);
+    map.insert(scan);
     measurements.add(scan);
-    mark_visited(plate.grid, back_project(camera.sense_ideal(scene, pose), pose, config.max_range), config.max_range,
-                 visited);
+    mark_visited(plate.grid, back_project(camera.sense_ideal(scene, pose), pose, config.max_range), visited);
   }
-  plate.conventional.assign(map.voxels().begin(), map.voxels().end());
+  plate.conventional = map.voxels().dense();
   const PosteriorSamplerConfig sampler =
       posterior_sampler_config(GibbsConfig{}, config.range_noise, ray_pitch(config), RefinedPlate::resolution, seed);
   const std::vector<float> start_map = probabilities(plate.conventional);

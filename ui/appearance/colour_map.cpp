@@ -1,5 +1,6 @@
 #include "ui/appearance/colour_map.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

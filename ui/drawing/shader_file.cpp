@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/file/installation.hpp"
+
 namespace nextview {
 namespace {
 
@@ -27,7 +29,7 @@ bool find_shader_error(const std::string& text, std::smatch& line_and_message) {
 
 }  // namespace
 
-std::string load_shader(const std::string& name) { return load_shader(name, NEXTVIEW_SHADER_DIR); }
+std::string load_shader(const std::string& name) { return load_shader(name, shared_folder("shaders")); }
 
 std::string load_shader(const std::string& name, const std::filesystem::path& folder) {
   const auto known = std::find(shaders.begin(), shaders.end(), name);

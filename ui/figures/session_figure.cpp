@@ -33,12 +33,12 @@ StepPicture step_picture(const Session& session) {
   picture.step_count = c.termination.views;
   picture.object_name = session.object_file().stem().string();
   picture.gain_name = c.planner.gain;
-  picture.gain_unit = session.policy().unit();
+  picture.gain_unit = session.planner().unit();
   picture.object = session.mesh().get();
   picture.grid = session.map().grid();
-  picture.voxels = session.planning_voxels();
+  picture.voxels = session.planning_voxels().dense();
   picture.cloud = thinned(session.scans());
-  picture.camera = session.camera().camera();
+  picture.camera = session.camera();
   picture.candidates = session.candidates();
   picture.chosen = session.next_candidate();
   picture.ranking_note = last.ranking.degenerate;

@@ -25,8 +25,8 @@ struct StepPicture {
 
   const TriangleMesh* object = nullptr;  ///< the true object, if known
   MeshStyle object_style = MeshStyle::ghost;
-  VoxelGrid grid;                 ///< the region of interest
-  std::span<const Voxel> voxels;  ///< one a voxel of the grid
+  VoxelGrid grid;             ///< the region of interest
+  std::vector<Voxel> voxels;  ///< one a voxel of the grid
   PointCloud cloud;
   double point_size = 2.5;  ///< [px]
 

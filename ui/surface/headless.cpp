@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/file/installation.hpp"
+
 namespace nextview {
 namespace {
 
@@ -61,7 +63,7 @@ std::optional<int> restarted_with() {
 
 std::filesystem::path this_program() {
   std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto program = running_program(error);
   if (error) throw cannot_draw(fmt::format("/proc/self/exe: {}; mount /proc, or give --no-pictures", error.message()));
   return program;
 }
@@ -83,12 +85,12 @@ void ensure_headless(int argc, char** argv) {
   if (drawing_headless()) return;
 
   const auto program = this_program();
-  const auto library = program.parent_path() / library_name;
+  const auto library = libraries_of(program) / library_name;
   // The loader splits LD_PRELOAD at blanks and colons, and looks for what remains in the working folder. The path of an
   // open file has neither; the new process inherits the descriptor.
   const int descriptor = ::open(library.c_str(), O_RDONLY);
   if (descriptor < 0 || argc < 1)
-    throw cannot_draw(fmt::format("{}: {}; build the target nextview_headless_gl, or copy it beside the executable",
+    throw cannot_draw(fmt::format("{}: {}; build the target nextview_headless_gl, or install the whole program",
                                   library.string(), std::strerror(errno)));
   ::setenv(guard, fmt::format("{} {}", ::getpid(), descriptor).c_str(), 1);
   extend_variable("LD_PRELOAD", saved_preload, fmt::format("/proc/self/fd/{}", descriptor));

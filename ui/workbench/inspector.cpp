@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "core/gibbs/full_conditional.hpp"
-#include "core/planner/policy.hpp"
-#include "core/session/session_parts.hpp"
+#include "core/session/scan_loop.hpp"
 #include "ui/workbench/view_sight.hpp"
 
 namespace nextview {
@@ -64,13 +63,13 @@ Inspection Inspector::inspect(std::shared_ptr<const SessionSnapshot> session, co
   return result;
 }
 
-ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection& selection) {
+ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection& selection) const {
   ViewInspection view;
   view.view = selection.view;
   view.T_world_camera = *looked_at_pose(s, selection);
   const int rows = std::max(1, expected_columns * s.camera.height / s.camera.width);
   const double threshold = s.configuration.map.model.occupancy_threshold;
-  const MapRays rays = configured_rays(s.configuration, s.grid, s.planning_voxels());
+  const MapRays rays(s.grid, s.state.known.planning_voxels(), threshold, s.configuration.planner.ray_length);
   view.expected =
       expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
   if (selection.view.kind == LookedAt::Kind::taken) {
@@ -83,45 +82,21 @@ ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection
   return view;
 }
 
-void Inspector::explain(const SessionSnapshot& s, ViewInspection& view) {
-  const PlannerConfig& planner = s.configuration.planner;
-  const auto policy = make_policy(planner);
+void Inspector::explain(const SessionSnapshot& s, ViewInspection& view) const {
   if (s.records.empty()) {
     view.no_explanation = "The start view is not ranked: nothing is known yet.";
-  } else if (!policy->gain()) {
-    view.no_explanation = "'" + planner.gain + "' " + policy->no_explanation() + ".";
+  } else if (auto explanation = nextview::explain(*s.setup, s.state, view.T_world_camera)) {
+    view.explanation = std::make_shared<const ScoreExplanation>(*std::move(explanation));
   } else {
-    view.explanation = std::make_shared<const ScoreExplanation>(
-        explain_score(caster(s), view.T_world_camera, scoring_rays(s.configuration, s.camera), *policy->gain(),
-                      {planner.semantics, occlusion_reach(s.configuration)}));
+    view.no_explanation = "'" + s.configuration.planner.gain + "' " + s.setup->planner->no_explanation() + ".";
   }
-}
-
-/// The rays that the planner casts. The reference semantics have a map of their own, kept from one snapshot to the
-/// next.
-const RayCaster& Inspector::caster(const SessionSnapshot& s) {
-  if (s.configuration.planner.semantics != Semantics::reference)
-    return rays_.emplace(configured_rays(s.configuration, s.grid, s.planning_voxels()));
-  const bool continues = reference_ && reference_session_ == s.session && reference_scans_.size() <= s.scans.size() &&
-                         std::equal(reference_scans_.begin(), reference_scans_.end(), s.scans.begin());
-  if (!continues) {
-    reference_ = make_reference_map(s.configuration);
-    reference_scans_.clear();
-    reference_session_ = s.session;
-  }
-  for (std::size_t k = reference_scans_.size(); k < s.scans.size(); ++k) {
-    reference_->insert(s.scans[k]->origin, s.scans[k]->returns);
-    reference_scans_.push_back(s.scans[k]);
-  }
-  return *reference_;
 }
 
 VoxelInspection Inspector::inspect_voxel(const SessionSnapshot& s, std::uint32_t voxel) const {
-  const double max_range = s.configuration.sensor.max_range;
   VoxelInspection result;
   result.voxel = voxel;
-  result.history = voxel_history(s.grid, s.configuration.map.model, s.scans, voxel, max_range);
-  for (const auto& scan : s.scans) result.rays.push_back(thinned(rays_through(s.grid, *scan, voxel, max_range)));
+  result.history = voxel_history(s.grid, s.configuration.map.model, s.scans, voxel);
+  for (const auto& scan : s.scans) result.rays.push_back(thinned(rays_through(s.grid, *scan, voxel)));
   if (s.gibbs && !s.gibbs->posterior->states.empty()) {
     result.conditional = full_conditional(s.grid, *s.gibbs->measurements, s.gibbs->config.model, s.gibbs->config.prior,
                                           s.gibbs->posterior->states.front(), voxel);

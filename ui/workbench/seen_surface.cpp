@@ -11,9 +11,9 @@ constexpr std::size_t points_a_view = 8'000;
 SeenSurface::SeenSurface(const Session& session) {
   const KnownObject* object = session.known_object();
   if (!object) return;
-  truth_ = std::make_shared<const GroundTruth>(object->truth());
-  surface_ = std::make_unique<MeshDistance>(*session.mesh());
-  missed_ = std::make_unique<MissedSurface>(*session.mesh(), session.configuration().evaluation.d_reg);
+  truth_ = {session.setup().truth, &object->truth()};
+  surface_ = std::make_shared<const MeshDistance>(*session.mesh());
+  missed_.emplace(*session.mesh(), session.configuration().evaluation.d_reg);
 }
 
 void SeenSurface::follow(const Session& session) {

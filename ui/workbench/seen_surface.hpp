@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "core/evaluation/mesh_distance.hpp"
 #include "core/evaluation/missed_surface.hpp"
@@ -9,6 +10,7 @@
 namespace nextview {
 
 /// What has been seen of the object, gathered view by view for the scene: points, how far off they are, what is missed.
+/// A value: a copy shares what is large.
 class SeenSurface {
  public:
   explicit SeenSurface(const Session& session);
@@ -22,8 +24,8 @@ class SeenSurface {
  private:
   std::shared_ptr<const SeenCloud> cloud_ = std::make_shared<SeenCloud>();
   std::shared_ptr<const GroundTruth> truth_;  ///< null without evaluation
-  std::unique_ptr<MeshDistance> surface_;     ///< so are these
-  std::unique_ptr<MissedSurface> missed_;
+  std::shared_ptr<const MeshDistance> surface_;  ///< so is this
+  std::optional<MissedSurface> missed_;          ///< nothing without evaluation
   std::size_t scans_ = 0;
 };
 

@@ -11,18 +11,15 @@
 #include "core/session/scan_files.hpp"
 #include "core/session/scan_surfaces.hpp"
 #include "core/session/session_parts.hpp"
-#include "ui/workbench/overloaded.hpp"
 
 namespace nextview {
 namespace {
 
 constexpr std::size_t most_runs = 6;           ///< that stay for their curves
 constexpr std::size_t surface_points = 4'000;  ///< by which a view is judged before it is taken
-constexpr int most_views = 10'000;             ///< that a scan may have
 
-bool differ_in_termination_alone(const Configuration& a, Configuration b) {
-  b.termination = a.termination;
-  return to_toml(a) == to_toml(b);
+std::size_t history_limit(const Session& session) {
+  return static_cast<std::size_t>(session.configuration().history.memory * 1073741824.0);
 }
 
 /// A part of a job, from `begin` to `end` of the whole.
@@ -48,8 +45,8 @@ SurfacePoints points_of(const TriangleMesh& mesh, const MeshTopology& topology, 
 
 void SessionRunner::publish(SessionSnapshot snapshot) {
   snapshot.message.clear();
-  snapshot.can_undo = !undo_.empty();
-  snapshot.can_redo = !redo_.empty();
+  snapshot.can_undo = history_.can_undo();
+  snapshot.can_redo = history_.can_redo();
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(snapshot));
 }
 
@@ -61,47 +58,28 @@ void SessionRunner::set_message(const std::string& message) {
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(next));
 }
 
-/// The session of a trail, with all its views taken again: the same bytes as the first time.
-std::unique_ptr<Session> SessionRunner::follow(const Trail& trail, const Told& told) const {
-  const double load_share = trail.views.empty() ? 1.0 : 0.3;
-  Configuration without_end = trail.configuration;  // views may have been taken before it was changed
-  without_end.termination = TerminationConfig{.views = most_views};
-  auto session = std::make_unique<Session>(std::move(without_end), part(told.progress, 0.0, load_share), told.stop);
-  for (std::size_t k = 0; k < trail.views.size(); ++k) {
-    std::visit(Overloaded{[](std::monostate) {}, [&](const auto& view) { session->override_next_view(view); }},
-               trail.views[k]);
-    const double done = load_share + (1 - load_share) * double(k) / double(trail.views.size());
-    if (told.progress) told.progress(done, fmt::format("repeating view {} of {}", k + 1, trail.views.size()));
-    if (!session->step({}, told.stop)) throw Stopped();
-  }
-  session->set_termination(trail.configuration.termination);
-  return session;
+HistoryEntry SessionRunner::now() const {
+  return {session_, session_->configuration().termination, session_->state(), *seen_};
 }
 
 void SessionRunner::load(Configuration configuration, const Told& told) {
   configuration.validate();
   if (!session_) wanted_ = configuration;
-  Trail trail{std::move(configuration), {}};
-  auto session = follow(trail, told);
-  if (session_) undo_.push_back(std::move(trail_));
-  redo_.clear();
-  trail_ = std::move(trail);
-  SessionSnapshot next = *snapshot_;
-  ++next.session;
-  remember_run(next);
-  adopt(std::move(session), std::move(next));
+  auto session = std::make_shared<Session>(std::move(configuration), told.progress, told.stop);
+  if (session_) history_.push(now(), history_limit(*session_));
+  const TerminationConfig termination = session->configuration().termination;
+  adopt({session, termination, session->state(), SeenSurface(*session)});
 }
 
 void SessionRunner::set_termination(const TerminationConfig& termination) {
   if (!session_) return;
+  HistoryEntry before = now();
   session_->set_termination(termination);
-  undo_.push_back(trail_);
-  redo_.clear();
-  trail_.configuration.termination = termination;
-  show_termination();
+  history_.push(std::move(before), history_limit(*session_));
+  show_next();
 }
 
-void SessionRunner::show_termination() {
+void SessionRunner::show_next() {
   SessionSnapshot next = *snapshot_;
   next.configuration = session_->configuration();
   next.finished = session_->finished();
@@ -110,45 +88,59 @@ void SessionRunner::show_termination() {
 }
 
 void SessionRunner::step(const Told& told) {
-  if (!can_step() || !session_->step(told.progress, told.stop)) return;
-  undo_.push_back(trail_);
-  redo_.clear();
-  trail_.views.push_back(std::exchange(next_, {}));
+  if (!can_step()) return;
+  HistoryEntry before = now();
+  if (!session_->step(told.progress, told.stop)) return;
+  history_.push(std::move(before), history_limit(*session_));
   show_map(*snapshot_);
 }
 
-void SessionRunner::take(const Override& view) {
+void SessionRunner::take_view(std::size_t candidate) {
   if (!session_) return;
-  std::visit(Overloaded{[](std::monostate) {}, [&](const auto& v) { session_->override_next_view(v); }}, view);
-  next_ = view;
-  SessionSnapshot next = *snapshot_;
-  show_next_view(next);
-  publish(std::move(next));
+  session_->override_next_view(candidate);
+  show_next();
 }
 
-void SessionRunner::take_view(std::size_t candidate) { take(candidate); }
-void SessionRunner::take_own_view(const Pose& T_world_camera) { take(T_world_camera); }
+void SessionRunner::take_own_view(const Pose& T_world_camera) {
+  if (!session_) return;
+  session_->override_next_view(T_world_camera);
+  show_next();
+}
 
-/// Goes to where `from` ends, and leaves the way back on `to`.
-void SessionRunner::travel(std::vector<Trail>& from, std::vector<Trail>& to, const Told& told) {
-  if (from.empty()) return;
-  const bool same_scan = differ_in_termination_alone(from.back().configuration, trail_.configuration);
-  if (same_scan && from.back().views.size() == trail_.views.size()) {  // it was set_termination() that led there
-    session_->set_termination(from.back().configuration.termination);
-    to.push_back(std::exchange(trail_, std::move(from.back())));
-    from.pop_back();
-    return show_termination();
+void SessionRunner::undo(const Told& told) {
+  if (history_.can_undo()) adopt(history_.undo(now(), history_limit(*session_), told.progress, told.stop));
+}
+
+void SessionRunner::redo(const Told& told) {
+  if (history_.can_redo()) adopt(history_.redo(now(), history_limit(*session_), told.progress, told.stop));
+}
+
+/// Goes on from there. The next view is the planner's choice again.
+void SessionRunner::adopt(HistoryEntry entry) {
+  const bool same_session = session_ == entry.session;
+  const bool same_scan = same_session && session_->scans() == entry.state.scans;
+  SessionSnapshot next = *snapshot_;
+  session_ = std::move(entry.session);
+  session_->restore(std::move(entry.state));
+  session_->set_termination(entry.termination);
+  session_->take_proposal();
+  seen_ = std::move(entry.seen);
+  if (same_scan) return show_next();
+  const auto& scans = session_->scans();
+  const bool refined_before = same_session && refined_scans_.size() <= scans.size() &&
+                              std::equal(refined_scans_.begin(), refined_scans_.end(), scans.begin());
+  if (!refined_before) {  // what was refined since does not belong to these views
+    refinement_.reset();
+    refined_scans_.clear();
+    next.gibbs = nullptr;
   }
-  auto session = follow(from.back(), told);
-  to.push_back(std::exchange(trail_, std::move(from.back())));
-  from.pop_back();
-  SessionSnapshot next = *snapshot_;
-  if (!same_scan) ++next.session;
-  adopt(std::move(session), std::move(next));
+  if (!same_session) {
+    ++next.session;
+    remember_run(next);
+    show_session(next);
+  }
+  show_map(std::move(next));
 }
-
-void SessionRunner::undo(const Told& told) { travel(undo_, redo_, told); }
-void SessionRunner::redo(const Told& told) { travel(redo_, undo_, told); }
 
 void SessionRunner::refine(int chains, int sweeps, const Told& told) {
   if (!session_ || session_->scans().empty()) return;
@@ -159,14 +151,15 @@ void SessionRunner::refine(int chains, int sweeps, const Told& told) {
   config.validate();
   const bool same = refinement_ && refinement_->config().chains == chains && refinement_->config().sweeps == sweeps;
   if (!same) {
-    refinement_ = std::make_unique<MapRefinement>(session_->map().grid(), config, session_->map().model(),
-                                                  session_->configuration().sensor.max_range);
-    refined_scans_ = 0;
+    refinement_ = std::make_unique<MapRefinement>(session_->map().grid(), config, session_->map().model());
+    refined_scans_.clear();
   }
-  for (; refined_scans_ < session_->scans().size(); ++refined_scans_) {
-    if (told.stop.stop_requested()) throw Stopped();
-    told.progress(0.1 * double(refined_scans_) / double(session_->scans().size()), "joining the rays of each view");
-    refinement_->add(*session_->scans()[refined_scans_]);
+  const auto& scans = session_->scans();
+  while (refined_scans_.size() < scans.size()) {
+    throw_if_stopped(told.stop);
+    told.progress(0.1 * double(refined_scans_.size()) / double(scans.size()), "joining the rays of each view");
+    refinement_->add(*scans[refined_scans_.size()]);
+    refined_scans_.push_back(scans[refined_scans_.size()]);
   }
   const auto progress = [&](double fraction, std::string_view what, const SamplerDiagnostics& so_far) {
     told.sampler(so_far);
@@ -210,31 +203,25 @@ void SessionRunner::remember_run(SessionSnapshot& snapshot) {
   snapshot.earlier_runs = std::make_shared<const std::vector<Run>>(std::move(runs));
 }
 
-void SessionRunner::adopt(std::unique_ptr<Session> session, SessionSnapshot next) {
-  session_ = std::move(session);
-  refinement_.reset();
-  refined_scans_ = 0;
-  seen_ = std::make_unique<SeenSurface>(*session_);
-  next_ = {};
-  next.gibbs = nullptr;
+void SessionRunner::show_session(SessionSnapshot& next) const {
+  next.setup = std::make_shared<const ScanSetup>(session_->setup());
   next.mesh = session_->mesh();
   next.surface_points = std::make_shared<const SurfacePoints>(
       points_of(*next.mesh, session_->object_topology(), session_->configuration().seed));
   next.truth = seen_->truth();
-  next.configuration = session_->configuration();
   next.object_name = object_name(session_->object_file());
   next.grid = session_->map().grid();
-  next.camera = session_->camera().camera();
-  next.candidates = session_->candidates();
-  next.gain_unit = session_->policy().unit();
-  next.planned_on_posterior = session_->policy().needs().posterior;
-  show_map(std::move(next));
+  next.camera = session_->camera();
+  next.gain_unit = session_->planner().unit();
+  next.planned_on_posterior = session_->planner().needs().posterior;
 }
 
 void SessionRunner::show_map(SessionSnapshot next) {
-  const auto voxels = session_->map().voxels();
   ++next.map;
-  next.voxels = std::make_shared<const std::vector<Voxel>>(voxels.begin(), voxels.end());
+  next.configuration = session_->configuration();
+  next.state = session_->state();
+  next.voxels = std::make_shared<const std::vector<Voxel>>(session_->map().voxels().dense());
+  next.candidates = session_->candidates();
   next.records = session_->records();
   next.finished = session_->finished();
   next.scans = session_->scans();
@@ -248,16 +235,17 @@ void SessionRunner::show_map(SessionSnapshot next) {
 
 void SessionRunner::show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement) {
   ++snapshot.map;
+  auto voxels = std::make_shared<const std::vector<Voxel>>(refinement.voxels().dense());
+  const MapChange change = map_change(*snapshot.voxels, *voxels);
   snapshot.gibbs = std::make_shared<const GibbsMap>(
-      GibbsMap{session_->scans().size(), refinement.shared_posterior(), refinement.shared_voxels(),
-               refinement.shared_measurements(), refinement.config(),
-               map_change(session_->map().voxels(), refinement.voxels())});
+      GibbsMap{session_->scans().size(), refinement.shared_posterior(), std::move(voxels),
+               refinement.shared_measurements(), refinement.config(), change});
 }
 
 void SessionRunner::show_next_view(SessionSnapshot& snapshot) const {
   snapshot.next_candidate = session_->next_candidate();
   snapshot.next_view = session_->next_view();
-  snapshot.own_next_view = std::holds_alternative<Pose>(next_);
+  snapshot.own_next_view = session_->next_view_is_own();
   snapshot.explanation = nullptr;
   if (!snapshot.finished.empty() || (!snapshot.next_candidate && !snapshot.own_next_view)) return;
   if (auto explanation = session_->explain(snapshot.next_view))

@@ -1,11 +1,12 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <stop_token>
-#include <variant>
 #include <vector>
 
-#include "core/session/map_refinement.hpp"
+#include "core/gibbs/map_refinement.hpp"
 #include "core/session/session.hpp"
+#include "ui/workbench/scan_history.hpp"
 #include "ui/workbench/seen_surface.hpp"
 #include "ui/workbench/session_snapshot.hpp"
 
@@ -45,32 +46,23 @@ class SessionRunner {
   void set_message(const std::string& message);
 
  private:
-  using Override = std::variant<std::monostate, std::size_t, Pose>;  ///< of the next view, by the operator
-  /// All that a session comes from.
-  struct Trail {
-    Configuration configuration;
-    std::vector<Override> views;
-  };
-  std::unique_ptr<Session> follow(const Trail& trail, const Told& told) const;
-  void travel(std::vector<Trail>& from, std::vector<Trail>& to, const Told& told);
-  void take(const Override& view);
+  HistoryEntry now() const;
+  void adopt(HistoryEntry entry);
+  void show_next();
   static void remember_run(SessionSnapshot& snapshot);
-  /// From here on the session is another; `next` is the snapshot to fill.
-  void adopt(std::unique_ptr<Session> session, SessionSnapshot next);
-  void show_termination();
+  /// Fills what of a snapshot is the session's.
+  void show_session(SessionSnapshot& snapshot) const;
   void show_map(SessionSnapshot next);
   void show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement);
   void show_next_view(SessionSnapshot& snapshot) const;
   void publish(SessionSnapshot snapshot);
 
-  std::unique_ptr<Session> session_;
+  std::shared_ptr<Session> session_;
   std::unique_ptr<MapRefinement> refinement_;  ///< the window's own; null if the planner has one, or none was asked for
-  std::size_t refined_scans_ = 0;              ///< that it holds
-  std::unique_ptr<SeenSurface> seen_;
-  Trail trail_;
+  std::vector<std::shared_ptr<const Scan>> refined_scans_;  ///< that it holds
+  std::optional<SeenSurface> seen_;
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
-  Override next_;
-  std::vector<Trail> undo_, redo_;
+  ScanHistory history_;
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };
 

@@ -29,6 +29,7 @@ Eigen::Vector3f at(double x) { return {static_cast<float>(x), 0.05f, 0.05f}; }
 Scan scan(const std::vector<double>& returns, const std::vector<double>& passes = {}) {
   Scan result;
   result.origin = {-0.35, 0.05, 0.05};
+  result.max_range = max_range;
   for (const double x : returns) result.returns.push_back(at(x));
   for (const double x : passes) result.passes.push_back(at(x));
   return result;
@@ -51,7 +52,7 @@ TEST(BaselineMaps, RaysAreCountedPerRayAndPerScan) {
       scan({0.25, 9.0, 0.95}),           // beyond range, and beyond the grid: both carve only
       scan({0.45}),
   };
-  const BaselineMaps maps(row(), scans, max_range);
+  const BaselineMaps maps(row(), scans);
   // 0: all pass; 2: three pass, one ends, two pass, one passes; 4: two end, one passes, two pass, one ends
   const std::vector<std::array<unsigned, 4>> expected = {{0, 8, 0, 3}, {0, 8, 0, 3}, {1, 6, 1, 2}, {0, 6, 0, 3},
                                                          {3, 3, 2, 1}, {1, 2, 1, 1}, {0, 2, 0, 1}, {0, 2, 0, 1}};
@@ -64,7 +65,7 @@ TEST(BaselineMaps, RaysAreCountedPerRayAndPerScan) {
 
 TEST(BaselineMaps, OctomapAndNoClampsAreSumsOverScans) {
   const std::vector<Scan> scans = {scan({0.45, 0.43, 0.55}, {0.25}), scan({0.25, 9.0, 0.95}), scan({0.45})};
-  const BaselineMaps maps(row(), scans, max_range);
+  const BaselineMaps maps(row(), scans);
   const std::vector<double> expected = {hits_and_misses(0, 3), hits_and_misses(0, 3), hits_and_misses(1, 2),
                                         hits_and_misses(0, 3), hits_and_misses(2, 1), hits_and_misses(1, 1),
                                         hits_and_misses(0, 1), hits_and_misses(0, 1)};
@@ -75,7 +76,7 @@ TEST(BaselineMaps, OctomapAndNoClampsAreSumsOverScans) {
 TEST(BaselineMaps, OnlyOctomapIsClamped) {
   std::vector<Scan> scans(12, scan({0.25}));
   for (int i = 0; i < 2; ++i) scans.push_back(scan({0.55}));
-  const BaselineMaps maps(row(), scans, max_range);
+  const BaselineMaps maps(row(), scans);
   // 0 and 1: 14 misses; 2: 12 hits, to the upper clamp, then two misses; 3 and 4: two misses; 5: two hits
   const double two_misses = hits_and_misses(0, 2), two_hits = hits_and_misses(2, 0), never = 0.5;
   const double from_clamp = from_odds(0.97 / 0.03 * 4.0 / 9.0);
@@ -91,7 +92,7 @@ TEST(BaselineMaps, PerRayUpdatesWithEveryRay) {
   wide.clamp_min = 1e-6;
   wide.clamp_max = 1.0 - 1e-6;
   const std::vector<Scan> scans = {scan({0.45, 0.43, 0.55}, {0.25}), scan({0.25, 9.0, 0.95}), scan({0.45})};
-  const BaselineMaps maps(row(), scans, max_range, wide);
+  const BaselineMaps maps(row(), scans, wide);
   expect_near(maps.make(BaselineMap::per_ray),
               {hits_and_misses(0, 8), hits_and_misses(0, 8), hits_and_misses(1, 6), hits_and_misses(0, 6),
                hits_and_misses(3, 3), hits_and_misses(1, 2), hits_and_misses(0, 2), hits_and_misses(0, 2)});
@@ -103,7 +104,7 @@ TEST(BaselineMaps, PerRayIsClampedAfterEachRayInTheirOrder) {
       scan({0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.35}, {0.45}),
       scan({0.35, 0.25}),
   };
-  const BaselineMaps maps(row(), scans, max_range);
+  const BaselineMaps maps(row(), scans);
   const std::vector<Voxel> map = maps.make(BaselineMap::per_ray);
   EXPECT_NEAR(map[0].probability, 0.12, 1e-6);
   const double two_below_clamp = 0.97 / 0.03 * 4.0 / 9.0;
@@ -114,7 +115,7 @@ TEST(BaselineMaps, PerRayIsClampedAfterEachRayInTheirOrder) {
 
 TEST(BaselineMaps, HitRatioIsTheShareOfRaysThatEnded) {
   const std::vector<Scan> scans = {scan({0.45, 0.43, 0.55}, {0.25}), scan({0.25, 9.0, 0.95}), scan({0.45})};
-  const BaselineMaps maps(row(), scans, max_range);
+  const BaselineMaps maps(row(), scans);
   expect_near(maps.make(BaselineMap::hit_ratio),
               {0.05 / 8.1, 0.05 / 8.1, 1.05 / 7.1, 0.05 / 6.1, 3.05 / 6.1, 1.05 / 3.1, 0.05 / 2.1, 0.05 / 2.1});
   EXPECT_DOUBLE_EQ(hit_ratio({}), 0.5);
@@ -126,13 +127,13 @@ TEST(BaselineMaps, BetaBinomialMapIsMadeOfTheRaysCounts) {
   for (const auto& [hits, passes] :
        std::vector<std::pair<unsigned, unsigned>>{{0, 8}, {0, 8}, {1, 6}, {0, 6}, {3, 3}, {1, 2}, {0, 2}, {0, 2}})
     expected.push_back(beta_binomial({hits, passes, 0, 0}));
-  expect_near(BaselineMaps(row(), scans, max_range).make(BaselineMap::beta_binomial), expected);
+  expect_near(BaselineMaps(row(), scans).make(BaselineMap::beta_binomial), expected);
 }
 
 TEST(BaselineMaps, VoxelsNobodyVisitsAreUnmeasuredAndHalf) {
   const std::vector<Scan> scans = {scan({0.25})};
   for (const std::vector<Scan>& each : {scans, std::vector<Scan>{}}) {
-    const BaselineMaps maps(row(), each, max_range);
+    const BaselineMaps maps(row(), each);
     for (const BaselineMapInfo& info : baseline_maps) {
       const std::vector<Voxel> map = maps.make(info.map);
       for (std::size_t v = 0; v < 8; ++v) {
@@ -152,7 +153,7 @@ TEST(BaselineMaps, EntropyAndClassAreThoseOfTheProbability) {
   InverseSensorModel model;
   model.free_below = 0.3;
   model.occupied_above = 0.6;
-  const BaselineMaps maps(row(), scans, max_range, model);
+  const BaselineMaps maps(row(), scans, model);
   for (const BaselineMapInfo& info : baseline_maps) {
     std::set<VoxelClass> classes;
     for (const Voxel& voxel : maps.make(info.map)) {
@@ -174,7 +175,7 @@ TEST(BaselineMaps, TheTermsAreTheModels) {
   model.hit = 0.9;
   model.miss = 0.25;
   const std::vector<Scan> scans = {scan({0.25, 0.25})};
-  const BaselineMaps maps(row(), scans, max_range, model);
+  const BaselineMaps maps(row(), scans, model);
   EXPECT_NEAR(maps.make(BaselineMap::octomap)[2].probability, 0.9, 1e-6);
   EXPECT_NEAR(maps.make(BaselineMap::no_clamps)[2].probability, 0.9, 1e-6);
   EXPECT_NEAR(maps.make(BaselineMap::per_ray)[2].probability, 0.97, 1e-6);
@@ -188,20 +189,20 @@ TEST(BaselineMaps, CountsAreOfTheRaysAsTheOccupancyMapTakesThem) {
   std::vector<Scan> scans;
   for (const Vector3& origin : random_scans::origins()) {
     scans.push_back(random_scans::scan(random, origin, grid.resolution, 400));
-    random_scans::add_passes(scans.back(), random, 1.5, 50);
+    random_scans::add_passes(scans.back(), random, 50);
   }
   std::vector<std::uint32_t> hits(grid.voxel_count()), misses(grid.voxel_count());
   OccupancyMap together(grid, {});
   for (const Scan& each : scans) {
     OccupancyMap alone(grid, {});
-    alone.insert(each, 1.5);
-    together.insert(each, 1.5);
+    alone.insert(each);
+    together.insert(each);
     for (std::size_t v = 0; v < hits.size(); ++v) {
-      hits[v] += alone.log_odds()[v] > 0.0f;
-      misses[v] += alone.log_odds()[v] < 0.0f;
+      hits[v] += alone.log_odds(v) > 0.0f;
+      misses[v] += alone.log_odds(v) < 0.0f;
     }
   }
-  const BaselineMaps maps(grid, scans, 1.5);
+  const BaselineMaps maps(grid, scans);
   std::size_t visited = 0, hit = 0;
   for (std::size_t v = 0; v < hits.size(); ++v) {
     const RayCounts& c = maps.counts()[v];
@@ -234,11 +235,14 @@ TEST(BaselineMaps, TheTableNamesEachMapOnce) {
 }
 
 TEST(BaselineMaps, BadInputIsRefused) {
-  for (const double range : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(BaselineMaps(row(), {}, range), std::invalid_argument) << range;
+  for (const double range : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    std::vector<Scan> scans = {scan({0.25}), scan({0.25})};
+    scans[1].max_range = range;
+    EXPECT_THROW(BaselineMaps(row(), scans), std::invalid_argument) << range;
+  }
   InverseSensorModel model;
   model.hit = 0.4;
-  EXPECT_THROW(BaselineMaps(row(), {}, max_range, model), std::invalid_argument);
+  EXPECT_THROW(BaselineMaps(row(), {}, model), std::invalid_argument);
 }
 
 }  // namespace

@@ -15,10 +15,11 @@ namespace nextview {
 namespace {
 
 constexpr std::size_t count = 400'000;
+const Eigen::Vector3i size(100, 100, 40);
 constexpr int repetitions = 20;
 
 /// Probabilities from 1e-12 to 1/2, evenly by their logarithm, and entropies to match.
-std::vector<Voxel> voxels_of_many_magnitudes(unsigned seed) {
+VoxelBricks voxels_of_many_magnitudes(unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> exponent(-12.0, std::log10(0.5));
   std::vector<Voxel> voxels(count);
@@ -28,7 +29,7 @@ std::vector<Voxel> voxels_of_many_magnitudes(unsigned seed) {
     v.entropy = static_cast<float>(entropy(p) * 0.7);
     v.measured = true;
   }
-  return voxels;
+  return {size, voxels};
 }
 
 /// The same on 1, 2, 3 and 8 threads, each many times over, as who takes which part is chance.
@@ -47,7 +48,7 @@ void expect_one_value(const char* what, Sum sum) {
 
 // What the test stands on: added the other way round, the terms give another sum.
 TEST(DeterministicSums, TheOrderOfTheseTermsMatters) {
-  const auto voxels = voxels_of_many_magnitudes(1);
+  const auto voxels = voxels_of_many_magnitudes(1).dense();
   double forwards = 0.0, backwards = 0.0;
   for (std::size_t i = 0; i < count; ++i) forwards += voxels[i].entropy, backwards += voxels[count - 1 - i].entropy;
   EXPECT_NE(forwards, backwards);
@@ -65,7 +66,7 @@ TEST(DeterministicSums, RealisedGain) {
 
 TEST(DeterministicSums, MapQuality) {
   GroundTruth truth;
-  truth.grid = {0.01, {0, 0, 0}, {100, 100, 40}};
+  truth.grid = {0.01, {0, 0, 0}, size};
   truth.touch.assign(count, 0), truth.centre.assign(count, 0), truth.surface_distance.assign(count, 9);
   for (std::size_t v = 0; v < count; v += 3) truth.touch[v] = 1, truth.surface_distance[v] = 0;
   const auto p = probabilities(voxels_of_many_magnitudes(4));

@@ -11,31 +11,33 @@
 namespace nextview {
 namespace {
 
-std::vector<Voxel> random_voxels(unsigned seed, std::size_t count) {
+/// `layers` layers of 100 by 100 voxels, which are no whole bricks.
+VoxelBricks random_voxels(unsigned seed, int layers) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<float> uniform;
-  std::vector<Voxel> voxels(count);
+  const Eigen::Vector3i size(100, 100, layers);
+  std::vector<Voxel> voxels(size.prod());
   for (Voxel& v : voxels) {
     v.measured = uniform(generator) < 0.4f;
     if (!v.measured) continue;
     v.probability = uniform(generator);
     v.entropy = static_cast<float>(entropy(v.probability));
   }
-  return voxels;
+  return {size, voxels};
 }
 
 /// Entropy by the definition [bits].
 double bits(double p) { return -p * std::log2(p) - (1.0 - p) * std::log2(1.0 - p); }
 
 TEST(Entropy, AnUnmeasuredMapHasOneBitAVoxel) {
-  const std::vector<Voxel> voxels(128 * 128 * 128);
+  const VoxelBricks voxels({128, 128, 128});
   EXPECT_EQ(unmeasured_entropy(voxels), 2097152.0);
   EXPECT_NEAR(total_entropy(voxels), 2097152.0, 0.1);
-  EXPECT_EQ(unmeasured_entropy({}), 0.0);
+  EXPECT_EQ(unmeasured_entropy(VoxelBricks()), 0.0);
 }
 
 TEST(Entropy, MeasuredVoxelsAreDecidedInTheOneAndKeepTheirDoubtInTheOther) {
-  const auto voxels = random_voxels(1, 100'000);
+  const auto voxels = random_voxels(1, 10);
   double unmeasured = 0.0, total = 0.0;
   for (const Voxel& v : voxels) {
     unmeasured += v.measured ? 0 : 1;
@@ -46,7 +48,7 @@ TEST(Entropy, MeasuredVoxelsAreDecidedInTheOneAndKeepTheirDoubtInTheOther) {
 }
 
 TEST(Entropy, RealisedGainIsWhatTheVoxelsOfTheMaskLost) {
-  const auto before = random_voxels(2, 100'000), after = random_voxels(3, 100'000);
+  const auto before = random_voxels(2, 10), after = random_voxels(3, 10);
   std::vector<std::uint8_t> mask(before.size());
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = i % 5 == 0;
   double all = 0.0, masked = 0.0;
@@ -59,21 +61,20 @@ TEST(Entropy, RealisedGainIsWhatTheVoxelsOfTheMaskLost) {
   EXPECT_NEAR(realised_gain(before, after, mask), masked, 0.01);
   EXPECT_EQ(realised_gain(before, before), 0.0);
   EXPECT_EQ(realised_gain(before, after), -realised_gain(after, before));  // nats, and signed
-  const std::vector<Voxel> unknown(10);
-  std::vector<Voxel> certain(10);
-  for (Voxel& v : certain) v = {0.0f, 0.0f, VoxelClass::free, true, 0};
+  const VoxelBricks unknown({10, 1, 1});
+  const VoxelBricks certain({10, 1, 1}, std::vector<Voxel>(10, {0.0f, 0.0f, VoxelClass::free, true, 0}));
   EXPECT_NEAR(realised_gain(unknown, certain), 10.0 * std::log(2.0), 1e-6);
   EXPECT_NEAR(realised_gain(certain, unknown), -10.0 * std::log(2.0), 1e-6);
 }
 
 TEST(Entropy, LengthsThatDifferAreRefused) {
-  const std::vector<Voxel> two(2), three(3);
+  const VoxelBricks two({2, 1, 1}), three({3, 1, 1});
   EXPECT_THROW(realised_gain(two, three), std::invalid_argument);
   EXPECT_THROW(realised_gain(two, two, std::vector<std::uint8_t>{1}), std::invalid_argument);
 }
 
 TEST(Entropy, SameBitsOnAnyNumberOfThreads) {
-  const auto voxels = random_voxels(4, 400'000);
+  const auto voxels = random_voxels(4, 40);
   const double many = total_entropy(voxels);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(total_entropy(voxels), many);

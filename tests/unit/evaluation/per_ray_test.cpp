@@ -60,17 +60,17 @@ TEST(PerRayMap, AgreesWithABruteForceOverAllRaysAndVoxels) {
   std::mt19937 random(11);
   std::vector<Scan> scans;
   for (const Vector3& origin : {Vector3(0.9, 0.1, 0.2), Vector3(-0.61, 0.53, -0.4), Vector3(0.05, 0.033, 0.131)}) {
-    Scan scan;
-    scan.origin = origin.cast<float>().cast<double>();
+    Scan scan{origin.cast<float>().cast<double>(), {}, {}, 1.499};
     for (int n = 0; n < 300; ++n) {  // of a sphere, and on beyond the range
       const double reach = n % 10 == 0 ? 2.0 : 0.2;
       scan.returns.push_back((reach * random_scans::direction(random)).cast<float>());
     }
-    random_scans::add_passes(scan, random, 1.499, 100);
+    random_scans::add_passes(scan, random, 100);
+    scan.max_range = max_range;  // passes end within it, clear of its rounding
     scans.push_back(scan);
   }
 
-  const BaselineMaps maps(grid, scans, max_range);
+  const BaselineMaps maps(grid, scans);
   const std::vector<Voxel> per_ray = maps.make(BaselineMap::per_ray);
   std::size_t compared = 0, hit = 0, at_clamps = 0;
   for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {

@@ -22,11 +22,11 @@ TEST(RangeDependentBaselines, PerRayAddsEachRaysTermOfTheVoxelsRange) {
   grid.resolution = 0.1;
   grid.size = {3, 1, 1};
   const std::vector<Scan> scans = {
-      {{-0.35, 0.05, 0.05}, {{0.05f, 0.05f, 0.05f}, {0.15f, 0.05f, 0.05f}, {0.17f, 0.05f, 0.05f}}, {}}};
+      {{-0.35, 0.05, 0.05}, {{0.05f, 0.05f, 0.05f}, {0.15f, 0.05f, 0.05f}, {0.17f, 0.05f, 0.05f}}, {}, 2.0}};
   InverseSensorModel model = decaying();
   model.clamp_min = 1e-6;
   model.clamp_max = 1.0 - 1e-6;
-  const std::vector<Voxel> map = BaselineMaps(grid, scans, 2.0, model).make(BaselineMap::per_ray);
+  const std::vector<Voxel> map = BaselineMaps(grid, scans, model).make(BaselineMap::per_ray);
   const double hit = std::log(7.0 / 3.0), miss = std::log(2.0 / 3.0);
   const double first = hit * std::exp(0.8 * 0.6) + 2.0 * miss * std::exp(-0.5 * 0.6);
   EXPECT_NEAR(map[0].probability, 1.0 / (1.0 + std::exp(-first)), 1e-6);
@@ -40,14 +40,14 @@ TEST(RangeDependentBaselines, NoClampsIsTheOccupancyMapBeforeItMeetsItsClamps) {
   std::vector<Scan> scans;
   for (const Vector3& origin : random_scans::origins()) {
     scans.push_back(random_scans::scan(random, origin, grid.resolution, 400));
-    random_scans::add_passes(scans.back(), random, 1.5, 50);
+    random_scans::add_passes(scans.back(), random, 50);
   }
   InverseSensorModel wide = decaying();
   wide.clamp_min = 1e-9;
   wide.clamp_max = 1.0 - 1e-9;
   OccupancyMap map(grid, wide);
-  for (const Scan& scan : scans) map.insert(scan, 1.5);
-  const BaselineMaps baselines(grid, scans, 1.5, wide);
+  for (const Scan& scan : scans) map.insert(scan);
+  const BaselineMaps baselines(grid, scans, wide);
   const std::vector<Voxel> no_clamps = baselines.make(BaselineMap::no_clamps);
   const std::vector<Voxel> octomap = baselines.make(BaselineMap::octomap);
   std::size_t measured = 0;

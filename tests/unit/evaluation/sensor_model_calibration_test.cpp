@@ -59,7 +59,7 @@ TEST(Calibration, AModelAtTheBoundsIsStillValid) {
   for (const float everywhere_target : {0.0f, 0.5f, 1.0f}) {
     UpdateHistories all;
     const std::vector<float> target(grid().voxel_count(), everywhere_target);
-    all.add(grid(), views, max_range, target, everywhere());
+    all.add(grid(), views, target, everywhere());
     for (const double threshold : {0.3, 0.5, 0.8}) {
       InverseSensorModel start;
       start.occupancy_threshold = threshold;

@@ -18,30 +18,26 @@ inline std::vector<Scan> scans(int count, unsigned seed = 3) {
   std::vector<Scan> result;
   for (int n = 0; n < count; ++n) {
     const Vector3 origin = distance(random) * random_scans::direction(random);
-    result.push_back(random_scans::scan(random, origin, grid().resolution, 1500));
-    random_scans::add_passes(result.back(), random, max_range, 100);
+    result.push_back(random_scans::scan(random, origin, grid().resolution, 1500, max_range));
+    random_scans::add_passes(result.back(), random, 100);
   }
   return result;
 }
 
 inline OccupancyMap map(const std::vector<Scan>& scans, const InverseSensorModel& model) {
   OccupancyMap result(grid(), model);
-  for (const Scan& scan : scans) result.insert(scan, max_range);
+  for (const Scan& scan : scans) result.insert(scan);
   return result;
 }
 
-inline std::vector<float> probabilities(const OccupancyMap& map) {
-  std::vector<float> result;
-  for (const Voxel& v : map.voxels()) result.push_back(v.probability);
-  return result;
-}
+inline std::vector<float> probabilities(const OccupancyMap& map) { return nextview::probabilities(map.voxels()); }
 
 inline std::vector<std::uint8_t> everywhere() { return std::vector<std::uint8_t>(grid().voxel_count(), 1); }
 
 /// Of all voxels, their targets what the map of the same scans holds with `model`.
 inline UpdateHistories histories(const std::vector<Scan>& scans, const InverseSensorModel& model) {
   UpdateHistories result;
-  result.add(grid(), scans, max_range, probabilities(map(scans, model)), everywhere());
+  result.add(grid(), scans, probabilities(map(scans, model)), everywhere());
   return result;
 }
 

@@ -44,7 +44,7 @@ TEST(UpdateHistories, CrossEntropyIsTheMeanOverVoxels) {
   std::size_t count = 0;
   for (std::size_t v = 0; v < target.size(); ++v) {
     if (!held.voxels()[v].measured) continue;
-    const double p = probability(held.log_odds()[v]), g = target[v];
+    const double p = probability(held.log_odds(v)), g = target[v];
     sum -= g * std::log(p) + (1.0 - g) * std::log(1.0 - p);
     ++count;
   }
@@ -91,7 +91,7 @@ TEST(UpdateHistories, SetsWeighAsTheirVoxels) {
   for (const int count : {2, 9}) {
     const std::vector<Scan> views = scans(count);
     const std::vector<float> target = probabilities(map(views, models[2]));
-    both.add(grid(), views, max_range, target, everywhere());
+    both.add(grid(), views, target, everywhere());
     const UpdateHistories alone = histories(views, models[2]);
     sum += alone.cross_entropy({}).value * double(alone.voxels());
   }
@@ -110,7 +110,7 @@ TEST(UpdateHistories, OnlyVoxelsOfTheMaskAreKept) {
     expected += held.voxels()[v].measured;
   }
   UpdateHistories some;
-  some.add(grid(), views, max_range, target, mask);
+  some.add(grid(), views, target, mask);
   EXPECT_EQ(some.voxels(), expected);
   EXPECT_GT(expected, 500u);
 }
@@ -120,21 +120,25 @@ TEST(UpdateHistories, BadInputIsRefusedAndAddsNothing) {
   EXPECT_THROW(none.cross_entropy({}), std::invalid_argument);
   const std::vector<Scan> views = scans(1);
   const std::vector<float> good(grid().voxel_count(), 0.5f);
-  const auto rejects = [&](std::span<const float> target, std::span<const std::uint8_t> mask, double range) {
-    EXPECT_THROW(none.add(grid(), views, range, target, mask), std::invalid_argument);
+  const auto rejects = [&](std::span<const float> target, std::span<const std::uint8_t> mask) {
+    EXPECT_THROW(none.add(grid(), views, target, mask), std::invalid_argument);
   };
   for (const float bad : {-0.01f, 1.01f, std::nanf(""), INFINITY}) {
     auto target = good;
     target[4321] = bad;
-    rejects(target, everywhere(), max_range);
+    rejects(target, everywhere());
   }
-  rejects(std::span(good).first(10), everywhere(), max_range);
-  rejects(good, std::vector<std::uint8_t>(10, 1), max_range);
-  for (const double range : {0.0, -1.0, std::nan("")}) rejects(good, everywhere(), range);
+  rejects(std::span(good).first(10), everywhere());
+  rejects(good, std::vector<std::uint8_t>(10, 1));
+  for (const double range : {0.0, -1.0, std::nan("")}) {
+    std::vector<Scan> out_of_bounds = scans(2);
+    out_of_bounds[1].max_range = range;
+    EXPECT_THROW(none.add(grid(), out_of_bounds, good, everywhere()), std::invalid_argument) << range;
+  }
   EXPECT_EQ(none.voxels(), 0u);
-  none.add(grid(), {}, max_range, good, everywhere());  // no scans, no histories
+  none.add(grid(), {}, good, everywhere());  // no scans, no histories
   EXPECT_EQ(none.voxels(), 0u);
-  none.add(grid(), views, max_range, good, everywhere());
+  none.add(grid(), views, good, everywhere());
   EXPECT_THROW(none.cross_entropy(model(0.4, 0.4, 0.1, 0.9)), std::invalid_argument);
 }
 

@@ -34,7 +34,7 @@ TEST(ExpectedView, SeesABoxWhereItsFacesAre) {
   std::vector<Voxel> voxels(grid.voxel_count(), known(0.12));
   for (std::uint32_t v = 0; v < voxels.size(); ++v)
     if (in_box(v, half)) voxels[v] = known(0.97);
-  const MapRays rays(grid, voxels, threshold, 3.0);
+  const MapRays rays(grid, {grid.size, voxels}, threshold, 3.0);
   std::mt19937 random(3);
   std::size_t met = 0, missed = 0;
   for (int view = 0; view < 30; ++view) {
@@ -66,7 +66,8 @@ TEST(ExpectedView, ADepthIsAlongTheOpticalAxis) {
   for (std::uint32_t v = 0; v < voxels.size(); ++v)
     if (grid.cell(v).x() == 0) voxels[v] = known(0.97);  // the wall at x = -0.4 .. -0.35
   const Pose pose = look_at(Vector3(0.3, 0.0, 0.0), Vector3::Zero());
-  const ExpectedView seen = expected_view(MapRays(grid, voxels, threshold, 3.0), pose, camera, 9, 6, 0.05, threshold);
+  const ExpectedView seen =
+      expected_view(MapRays(grid, {grid.size, voxels}, threshold, 3.0), pose, camera, 9, 6, 0.05, threshold);
   for (const float depth : seen.depth) EXPECT_NEAR(depth, 0.65, 1e-6) << "a wall across the view has one depth";
 }
 
@@ -78,7 +79,7 @@ TEST(ExpectedView, AgreesWithTheSlabTestOfAllVoxels) {
     const auto kind = random() % 40;
     v = kind == 0 ? known(0.9) : kind == 1 ? known(threshold) : kind < 4 ? Voxel(unmeasured()) : known(0.3);
   }
-  const MapRays rays(grid, voxels, threshold, 0.9);
+  const MapRays rays(grid, {grid.size, voxels}, threshold, 0.9);
   std::size_t stopped = 0, crossed_unknown = 0, both = 0;
   for (int view = 0; view < 12; ++view) {
     const Pose pose = look_at(view % 3 == 0 ? random_scans::point_in_box(random, 0.3)  // inside the region
@@ -112,7 +113,7 @@ TEST(ExpectedView, AgreesWithTheSlabTestOfAllVoxels) {
 
 TEST(ExpectedView, AnEmptyMapShowsNothingAndAllOfItUnknown) {
   const std::vector<Voxel> voxels(grid.voxel_count());
-  const MapRays rays(grid, voxels, threshold, 3.0);
+  const MapRays rays(grid, {grid.size, voxels}, threshold, 3.0);
   const ExpectedView towards =
       expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3::Zero()), camera, 3, 3, 0.05, threshold);
   const ExpectedView away =
@@ -128,7 +129,7 @@ TEST(ExpectedView, TheSameOnOneThreadAndTwo) {
   std::mt19937 random(7);
   std::vector<Voxel> voxels(grid.voxel_count());
   for (Voxel& v : voxels) v = random() % 30 == 0 ? known(0.9) : random() % 30 == 0 ? Voxel(unmeasured()) : known(0.2);
-  const MapRays rays(grid, voxels, threshold, 3.0);
+  const MapRays rays(grid, {grid.size, voxels}, threshold, 3.0);
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     return expected_view(rays, look_at(Vector3(0.7, 0.5, 0.3), Vector3::Zero()), camera, 80, 60, 0.05, threshold);

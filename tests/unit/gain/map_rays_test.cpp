@@ -69,7 +69,7 @@ TEST(MapRays, VisitWhatTheSlabTestOfAllVoxelsFinds) {
   const std::vector<Voxel> voxels = random_voxels(random, 0.2);
   std::size_t visits = 0, stopped = 0;
   for (const double max_range : {1.5, 0.8, 0.3}) {
-    const MapRays rays(grid, voxels, threshold, max_range);
+    const MapRays rays(grid, {grid.size, voxels}, threshold, max_range);
     for (int n = 0; n < 500; ++n) {
       const Vector3 origin = random_scans::point_in_box(random, n % 2 ? 0.9 : 0.25);
       const Vector3 direction = (random_scans::point_in_box(random, 0.3) - origin).normalized();
@@ -95,7 +95,7 @@ TEST(MapRays, VisitWhatTheSlabTestOfAllVoxelsFinds) {
 TEST(MapRays, UnmeasuredVoxelsStopNoRay) {
   const std::vector<Voxel> voxels(grid.voxel_count());  // all at 0.5, the threshold
   std::vector<RayVoxel> visited;
-  MapRays(grid, voxels, threshold, 3.0).cast(Vector3(-1, 0.01, 0.01), Vector3::UnitX(), visited);
+  MapRays(grid, {grid.size, voxels}, threshold, 3.0).cast(Vector3(-1, 0.01, 0.01), Vector3::UnitX(), visited);
   EXPECT_EQ(visited.size(), 12u);
 }
 
@@ -103,7 +103,7 @@ TEST(MapRays, TheFirstMeasuredVoxelAtTheThresholdStops) {
   std::vector<Voxel> voxels(grid.voxel_count());
   const auto visits = [&] {
     std::vector<RayVoxel> visited;
-    MapRays(grid, voxels, threshold, 3.0).cast(Vector3(-1, 0.01, 0.01), Vector3::UnitX(), visited);
+    MapRays(grid, {grid.size, voxels}, threshold, 3.0).cast(Vector3(-1, 0.01, 0.01), Vector3::UnitX(), visited);
     return visited.size();
   };
   voxels[grid.index({8, 5, 7})] = voxel(0.5, true);
@@ -122,7 +122,8 @@ TEST(ScoreViews, EveryGainAgreesWithTheTable) {
     const std::vector<Pose> views = random_views(random, 14);
     const std::vector<const Gain*> asked = all_gains();
     for (const double max_range : {1.5, 0.7}) {
-      const auto scores = score_views(MapRays(grid, voxels, threshold, max_range), views, bundle(), asked, {});
+      const auto scores =
+          score_views(MapRays(grid, {grid.size, voxels}, threshold, max_range), views, bundle(), asked, {});
       ASSERT_EQ(scores.size(), views.size());
       for (std::size_t v = 0; v < views.size(); ++v) {
         std::vector<gain_twins::VoxelsOfRay> rays;
@@ -146,7 +147,7 @@ TEST(ScoreViews, EveryGainAgreesWithTheTable) {
 TEST(ScoreViews, ExplanationsNameTheVoxelsAndSumToTheScore) {
   std::mt19937 random(3);
   const std::vector<Voxel> voxels = random_voxels(random, 0.1);
-  const MapRays caster(grid, voxels, threshold, 1.5);
+  const MapRays caster(grid, {grid.size, voxels}, threshold, 1.5);
   for (const Pose& view : random_views(random, 6))
     for (const Gain* g : all_gains()) {
       const ScoreExplanation why = explain_score(caster, view, bundle(), *g);
@@ -170,7 +171,7 @@ TEST(ScoreViews, TheSameBytesOnOneThreadAndTwo) {
   std::mt19937 random(4);
   const std::vector<Voxel> voxels = random_voxels(random, 0.1);
   const std::vector<Pose> views = random_views(random, 40);
-  const MapRays caster(grid, voxels, threshold, 1.5);
+  const MapRays caster(grid, {grid.size, voxels}, threshold, 1.5);
   const auto scores = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     return score_views(caster, views, bundle(), all_gains());
@@ -189,8 +190,8 @@ TEST(ScoreViews, AStopLeavesScoresEmpty) {
   const std::vector<Pose> views(50, look_at(Vector3(1, 0, 0), Vector3::Zero()));
   std::stop_source stop;
   stop.request_stop();
-  const auto scores =
-      score_views(MapRays(grid, voxels, threshold, 1.5), views, bundle(), all_gains(), {}, stop.get_token());
+  const auto scores = score_views(MapRays(grid, {grid.size, voxels}, threshold, 1.5), views, bundle(), all_gains(), {},
+                                  stop.get_token());
   for (const ViewScore& s : scores) EXPECT_TRUE(s.gains.empty());
 }
 

@@ -52,7 +52,7 @@ TEST(LongSegments, WithoutAnEndAreNotWalked) {
 /// A map that has a scan of this point alone.
 OccupancyMap map_of(const Eigen::Vector3f& point, double max_range) {
   OccupancyMap map(region_of_interest(Vector3::Zero(), 1.0, 0.01), {});
-  map.insert({Vector3(0.005, 0.005, 0.005), {point}, {}}, max_range);
+  map.insert({Vector3(0.005, 0.005, 0.005), {point}, {}, max_range});
   return map;
 }
 

@@ -39,12 +39,12 @@ std::optional<std::vector<Eigen::Vector3i>> voxels_behind(const Vector3& from, c
 struct Twin {
   explicit Twin(const VoxelGrid& region) : grid(region), steps(region.voxel_count()) {}
 
-  void add(const OccupancyMap& map, const Scan& scan, double max_range, double distance) {
+  void add(const OccupancyMap& map, const Scan& scan, double distance) {
     for (const auto& p : scan.returns) {
       const Vector3 ray = p.cast<double>() - scan.origin;
       // Surfaces outside of the region are not in the map: nothing lies behind them.
       const bool in_region = grid.contains(grid.cell_at(p.cast<double>()));
-      if (ray.norm() > max_range || !in_region) continue;
+      if (ray.norm() > scan.max_range || !in_region) continue;
       const auto behind = voxels_behind(p.cast<double>(), ray.normalized(), distance);
       for (std::size_t k = 0; k < behind->size(); ++k) {
         const Eigen::Vector3i cell = (*behind)[k] - grid.first;
@@ -77,9 +77,9 @@ TEST(MarkOcclusions, AgreesWithSortedPlaneCrossings) {
     for (const Vector3& origin : random_scans::origins()) {
       const Scan scan = clear_scan(random, origin.cast<float>().cast<double>(), distance, 150);
       ASSERT_GT(scan.returns.size(), 60u);
-      map.insert(scan, 1.5);
-      map.mark_occlusions(scan, 1.5, distance);
-      twin.add(map, scan, 1.5, distance);
+      map.insert(scan);
+      map.mark_occlusions(scan, distance);
+      twin.add(map, scan, distance);
     }
     std::size_t marked = 0, different = 0;
     for (std::uint32_t i = 0; i < grid.voxel_count(); ++i) {
@@ -95,9 +95,9 @@ TEST(MarkOcclusions, AgreesWithSortedPlaneCrossings) {
 
 TEST(MarkOcclusions, CountsStepsBehindTheSurface) {
   OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
-  const Scan scan{Vector3(-0.25, 0.01, 0.01), {{-0.05f, 0.01f, 0.01f}}, {}};
-  map.insert(scan, 1.5);
-  map.mark_occlusions(scan, 1.5, 0.1);
+  const Scan scan{Vector3(-0.25, 0.01, 0.01), {{-0.05f, 0.01f, 0.01f}}, {}, 1.5};
+  map.insert(scan);
+  map.mark_occlusions(scan, 0.1);
   const auto distance_at = [&](double x) {
     return int(map.voxels()[map.grid().index(map.grid().cell_at(Vector3(x, 0.01, 0.01)))].occlusion_distance);
   };
@@ -113,11 +113,11 @@ TEST(MarkOcclusions, ChangesNeitherProbabilitiesNorWhatIsMeasured) {
   std::mt19937 random(6);
   OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
   const Scan scan = random_scans::scan(random, Vector3(0.8, 0.2, 0.1), resolution, 1000);
-  map.insert(scan, 1.5);
+  map.insert(scan);
   const OccupancyMap before = map;
-  map.mark_occlusions(scan, 1.5, 0.3);
+  map.mark_occlusions(scan, 0.3);
   for (std::size_t i = 0; i < map.voxels().size(); ++i) {
-    ASSERT_EQ(map.log_odds()[i], before.log_odds()[i]);
+    ASSERT_EQ(map.log_odds(i), before.log_odds(i));
     ASSERT_EQ(map.voxels()[i].measured, before.voxels()[i].measured);
     ASSERT_EQ(map.voxels()[i].probability, before.voxels()[i].probability);
   }
@@ -125,16 +125,16 @@ TEST(MarkOcclusions, ChangesNeitherProbabilitiesNorWhatIsMeasured) {
 
 TEST(MarkOcclusions, ReturnsOutOfRangeMarkNothing) {
   OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
-  const Scan scan{Vector3(-0.25, 0.01, 0.01), {{0.05f, 0.01f, 0.01f}}, {{0.09f, 0.03f, 0.01f}}};
-  map.mark_occlusions(scan, 0.2, 0.3);
+  const Scan scan{Vector3(-0.25, 0.01, 0.01), {{0.05f, 0.01f, 0.01f}}, {{0.09f, 0.03f, 0.01f}}, 0.2};
+  map.mark_occlusions(scan, 0.3);
   for (const Voxel& v : map.voxels()) ASSERT_EQ(v.occlusion_distance, 0);
 }
 
 TEST(MarkOcclusions, LongDistancesDoNotWrapAround) {
   OccupancyMap map(VoxelGrid{0.005, {-320, 0, 0}, {640, 2, 2}}, {});
-  const Scan scan{Vector3(-1.5, 0.0025, 0.0025), {{-1.4f, 0.0025f, 0.0025f}}, {}};
-  map.insert(scan, 1.5);
-  map.mark_occlusions(scan, 1.5, 2.5);
+  const Scan scan{Vector3(-1.5, 0.0025, 0.0025), {{-1.4f, 0.0025f, 0.0025f}}, {}, 1.5};
+  map.insert(scan);
+  map.mark_occlusions(scan, 2.5);
   int last = 0;
   for (double x = -1.39; x < 1.0; x += 0.005) {
     const Voxel& v = map.voxels()[map.grid().index(map.grid().cell_at(Vector3(x, 0.0025, 0.0025)))];

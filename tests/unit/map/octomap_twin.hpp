@@ -18,14 +18,14 @@ inline octomap::OcTree tree(double resolution, const InverseSensorModel& model) 
 }
 
 /// OctoMap's insertPointCloud; with passes the same in two steps, since it has no word for a ray that ends nowhere.
-inline void insert(octomap::OcTree& tree, const Scan& scan, double max_range) {
+inline void insert(octomap::OcTree& tree, const Scan& scan) {
   const octomap::point3d origin = to_octomap(scan.origin.cast<float>());
   octomap::Pointcloud cloud;
   for (const auto& p : scan.returns) cloud.push_back(to_octomap(p));
-  if (scan.passes.empty()) return tree.insertPointCloud(cloud, origin, max_range);
+  if (scan.passes.empty()) return tree.insertPointCloud(cloud, origin, scan.max_range);
 
   octomap::KeySet free, occupied;
-  tree.computeUpdate(cloud, origin, free, occupied, max_range);
+  tree.computeUpdate(cloud, origin, free, occupied, scan.max_range);
   octomap::KeyRay ray;
   for (const auto& p : scan.passes) {
     tree.computeRayKeys(origin, to_octomap(p), ray);
@@ -54,7 +54,7 @@ inline Differences compare(const OccupancyMap& map, const octomap::OcTree& tree)
   for (std::uint32_t i = 0; i < map.grid().voxel_count(); ++i) {
     const auto* leaf = node(tree, map.grid(), i);
     d.measured += leaf != nullptr;
-    d.different += bool(leaf) != map.voxels()[i].measured || (leaf ? leaf->getLogOdds() : 0.0f) != map.log_odds()[i];
+    d.different += bool(leaf) != map.voxels()[i].measured || (leaf ? leaf->getLogOdds() : 0.0f) != map.log_odds(i);
   }
   return d;
 }

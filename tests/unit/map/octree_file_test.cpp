@@ -29,10 +29,10 @@ struct MapAndTree {
         tree(octomap_twin::tree(resolution, {})) {
     std::mt19937 random(23);
     for (const Vector3& origin : {Vector3(0.3, 0.1, 0.1), Vector3(-0.1, -0.2, -0.2), Vector3(0.3, 0.1, 0.1)}) {
-      Scan scan{origin, {}, {}};
+      Scan scan{origin, {}, {}, 1.5};
       for (int n = 0; n < 4000; ++n) scan.returns.push_back((0.15 * random_scans::direction(random)).cast<float>());
-      map.insert(scan, 1.5);
-      octomap_twin::insert(tree, scan, 1.5);
+      map.insert(scan);
+      octomap_twin::insert(tree, scan);
     }
     tree.prune();
   }
@@ -98,7 +98,7 @@ TEST_F(OctreeFile, FullRoundTripKeepsEveryVoxel) {
     }
     const std::uint32_t k = read.grid().index(cell);
     ASSERT_EQ(read.voxels()[k].measured, v.measured);
-    ASSERT_EQ(read.log_odds()[k], both.map.log_odds()[i]);
+    ASSERT_EQ(read.log_odds(k), both.map.log_odds(i));
     ASSERT_EQ(read.voxels()[k].voxel_class, v.voxel_class);
   }
   for (const Voxel& v : read.voxels()) measured_read += v.measured;
@@ -148,7 +148,7 @@ TEST_F(OctreeFile, LargeLeavesAreFilled) {
   EXPECT_EQ(map.grid().size, Eigen::Vector3i(12, 4, 4));
   for (std::uint32_t i = 0; i < map.grid().voxel_count(); ++i) {
     const float expected = i == 0 ? 1.25f : map.grid().cell(i).x() >= 8 ? -0.75f : 0.0f;
-    ASSERT_EQ(map.log_odds()[i], expected);
+    ASSERT_EQ(map.log_odds(i), expected);
     ASSERT_EQ(map.voxels()[i].measured, expected != 0.0f);
   }
 }
@@ -183,7 +183,7 @@ TEST_F(OctreeFile, ARealBuildingIsReadAsOctoMapReadsIt) {
         const Eigen::Vector3i lattice =
             Eigen::Vector3i(key[0], key[1], key[2]) + Eigen::Vector3i::Constant(corner - 32768);
         const Eigen::Vector3i cell = lattice - map.grid().first;
-        different += !map.grid().contains(cell) || map.log_odds()[map.grid().index(cell)] != leaf->getLogOdds();
+        different += !map.grid().contains(cell) || map.log_odds(map.grid().index(cell)) != leaf->getLogOdds();
       }
     }
     EXPECT_EQ(measured, volume) << name;

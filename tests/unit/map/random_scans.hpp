@@ -17,9 +17,8 @@ inline Vector3 direction(std::mt19937& random) {
 
 /// Returns of a noisy sphere seen from `origin`, and wild ones from 1 mm to 4 m away in all directions; some of them
 /// exactly along an axis, and some with coordinates on voxel faces.
-inline Scan scan(std::mt19937& random, const Vector3& origin, double resolution, int count) {
-  Scan result;
-  result.origin = origin;
+inline Scan scan(std::mt19937& random, const Vector3& origin, double resolution, int count, double max_range = 1.5) {
+  Scan result{origin, {}, {}, max_range};
   std::normal_distribution<double> noise(0.0, 0.004);
   std::uniform_real_distribution<double> range(0.001, 4.0);
   for (int n = 0; n < count; ++n) {
@@ -43,11 +42,11 @@ inline Scan scan(std::mt19937& random, const Vector3& origin, double resolution,
   return result;
 }
 
-/// Rays that met nothing, given up at `max_range`.
-inline void add_passes(Scan& scan, std::mt19937& random, double max_range, int count) {
+/// Rays that met nothing, given up at the maximum range.
+inline void add_passes(Scan& scan, std::mt19937& random, int count) {
   for (int n = 0; n < count; ++n) {
     const Vector3 towards = point_in_box(random, 0.5) - scan.origin;
-    scan.passes.push_back((scan.origin + max_range * towards.normalized()).cast<float>());
+    scan.passes.push_back((scan.origin + scan.max_range * towards.normalized()).cast<float>());
   }
 }
 

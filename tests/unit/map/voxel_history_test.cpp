@@ -23,8 +23,8 @@ Scans random_views(int rays, int passes) {
   Scans scans;
   for (int round = 0; round < 2; ++round)
     for (const Vector3& origin : random_scans::origins()) {
-      Scan scan = random_scans::scan(random, origin, 0.04, rays);
-      random_scans::add_passes(scan, random, max_range, passes);
+      Scan scan = random_scans::scan(random, origin, 0.04, rays, max_range);
+      random_scans::add_passes(scan, random, passes);
       scans.push_back(std::make_shared<Scan>(std::move(scan)));
     }
   return scans;
@@ -44,19 +44,18 @@ TEST(VoxelHistory, EndsWhereBothInsertionsOfTheMapEnd) {
   const VoxelGrid grid = region();
   for (const InverseSensorModel& model : models()) {
     std::vector<std::vector<VoxelUpdate>> histories;
-    for (std::uint32_t v = 0; v < grid.voxel_count(); ++v)
-      histories.push_back(voxel_history(grid, model, scans, v, max_range));
+    for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) histories.push_back(voxel_history(grid, model, scans, v));
     OccupancyMap direct(grid, model), registered(grid, model);
     std::size_t measured = 0;
     for (std::size_t k = 0; k < scans.size(); ++k) {
-      direct.insert(*scans[k], max_range);
+      direct.insert(*scans[k]);
       OccupancyMap local(grid, model);
-      local.insert(*scans[k], max_range);
+      local.insert(*scans[k]);
       registered.register_local(local, scans[k]->origin);
       for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
         const VoxelUpdate& update = histories[v][k];
         for (const OccupancyMap* map : {&direct, &registered}) {
-          ASSERT_EQ(update.log_odds, map->log_odds()[v]) << "voxel " << v << " scan " << k;
+          ASSERT_EQ(update.log_odds, map->log_odds(v)) << "voxel " << v << " scan " << k;
           ASSERT_EQ(update.probability, map->voxels()[v].probability);
         }
         ASSERT_EQ(update.measured(), local.voxels()[v].measured);
@@ -96,7 +95,7 @@ TEST(VoxelHistory, CountsTheRaysThatOctoMapCasts) {
     for (const auto& p : scan->returns) count(p, true);
     for (const auto& p : scan->passes) count(p, false);
     for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
-      const auto history = voxel_history(grid, {}, std::array{scan}, v, max_range);
+      const auto history = voxel_history(grid, {}, std::array{scan}, v);
       ASSERT_EQ(history[0].hits, hits[v]) << v;
       ASSERT_EQ(history[0].passes, passes[v]) << v;
       all_hits += hits[v], all_passes += passes[v];
@@ -112,12 +111,12 @@ TEST(VoxelHistory, TellsAStory) {
   row.size = {8, 1, 1};
   const Vector3 camera(-0.35, 0.05, 0.05);
   const auto scan = [&](PointCloud returns, PointCloud passes = {}) {
-    return std::make_shared<const Scan>(Scan{camera, std::move(returns), std::move(passes)});
+    return std::make_shared<const Scan>(Scan{camera, std::move(returns), std::move(passes), max_range});
   };
   const Eigen::Vector3f in_4(0.42f, 0.05f, 0.05f), in_6(0.62f, 0.05f, 0.05f), far(1.15f, 0.05f, 0.05f);
   const Eigen::Vector3f too_far(2.0f, 0.05f, 0.05f), away(-1.85f, 0.05f, 0.05f);
   const Scans scans = {scan({in_4, in_4, in_6}), scan({away}), scan({in_6, too_far}, {far, away}), scan({in_4})};
-  const auto history = voxel_history(row, {}, scans, 4, max_range);
+  const auto history = voxel_history(row, {}, scans, 4);
   ASSERT_EQ(history.size(), 4u);
   EXPECT_EQ(history[0].hits, 2u);
   EXPECT_EQ(history[0].passes, 1u);
@@ -130,7 +129,7 @@ TEST(VoxelHistory, TellsAStory) {
   EXPECT_FLOAT_EQ(history[2].log_odds_change, float(log_odds(0.4)));
   EXPECT_NEAR(history[3].log_odds, 2 * log_odds(0.7) + log_odds(0.4), 1e-6);
 
-  const auto rays = rays_through(row, *scans[2], 4, max_range);
+  const auto rays = rays_through(row, *scans[2], 4);
   ASSERT_EQ(rays.size(), 3u);
   EXPECT_EQ(rays[0].end, in_6);
   EXPECT_TRUE(rays[0].met_surface && !rays[0].hit);
@@ -138,15 +137,15 @@ TEST(VoxelHistory, TellsAStory) {
   EXPECT_FALSE(rays[1].met_surface || rays[1].hit);
   EXPECT_EQ(rays[2].end, far);
   EXPECT_FALSE(rays[2].met_surface || rays[2].hit);
-  EXPECT_TRUE(rays_through(row, *scans[0], 4, max_range)[0].hit);
-  EXPECT_TRUE(voxel_history(row, {}, {}, 4, max_range).empty());
+  EXPECT_TRUE(rays_through(row, *scans[0], 4)[0].hit);
+  EXPECT_TRUE(voxel_history(row, {}, {}, 4).empty());
 }
 
 TEST(VoxelHistory, TheSameOnOneThreadAndTwo) {
   const Scans scans = random_views(300, 100);
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return voxel_history(region(), {}, scans, 700, max_range);
+    return voxel_history(region(), {}, scans, 700);
   };
   const auto one = run(1), two = run(2);
   ASSERT_EQ(one.size(), two.size());

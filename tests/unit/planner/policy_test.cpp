@@ -44,8 +44,8 @@ struct Policies : ::testing::Test {
   TwoVoxels rays;
   RayBundle bundle{{Vector3::UnitZ(), Vector3(0, 0.6, 0.8)}};
   KnownSurface surface;
-  std::vector<Pose> candidates = {at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(-1, 0, 0)};
-  std::vector<Pose> taken = {at(1, 0, 0.1)};
+  std::vector<View> candidates = {{at(1, 0, 0)}, {at(0, 1, 0)}, {at(0, 0, 1)}, {at(-1, 0, 0)}};
+  std::vector<TakenView> taken = {{{}, at(1, 0, 0.1)}};
   std::vector<std::size_t> available = {1, 2, 3};
 };
 
@@ -100,7 +100,7 @@ TEST_F(Policies, RandomDrawsByTheSeedAndAnewAtEachStep) {
   const auto random = made("random");
   const auto first = values(*random);
   EXPECT_EQ(values(*random), first);
-  taken.push_back(at(0, -1, 0));
+  taken.push_back({{}, at(0, -1, 0)});
   const auto next = values(*random);
   EXPECT_NE(next, first);
   seed = 2;
@@ -114,11 +114,12 @@ TEST_F(Policies, AGainIsItsVolumetricInformationAndExplained) {
   const auto policy = made("occlusion-aware");
   const auto found = values(*policy);
   for (const double value : found) EXPECT_NEAR(value, 2.0 * (of_unmeasured + 0.5 * of_wall), 1e-6);
-  const auto why = explain(*policy, state(), candidates[1]);
+  const auto why = explain(*policy, state(), candidates[1].T_world_camera);
   ASSERT_TRUE(why);
   EXPECT_DOUBLE_EQ(why->value, found[0]);
   EXPECT_EQ(values(*made("proximity-count")), (std::vector<double>{114, 114, 114}));  // 60 - 3 on each of two rays
-  for (const char* without : {"combined", "random"}) EXPECT_FALSE(explain(*made(without), state(), candidates[1]));
+  for (const char* without : {"combined", "random"})
+    EXPECT_FALSE(explain(*made(without), state(), candidates[1].T_world_camera));
 }
 
 TEST_F(Policies, CombinedWeighsSharesOfEachGain) {
@@ -131,7 +132,7 @@ struct Highest : Policy {
   std::vector<double> values(const PlanningState& s, std::span<const std::size_t> left,
                              std::stop_token) const override {
     std::vector<double> heights;
-    for (const std::size_t v : left) heights.push_back(s.candidates[v].translation().z());
+    for (const std::size_t v : left) heights.push_back(s.candidates[v].T_world_camera.translation().z());
     return heights;
   }
   std::string unit() const override { return "m"; }

@@ -209,7 +209,7 @@ TEST_F(HandGeometry, VisitedVoxelsLieOnRaysAndNotBehindWhatStopsThem) {
     const double shadow = half_large / 0.895;
     const bool behind = centre.x() < -0.02 && std::max(across, up) < shadow - margin;
     const bool beside = std::max(across, up) > shadow + margin || centre.x() > 0.005;
-    const bool is_visited = session.visited_voxels()[v] != 0;
+    const bool is_visited = session.evaluation()->visited_voxels[v] != 0;
     if (off_image || behind) {
       ASSERT_FALSE(is_visited) << centre.transpose();
     }

@@ -43,7 +43,7 @@ std::vector<std::uint32_t> scored_voxels(const Refinement& r, int band) {
 
 OccupancyMap made_with(const InverseSensorModel& model, const RefinementJob& job) {
   OccupancyMap map(job.grid, model);
-  for (const Scan& scan : job.scans) map.insert(scan, job.max_range);
+  for (const Scan& scan : job.scans) map.insert(scan);
   return map;
 }
 
@@ -51,7 +51,7 @@ double cross_entropy(const OccupancyMap& map, const std::vector<float>& gibbs,
                      const std::vector<std::uint32_t>& voxels) {
   double sum = 0.0;
   for (const std::uint32_t v : voxels) {
-    const double p = probability(map.log_odds()[v]), g = gibbs[v];
+    const double p = probability(map.log_odds(v)), g = gibbs[v];
     sum -= g * std::log(p) + (1.0 - g) * std::log(1.0 - p);
   }
   return sum / double(voxels.size());

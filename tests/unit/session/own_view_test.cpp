@@ -123,8 +123,8 @@ TEST_F(OwnViewFiles, AreTakenAgainExactly) {
     ASSERT_EQ(job.scans[k].returns.size(), session.scans()[k]->returns.size()) << k;
     for (std::size_t i = 0; i < job.scans[k].returns.size(); ++i)
       ASSERT_TRUE(job.scans[k].returns[i].isApprox(session.scans()[k]->returns[i], 1e-5f)) << k;
-    map.insert(job.scans[k], job.max_range);
-    map.mark_occlusions(job.scans[k], job.max_range, 0.3);  // as the default gain wants
+    map.insert(job.scans[k]);
+    map.mark_occlusions(job.scans[k], 0.3);  // as the default gain wants
   }
   EXPECT_TRUE(same_map(map, session.map()));
 }

@@ -89,7 +89,7 @@ class RefinementFiles : public InTemporaryFolder {
   }
   Different next;
   RefinementJob job = job_of_two_voxels();
-  Refinement refinement{OccupancyMap(job.grid, job.model), {}, {}, {}, {}, 0.0, {}, {}};
+  Refinement refinement{OccupancyMap(job.grid, job.model), {}, VoxelBricks(), {}, {}, 0.0, {}, {}};
 };
 
 TEST_F(RefinementFiles, ScoresAreBeforeAndAfter) {

@@ -192,7 +192,7 @@ TEST_F(ScanFiles, MetricsScoreTheMapUnderTheNamesOfTruthAndSet) {
     for (const auto& [set, called] : {std::pair(ScoredSet::visited, "visited"),
                                       {ScoredSet::visited_band, "visited band"},
                                       {ScoredSet::region, "region"}}) {
-      const MapQuality q = map_quality(p, truth, convention, set, session->visited_voxels());
+      const MapQuality q = map_quality(p, truth, convention, set, session->evaluation()->visited_voxels);
       const auto& found = json[of][called];
       EXPECT_EQ(found["voxels"], q.voxels) << of << called;
       EXPECT_EQ(found["log_loss_nats"], q.log_loss) << of << called;
@@ -204,7 +204,8 @@ TEST_F(ScanFiles, MetricsScoreTheMapUnderTheNamesOfTruthAndSet) {
     }
     std::size_t occupied = 0, found = 0;  // of the visited voxels that the truth calls occupied
     for (std::size_t v = 0; v < p.size(); ++v) {
-      if (!session->visited_voxels()[v] || voxel_truth(truth, v, convention) != VoxelTruth::occupied) continue;
+      if (!session->evaluation()->visited_voxels[v] || voxel_truth(truth, v, convention) != VoxelTruth::occupied)
+        continue;
       ++occupied;
       found += session->map().voxels()[v].measured && p[v] >= 0.5f;
     }

@@ -104,8 +104,8 @@ TEST(ScanSurfaces, AreOfTheMapThatViewsArePlannedOn) {
   const auto surfaces = scan_surfaces(session);
   ASSERT_EQ(surfaces.size(), 2u);
   EXPECT_EQ(surfaces[0].name, "surface_posterior");
-  const Surface expected =
-      map_surface(session.map().grid(), without_undecided(session.refinement()->voxels(), c.gibbs.sampler.prior));
+  const Surface expected = map_surface(
+      session.map().grid(), without_undecided(session.refinement()->voxels().dense(), c.gibbs.sampler.prior));
   EXPECT_TRUE(surfaces[0].surface.mesh.vertices == expected.mesh.vertices);
   EXPECT_TRUE(surfaces[0].surface.uncertainty == expected.uncertainty);
   EXPECT_TRUE(surfaces[0].surface.seen == expected.seen);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/evaluation/entropy.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -50,6 +51,7 @@ TEST(Session, RecordsAgreeWithTheMap) {
   Session session(small_scan());
   std::size_t measured_before = 0;
   double entropy_before = double(session.map().voxels().size()) * std::numbers::ln2;  // [nats]
+  VoxelBricks before = session.planning_voxels();
   while (session.finished().empty()) {
     session.step();
     const StepRecord& r = session.records().back();
@@ -60,12 +62,14 @@ TEST(Session, RecordsAgreeWithTheMap) {
     EXPECT_EQ(r.entropy, double(session.map().voxels().size() - measured));  // Eq. 18: a bit a voxel
     EXPECT_NEAR(r.total_entropy * std::numbers::ln2, entropy, 1e-6 * entropy);
     EXPECT_NEAR(r.realised_gain, entropy_before - entropy, 1e-6 * entropy_before);  // Eq. 12
+    EXPECT_EQ(r.realised_gain, realised_gain(before, session.planning_voxels()));
     EXPECT_EQ(r.points, session.scans().back()->returns.size());
     EXPECT_LE(r.points, r.returns);
     EXPECT_GT(r.points, 100u);
     EXPECT_LE(r.returns + r.passes, 80u * 60u);
     EXPECT_GT(r.seconds.sense + r.seconds.insert, 0.0);
     measured_before = measured, entropy_before = entropy;
+    before = session.planning_voxels();
   }
 }
 

@@ -49,11 +49,16 @@ inline bool same_record(const StepRecord& a, const StepRecord& b) {
          a.ranking.best == b.ranking.best && a.ranking.degenerate == b.ranking.degenerate;
 }
 
+/// Of the same measurements, whether or not the planner wanted occlusions marked.
+inline bool same_map_but_for_occlusions(const OccupancyMap& a, const OccupancyMap& b) {
+  return std::ranges::equal(a.voxels(), b.voxels(), {}, &Voxel::log_odds, &Voxel::log_odds) &&
+         std::ranges::equal(a.voxels(), b.voxels(), {}, &Voxel::measured, &Voxel::measured);
+}
+
 inline bool same_map(const OccupancyMap& a, const OccupancyMap& b) {
-  return std::equal(a.log_odds().begin(), a.log_odds().end(), b.log_odds().begin(), b.log_odds().end()) &&
-         std::equal(a.voxels().begin(), a.voxels().end(), b.voxels().begin(), b.voxels().end(),
+  return std::equal(a.voxels().begin(), a.voxels().end(), b.voxels().begin(), b.voxels().end(),
                     [](const Voxel& x, const Voxel& y) {
-                      return x.probability == y.probability && x.measured == y.measured &&
+                      return x.log_odds == y.log_odds && x.probability == y.probability && x.measured == y.measured &&
                              x.occlusion_distance == y.occlusion_distance;
                     });
 }
@@ -61,13 +66,21 @@ inline bool same_map(const OccupancyMap& a, const OccupancyMap& b) {
 inline bool same_scans(const Session& a, const Session& b) {
   return std::equal(a.scans().begin(), a.scans().end(), b.scans().begin(), b.scans().end(),
                     [](const auto& x, const auto& y) {
-                      return x->origin == y->origin && x->returns == y->returns && x->passes == y->passes;
+                      return x->origin == y->origin && x->returns == y->returns && x->passes == y->passes &&
+                             x->max_range == y->max_range;
                     });
+}
+
+inline bool same_evaluation(const EvaluationState* a, const EvaluationState* b) {
+  if (!a || !b) return a == b;
+  return a->visited_voxels == b->visited_voxels && a->seen == b->seen &&
+         std::ranges::equal(a->coverage.observed(), b->coverage.observed()) &&
+         std::ranges::equal(a->coverage_paper.observed(), b->coverage_paper.observed());
 }
 
 inline bool same_scan(const Session& a, const Session& b) {
   return std::equal(a.records().begin(), a.records().end(), b.records().begin(), b.records().end(), same_record) &&
-         same_map(a.map(), b.map()) && same_scans(a, b) && a.visited_voxels() == b.visited_voxels() &&
+         same_map(a.map(), b.map()) && same_scans(a, b) && same_evaluation(a.evaluation(), b.evaluation()) &&
          a.next_candidate() == b.next_candidate() && a.finished() == b.finished();
 }
 

@@ -50,6 +50,13 @@ inline void expect_same_scan(const SessionSnapshot& a, const SessionSnapshot& b)
                            return x.probability == y.probability && x.measured == y.measured &&
                                   x.occlusion_distance == y.occlusion_distance;
                          }));
+  EXPECT_TRUE(std::ranges::equal(a.state.known.planning_voxels(), b.state.known.planning_voxels(), {},
+                                 &Voxel::probability, &Voxel::probability));
+  ASSERT_EQ(a.state.evaluation != nullptr, b.state.evaluation != nullptr);
+  if (a.state.evaluation && b.state.evaluation) {
+    EXPECT_EQ(a.state.evaluation->seen, b.state.evaluation->seen);
+    EXPECT_EQ(a.state.evaluation->visited_voxels, b.state.evaluation->visited_voxels);
+  }
   EXPECT_EQ(a.cloud->points, b.cloud->points);
   EXPECT_EQ(a.cloud->views, b.cloud->views);
   EXPECT_EQ(a.cloud->distances, b.cloud->distances);

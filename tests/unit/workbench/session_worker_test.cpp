@@ -116,7 +116,7 @@ TEST_F(SessionWorkerTest, DoesWhatASessionDoes) {
   }
   EXPECT_EQ(s->next_candidate, session.next_candidate());
   EXPECT_EQ(s->cloud->points.size(), points);
-  const auto voxels = session.map().voxels();
+  const VoxelBricks& voxels = session.map().voxels();
   for (std::size_t v = 0; v < voxels.size(); ++v) ASSERT_EQ((*s->voxels)[v].probability, voxels[v].probability);
   ASSERT_NE(s->explanation, nullptr);
   EXPECT_NEAR(s->explanation->value, s->records.back().candidates[*s->next_candidate].gain, 1e-9);

@@ -1,4 +1,4 @@
-#include "core/session/known_object.hpp"
+#include "core/evaluation/known_object.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/evaluation/visited_voxels.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
 
@@ -25,19 +26,20 @@ std::vector<Eigen::Vector3f> sample_normals(const TriangleMesh& mesh, const Surf
 
 }  // namespace
 
-KnownObject::KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera,
+KnownObject::KnownObject(const TriangleMesh& mesh, std::shared_ptr<const RayScene> scene, const DepthCamera& camera,
                          std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples,
                          double d_reg, std::uint64_t seed, const Progress& progress, std::stop_token stop)
-    : scene_(scene),
+    : scene_(std::move(scene)),
       camera_(camera),
       samples_(sample_surface(mesh, surface_samples, seed)),
       normals_(sample_normals(mesh, samples_)),
       seen_from_(see_from(candidates, progress, stop)),
       visible_(seen_by_any()),
-      seen_(samples_.points.size()),
       truth_(ground_truth(mesh, grid, stop)),
-      coverage_(samples_.points, visible_, d_reg),
-      coverage_paper_(samples_.points, visible_, paper_d_reg) {
+      nothing_seen_{std::vector<std::uint8_t>(samples_.points.size()),
+                    {samples_.points, visible_, d_reg},
+                    {samples_.points, visible_, paper_d_reg},
+                    std::vector<std::uint8_t>(grid.voxel_count())} {
   if (stop.stop_requested()) throw Stopped();
 }
 
@@ -86,7 +88,7 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera,
     ranges.push_back(range);
   }
   std::vector<RayScene::Hit> hits(directions.size());
-  scene_.cast(T_world_camera.translation(), directions, static_cast<float>(config.max_range) + 0.01f, hits);
+  scene_->cast(T_world_camera.translation(), directions, static_cast<float>(config.max_range) + 0.01f, hits);
   constexpr float tolerance = 5e-4f;  // the sample lies on the surface: the ray meets it, give or take rounding [m]
   std::vector<std::uint32_t> seen;
   for (std::size_t i = 0; i < in_image.size(); ++i)
@@ -94,27 +96,20 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera,
   return seen;
 }
 
-void KnownObject::add_view(const Pose& T_world_camera, const PointCloud& points, const std::stop_token& stop) {
-  for (const std::uint32_t s : samples_seen(T_world_camera, stop)) seen_[s] = 1;
-  coverage_.add(points, stop);
-  coverage_paper_.add(points, stop);
+void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
+                           const std::stop_token& stop) const {
+  const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
+  mark_visited(truth_.grid, back_project(ideal, T_world_camera, camera_.config().max_range, stop),
+               state.visited_voxels, stop);
+  for (const std::uint32_t s : samples_seen(T_world_camera, stop)) state.seen[s] = 1;
+  state.coverage.add(points, stop);
+  state.coverage_paper.add(points, stop);
 }
 
-KnownObject::Seen KnownObject::seen() const {
-  const auto copy = [](std::span<const std::uint8_t> flags) { return std::vector(flags.begin(), flags.end()); };
-  return {seen_, copy(coverage_.observed()), copy(coverage_paper_.observed())};
-}
-
-void KnownObject::go_back(const Seen& seen) {
-  seen_ = seen.samples;
-  coverage_.go_back(seen.covered);
-  coverage_paper_.go_back(seen.covered_paper);
-}
-
-std::size_t KnownObject::new_samples(std::size_t candidate) const {
+std::size_t KnownObject::new_samples(const EvaluationState& state, std::size_t candidate) const {
   const auto& samples = seen_from_[candidate];
   return static_cast<std::size_t>(
-      std::count_if(samples.begin(), samples.end(), [&](std::uint32_t s) { return !seen_[s]; }));
+      std::count_if(samples.begin(), samples.end(), [&](std::uint32_t s) { return !state.seen[s]; }));
 }
 
 std::vector<std::size_t> KnownObject::covering_order(std::uint64_t seed) const {

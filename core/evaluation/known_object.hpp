@@ -1,31 +1,37 @@
 #pragma once
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <span>
 #include <stop_token>
-#include <string_view>
 #include <vector>
 
 #include "core/evaluation/coverage.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/surface_samples.hpp"
-#include "core/planner/policy.hpp"
+#include "core/progress/progress.hpp"
 #include "core/sensor/depth_camera.hpp"
 
 namespace nextview {
 
-/// Told how far a job has come, from 0 to 1, and what it is doing. Called from the thread that does the job.
-using Progress = std::function<void(double fraction, std::string_view what)>;
+/// How far a scan has come with a known object.
+struct EvaluationState {
+  std::vector<std::uint8_t> seen;          ///< one a surface sample, 1: a view would have seen it, but for noise
+  SurfaceCoverage coverage;                ///< by the points of the views, at d_reg
+  SurfaceCoverage coverage_paper;          ///< at the paper's
+  std::vector<std::uint8_t> visited_voxels;  ///< one a voxel, 1: a noise-free ray visited it
+
+  std::size_t bytes() const { return seen.size() + 2 * coverage.observed().size() + visited_voxels.size(); }
+};
 
 /// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it
-/// (oracle, covering order).
-class KnownObject : public TrueSurface {
+/// (oracle, covering order). Never changes.
+class KnownObject {
  public:
   /// The paper's registration distance [m], reported beside the chosen one.
   static constexpr double paper_d_reg = 0.0005;
 
   /// @throws Stopped
-  KnownObject(const TriangleMesh& mesh, const RayScene& scene, const DepthCamera& camera,
+  KnownObject(const TriangleMesh& mesh, std::shared_ptr<const RayScene> scene, const DepthCamera& camera,
               std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
               std::uint64_t seed, const Progress& progress, std::stop_token stop);
 
@@ -34,23 +40,18 @@ class KnownObject : public TrueSurface {
   /// @throws Stopped
   std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera, const std::stop_token& stop = {}) const;
 
-  /// A view was taken from here and gave these points. @throws Stopped; then go_back helps.
-  void add_view(const Pose& T_world_camera, const PointCloud& points, const std::stop_token& stop = {});
-  /// What the views so far have seen, a flag a sample.
-  struct Seen {
-    std::vector<std::uint8_t> samples, covered, covered_paper;
-  };
-  Seen seen() const;
-  void go_back(const Seen& seen);
+  /// Before the first view.
+  EvaluationState nothing_seen() const { return nothing_seen_; }
+  /// A view was taken from here and gave these points. @throws Stopped; then some of it is added.
+  void add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
+                const std::stop_token& stop = {}) const;
 
   /// How many surface samples the candidate would see that no view has seen yet (the oracle's gain).
-  std::size_t new_samples(std::size_t candidate) const override;
+  std::size_t new_samples(const EvaluationState& state, std::size_t candidate) const;
   /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
-  std::vector<std::size_t> covering_order(std::uint64_t seed) const override;
+  std::vector<std::size_t> covering_order(std::uint64_t seed) const;
 
   const GroundTruth& truth() const { return truth_; }
-  const SurfaceCoverage& coverage() const { return coverage_; }
-  const SurfaceCoverage& coverage_paper() const { return coverage_paper_; }
   const SurfaceSamples& samples() const { return samples_; }
   std::span<const std::uint8_t> visible() const { return visible_; }  ///< one a sample, 1: some candidate sees it
 
@@ -59,15 +60,14 @@ class KnownObject : public TrueSurface {
                                                    std::stop_token stop) const;
   std::vector<std::uint8_t> seen_by_any() const;
 
-  const RayScene& scene_;
+  std::shared_ptr<const RayScene> scene_;
   DepthCamera camera_;
   SurfaceSamples samples_;
   std::vector<Eigen::Vector3f> normals_;               ///< of the samples
   std::vector<std::vector<std::uint32_t>> seen_from_;  ///< of each candidate
   std::vector<std::uint8_t> visible_;                  ///< 1: some candidate sees the sample
-  std::vector<std::uint8_t> seen_;                     ///< 1: a view taken has seen the sample
   GroundTruth truth_;
-  SurfaceCoverage coverage_, coverage_paper_;
+  EvaluationState nothing_seen_;
 };
 
 }  // namespace nextview

@@ -1,8 +1,6 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <stop_token>
-#include <string_view>
 
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/map/occupancy_map.hpp"
@@ -13,26 +11,26 @@ namespace nextview {
 /// maps. A value: a copy shares what is large, which never changes once it is made.
 class MapRefinement {
  public:
-  MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes,
-                double max_range);
+  MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes);
 
-  /// Adds a view's rays, joined at once: only what the voxels can tell apart is kept.
+  /// Adds a view's rays, joined at once: only what the voxels can tell apart is kept. All views have the maximum range
+  /// of the first.
   void add(const Scan& scan);
   /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps; `conventional` is where the first
   /// refinement may start. After a requested stop it holds the posterior as far as it was sampled, which says so, and
   /// can be refined on.
   void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
 
-  /// One a voxel of the grid. Unmeasured before the first refinement. Until the next one the span stays valid; what is
-  /// shared stays as it is.
-  std::span<const Voxel> voxels() const { return *voxels_; }
-  std::shared_ptr<const std::vector<Voxel>> shared_voxels() const { return voxels_; }
+  /// Unmeasured before the first refinement.
+  const VoxelBricks& voxels() const { return voxels_; }
   const GibbsPosterior& posterior() const { return *posterior_; }
   std::shared_ptr<const GibbsPosterior> shared_posterior() const { return posterior_; }
   /// The rays of all views so far, joined.
   const RangeMeasurements& measurements() const { return *measurements_; }
   std::shared_ptr<const RangeMeasurements> shared_measurements() const { return measurements_; }
   const PosteriorSamplerConfig& config() const { return config_; }
+  /// What its maps take that another of the same scan, if given, does not share [bytes].
+  std::size_t bytes(const MapRefinement* other = nullptr) const;
   /// Whether the posteriors of refinements to come keep their traces.
   void keep_traces(bool keep) { config_.keep_traces = keep; }
 
@@ -43,7 +41,7 @@ class MapRefinement {
   std::uint64_t refinements_ = 0;
   std::shared_ptr<const RangeMeasurements> measurements_;
   std::shared_ptr<const GibbsPosterior> posterior_;
-  std::shared_ptr<const std::vector<Voxel>> voxels_;
+  VoxelBricks voxels_;
 };
 
 /// The posterior as an occupancy map, to be saved as an octree: log-odds where informed, unmeasured elsewhere. Kept off

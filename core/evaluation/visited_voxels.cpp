@@ -1,4 +1,4 @@
-#include "core/session/visited_voxels.hpp"
+#include "core/evaluation/visited_voxels.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,23 +1,24 @@
-#include "core/session/map_refinement.hpp"
+#include "core/gibbs/map_refinement.hpp"
 
 #include <algorithm>
 
 namespace nextview {
 
 MapRefinement::MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config,
-                             const InverseSensorModel& classes, double max_range)
+                             const InverseSensorModel& classes)
     : config_(config),
       classes_(classes),
-      measurements_(std::make_shared<const RangeMeasurements>(RangeMeasurements{max_range, {}, {}})),
+      measurements_(std::make_shared<const RangeMeasurements>()),
       posterior_(std::make_shared<const GibbsPosterior>(GibbsPosterior{grid, {}, {}, {}, {}, {}, {}})),
-      voxels_(std::make_shared<const std::vector<Voxel>>(grid.voxel_count())) {
+      voxels_(grid.size) {
   config_.validate();
 }
 
 void MapRefinement::add(const Scan& scan) {
-  RangeMeasurements view{measurements_->max_range, {}, {}};
-  view.add(scan);
   auto all = std::make_shared<RangeMeasurements>(*measurements_);
+  if (all->origins.empty()) all->max_range = scan.max_range;
+  RangeMeasurements view{all->max_range, {}, {}};
+  view.add(scan);
   all->append(join_rays(view, posterior_->grid, config_.ray_spacing));
   measured_rays_ += view.rays.size();
   measurements_ = std::move(all);
@@ -34,8 +35,18 @@ void MapRefinement::refine(std::span<const float> conventional, int sweeps, cons
   auto posterior = std::make_shared<GibbsPosterior>(
       sample_posterior(posterior_->grid, *measurements_, config, conventional, posterior_->states, progress, stop));
   posterior->diagnostics.measured_rays = measured_rays_;
-  voxels_ = std::make_shared<const std::vector<Voxel>>(posterior->voxels(classes_));
+  voxels_ = VoxelBricks(posterior->grid.size, posterior->voxels(classes_));
   posterior_ = std::move(posterior);
+}
+
+std::size_t MapRefinement::bytes(const MapRefinement* other) const {
+  std::size_t bytes = other ? voxels_.bytes_beside(other->voxels_) : voxels_.bytes();
+  if (!other || measurements_ != other->measurements_) bytes += measurements_->rays.size() * sizeof(RangeMeasurement);
+  if (other && posterior_ == other->posterior_) return bytes;
+  const GibbsPosterior& p = *posterior_;
+  bytes += p.occupied.size() * (sizeof p.occupied[0] + sizeof p.upper[0] + sizeof p.informed[0]);
+  for (const auto& state : p.states) bytes += state.size();
+  return bytes;
 }
 
 OccupancyMap to_occupancy_map(const GibbsPosterior& posterior, const InverseSensorModel& classes) {

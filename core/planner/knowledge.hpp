@@ -1,0 +1,53 @@
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "core/gain/map_rays.hpp"
+#include "core/gibbs/map_refinement.hpp"
+#include "core/map/occupancy_map.hpp"
+#include "core/progress/progress.hpp"
+#include "core/view/view.hpp"
+
+namespace nextview {
+
+/// A view that was taken.
+struct TakenView {
+  View wanted;
+  Pose T_world_camera = Pose::Identity();  ///< the one that was reached
+};
+
+/// All that a scan has learned, and all that a fork of it copies: a few pointers, as copies share what they have in
+/// common.
+struct Knowledge {
+  OccupancyMap map;
+  std::shared_ptr<const MapRefinement> posterior = {};  ///< the Gibbs map; null if the planner needs none
+  std::shared_ptr<const ReferenceMap> reference = {};   ///< reference semantics only
+  std::vector<TakenView> taken = {};
+
+  /// The voxels that views are planned on: the Gibbs map's if there is one.
+  const VoxelBricks& planning_voxels() const { return posterior ? posterior->voxels() : map.voxels(); }
+  bool has_taken(const View& view) const {
+    return std::ranges::any_of(taken, [&](const TakenView& t) { return t.wanted == view; });
+  }
+};
+
+/// How scans enter the maps.
+struct FusionConfig {
+  Insertion insertion = Insertion::local_octree;
+  double occlusion_distance = 0.0;  ///< how far behind surfaces voxels are marked [m]; 0: none are
+  int view_sweeps = 0;              ///< as GibbsConfig::view_sweeps
+};
+struct FusionSeconds {
+  double insert = 0.0, refine = 0.0;
+};
+
+/// A scan enters all the maps that there are: a pure function, so that scanning, replaying and looking ahead are the
+/// same. @throws Stopped; then, as after any other exception, what is known is as it was.
+FusionSeconds fuse(Knowledge& known, const Scan& scan, const FusionConfig& config, const Progress& progress = {},
+                   const std::stop_token& stop = {});
+
+/// Rays of at most `ray_length` [m] through what views are planned on.
+std::unique_ptr<RayCaster> planning_rays(const Knowledge& known, double ray_length);
+
+}  // namespace nextview

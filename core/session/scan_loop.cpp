@@ -1,0 +1,178 @@
+#include "core/session/scan_loop.hpp"
+
+#include <numbers>
+
+#include "core/evaluation/entropy.hpp"
+#include "core/progress/stopped.hpp"
+#include "core/progress/stopwatch.hpp"
+#include "core/session/session_parts.hpp"
+
+namespace nextview {
+namespace {
+
+/// Says how far a step has come, and ends it where a stop is requested.
+void report(const Progress& progress, const std::stop_token& stop, double fraction, std::string_view what) {
+  if (progress) progress(fraction, what);
+  throw_if_stopped(stop);
+}
+
+std::size_t measured_voxels(const VoxelBricks& voxels) {
+  return static_cast<std::size_t>(std::ranges::count_if(voxels, &Voxel::measured));
+}
+
+FusionConfig fusion(const ScanSetup& setup) {
+  const Configuration& c = setup.configuration;
+  return {c.map.insertion, setup.planner->needs().occlusions ? default_occlusion_distance : 0.0, c.gibbs.view_sweeps};
+}
+
+/// The part of a job's progress from `begin` to `end`.
+Progress part(const Progress& whole, double begin, double end) {
+  if (!whole) return {};
+  return [=](double fraction, std::string_view what) { whole(begin + (end - begin) * fraction, what); };
+}
+
+/// What the view did to the maps, as numbers of its record.
+void compare_maps(const Knowledge& before, const Knowledge& after, StepRecord& record) {
+  Stopwatch watch(record.seconds.evaluate);
+  record.new_voxels = measured_voxels(after.map.voxels()) - measured_voxels(before.map.voxels());
+  record.entropy = unmeasured_entropy(after.map.voxels());
+  record.total_entropy = total_entropy(after.planning_voxels());
+  record.realised_gain = realised_gain(before.planning_voxels(), after.planning_voxels());  // Eq. 12
+  if (!after.posterior) return;
+  record.refinement.emplace();
+  record.refinement->diagnostics = after.posterior->posterior().diagnostics;
+  auto refined = after.posterior->voxels().begin();
+  for (const Voxel& voxel : after.map.voxels())
+    record.refinement->changed_class += voxel.voxel_class != (refined++)->voxel_class;
+}
+
+void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRecord& record,
+              const std::stop_token& stop) {
+  if (!setup.truth) return;
+  Stopwatch watch(record.seconds.evaluate);
+  auto evaluation = std::make_shared<EvaluationState>(*state.evaluation);
+  setup.truth->add_view(*evaluation, record.T_world_camera, scan.returns, stop);
+  record.coverage = evaluation->coverage.of_all();
+  record.coverage_visible = evaluation->coverage.of_visible();
+  record.coverage_paper = evaluation->coverage_paper.of_all();
+  const GroundTruth& truth = setup.truth->truth();
+  const auto quality = [&](const std::vector<float>& p, ScoredSet set) {
+    return map_quality(p, truth, TruthConvention::touch, set, evaluation->visited_voxels);
+  };
+  const auto p = probabilities(state.known.map.voxels());
+  record.quality = quality(p, ScoredSet::visited);
+  record.quality_near_surface = quality(p, ScoredSet::visited_band);
+  if (record.refinement)
+    record.refinement->quality_near_surface =
+        quality(probabilities(state.known.posterior->voxels()), ScoredSet::visited_band);
+  state.evaluation = std::move(evaluation);
+}
+
+/// The record of the view that was to be taken, as it was.
+StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
+  StepRecord record;
+  record.step = static_cast<int>(state.records.size()) + 1;
+  const NextView& next = state.next;
+  if (next.view == acquired.wanted) {
+    record.view = next.candidate ? static_cast<int>(*next.candidate) : -1;
+    record.overridden = next.overridden;
+    record.gain = next.gain;
+    record.utility = next.utility;
+  }
+  record.T_world_camera = acquired.capture.T_world_camera;
+  record.motion = acquired.motion;
+  record.seconds.sense = acquired.sense_seconds;
+  return record;
+}
+
+}  // namespace
+
+Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& source, Robot& robot,
+                         const Progress& progress, const std::stop_token& stop) {
+  if (progress) progress(0.0, "taking the view");
+  Acquired acquired{view, {}, robot.reach(robot.pose(), {&view, 1}).front().cost};
+  const Result<Pose> reached = robot.move_to(view, stop);
+  if (const auto* failure = std::get_if<Failure>(&reached)) return *failure;
+  Result<Capture> capture = [&] {
+    Stopwatch watch(acquired.sense_seconds);
+    return source.capture({std::get<Pose>(reached), view.frame}, step, stop);
+  }();
+  if (auto* failure = std::get_if<Failure>(&capture)) return *failure;
+  acquired.capture = std::get<Capture>(std::move(capture));
+  return acquired;
+}
+
+ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired& acquired, const Progress& progress,
+                 const std::stop_token& stop) {
+  StepRecord record = begin_record(state, acquired);
+  ScanState after = state;
+  report(progress, stop, 0.1, "cleaning the cloud");
+  CapturedScan captured = [&] {
+    Stopwatch watch(record.seconds.clean);
+    return to_scan(acquired.capture, &setup.configuration.cloud, stop);
+  }();
+  record.returns = captured.returns;
+  record.passes = captured.scan.passes.size();
+  record.points = captured.scan.returns.size();
+  const auto scan = std::make_shared<const Scan>(std::move(captured.scan));
+
+  report(progress, stop, 0.4, "updating the map");
+  const FusionSeconds seconds = fuse(after.known, *scan, fusion(setup), part(progress, 0.5, 0.6), stop);
+  record.seconds.insert = seconds.insert;
+  record.seconds.refine = seconds.refine;
+  after.known.taken.push_back({acquired.wanted, record.T_world_camera});
+  compare_maps(state.known, after.known, record);
+  report(progress, stop, 0.6, "comparing with the object");
+  evaluate(setup, after, *scan, record, stop);
+  after.T_world_camera = record.T_world_camera;
+  after.scans.push_back(scan);
+  after.records.push_back(std::make_shared<const StepRecord>(std::move(record)));
+  return after;
+}
+
+std::size_t bytes_of(const ScanState& state, const ScanState* other) {
+  if (!state.has_maps) return 0;
+  const Knowledge& known = state.known;
+  const Knowledge* const beside = other ? &other->known : nullptr;
+  std::size_t bytes = beside ? known.map.voxels().bytes_beside(beside->map.voxels()) : known.map.voxels().bytes();
+  if (known.posterior) bytes += known.posterior->bytes(beside ? beside->posterior.get() : nullptr);
+  if (state.evaluation && !(other && other->evaluation == state.evaluation)) bytes += state.evaluation->bytes();
+  return bytes;
+}
+
+void drop_maps(const ScanSetup& setup, ScanState& state) {
+  std::vector<TakenView> taken = std::move(state.known.taken);
+  ScanState nothing = nothing_scanned(setup, state.T_world_camera);
+  state.known = std::move(nothing.known);
+  state.known.taken = std::move(taken);
+  state.evaluation = std::move(nothing.evaluation);
+  state.has_maps = false;
+}
+
+void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, const Progress& progress,
+            const std::stop_token& stop) {
+  Knowledge known = from.known;
+  auto evaluation = from.evaluation ? std::make_shared<EvaluationState>(*from.evaluation) : nullptr;
+  for (std::size_t k = from.scans.size(); k < state.scans.size(); ++k) {
+    report(progress, stop, double(k) / double(state.scans.size()), "making the map again");
+    fuse(known, *state.scans[k], fusion(setup), {}, stop);
+    if (evaluation)
+      setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->returns, stop);
+  }
+  known.taken = state.known.taken;
+  state.known = std::move(known);
+  state.evaluation = std::move(evaluation);
+  state.has_maps = true;
+}
+
+ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera) {
+  ScanState state;
+  state.known = nothing_known(setup.configuration, setup.region, setup.planner->needs());
+  if (setup.truth) state.evaluation = std::make_shared<const EvaluationState>(setup.truth->nothing_seen());
+  state.candidates = setup.candidates->candidates(state.known);
+  state.next.view = setup.start;
+  state.T_world_camera = T_world_camera;
+  return state;
+}
+
+}  // namespace nextview

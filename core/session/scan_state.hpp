@@ -1,0 +1,60 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+#include "core/evaluation/known_object.hpp"
+#include "core/planner/planner.hpp"
+#include "core/robot/robot.hpp"
+#include "core/session/configuration.hpp"
+#include "core/session/step_record.hpp"
+#include "core/source/scan_source.hpp"
+
+namespace nextview {
+
+/// What a scan is made with, and what stays as it is while it goes on.
+struct ScanSetup {
+  Configuration configuration;
+  SourceDescription source;
+  VoxelGrid region;  ///< of interest
+  RayBundle bundle;  ///< that scores a view
+  View start;
+  std::shared_ptr<const CandidateGenerator> candidates;
+  std::shared_ptr<const Planner> planner;
+  std::shared_ptr<const KnownObject> truth;  ///< null without evaluation
+};
+
+/// The view that is taken next.
+struct NextView {
+  View view;
+  std::optional<std::size_t> candidate = {};  ///< none: the start view, or a custom view
+  bool is_custom = false;                     ///< it is the operator's own
+  bool overridden = false;                    ///< the operator chose it instead of the proposal
+  double gain = 0.0, utility = 0.0;           ///< that are expected of it
+};
+
+/// How far a scan has come: all that evolves, as a value. A copy costs a few pointers and shares what it has in common
+/// with this; it can be kept, restored, forked, and handed to another thread.
+struct ScanState {
+  Knowledge known;
+  std::shared_ptr<const EvaluationState> evaluation;  ///< null without evaluation
+  std::vector<std::shared_ptr<const Scan>> scans;     ///< one a step, returns cleaned
+  std::vector<std::shared_ptr<const StepRecord>> records;
+  std::vector<View> candidates;  ///< that are ranked
+  NextView next;                 ///< of no meaning once finished
+  std::string finished;          ///< why the scan is done; empty while it is not
+  Pose T_world_camera = Pose::Identity();  ///< where the robot is
+  bool has_maps = true;                    ///< false after drop_maps
+};
+
+/// A view that was taken and is not absorbed yet: the operator may look at it, and refuse it.
+struct Acquired {
+  View wanted;
+  Capture capture;
+  MotionCost motion;  ///< of getting there
+  double sense_seconds = 0.0;
+};
+
+}  // namespace nextview

@@ -1,0 +1,111 @@
+#include "core/map/voxel_bricks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+#include "core/map/occupancy_map.hpp"
+
+namespace nextview {
+namespace {
+
+Voxel numbered(std::uint32_t number) {
+  Voxel voxel;
+  voxel.measured = true;
+  voxel.log_odds = static_cast<float>(number);
+  return voxel;
+}
+
+const std::vector<Eigen::Vector3i> sizes = {{0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {9, 7, 17}, {16, 8, 24}, {3, 41, 10}};
+
+TEST(VoxelBricks, HoldWhatTheyAreMadeOfInTheGridsOrder) {
+  for (const Eigen::Vector3i& size : sizes) {
+    std::vector<Voxel> voxels(std::size_t(size.prod()));
+    for (std::uint32_t v = 0; v < voxels.size(); ++v) voxels[v] = numbered(v + 1);
+    const VoxelBricks bricks(size, voxels);
+    ASSERT_EQ(bricks.size(), voxels.size());
+    std::uint32_t v = 0;
+    for (const Voxel& voxel : bricks) ASSERT_EQ(voxel.log_odds, float(++v));
+    EXPECT_EQ(v, voxels.size());
+    v = 0;
+    for (int z = 0; z < size.z(); ++z)
+      for (int y = 0; y < size.y(); ++y)
+        for (int x = 0; x < size.x(); ++x, ++v) {
+          ASSERT_EQ(bricks.at(x, y, z).log_odds, float(v + 1));
+          ASSERT_EQ(bricks[v].log_odds, float(v + 1));
+          ASSERT_EQ(bricks.from(v)->log_odds, float(v + 1));
+          ASSERT_EQ(bricks.cell(bricks.place(x, y, z)), Eigen::Vector3i(x, y, z));
+        }
+    EXPECT_EQ(bricks.dense().size(), voxels.size());
+  }
+  EXPECT_THROW(VoxelBricks({2, 2, 2}, std::vector<Voxel>(7)), std::invalid_argument);
+}
+
+TEST(VoxelBricks, CopiesNeverSeeEachOthersChanges) {
+  std::mt19937 random(1);
+  const Eigen::Vector3i size(20, 9, 33);
+  std::vector<VoxelBricks> copies(1, VoxelBricks(size));
+  std::vector<std::vector<Voxel>> expected(1, copies.front().dense());  // the oracle: nothing is shared
+  for (int i = 0; i < 400; ++i) {
+    const std::size_t which = random() % copies.size();
+    if (i % 20 == 19) {
+      copies.push_back(copies[which]);
+      expected.push_back(expected[which]);
+    }
+    const int x = int(random() % 20), y = int(random() % 9), z = int(random() % 33);
+    copies[which].change(copies[which].place(x, y, z)) = numbered(std::uint32_t(i));
+    expected[which][std::size_t(z * 9 + y) * 20 + std::size_t(x)] = numbered(std::uint32_t(i));
+    if (i % 50 == 49 && copies.size() > 2) {
+      copies.erase(copies.begin() + 1);
+      expected.erase(expected.begin() + 1);
+    }
+  }
+  for (std::size_t c = 0; c < copies.size(); ++c)
+    for (std::size_t v = 0; v < expected[c].size(); ++v) ASSERT_EQ(copies[c][v].log_odds, expected[c][v].log_odds) << c;
+}
+
+TEST(VoxelBricks, OnlyWhatChangesTakesMemory) {
+  constexpr std::size_t brick = VoxelBricks::brick_voxels * sizeof(Voxel);
+  VoxelBricks bricks({128, 128, 128});
+  EXPECT_EQ(bricks.bytes(), 0u);
+  bricks.change(bricks.place(5, 5, 5)) = numbered(1);
+  bricks.change(bricks.place(7, 0, 7)) = numbered(2);
+  EXPECT_EQ(bricks.bytes(), brick) << "both are of one brick";
+  VoxelBricks fork = bricks;
+  EXPECT_EQ(fork.bytes_beside(bricks), 0u);
+  fork.change(fork.place(100, 100, 100)) = numbered(3);
+  EXPECT_EQ(fork.bytes(), 2 * brick);
+  EXPECT_LE(fork.bytes_beside(bricks), brick + (std::size_t{64} << 10)) << "and at most 64 KiB to find the bricks";
+  EXPECT_LE(sizeof(VoxelBricks), 64u);
+}
+
+TEST(VoxelBricks, ForksOfOneMapGrowInSeveralThreads) {
+  const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.64, 0.01);
+  Scan scan;
+  scan.origin = Vector3(0.9, 0.1, 0.2);
+  for (int i = 0; i < 2000; ++i) scan.returns.push_back({0.01f * float(i % 20), 0.005f * float(i % 40), -0.1f});
+  OccupancyMap root(grid);
+  root.insert(scan);
+  std::vector<OccupancyMap> forks(4, root);
+  std::vector<std::thread> threads;
+  for (std::size_t f = 0; f < forks.size(); ++f)
+    threads.emplace_back([&, f] {
+      for (int i = 0; i < 3; ++i) {
+        OccupancyMap deeper = forks[f];
+        Scan other = scan;
+        other.origin.y() += 0.1 * double(f);
+        deeper.insert(other);
+        forks[f] = deeper;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  OccupancyMap alone(grid);
+  alone.insert(scan);
+  EXPECT_TRUE(std::ranges::equal(alone.voxels(), root.voxels(), {}, &Voxel::log_odds, &Voxel::log_odds));
+  for (int i = 0; i < 3; ++i) alone.insert(scan);
+  EXPECT_TRUE(std::ranges::equal(alone.voxels(), forks[0].voxels(), {}, &Voxel::log_odds, &Voxel::log_odds));
+}
+
+}  // namespace
+}  // namespace nextview
