@@ -23,6 +23,8 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
+#include "ui/commands/command_list.hpp"
+#include "ui/commands/script.hpp"
 #include "ui/surface/headless.hpp"
 #include "ui/window/window.hpp"
 

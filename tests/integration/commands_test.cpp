@@ -134,7 +134,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
     walk(person, lines);
   }
   for (const char* command : {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel"})
-    for (const std::string& value : find_command(command).arguments.front().choices({}))
+    for (const std::string& value : find_command(command).arguments().front().choices({}))
       walk(person, fmt::format("{} {}", command, value));
   for (const char* kind : {"entropy", "coverage", "divergence", "gain", "time"})
     walk(person, fmt::format("curves {} entropy", kind));
@@ -210,7 +210,7 @@ TEST_F(Commands, AThousandAtRandomLeaveAValidSession) {
       // The default scan is a large one.
       if (command->name.starts_with("reset-setting") && random.below(6) != 0) continue;
       try {
-        CommandCall call = make_call(command->name, values);
+        CommandCall call = command->read(values);
         ++done;
         if (key) {
           const Shortcut& shortcut = command->shortcuts.front();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <thread>
 
+#include "ui/commands/script.hpp"
 #include "ui/surface/offscreen_surface.hpp"
 #include "ui/window/interface.hpp"
 

@@ -95,11 +95,11 @@ std::string RandomCalls::value(const Command& command, const Argument& argument,
 std::pair<const Command*, std::vector<std::string>> RandomCalls::next(const SessionSnapshot& session, int often) {
   const Command* command = nullptr;
   do {
-    command = &commands()[below(commands().size())];
+    command = &commands()[below(commands().size())].get();
   } while (command->name == "quit");
   const std::array<std::string, 7> wrong = {"", "x", "nan", "-1e9", "1e99", "two words", "\""};
   std::vector<std::string> values;
-  for (const Argument& argument : command->arguments) {
+  for (const Argument& argument : command->arguments()) {
     if (argument.optional && below(3) == 0) break;
     const bool allowed = below(std::size_t(often)) != 0 || argument.kind == Argument::Kind::file;
     values.push_back(allowed ? value(*command, argument, values, session) : wrong[below(wrong.size())]);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/commands/command.hpp"
+#include "ui/commands/command_list.hpp"
 
 namespace nextview {
 

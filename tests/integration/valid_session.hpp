@@ -4,7 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "ui/commands/command.hpp"
+#include "ui/commands/script.hpp"
+#include "ui/workbench/session_log.hpp"
 
 namespace nextview {
 

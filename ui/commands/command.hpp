@@ -1,15 +1,19 @@
 #pragma once
 #include <functional>
-#include <span>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "ui/commands/argument.hpp"
 #include "ui/commands/key.hpp"
 #include "ui/commands/window_state.hpp"
-#include "ui/workbench/session_worker.hpp"
+#include "ui/workbench/session_snapshot.hpp"
 
 namespace nextview {
+
+class Command;
+struct CommandTarget;  // what a command acts on: command_target.hpp
 
 /// What decides whether a command can be done now.
 struct CommandState {
@@ -18,94 +22,130 @@ struct CommandState {
   const WindowState& window;
 };
 
-/// What a command looks at and acts on.
-struct CommandTarget {
-  SessionWorker& worker;
-  WindowState& window;
-  const SessionSnapshot& session;
-  const WorkerProgress& progress;
+/// A command with its values, to be done: what panels post, and a line of a script.
+struct CommandCall {
+  const Command* command;
+  std::function<void(CommandTarget&)> run;           ///< @throws std::invalid_argument saying why it cannot be done
+  std::function<std::vector<std::string>()> values;  ///< as a script has them
+  int line = 0;                                      ///< of the script that it is from, from 1; 0: it is from none
 
-  CommandState state() const { return {session, progress, window}; }
-};
-
-/// A value that a command takes.
-struct Argument {
-  enum class Kind { number, whole, text, choice, file };
-  std::string name;  ///< "candidate"
-  Kind kind = Kind::text;
-  std::string help;  ///< what it is, with its unit
-  double low = -1e9, high = 1e9;
-  std::function<std::vector<std::string>(const SessionSnapshot&)> choices = {};  ///< all there are, or suggestions
-  bool optional = false;                                                         ///< this and all that follow it
-};
-
-/// The values of one call, checked against the declaration.
-class Arguments {
- public:
-  Arguments(std::span<const std::string> texts) : texts_(texts) {}
-  std::size_t count() const { return texts_.size(); }
-  const std::string& text(std::size_t i) const { return texts_[i]; }
-  double number(std::size_t i) const;
-  std::size_t whole(std::size_t i) const { return static_cast<std::size_t>(number(i)); }
-
- private:
-  std::span<const std::string> texts_;
+  std::string text() const;  ///< as a script has it
 };
 
 struct Shortcut {
   Key key;
   bool control = false;
-  std::vector<std::string> arguments = {};
+  std::vector<std::string> values = {};  ///< of its call, as a script has them
 
   std::string text() const;  ///< "Ctrl+P"
 };
 
-/// Something that a person can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's
-/// table are made of these.
-struct Command {
+/// What people see of a command, and when it can be done.
+struct CommandDeclaration {
   std::string name;  ///< in scripts: "take-view"
   std::string menu;  ///< where it stands: "Scan"
   std::string text;  ///< for people: "Take a view next"
   std::string help;  ///< one sentence: the tooltip
-  std::vector<Argument> arguments = {};
   std::vector<Shortcut> shortcuts = {};
-  std::function<void(CommandTarget&, const Arguments&)> run;
   std::function<std::string(const CommandState&)> why_not = {};  ///< it cannot be done now; empty: it can
   std::function<bool(const WindowState&)> on = {};               ///< of what is switched on and off
   bool adds_up = false;                                          ///< doing it twice is more than doing the last alone
+};
 
+/// Something that a person can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's
+/// table are made of these.
+class Command : public CommandDeclaration {
+ public:
+  virtual ~Command() = default;
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  const std::vector<Argument>& arguments() const { return arguments_; }
+  /// Whether it can be called without a value.
+  bool needs_no_value() const { return arguments_.empty() || arguments_.front().optional; }
   bool available(const CommandState& state) const { return !why_not || why_not(state).empty(); }
   std::string keys() const;   ///< "S, Space"; empty if it has none
   std::string usage() const;  ///< "take-view CANDIDATE"
+
+  /// With values as a script or a person writes them.
+  /// @throws std::invalid_argument in one line: too many or too few of them, or what one must be.
+  CommandCall read(std::vector<std::string> values) const;
+
+ protected:
+  Command(CommandDeclaration declaration, std::vector<Argument> arguments);
+  virtual CommandCall read_values(std::vector<std::string> values) const = 0;
+
+ private:
+  std::vector<Argument> arguments_;
 };
 
-/// All commands, in the order of the menus.
-std::span<const Command> commands();
-/// The menus' names, in their order.
-std::vector<std::string> menus();
-/// @throws std::invalid_argument naming the nearest one.
-const Command& find_command(std::string_view name);
+template <class Value>
+inline constexpr bool is_optional = false;
+template <class Value>
+inline constexpr bool is_optional<std::optional<Value>> = true;
 
-/// A command with its values: what panels emit, and a line of a script.
-struct CommandCall {
-  const Command* command;
-  std::vector<std::string> arguments;
-  int line = 0;  ///< of the script that it is from, from 1; 0: it is from none
+/// A command and what it does, a function of typed values. Called with values it does nothing yet: it makes the call
+/// that does.
+template <class... Values>
+class CommandOf : public Command {
+ public:
+  using Function = std::function<void(CommandTarget&, const Values&...)>;
 
-  std::string text() const;  ///< as a script has it
+  CommandOf(CommandDeclaration declaration, ArgumentOf<Values>... arguments, Function function)
+      : Command(std::move(declaration), {std::move(arguments)...}), function_(std::move(function)) {}
+
+  /// What is not given is optional.
+  template <class... Given>
+  CommandCall operator()(const Given&... given) const {
+    static_assert(sizeof...(Given) <= sizeof...(Values), "too many values");
+    static_assert(sizeof...(Given) >= (std::size_t{0} + ... + std::size_t{!is_optional<Values>}), "too few values");
+    std::tuple<Values...> values;
+    assign(values, std::index_sequence_for<Given...>(), given...);
+    return call(values, [this, values] { return texts(values); });
+  }
+
+ private:
+  CommandCall call(std::tuple<Values...> values, std::function<std::vector<std::string>()> written) const {
+    return {this, [this, values = std::move(values)](CommandTarget& target) { run(target, values); },
+            std::move(written)};
+  }
+
+  template <std::size_t... index, class... Given>
+  static void assign(std::tuple<Values...>& values, std::index_sequence<index...>, const Given&... given) {
+    ((std::get<index>(values) = given), ...);
+  }
+
+  void run(CommandTarget& target, const std::tuple<Values...>& values) const {
+    const auto checked = [&](const Values&... value) {
+      [[maybe_unused]] auto argument = arguments().begin();
+      (argument++->check(value), ...);
+      function_(target, value...);
+    };
+    std::apply(checked, values);
+  }
+
+  std::vector<std::string> texts(const std::tuple<Values...>& values) const {
+    std::vector<std::string> result;
+    const auto write = [&](const Values&... value) {
+      [[maybe_unused]] auto argument = arguments().begin();
+      static_cast<void>((argument++->write(value, result) && ...));
+    };
+    std::apply(write, values);
+    return result;
+  }
+
+  CommandCall read_values(std::vector<std::string> written) const override {
+    std::tuple<Values...> values;
+    std::size_t next = 0;
+    const auto read_next = [&](auto& value) {
+      if (next < written.size()) arguments()[next].read(written[next], value);
+      ++next;
+    };
+    std::apply([&](Values&... value) { (read_next(value), ...); }, values);
+    return call(std::move(values), [written = std::move(written)] { return written; });
+  }
+
+  Function function_;
 };
-
-/// @throws std::invalid_argument in one line: no such command, too many or too few values, or what a value must be.
-CommandCall make_call(std::string_view name, std::vector<std::string> arguments = {});
-/// A line of a script: a command's name and its values, those with spaces in double quotes (in which "" means one).
-CommandCall parse_call(std::string_view line);
-/// The calls of a script: a line each; what follows a # is a comment. @throws std::invalid_argument "line 3: …"
-std::vector<CommandCall> parse_script(std::string_view text);
-
-/// Does it. @throws std::invalid_argument saying why it cannot be done now.
-void execute(const CommandCall& call, CommandTarget& target);
-
-/// The README's table: a row a command.
-std::string command_table();
 
 }  // namespace nextview

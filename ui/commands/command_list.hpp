@@ -1,27 +1,22 @@
 #pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "ui/commands/command.hpp"
 
 namespace nextview {
 
-// The commands of each menu.
+/// All commands, in the order of the menus. The commands themselves are declared menu by menu: file_commands.hpp, …
+std::span<const std::reference_wrapper<const Command>> commands();
+/// The menus' names, in their order.
+std::vector<std::string> menus();
+/// @throws std::invalid_argument naming the nearest one.
+const Command& find_command(std::string_view name);
 
-std::vector<Command> file_commands();
-std::vector<Command> scan_commands();
-std::vector<Command> gibbs_commands();
-std::vector<Command> selection_commands();
-std::vector<Command> scene_commands();
-std::vector<Command> window_commands();
-
-// Why a command cannot be done, in words that several share; empty if it can.
-
-std::string needs_session(const CommandState& state);
-std::string needs_view(const CommandState& state);  ///< that has been taken
-/// Nothing may be running that would change the session beneath it.
-std::string needs_rest(const CommandState& state);
-
-/// An argument that takes one of a fixed list.
-Argument choice(std::string name, std::string help, std::vector<std::string> names);
-/// Which of `names` was chosen.
-std::size_t index_of(const std::vector<std::string>& names, const std::string& name);
+/// The README's table: a row a command.
+std::string command_table();
 
 }  // namespace nextview

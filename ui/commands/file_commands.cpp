@@ -1,10 +1,14 @@
+#include "ui/commands/file_commands.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/file/atomic_file.hpp"
 #include "core/session/known_objects.hpp"
-#include "ui/commands/command_list.hpp"
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/needs.hpp"
 
 namespace nextview {
 namespace {
@@ -18,107 +22,135 @@ std::vector<std::string> setting_keys(const SessionSnapshot&) {
   return keys;
 }
 
-Setting& setting(std::vector<Setting>& all, const std::string& key) {
+ArgumentOf<std::string> setting_key() { return argument::name("key", "as in the configuration file", setting_keys); }
+
+Setting setting(Configuration& configuration, const std::string& key) {
+  auto all = settings(configuration);
   return *std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
 }
 
-constexpr std::string_view kept = "termination.";  // settings that leave the scan as it is
+constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, too
+constexpr std::string_view kept = "termination.";       // settings that leave the scan as it is
 
 /// What ends a scan may change while it goes on; the views depend on all else. Nothing happens if the setting is so
 /// already.
-void change_setting(CommandTarget& target, const std::string& key, const std::string& text) {
-  Configuration configuration = target.session.configuration;
-  if (key == "sensor.preset") {
-    apply_sensor_preset(configuration, text);
-  } else {
-    auto all = settings(configuration);
-    setting(all, key).set(text);
-  }
-  configuration.validate();
-  if (to_toml(configuration) == to_toml(target.session.configuration)) return;
-  if (key.starts_with(kept)) return target.worker.post(request::SetTermination{configuration.termination});
-  target.worker.post(request::Load{configuration});
+void change_setting(CommandTarget& target, const std::string& key, const Configuration& wanted) {
+  wanted.validate();
+  if (to_toml(wanted) == to_toml(target.session.configuration)) return;
+  if (key.starts_with(kept)) return target.worker.post(request::SetTermination{wanted.termination});
+  target.worker.post(request::Load{wanted});
 }
 
-std::string default_of(const std::string& key) {
-  Configuration defaults;
-  auto all = settings(defaults);
-  return setting(all, key).text();
+void set_as_text(CommandTarget& target, const std::string& key, const std::string& text) {
+  Configuration configuration = target.session.configuration;
+  if (key == sensor_preset) {
+    apply_sensor_preset(configuration, text);
+  } else {
+    setting(configuration, key).set(text);
+  }
+  change_setting(target, key, configuration);
+}
+
+void copy_value(const Setting& from, Setting& to) {
+  const auto copy = [&]<class Value>(Value& value) {
+    const Value& source = std::get<Value>(from.value);
+    if constexpr (std::is_pointer_v<Value>) {
+      *value = *source;
+    } else {
+      value.set(source.get());
+    }
+  };
+  std::visit(copy, to.value);
+}
+
+void set_from(CommandTarget& target, const std::string& key, Configuration wanted) {
+  Configuration configuration = target.session.configuration;
+  if (key == sensor_preset) {
+    apply_sensor_preset(configuration, wanted.sensor_preset);
+  } else {
+    Setting changed = setting(configuration, key);
+    copy_value(setting(wanted, key), changed);
+  }
+  change_setting(target, key, configuration);
 }
 
 }  // namespace
 
-std::vector<Command> file_commands() {
-  const Argument setting_key{"key", Argument::Kind::choice, "as in the configuration file", 0, 0, setting_keys};
-  return {
-      {"open",
-       "File",
-       "Open an object or settings…",
-       "Scans another object (a mesh file or a known name), or with the settings of a .toml file.",
-       {{"file", Argument::Kind::file, "a mesh file, a known object, or a .toml file", 0, 0, objects}},
-       {{key('O'), true}},
-       [](CommandTarget& t, const Arguments& a) { t.worker.post(request::OpenFile{a.text(0)}); }},
-      {"set",
-       "File",
-       "Change a setting…",
-       "Changes a setting; starts the scan over, unless it is a termination setting.",
-       {setting_key, {"value", Argument::Kind::text, "what it is to be"}},
-       {},
-       [](CommandTarget& t, const Arguments& a) { change_setting(t, a.text(0), a.text(1)); },
-       needs_session},
-      {"reset-setting",
-       "File",
-       "Set a setting back…",
-       "Gives a setting its default again; starts the scan over, unless it is a termination setting.",
-       {setting_key},
-       {},
-       [](CommandTarget& t, const Arguments& a) { change_setting(t, a.text(0), default_of(a.text(0))); },
-       needs_session},
-      {"reset-settings",
-       "File",
-       "Set all settings back",
-       "Starts over with the default settings; the object stays.",
-       {},
-       {},
-       [](CommandTarget& t, const Arguments&) {
-         Configuration configuration;
-         configuration.object = t.session.configuration.object;
-         t.worker.post(request::Load{configuration});
-       },
-       needs_session},
-      {"export",
-       "File",
-       "Export the scan…",
-       "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
-       {{"folder", Argument::Kind::file, "a folder; it is made if it is not there"}},
-       {{key('E'), true}},
-       [](CommandTarget& t, const Arguments& a) { t.worker.post(request::Export{a.text(0)}); },
-       needs_view},
-      {"save-picture",
-       "File",
-       "Save a picture…",
-       "Writes the window as a PNG picture.",
-       {{"file", Argument::Kind::file, "a file that ends in .png"}},
-       {},
-       [](CommandTarget& t, const Arguments& a) { t.window.picture_file = a.text(0); }},
-      {"save-script",
-       "File",
-       "Save the commands so far…",
-       "Writes what was done in this window as a script, to be done again with `nextview window --script`.",
-       {{"file", Argument::Kind::file, "a text file"}},
-       {},
-       [](CommandTarget& t, const Arguments& a) {
-         write_file(a.text(0), fmt::format("{}\n", fmt::join(t.window.script, "\n")));
-         t.worker.log().add(LogEntry::Level::success, "Script written to " + a.text(0));
-       }},
-      {"quit",
-       "File",
-       "Quit",
-       "Closes the window.",
-       {},
-       {{key('Q'), true}},
-       [](CommandTarget& t, const Arguments&) { t.window.quit = true; }},
+const CommandOf<std::string> command::open{
+    {"open",
+     "File",
+     "Open an object or settings…",
+     "Scans another object (a mesh file or a known name), or with the settings of a .toml file.",
+     {{key('O'), true}}},
+    argument::file("file", "a mesh file, a known object, or a .toml file", objects),
+    [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};
+
+const CommandOf<std::string, std::string> command::set{
+    {"set",
+     "File",
+     "Change a setting…",
+     "Changes a setting; starts the scan over, unless it is a termination setting.",
+     {},
+     needs_session},
+    setting_key(),
+    argument::text("value", "what it is to be"),
+    set_as_text};
+
+CommandCall command::set_as_in(const Configuration& wanted, const std::string& key) {
+  const auto values = [wanted, key] {
+    Configuration configuration = wanted;
+    return std::vector<std::string>{key, setting(configuration, key).text()};
   };
+  return {&set, [wanted, key](CommandTarget& t) { set_from(t, key, wanted); }, values};
 }
+
+const CommandOf<std::string> command::reset_setting{
+    {"reset-setting",
+     "File",
+     "Set a setting back…",
+     "Gives a setting its default again; starts the scan over, unless it is a termination setting.",
+     {},
+     needs_session},
+    setting_key(),
+    [](CommandTarget& t, const std::string& key) { set_from(t, key, Configuration()); }};
+
+const CommandOf<> command::reset_settings{{"reset-settings",
+                                           "File",
+                                           "Set all settings back",
+                                           "Starts over with the default settings; the object stays.",
+                                           {},
+                                           needs_session},
+                                          [](CommandTarget& t) {
+                                            Configuration configuration;
+                                            configuration.object = t.session.configuration.object;
+                                            t.worker.post(request::Load{configuration});
+                                          }};
+
+const CommandOf<std::string> command::export_scan{
+    {"export",
+     "File",
+     "Export the scan…",
+     "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
+     {{key('E'), true}},
+     needs_view},
+    argument::file("folder", "a folder; it is made if it is not there"),
+    [](CommandTarget& t, const std::string& folder) { t.worker.post(request::Export{folder}); }};
+
+const CommandOf<std::string> command::save_picture{
+    {"save-picture", "File", "Save a picture…", "Writes the window as a PNG picture."},
+    argument::file("file", "a file that ends in .png"),
+    [](CommandTarget& t, const std::string& file) { t.window.picture_file = file; }};
+
+const CommandOf<std::string> command::save_script{
+    {"save-script", "File", "Save the commands so far…",
+     "Writes what was done in this window as a script, to be done again with `nextview window --script`."},
+    argument::file("file", "a text file"),
+    [](CommandTarget& t, const std::string& file) {
+      write_file(file, fmt::format("{}\n", fmt::join(t.window.script, "\n")));
+      t.worker.log().add(LogEntry::Level::success, "Script written to " + file);
+    }};
+
+const CommandOf<> command::quit{{"quit", "File", "Quit", "Closes the window.", {{key('Q'), true}}},
+                                [](CommandTarget& t) { t.window.quit = true; }};
 
 }  // namespace nextview

@@ -1,8 +1,13 @@
+#include "ui/commands/selection_commands.hpp"
+
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
-#include "ui/commands/command_list.hpp"
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/needs.hpp"
 #include "ui/workbench/inspection.hpp"
 #include "ui/workbench/view_sight.hpp"
 
@@ -22,137 +27,151 @@ std::vector<std::string> numbers(std::size_t first, std::size_t count) {
   return result;
 }
 
-void select_view(CommandTarget& t, const Arguments& a) {
-  if (a.whole(0) >= t.session.candidates.size())
+std::vector<std::string> candidates(const SessionSnapshot& s) { return numbers(0, s.candidates.size()); }
+std::vector<std::string> steps(const SessionSnapshot& s) { return numbers(1, s.records.size()); }
+
+void look_at_candidate(CommandTarget& t, std::size_t candidate) {
+  if (candidate >= t.session.candidates.size())
     throw std::invalid_argument("select-view: there are " + std::to_string(t.session.candidates.size()) +
                                 " candidates, from 0");
-  look_at_view(t.window, {Kind::candidate, a.whole(0)});
+  look_at_view(t.window, {Kind::candidate, candidate});
 }
 
-void select_taken(CommandTarget& t, const Arguments& a) {
-  if (a.whole(0) > t.session.records.size())
+void look_at_taken(CommandTarget& t, std::size_t step) {
+  if (step > t.session.records.size())
     throw std::invalid_argument("select-taken: " + std::to_string(t.session.records.size()) + " views were taken");
-  look_at_view(t.window, {Kind::taken, a.whole(0) - 1});
+  look_at_view(t.window, {Kind::taken, step - 1});
 }
 
-void inspect_voxel(CommandTarget& t, const Arguments& a) {
+void inspect_voxel_at(CommandTarget& t, double x, double y, double z) {
   const VoxelGrid& grid = t.session.grid;
-  const Eigen::Vector3i cell = grid.cell_at({a.number(0), a.number(1), a.number(2)});
+  const Eigen::Vector3i cell = grid.cell_at({x, y, z});
   if (!grid.contains(cell)) throw std::invalid_argument("inspect-voxel: that is outside of the region of interest");
   t.window.selection.voxel = grid.index(cell);
   t.window.selection.ray.reset();
   t.window.bring_to_front(PanelName::inspector);
 }
 
-void inspect_ray(CommandTarget& t, const Arguments& a) {
-  t.window.selection.ray = a.whole(0);
+void inspect_ray_of(CommandTarget& t, std::size_t ray) {
+  t.window.selection.ray = ray;
   t.window.selection.voxel.reset();
   t.window.bring_to_front(PanelName::inspector);
 }
 
+/// As the scene is looked at now, moved to where the sensor is of use.
+Pose view_of_scene(CommandTarget& t) {
+  const PlacedView placed = within_sight(t.session, t.window.scene_camera);
+  if (std::abs(placed.moved) > 0.005)
+    t.worker.log().add(LogEntry::Level::success,
+                       fmt::format("Your view is moved {:.2f} m {} along the line of sight: {}", std::abs(placed.moved),
+                                   placed.moved > 0 ? "forward" : "back", why_empty(t.session, t.window.scene_camera)));
+  return placed.T_world_camera;
+}
+
+using Metres = std::optional<double>;
+
 /// A view of one's own: from and towards the given points, or as the scene is looked at now.
-void own_view(CommandTarget& t, const Arguments& a) {
-  PlacedView placed;
-  if (a.count() == 0) {
-    placed = within_sight(t.session, t.window.scene_camera);
-    if (std::abs(placed.moved) > 0.005)
-      t.worker.log().add(
-          LogEntry::Level::success,
-          fmt::format("Your view is moved {:.2f} m {} along the line of sight: {}", std::abs(placed.moved),
-                      placed.moved > 0 ? "forward" : "back", why_empty(t.session, t.window.scene_camera)));
+void set_up_own_view(CommandTarget& t, Metres x, Metres y, Metres z, Metres to_x, Metres to_y, Metres to_z) {
+  Pose T_world_camera;
+  if (!x) {
+    T_world_camera = view_of_scene(t);
   } else {
-    if (a.count() < 6) throw std::invalid_argument("own-view takes either nothing or all six numbers");
-    const Vector3 from(a.number(0), a.number(1), a.number(2)), to(a.number(3), a.number(4), a.number(5));
+    if (!to_z) throw std::invalid_argument("own-view takes either nothing or all six numbers");
+    const Vector3 from(*x, *y, *z), to(*to_x, *to_y, *to_z);
     if ((from - to).norm() < 1e-6) throw std::invalid_argument("own-view: the camera stands where it looks at");
-    placed.T_world_camera = look_at(from, to);
+    T_world_camera = look_at(from, to);
   }
-  if (const std::string reason = why_empty(t.session, placed.T_world_camera); !reason.empty())
+  if (const std::string reason = why_empty(t.session, T_world_camera); !reason.empty())
     t.worker.log().add(LogEntry::Level::warning, "Your view would measure nothing: " + reason);
-  t.window.selection.own_view = placed.T_world_camera;
+  t.window.selection.own_view = T_world_camera;
   look_at_view(t.window, {Kind::own, 0});
   t.window.bring_to_front(PanelName::view);
 }
 
+ArgumentOf<double> metres(const char* name, const char* help) { return argument::number(name, help, -100, 100); }
+ArgumentOf<Metres> own(const char* name, const char* help) { return argument::optional(metres(name, help)); }
+
 }  // namespace
 
-std::vector<Command> selection_commands() {
-  const auto metres = [](const char* name, const char* help) {
-    return Argument{name, Argument::Kind::number, help, -100, 100};
-  };
-  const auto own = [](const char* name, const char* help) {
-    return Argument{name, Argument::Kind::number, help, -100, 100, {}, true};
-  };
-  return {
-      {"select-view",
-       "Select",
-       "Look at a candidate…",
-       "Shows a candidate's frustum, its rays and what the camera would see from there.",
-       {{"candidate", Argument::Kind::whole, "its number", 0, 1e6,
-         [](const SessionSnapshot& s) { return numbers(0, s.candidates.size()); }}},
-       {},
-       select_view,
-       needs_session},
-      {"select-taken",
-       "Select",
-       "Look at a view that was taken…",
-       "Shows what a view measured, and its gain as predicted and as realised.",
-       {{"step", Argument::Kind::whole, "the first is 1", 1, 1e6,
-         [](const SessionSnapshot& s) { return numbers(1, s.records.size()); }}},
-       {},
-       select_taken,
-       needs_view},
-      {"select-next",
-       "Select",
-       "Look at the next view",
-       "Shows the view that is taken next.",
-       {},
-       {{key('N')}},
-       [](CommandTarget& t, const Arguments&) { look_at_view(t.window, {}); },
-       needs_session},
-      {"own-view",
-       "Select",
-       "Set up a view of your own",
-       "Looks at a view from where the scene is looked at, or from a point towards another; take-own-view takes it.",
-       {own("x", "from [m]"), own("y", "from [m]"), own("z", "from [m]"), own("to_x", "towards [m]"),
-        own("to_y", "towards [m]"), own("to_z", "towards [m]")},
-       {{key('V')}},
-       own_view,
-       needs_session},
-      {"look-through",
-       "Select",
-       "Look through this view",
-       "Brings the scene's camera to where the view that is looked at has its own.",
-       {},
-       {{key('C')}},
-       [](CommandTarget& t, const Arguments&) {
-         t.window.camera_motions.push_back(
-             camera_motion::LookThrough{looked_at_pose(t.session, t.window.selection).value_or(t.session.next_view)});
-       },
-       needs_session},
-      {"inspect-voxel",
-       "Select",
-       "Inspect a voxel…",
-       "Shows a voxel's probability, history, rays and Gibbs conditional. Or click on it.",
-       {metres("x", "of a point in it [m]"), metres("y", "of a point in it [m]"), metres("z", "of a point in it [m]")},
-       {},
-       inspect_voxel,
-       needs_session},
-      {"inspect-ray",
-       "Select",
-       "Inspect a ray…",
-       "Shows the voxels along a ray of the view that is looked at, and what each contributes.",
-       {{"ray", Argument::Kind::whole, "its number, row by row", 0, 1e6}},
-       {},
-       inspect_ray,
-       needs_view},
-      {"clear-selection",
-       "Select",
-       "Select nothing",
-       "Leaves voxel, ray and view alone.",
-       {},
-       {{Key::escape}},
-       [](CommandTarget& t, const Arguments&) { t.window.selection = {}; }},
-  };
-}
+const CommandOf<std::size_t> command::select_view{
+    {"select-view",
+     "Select",
+     "Look at a candidate…",
+     "Shows a candidate's frustum, its rays and what the camera would see from there.",
+     {},
+     needs_session},
+    argument::whole("candidate", "its number", 0, 1e6, candidates),
+    look_at_candidate};
+
+const CommandOf<std::size_t> command::select_taken{
+    {"select-taken",
+     "Select",
+     "Look at a view that was taken…",
+     "Shows what a view measured, and its gain as predicted and as realised.",
+     {},
+     needs_view},
+    argument::whole("step", "the first is 1", 1, 1e6, steps),
+    look_at_taken};
+
+const CommandOf<> command::select_next{{"select-next",
+                                        "Select",
+                                        "Look at the next view",
+                                        "Shows the view that is taken next.",
+                                        {{key('N')}},
+                                        needs_session},
+                                       [](CommandTarget& t) { look_at_view(t.window, {}); }};
+
+const CommandOf<Metres, Metres, Metres, Metres, Metres, Metres> command::own_view{
+    {"own-view",
+     "Select",
+     "Set up a view of your own",
+     "Looks at a view from where the scene is looked at, or from a point towards another; take-own-view takes it.",
+     {{key('V')}},
+     needs_session},
+    own("x", "from [m]"),
+    own("y", "from [m]"),
+    own("z", "from [m]"),
+    own("to_x", "towards [m]"),
+    own("to_y", "towards [m]"),
+    own("to_z", "towards [m]"),
+    set_up_own_view};
+
+const CommandOf<> command::look_through{
+    {"look-through",
+     "Select",
+     "Look through this view",
+     "Brings the scene's camera to where the view that is looked at has its own.",
+     {{key('C')}},
+     needs_session},
+    [](CommandTarget& t) {
+      t.window.camera_motions.push_back(
+          camera_motion::LookThrough{looked_at_pose(t.session, t.window.selection).value_or(t.session.next_view)});
+    }};
+
+const CommandOf<double, double, double> command::inspect_voxel{
+    {"inspect-voxel",
+     "Select",
+     "Inspect a voxel…",
+     "Shows a voxel's probability, history, rays and Gibbs conditional. Or click on it.",
+     {},
+     needs_session},
+    metres("x", "of a point in it [m]"),
+    metres("y", "of a point in it [m]"),
+    metres("z", "of a point in it [m]"),
+    inspect_voxel_at};
+
+const CommandOf<std::size_t> command::inspect_ray{
+    {"inspect-ray",
+     "Select",
+     "Inspect a ray…",
+     "Shows the voxels along a ray of the view that is looked at, and what each contributes.",
+     {},
+     needs_view},
+    argument::whole("ray", "its number, row by row", 0, 1e6),
+    inspect_ray_of};
+
+const CommandOf<> command::clear_selection{
+    {"clear-selection", "Select", "Select nothing", "Leaves voxel, ray and view alone.", {{Key::escape}}},
+    [](CommandTarget& t) { t.window.selection = {}; }};
 
 }  // namespace nextview

@@ -1,83 +1,80 @@
-#include "ui/commands/command_list.hpp"
+#include "ui/commands/window_commands.hpp"
+
+#include "ui/commands/command_target.hpp"
 
 namespace nextview {
 namespace {
 
+// In the order of PanelName, CurveKind and CandidateColumn.
 const std::vector<std::string> panels = {"session",   "layers", "candidates", "view",
                                          "inspector", "gibbs",  "curves",     "log"};
 const std::vector<std::string> curve_kinds = {"entropy", "coverage", "divergence", "gain", "time"};
 const std::vector<std::string> columns = {"view", "gain", "cost", "utility"};
-const std::vector<std::string> orders = {"ascending", "descending"};
+
+std::vector<Shortcut> panel_keys() {
+  std::vector<Shortcut> keys;
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    keys.push_back({static_cast<Key>(static_cast<int>(Key::f2) + static_cast<int>(i)), false, {panels[i]}});
+  return keys;
+}
 
 }  // namespace
 
 std::span<const std::string> panel_names() { return panels; }
 
-std::vector<Command> window_commands() {
-  std::vector<Shortcut> keys;
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    keys.push_back({static_cast<Key>(static_cast<int>(Key::f2) + static_cast<int>(i)), false, {panels[i]}});
-  return {
-      {"panel",
-       "Window",
-       "Show a panel…",
-       "Brings a panel to the front.",
-       {choice("panel", "its name", panels)},
-       keys,
-       [](CommandTarget& t, const Arguments& a) {
-         t.window.bring_to_front(static_cast<PanelName>(index_of(panels, a.text(0))));
-       }},
-      {"curves",
-       "Window",
-       "Choose the curves…",
-       "Chooses what the two plots show.",
-       {choice("left", "of the left plot", curve_kinds), choice("right", "of the right plot", curve_kinds)},
-       {},
-       [](CommandTarget& t, const Arguments& a) {
-         for (std::size_t i = 0; i < 2; ++i)
-           t.window.curves[i] = static_cast<CurveKind>(index_of(curve_kinds, a.text(i)));
-         t.window.bring_to_front(PanelName::curves);
-       }},
-      {"forget-runs",
-       "Window",
-       "Forget earlier runs",
-       "Takes the curves of earlier runs away.",
-       {},
-       {},
-       [](CommandTarget& t, const Arguments&) { t.worker.post(request::ForgetRuns{}); },
-       [](const CommandState& t) { return t.session.earlier_runs ? "" : "there is no earlier run"; }},
-      {"sort",
-       "Window",
-       "Sort the candidates…",
-       "Sorts the table of candidates.",
-       {choice("column", "by which column", columns), choice("order", "ascending or descending", orders)},
-       {},
-       [](CommandTarget& t, const Arguments& a) {
-         t.window.sort_column = static_cast<CandidateColumn>(index_of(columns, a.text(0)));
-         t.window.sort_ascending = index_of(orders, a.text(1)) == 0;
-       }},
-      {"palette",
-       "Window",
-       "All commands…",
-       "Opens or closes the list of all commands: type a part of a name, or a line of a script.",
-       {{"text", Argument::Kind::text, "what it starts with", 0, 0, {}, true}},
-       {{key('P'), true}},
-       [](CommandTarget& t, const Arguments& a) {
-         t.window.palette_open = a.count() > 0 || !t.window.palette_open;
-         t.window.palette_text = a.count() > 0 ? a.text(0) : "";
-       },
-       {},
-       [](const WindowState& w) { return w.palette_open; }},
-      {"shortcuts",
-       "Window",
-       "Keys and mouse",
-       "Shows or hides the sheet of keys.",
-       {},
-       {{Key::f1}},
-       [](CommandTarget& t, const Arguments&) { t.window.shortcuts_open = !t.window.shortcuts_open; },
-       {},
-       [](const WindowState& w) { return w.shortcuts_open; }},
-  };
-}
+const CommandOf<PanelName> command::panel{
+    {"panel", "Window", "Show a panel…", "Brings a panel to the front.", panel_keys()},
+    argument::choice<PanelName>("panel", "its name", panels),
+    [](CommandTarget& t, PanelName chosen) { t.window.bring_to_front(chosen); }};
+
+const CommandOf<CurveKind, CurveKind> command::curves{
+    {"curves", "Window", "Choose the curves…", "Chooses what the two plots show."},
+    argument::choice<CurveKind>("left", "of the left plot", curve_kinds),
+    argument::choice<CurveKind>("right", "of the right plot", curve_kinds),
+    [](CommandTarget& t, CurveKind left, CurveKind right) {
+      t.window.curves = {left, right};
+      t.window.bring_to_front(PanelName::curves);
+    }};
+
+const CommandOf<> command::forget_runs{
+    {"forget-runs",
+     "Window",
+     "Forget earlier runs",
+     "Takes the curves of earlier runs away.",
+     {},
+     [](const CommandState& t) { return t.session.earlier_runs ? "" : "there is no earlier run"; }},
+    [](CommandTarget& t) { t.worker.post(request::ForgetRuns{}); }};
+
+const CommandOf<CandidateColumn, SortOrder> command::sort{
+    {"sort", "Window", "Sort the candidates…", "Sorts the table of candidates."},
+    argument::choice<CandidateColumn>("column", "by which column", columns),
+    argument::choice<SortOrder>("order", "ascending or descending", {"ascending", "descending"}),
+    [](CommandTarget& t, CandidateColumn column, SortOrder order) {
+      t.window.sort_column = column;
+      t.window.sort_ascending = order == SortOrder::ascending;
+    }};
+
+const CommandOf<std::optional<std::string>> command::palette{
+    {"palette",
+     "Window",
+     "All commands…",
+     "Opens or closes the list of all commands: type a part of a name, or a line of a script.",
+     {{key('P'), true}},
+     {},
+     [](const WindowState& w) { return w.palette_open; }},
+    argument::optional(argument::text("text", "what it starts with")),
+    [](CommandTarget& t, const std::optional<std::string>& text) {
+      t.window.palette_open = text || !t.window.palette_open;
+      t.window.palette_text = text.value_or("");
+    }};
+
+const CommandOf<> command::shortcuts{{"shortcuts",
+                                      "Window",
+                                      "Keys and mouse",
+                                      "Shows or hides the sheet of keys.",
+                                      {{Key::f1}},
+                                      {},
+                                      [](const WindowState& w) { return w.shortcuts_open; }},
+                                     [](CommandTarget& t) { t.window.shortcuts_open = !t.window.shortcuts_open; }};
 
 }  // namespace nextview

@@ -2,6 +2,8 @@
 
 #include <imgui_internal.h>
 
+#include "ui/commands/command_list.hpp"
+#include "ui/commands/window_commands.hpp"
 #include "ui/panels/candidates_panel.hpp"
 #include "ui/panels/control_bar.hpp"
 #include "ui/panels/curves_panel.hpp"
@@ -10,6 +12,7 @@
 #include "ui/panels/menu_bar.hpp"
 #include "ui/panels/shortcut_sheet.hpp"
 #include "ui/panels/status_line.hpp"
+#include "ui/panels/tabs.hpp"
 #include "ui/panels/view_panel.hpp"
 
 namespace nextview {
@@ -75,10 +78,10 @@ void obey_shortcuts(const PanelContext& context) {
     if (!command.available(context.state())) continue;
     for (const Shortcut& shortcut : command.shortcuts) {
       if (shortcut.control != control || !ImGui::IsKeyPressed(static_cast<int>(shortcut.key), false)) continue;
-      if (shortcut.arguments.empty()) {
+      if (shortcut.values.empty()) {
         context.invoke(command);
       } else {
-        context.calls.push_back({&command, shortcut.arguments});
+        context.post(command.read(shortcut.values));
       }
       return;  // play and pause share a key
     }
@@ -94,9 +97,9 @@ void obey_keys(const PanelContext& context) {
   if (open > 0) {
     if (pressed(Key::escape)) ImGui::ClosePopupToLevel(open - 1, true);
   } else if (context.window.palette_open) {
-    if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.call("palette");
+    if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.post(command::palette());
   } else if (context.window.shortcuts_open) {
-    if (pressed(Key::escape) || pressed(Key::f1)) context.call("shortcuts");
+    if (pressed(Key::escape) || pressed(Key::f1)) context.post(command::shortcuts());
   } else if (!io.WantTextInput) {
     obey_shortcuts(context);
   }

@@ -7,6 +7,9 @@
 #include <cmath>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/scan_commands.hpp"
+#include "ui/commands/selection_commands.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -79,11 +82,11 @@ void draw_row(const PanelContext& context, std::size_t candidate, const Largest&
                                                                                     : theme::ink));
   const std::string name = fmt::format("{}##{}", candidate, candidate);
   if (ImGui::Selectable(name.c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
-    selected ? context.call("select-next") : context.call("select-view", candidate);
+    context.post(selected ? command::select_next() : command::select_view(candidate));
   }
   if (ImGui::IsItemHovered()) {
     context.hovered = candidate;
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) context.call("panel", "view");
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) context.post(command::panel(PanelName::view));
   }
   if (next) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
@@ -145,7 +148,7 @@ void draw_header(const PanelContext& context, CandidateColumn column, const std:
   const char* id = columns[static_cast<std::size_t>(column)];
   if (ImGui::InvisibleButton(id, {width, ImGui::GetTextLineHeight()})) {
     const bool ascending = sorted ? !window.sort_ascending : low_first;
-    context.call("sort", id, ascending ? "ascending" : "descending");
+    context.post(command::sort(column, ascending ? SortOrder::ascending : SortOrder::descending));
   }
   tooltip("Click to sort by this column.");
   const Colour colour = sorted || ImGui::IsItemHovered() ? theme::ink : theme::soft_ink;
@@ -185,9 +188,9 @@ void draw_take_buttons(const PanelContext& context) {
   const auto selected = context.window.selection.candidate();
   const float width = (ImGui::GetContentRegionAvail().x - style.px(6)) / 2;
   const std::string take = selected ? fmt::format("Take view {} next", *selected) : "Take the selected";
-  command_button(context, "take-view", Icon::none, take.c_str(), false, width);
+  command_button(context, command::take_view, Icon::none, take.c_str(), false, width);
   ImGui::SameLine(0, style.px(6));
-  command_button(context, "take-proposal", Icon::none, "Take the proposal", false, width);
+  command_button(context, command::take_proposal, Icon::none, "Take the proposal", false, width);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/commands/scan_commands.hpp"
+
 namespace nextview {
 namespace {
 
@@ -14,21 +16,21 @@ constexpr float buttons_end = 316, speed_end = 396, least_bar = 40;
 /// Where there is no room for progress, what runs is cancelled here.
 void draw_buttons(const PanelContext& context, bool with_cancel) {
   const float gap = context.style.px(6);
-  command_button(context, "step", Icon::step, "Step", true);
+  command_button(context, command::step, Icon::step, "Step", true);
   ImGui::SameLine(0, gap);
   const float width = context.style.px(84);  // of either word
   if (context.progress.playing) {
-    command_button(context, "pause", Icon::pause, "Pause", false, width);
+    command_button(context, command::pause, Icon::pause, "Pause", false, width);
   } else {
-    command_button(context, "play", Icon::play, "Play", false, width);
+    command_button(context, command::play, Icon::play, "Play", false, width);
   }
   ImGui::SameLine(0, gap);
-  if (with_cancel) return command_button(context, "cancel", Icon::cancel, "Cancel");
-  command_button(context, "undo", Icon::undo, "");
+  if (with_cancel) return command_button(context, command::cancel, Icon::cancel, "Cancel");
+  command_button(context, command::undo, Icon::undo, "");
   ImGui::SameLine(0, gap);
-  command_button(context, "redo", Icon::redo, "");
+  command_button(context, command::redo, Icon::redo, "");
   ImGui::SameLine(0, gap);
-  command_button(context, "reset", Icon::reset, "");
+  command_button(context, command::reset, Icon::reset, "");
 }
 
 /// How long Play waits between two views.
@@ -39,9 +41,9 @@ void draw_speed(const PanelContext& context, float x, float y) {
   ImGui::SetNextItemWidth(style.px(72));
   ImGui::PushFont(style.small);
   if (ImGui::SliderFloat("##speed", &seconds, 0.0f, 5.0f, seconds > 0 ? "+%.1f s" : "no pause"))
-    context.call("speed", std::round(10.0 * double(seconds)) / 10.0);
+    context.post(command::speed(std::round(10.0 * double(seconds)) / 10.0));
   ImGui::PopFont();
-  tooltip(find_command("speed").help);
+  tooltip(command::speed.help);
 }
 
 std::string readiness(const SessionSnapshot& s) {
@@ -82,7 +84,7 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   ImGui::SetCursorPos({left, y + style.px(17)});
   ImGui::ProgressBar(float(progress.fraction), {bar, style.px(7)}, "");
   ImGui::SetCursorPos({left + bar + style.px(12), y - style.px(2)});
-  command_button(context, "cancel", Icon::cancel, "Cancel");
+  command_button(context, command::cancel, Icon::cancel, "Cancel");
 }
 
 /// One number with its name beneath, from the right, if there is room for it right of `least`; returns where it starts.

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 
+#include "ui/commands/window_commands.hpp"
 #include "ui/panels/plot.hpp"
 
 namespace nextview {
@@ -107,8 +108,7 @@ void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle&
       if (!ImGui::Selectable(kind_names[i], i == now)) continue;
       auto chosen = context.window.curves;
       chosen[plot] = static_cast<CurveKind>(i);
-      context.call("curves", kind_names[static_cast<std::size_t>(chosen[0])],
-                   kind_names[static_cast<std::size_t>(chosen[1])]);
+      context.post(command::curves(chosen[0], chosen[1]));
     }
     ImGui::EndCombo();
   }

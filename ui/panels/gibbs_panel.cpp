@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/gibbs_commands.hpp"
+#include "ui/commands/scene_commands.hpp"
 #include "ui/panels/plot.hpp"
 
 namespace nextview {
@@ -90,9 +92,9 @@ void draw_before_and_after(const PanelContext& context) {
   const std::size_t now = difference ? 2 : layers.map == MapChoice::gibbs ? 1 : 0;
   const auto pressed = segmented(context, "before and after", names, now);
   if (!pressed) return;
-  context.call("voxel-map", *pressed == 0 ? "conventional" : "gibbs");
-  if (*pressed == 2) context.call("voxel-colour", "difference");
-  if (*pressed != 2 && difference) context.call("voxel-colour", "probability");
+  context.post(command::voxel_map(*pressed == 0 ? MapChoice::conventional : MapChoice::gibbs));
+  if (*pressed == 2) context.post(command::voxel_colour(VoxelColouring::by_difference));
+  if (*pressed != 2 && difference) context.post(command::voxel_colour(VoxelColouring::by_probability));
 }
 
 }  // namespace
@@ -111,18 +113,18 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
     value = std::clamp(value, int(argument.low), int(argument.high));
     tooltip(argument.help);
   };
-  const Command& refine = find_command("refine");
-  number("##chains", "Chains", chains_, refine.arguments[0]);
-  number("##sweeps", "Sweeps", sweeps_, refine.arguments[1]);
+  const auto& refine = command::refine;
+  number("##chains", "Chains", chains_, refine.arguments()[0]);
+  number("##sweeps", "Sweeps", sweeps_, refine.arguments()[1]);
   const float gap = style.px(6), width = (ImGui::GetContentRegionAvail().x - gap) / 2;
   ImGui::BeginDisabled(!refine.available(context.state()));
-  if (icon_button(style, Icon::play, "Refine the map", true, width)) context.call("refine", chains_, sweeps_);
+  if (icon_button(style, Icon::play, "Refine the map", true, width)) context.post(refine(chains_, sweeps_));
   ImGui::EndDisabled();
   tooltip(help_of(context, refine));
   ImGui::SameLine(0, gap);
   const bool held = context.progress.paused;
-  command_button(context, held ? "continue-refinement" : "hold-refinement", held ? Icon::play : Icon::pause,
-                 held ? "Go on" : "Hold", false, width);
+  command_button(context, held ? command::continue_refinement : command::hold_refinement,
+                 held ? Icon::play : Icon::pause, held ? "Go on" : "Hold", false, width);
 }
 
 void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {

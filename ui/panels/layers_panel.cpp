@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/scene_commands.hpp"
 
 namespace nextview {
 namespace {
 
 /// A checkbox for a command that switches something, with its key at the right border.
-void toggle(const PanelContext& context, const char* name, const char* label) {
-  const Command& command = find_command(name);
+void toggle(const PanelContext& context, const Command& command, const char* label) {
   bool on = command.on(context.window);
   if (ImGui::Checkbox(label, &on)) context.invoke(command);
   tooltip(help_of(context, command));
@@ -33,34 +33,36 @@ void swatch(const PanelContext& context, const Colour& colour) {
   ImGui::NewLine();
 }
 
-/// One of the values of a command's first argument, as a drop-down list.
-template <std::size_t count>
-void choices(const PanelContext& context, const char* command, const char* label, std::size_t selected,
+/// One of an enumeration's values, which a command takes, as a drop-down list.
+template <class Enum, std::size_t count>
+void choices(const PanelContext& context, const CommandOf<Enum>& command, const char* label, Enum chosen,
              const std::array<const char*, count>& names) {
-  const auto values = find_command(command).arguments.front().choices(context.snapshot);
+  const auto selected = static_cast<std::size_t>(chosen);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine(context.style.px(112));
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::BeginCombo(fmt::format("##{}", command).c_str(), names[selected])) {
+  if (ImGui::BeginCombo(fmt::format("##{}", command.name).c_str(), names[selected])) {
     for (std::size_t i = 0; i < count; ++i)
-      if (ImGui::Selectable(names[i], i == selected)) context.call(command, values[i]);
+      if (ImGui::Selectable(names[i], i == selected)) context.post(command(static_cast<Enum>(i)));
     ImGui::EndCombo();
   }
-  tooltip(find_command(command).help);
+  tooltip(command.help);
 }
 
 /// A slider whose value a command takes, rounded to what the slider shows.
-void slider(const PanelContext& context, const char* command, const char* label, double value, double low, double high,
-            const char* format, double scale = 1.0) {
+template <class Command>
+void slider(const PanelContext& context, const Command& command, const char* label, double value, double low,
+            double high, const char* format, double scale = 1.0) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine(context.style.px(112));
   ImGui::SetNextItemWidth(-FLT_MIN);
   float shown = float(value * scale);
-  if (ImGui::SliderFloat(fmt::format("##{}", command).c_str(), &shown, float(low * scale), float(high * scale), format))
-    context.call(command, std::clamp(std::round(shown * 1000) / 1000 / scale, low, high));
-  tooltip(find_command(command).help);
+  if (ImGui::SliderFloat(fmt::format("##{}", command.name).c_str(), &shown, float(low * scale), float(high * scale),
+                         format))
+    context.post(command(std::clamp(std::round(shown * 1000) / 1000 / scale, low, high)));
+  tooltip(command.help);
 }
 
 void draw_slice(const PanelContext& context) {
@@ -70,10 +72,10 @@ void draw_slice(const PanelContext& context) {
   ImGui::TextDisabled("Slice");
   ImGui::SameLine(context.style.px(112));
   if (const auto axis = segmented(context, "slice", names, slice ? std::size_t(slice->axis) + 1 : 0))
-    context.call("slice-axis", *axis == 0 ? "none" : names[*axis]);
+    context.post(command::slice_axis(static_cast<SliceAxis>(*axis)));
   if (!slice || !context.snapshot.loaded()) return;
   const VoxelGrid& grid = context.snapshot.grid;
-  slider(context, "slice-at", "at [mm]", 0.5 * (slice->low + slice->high), grid.lower()[slice->axis],
+  slider(context, command::slice_at, "at [mm]", 0.5 * (slice->low + slice->high), grid.lower()[slice->axis],
          grid.upper()[slice->axis], "%.0f", 1000);
 }
 
@@ -81,20 +83,20 @@ void draw_octree(const PanelContext& context) {
   const LayerChoice& layers = context.window.layers;
   constexpr std::array maps = {"conventional map", "Gibbs map"};
   constexpr std::array colours = {"class", "probability", "entropy", "Gibbs − conventional", "error against truth"};
-  choices(context, "voxel-map", "Of the", static_cast<std::size_t>(layers.map), maps);
-  choices(context, "voxel-colour", "Coloured by", static_cast<std::size_t>(layers.colouring), colours);
+  choices(context, command::voxel_map, "Of the", layers.map, maps);
+  choices(context, command::voxel_colour, "Coloured by", layers.colouring, colours);
   ImGui::BeginDisabled(layers.voxels.uncertain);
-  for (const auto& [name, label, colour] : {std::tuple{"toggle-occupied", "occupied", theme::occupied},
-                                            {"toggle-unknown", "unknown", theme::unknown},
-                                            {"toggle-free", "free", theme::free}}) {
-    toggle(context, name, label);
+  for (const auto& [command, label, colour] : {std::tuple{&command::toggle_occupied, "occupied", theme::occupied},
+                                               {&command::toggle_unknown, "unknown", theme::unknown},
+                                               {&command::toggle_free, "free", theme::free}}) {
+    toggle(context, *command, label);
     swatch(context, colour);
   }
-  if (layers.voxels.unknown) slider(context, "threshold", "p from", layers.voxels.unknown_from, 0, 1, "%.2f");
+  if (layers.voxels.unknown) slider(context, command::threshold, "p from", layers.voxels.unknown_from, 0, 1, "%.2f");
   ImGui::EndDisabled();
-  toggle(context, "toggle-uncertain", "uncertain only");
+  toggle(context, command::toggle_uncertain, "uncertain only");
   if (layers.voxels.uncertain)
-    slider(context, "uncertain-from", "from", layers.voxels.entropy_from, 0, 0.693, "%.2f nats");
+    slider(context, command::uncertain_from, "from", layers.voxels.entropy_from, 0, 0.693, "%.2f nats");
   draw_slice(context);
 }
 
@@ -113,23 +115,21 @@ void draw_layers_panel(const PanelContext& context, const Rectangle& rectangle) 
     ImGui::PopFont();
     ImGui::Unindent(indent);
   };
-  toggle(context, "toggle-object", "Object");
+  toggle(context, command::toggle_object, "Object");
   nested([&] {
     if (const auto style = segmented(context, "style", styles, static_cast<std::size_t>(layers.object_style)))
-      context.call("object-style", styles[*style]);
+      context.post(command::object_style(static_cast<MeshStyle>(*style)));
   });
-  toggle(context, "toggle-missed", "Missed surface");
-  toggle(context, "toggle-cloud", "Point cloud");
-  nested([&] {
-    choices(context, "cloud-colour", "Coloured by", static_cast<std::size_t>(layers.cloud_colouring), clouds);
-  });
-  toggle(context, "toggle-octree", "Octree");
+  toggle(context, command::toggle_missed, "Missed surface");
+  toggle(context, command::toggle_cloud, "Point cloud");
+  nested([&] { choices(context, command::cloud_colour, "Coloured by", layers.cloud_colouring, clouds); });
+  toggle(context, command::toggle_octree, "Octree");
   nested([&] { draw_octree(context); });
-  toggle(context, "toggle-views", "Candidate views");
-  toggle(context, "toggle-rays", "Rays");
-  toggle(context, "toggle-region", "Region of interest");
+  toggle(context, command::toggle_views, "Candidate views");
+  toggle(context, command::toggle_rays, "Rays");
+  toggle(context, command::toggle_region, "Region of interest");
   ImGui::Separator();
-  toggle(context, "lock-ranges", "Lock colour ranges");
+  toggle(context, command::lock_ranges, "Lock colour ranges");
 }
 
 }  // namespace nextview

@@ -1,5 +1,7 @@
 #include "ui/panels/menu_bar.hpp"
 
+#include "ui/commands/command_list.hpp"
+
 namespace nextview {
 namespace {
 

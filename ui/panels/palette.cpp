@@ -7,6 +7,10 @@
 #include <cctype>
 #include <sstream>
 
+#include "ui/commands/command_list.hpp"
+#include "ui/commands/script.hpp"
+#include "ui/commands/window_commands.hpp"
+
 namespace nextview {
 namespace {
 
@@ -79,12 +83,12 @@ void Palette::put(std::string text) {
 /// Does what the text says; what is missing or wrong is said instead.
 void Palette::run(const PanelContext& context) {
   try {
-    const CommandCall call = parse_call(text_);
-    if (const auto& why_not = call.command->why_not) {
-      if (const std::string reason = why_not(context.state()); !reason.empty()) throw std::invalid_argument(reason);
-    }
-    context.calls.push_back(call);
-    if (call.command->name != "palette") context.call("palette");
+    CommandCall call = parse_call(text_);
+    const Command& command = *call.command;
+    const std::string reason = command.why_not ? command.why_not(context.state()) : "";
+    if (!reason.empty()) throw std::invalid_argument(reason);
+    context.post(std::move(call));
+    if (&command != &command::palette) context.post(command::palette());
   } catch (const std::invalid_argument& error) {
     error_ = error.what();
   }
@@ -116,9 +120,8 @@ void Palette::draw_commands(const PanelContext& context) {
     ImGui::TextDisabled("%s", keys.c_str());
     ImGui::PopFont();
     if (!pressed && !(enter && i == chosen_)) continue;
-    const bool complete = command.arguments.empty() || command.arguments.front().optional;
-    put(complete ? command.name : command.name + " ");
-    if (complete) run(context);
+    put(command.needs_no_value() ? command.name : command.name + " ");
+    if (command.needs_no_value()) run(context);
   }
   if (found.empty()) ImGui::TextDisabled("No command is called that.");
   ImGui::EndChild();
@@ -131,14 +134,14 @@ void Palette::draw_values(const PanelContext& context, const Command& command) {
   const std::size_t at = values_before_last(text_);
   const std::string begun = last_word(text_);
   ImGui::BeginChild("values", {0, std::min(style.px(240), room_)});
-  if (at < command.arguments.size()) {
-    const Argument& argument = command.arguments[at];
+  if (at < command.arguments().size()) {
+    const Argument& argument = command.arguments()[at];
     ImGui::TextUnformatted(fmt::format("{}: {}", argument.name, argument.help).c_str());
     if (argument.choices) {
       for (const std::string& value : argument.choices(context.snapshot)) {
         if (!begun.empty() && value.find(begun) == value.npos) continue;
         if (ImGui::Selectable(value.c_str()))
-          put(text_.substr(0, text_.rfind(' ') + 1) + value + (at + 1 < command.arguments.size() ? " " : ""));
+          put(text_.substr(0, text_.rfind(' ') + 1) + value + (at + 1 < command.arguments().size() ? " " : ""));
       }
     }
   }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -32,16 +33,9 @@ Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags, float
 
 Panel::~Panel() { ImGui::End(); }
 
-std::string PanelContext::text_of(double value) { return fmt::format("{}", value); }
-
 void PanelContext::invoke(const Command& command) const {
   if (!command.available(state())) return;
-  const bool complete = command.arguments.empty() || command.arguments.front().optional;
-  if (complete) {
-    calls.push_back({&command, {}});
-  } else {
-    call("palette", command.name + " ");
-  }
+  post(command.needs_no_value() ? command.read({}) : command::palette(command.name + " "));
 }
 
 std::string help_of(const PanelContext& context, const Command& command) {
@@ -49,69 +43,6 @@ std::string help_of(const PanelContext& context, const Command& command) {
   if (const std::string keys = command.keys(); !keys.empty()) text += " [" + keys + "]";
   const std::string reason = command.why_not ? command.why_not(context.state()) : "";
   return reason.empty() ? text : text + "\nNot now: " + reason + ".";
-}
-
-const char* title_of(PanelName panel) {
-  constexpr std::array titles = {"Session", "Layers", "Candidates", "View", "Inspector", "Gibbs", "Curves", "Log"};
-  return titles[static_cast<std::size_t>(panel)];
-}
-
-namespace {
-
-/// One tab; returns where the next begins.
-float draw_tab(const PanelContext& context, PanelName which, bool front, float x, float height) {
-  const Style& style = context.style;
-  ImFont* font = front ? style.semi_bold : style.regular;
-  const char* title = title_of(which);
-  const auto number = static_cast<std::size_t>(which);
-  const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, title).x + style.px(16);
-  ImGui::SetCursorPos({x, 0});
-  if (ImGui::InvisibleButton(title, {width, height})) context.call("panel", panel_names()[number]);
-  tooltip(fmt::format("{} [F{}]", title, number + 2));
-  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-  const Colour colour = front || ImGui::IsItemHovered() ? theme::ink : theme::soft_ink;
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddText(font, font->FontSize, {from.x + style.px(8), from.y + style.px(7)}, to_imgui_u32(colour), title);
-  if (front)
-    list.AddRectFilled({from.x + style.px(8), to.y - style.px(3)}, {to.x - style.px(8), to.y - style.px(1)},
-                       to_imgui_u32(theme::series[0]));
-  return x + width;
-}
-
-/// Instead of tabs, where they would not fit.
-void draw_tab_list(const PanelContext& context, std::span<const PanelName> panels, PanelName front, float width) {
-  ImGui::SetCursorPos({context.style.px(4), context.style.px(3)});
-  ImGui::SetNextItemWidth(width - context.style.px(8));
-  if (!ImGui::BeginCombo("##panels", title_of(front))) return;
-  for (const PanelName panel : panels)
-    if (ImGui::Selectable(title_of(panel), panel == front))
-      context.call("panel", panel_names()[static_cast<std::size_t>(panel)]);
-  ImGui::EndCombo();
-}
-
-}  // namespace
-
-Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& r, bool open) {
-  const Style& style = context.style;
-  const float height = std::min(style.px(float(Layout::tabs_height)), float(r.height));
-  std::vector<PanelName> panels;
-  float wide = style.px(12);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(PanelName::count); ++i) {
-    if (side_of(static_cast<PanelName>(i)) != side) continue;
-    panels.push_back(static_cast<PanelName>(i));
-    wide +=
-        style.semi_bold->CalcTextSizeA(style.semi_bold->FontSize, FLT_MAX, 0, title_of(panels.back())).x + style.px(16);
-  }
-  const std::string name = fmt::format("Tabs {}", static_cast<int>(side));
-  const Panel panel(name.c_str(), {r.x, r.y, r.width, height}, ImGuiWindowFlags_NoScrollbar);
-  const PanelName front = context.window.in_front(side);
-  if (wide > float(r.width)) {
-    draw_tab_list(context, panels, front, float(r.width));
-  } else {
-    float x = style.px(6);
-    for (const PanelName which : panels) x = draw_tab(context, which, open && which == front, x, height);
-  }
-  return {r.x, r.y + height, r.width, r.height - height};
 }
 
 void heading(const Style& style, const char* text) {
@@ -169,56 +100,6 @@ void tooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
-namespace {
-
-void draw_reset(ImDrawList& list, ImVec2 c, float r, ImU32 colour) {
-  constexpr float start = -0.9f, end = 4.1f;  // [rad] an open circle with an arrow head
-  list.PathArcTo(c, r * 0.85f, start, end, 24);
-  list.PathStroke(colour, 0, r * 0.28f);
-  const ImVec2 tip(c.x + r * 0.85f * std::cos(start), c.y + r * 0.85f * std::sin(start));
-  list.AddTriangleFilled({tip.x - 0.62f * r, tip.y - 0.18f * r}, {tip.x + 0.42f * r, tip.y - 0.52f * r},
-                         {tip.x + 0.28f * r, tip.y + 0.52f * r}, colour);
-}
-
-/// An arrow that turns back; `x` is the half width, negative for its mirror image.
-void draw_turn(ImDrawList& list, ImVec2 c, float x, float r, ImU32 colour) {
-  list.PathLineTo({c.x - 0.6f * x, c.y - 0.35f * r});
-  list.PathBezierCubicCurveTo({c.x + 1.5f * x, c.y - 0.55f * r}, {c.x + 1.3f * x, c.y + 0.95f * r},
-                              {c.x - 0.3f * x, c.y + 0.8f * r}, 12);
-  list.PathStroke(colour, 0, r * 0.28f);
-  list.AddTriangleFilled({c.x - 1.1f * x, c.y - 0.35f * r}, {c.x - 0.3f * x, c.y - 0.95f * r},
-                         {c.x - 0.3f * x, c.y + 0.25f * r}, colour);
-}
-
-}  // namespace
-
-void draw_icon(Icon icon, ImVec2 c, float size, ImU32 colour) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float r = size / 2;
-  if (icon == Icon::reset) return draw_reset(list, c, r, colour);
-  if (icon == Icon::undo || icon == Icon::redo) return draw_turn(list, c, icon == Icon::undo ? r : -r, r, colour);
-  if (icon == Icon::play || icon == Icon::step) {
-    const float shift = icon == Icon::step ? -0.25f * r : 0.1f * r;
-    list.AddTriangleFilled({c.x - 0.7f * r + shift, c.y - r}, {c.x - 0.7f * r + shift, c.y + r},
-                           {c.x + 0.9f * r + shift, c.y}, colour);
-  }
-  if (icon == Icon::step) list.AddRectFilled({c.x + 0.7f * r, c.y - r}, {c.x + r, c.y + r}, colour);
-  if (icon == Icon::pause) {
-    list.AddRectFilled({c.x - 0.8f * r, c.y - r}, {c.x - 0.2f * r, c.y + r}, colour);
-    list.AddRectFilled({c.x + 0.2f * r, c.y - r}, {c.x + 0.8f * r, c.y + r}, colour);
-  }
-  if (icon == Icon::cancel) {
-    list.AddLine({c.x - 0.7f * r, c.y - 0.7f * r}, {c.x + 0.7f * r, c.y + 0.7f * r}, colour, 0.3f * r);
-    list.AddLine({c.x - 0.7f * r, c.y + 0.7f * r}, {c.x + 0.7f * r, c.y - 0.7f * r}, colour, 0.3f * r);
-  }
-  if (icon == Icon::warning) {
-    list.AddTriangleFilled({c.x - r, c.y + 0.85f * r}, {c.x + r, c.y + 0.85f * r}, {c.x, c.y - 0.9f * r}, colour);
-    const ImU32 mark = to_imgui_u32(theme::paper);
-    list.AddLine({c.x, c.y - 0.35f * r}, {c.x, c.y + 0.3f * r}, mark, 0.24f * r);
-    list.AddCircleFilled({c.x, c.y + 0.58f * r}, 0.15f * r, mark, 8);
-  }
-}
-
 bool icon_button(const Style& style, Icon icon, const char* label, bool primary, float width) {
   const bool named = label[0] != '\0';
   const float height = ImGui::GetFrameHeight() + style.px(4), glyph = icon == Icon::none ? 0 : style.px(11);
@@ -244,9 +125,8 @@ bool icon_button(const Style& style, Icon icon, const char* label, bool primary,
   return pressed;
 }
 
-void command_button(const PanelContext& context, std::string_view name, Icon icon, const char* label, bool primary,
+void command_button(const PanelContext& context, const Command& command, Icon icon, const char* label, bool primary,
                     float width) {
-  const Command& command = find_command(name);
   ImGui::BeginDisabled(!command.available(context.state()));
   if (icon_button(context.style, icon, label, primary, width)) context.invoke(command);
   ImGui::EndDisabled();

@@ -3,14 +3,17 @@
 #include <vector>
 
 #include "ui/commands/command.hpp"
+#include "ui/panels/icons.hpp"
 #include "ui/panels/layout.hpp"
 #include "ui/panels/panel_pictures.hpp"
 #include "ui/panels/style.hpp"
 #include "ui/workbench/inspection.hpp"
+#include "ui/workbench/session_log.hpp"
 
 namespace nextview {
 
-/// What every panel sees, none of which changes while it is drawn, and where it says what it wants done.
+/// What every panel sees, none of which changes while it is drawn, and where it posts what it wants done. Neither the
+/// session nor what runs it is within reach.
 struct PanelContext {
   const SessionSnapshot& snapshot;
   const WorkerProgress& progress;
@@ -24,20 +27,10 @@ struct PanelContext {
 
   CommandState state() const { return {snapshot, progress, window}; }
 
-  /// Emits a command. @throws std::invalid_argument if there is none of this name, or its values do not fit.
-  template <class... Values>
-  void call(std::string_view name, const Values&... values) const {
-    calls.push_back(make_call(name, {text_of(values)...}));
-  }
-  /// Emits a command if it can be done now; asks for the values that are missing in the palette.
+  /// post(command::speed(0.5)): it is done after the frame.
+  void post(CommandCall call) const { calls.push_back(std::move(call)); }
+  /// Posts a command without values if it can be done now; asks for those that it needs in the palette.
   void invoke(const Command& command) const;
-
- private:
-  static std::string text_of(const std::string& value) { return value; }
-  static std::string text_of(const char* value) { return value; }
-  static std::string text_of(double value);
-  static std::string text_of(std::size_t value) { return std::to_string(value); }
-  static std::string text_of(int value) { return std::to_string(value); }
 };
 
 /// A part of the window with a fixed place, from its construction to its end.
@@ -67,19 +60,11 @@ constexpr float left_panel_width = 272, right_panel_width = 336;
 /// As much of a text as fits into a width [px], with an ellipsis for the rest.
 std::string shortened(const std::string& text, float width);
 
-/// The panels of a side, as tabs at the top of its place, or as a list where they would not fit; returns the rectangle
-/// that is left beneath them. Of a place that is not `open` they are all there is, and none is in front.
-Rectangle draw_tabs(const PanelContext& context, Side side, const Rectangle& rectangle, bool open = true);
-/// "Session", …
-const char* title_of(PanelName panel);
-
-enum class Icon { none, step, play, pause, reset, cancel, warning, undo, redo };
-
 /// A button with an icon before its label. A primary button stands out: it is what a person most likely wants.
 bool icon_button(const Style& style, Icon icon, const char* label, bool primary = false, float width = 0);
 /// A button for a command: its icon and label, disabled while the command cannot be done, with the declaration's help,
 /// keys and reason as its tooltip. `width` 0: as wide as it needs to be.
-void command_button(const PanelContext& context, std::string_view name, Icon icon, const char* label,
+void command_button(const PanelContext& context, const Command& command, Icon icon, const char* label,
                     bool primary = false, float width = 0);
 /// What a command's tooltip says: help, keys, and why it cannot be done now.
 std::string help_of(const PanelContext& context, const Command& command);
@@ -88,9 +73,6 @@ std::optional<std::size_t> segmented(const PanelContext& context, const char* id
                                      std::size_t selected, std::span<const char* const> help = {});
 /// "name    value" in a table of two columns, which must be open.
 void table_row(const std::string& name, const std::string& value, const std::string& help = "");
-/// Draws an icon into a square.
-void draw_icon(Icon icon, ImVec2 centre, float size, ImU32 colour);
-
 /// "1234567", "1234", "12.35", "0.00123": as many digits as people can use.
 std::string readable(double value);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/selection_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -24,7 +25,7 @@ void draw_row(const PanelContext& context, const ScoreExplanation::Voxel& voxel,
   if (ImGui::Selectable(fmt::format("{:.0f}##{}", 1e3 * distance, index).c_str(), false,
                         ImGuiSelectableFlags_SpanAllColumns) &&
       in_grid)
-    context.call("inspect-voxel", centre.x(), centre.y(), centre.z());
+    context.post(command::inspect_voxel(centre.x(), centre.y(), centre.z()));
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(voxel.measured ? fmt::format("{:.3f}", voxel.probability).c_str() : "unseen");
   ImGui::TableNextColumn();

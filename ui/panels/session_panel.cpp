@@ -7,6 +7,7 @@
 #include <array>
 
 #include "core/session/known_objects.hpp"
+#include "ui/commands/file_commands.hpp"
 #include "ui/panels/setting_control.hpp"
 
 namespace nextview {
@@ -40,7 +41,7 @@ void draw_way_back(const PanelContext& context, const Setting& setting, const st
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetFrameHeight();
   if (ImGui::InvisibleButton(("reset##" + setting.key).c_str(), {style.px(16), height}))
-    context.call("reset-setting", setting.key);
+    context.post(command::reset_setting(setting.key));
   draw_icon(Icon::reset, {corner.x + style.px(8), corner.y + height / 2}, style.px(10),
             to_imgui_u32(ImGui::IsItemHovered() ? theme::series[0] : theme::soft_ink));
   tooltip(fmt::format("Back to the default, {}", default_text.empty() ? "nothing" : default_text));
@@ -71,7 +72,7 @@ void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, c
   } else if (setting.key == "sensor.preset") {
     draw_sensor(context, setting);
   } else if (setting_control(setting)) {
-    context.call("set", setting.key, setting.text());
+    context.post(command::set_as_in(edited_, setting.key));
   }
   if (context.snapshot.loaded()) draw_way_back(context, setting, defaults_.at(setting.key));
 }
@@ -94,13 +95,13 @@ void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
     }
     ImGui::EndCombo();
   }
-  if ((typed || chosen) && !file.empty()) context.call("open", file);
+  if ((typed || chosen) && !file.empty()) context.post(command::open(file));
 }
 
 void SessionPanel::draw_sensor(const PanelContext& context, const Setting& setting) {
   if (ImGui::BeginCombo("##sensor.preset", edited_.sensor_preset.c_str())) {
     for (const std::string& name : sensor_presets())
-      if (ImGui::Selectable(name.c_str(), name == edited_.sensor_preset)) context.call("set", setting.key, name);
+      if (ImGui::Selectable(name.c_str(), name == edited_.sensor_preset)) context.post(command::set(setting.key, name));
     ImGui::EndCombo();
   }
   tooltip(explanation(setting));
@@ -150,7 +151,8 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
     if (ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
   ImGui::PopStyleColor(3);
   ImGui::Spacing();
-  command_button(context, "reset-settings", Icon::reset, "All settings back", false, ImGui::GetContentRegionAvail().x);
+  command_button(context, command::reset_settings, Icon::reset, "All settings back", false,
+                 ImGui::GetContentRegionAvail().x);
   ImGui::EndDisabled();
 }
 

@@ -4,6 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "ui/commands/command_list.hpp"
+#include "ui/commands/window_commands.hpp"
+
 namespace nextview {
 namespace {
 
@@ -47,8 +50,7 @@ void draw_menus(const PanelContext& context, std::initializer_list<const char*> 
 void draw_panels_and_mouse(const PanelContext& context) {
   if (!ImGui::BeginTable("panels and mouse", 2, ImGuiTableFlags_SizingFixedFit)) return;
   draw_heading(context.style, "Panels");
-  for (const Shortcut& shortcut : find_command("panel").shortcuts)
-    draw_row(shortcut.text(), shortcut.arguments.front());
+  for (const Shortcut& shortcut : command::panel.shortcuts) draw_row(shortcut.text(), shortcut.values.front());
   draw_heading(context.style, "Mouse");
   for (const auto& [gesture, help] : mouse) draw_row(gesture, help);
   ImGui::EndTable();
@@ -88,7 +90,7 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
   }
   ImGui::PopFont();
   ImGui::Spacing();
-  if (ImGui::Button("Close")) context.call("shortcuts");
+  if (ImGui::Button("Close")) context.post(command::shortcuts());
   ImGui::End();
   ImGui::PopStyleVar(3);
 }

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/scan_commands.hpp"
+#include "ui/commands/selection_commands.hpp"
 #include "ui/panels/view_pictures.hpp"
 
 namespace nextview {
@@ -35,14 +37,14 @@ void draw_choice(const PanelContext& context) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::BeginCombo("##view", title(s, view).c_str(), ImGuiComboFlags_HeightLarge)) return;
   if (s.finished.empty() && ImGui::Selectable("The next view", view.kind == LookedAt::Kind::next))
-    context.call("select-next");
+    context.post(command::select_next());
   for (std::size_t i = s.records.size(); i-- > 0;)
     if (ImGui::Selectable(fmt::format("View {} as taken", i + 1).c_str(), view.is(LookedAt::Kind::taken, i)))
-      context.call("select-taken", i + 1);
+      context.post(command::select_taken(i + 1));
   for (std::size_t i = 0; i < s.candidates.size(); ++i)
     if (s.available(i) &&
         ImGui::Selectable(fmt::format("Candidate {}", i).c_str(), view.is(LookedAt::Kind::candidate, i)))
-      context.call("select-view", i);
+      context.post(command::select_view(i));
   ImGui::EndCombo();
 }
 
@@ -125,7 +127,7 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   const std::size_t ray = grid.ray(int(*cell) % grid.columns, int(*cell) / grid.columns);
   mark_ray(place, ray, grid, theme::series[0], width);
   ImGui::SetTooltip("ray %zu: %s %s", ray, readable(e.rays[ray].contribution).c_str(), unit.c_str());
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.call("inspect-ray", ray);
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.post(command::inspect_ray(ray));
 }
 
 void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
@@ -177,14 +179,14 @@ void draw_numbers(const PanelContext& context, const ViewInspection& view) {
 
 void draw_buttons(const PanelContext& context) {
   const float gap = context.style.px(6), width = (ImGui::GetContentRegionAvail().x - gap) / 2;
-  command_button(context, "look-through", Icon::none, "Look through it", false, width);
+  command_button(context, command::look_through, Icon::none, "Look through it", false, width);
   ImGui::SameLine(0, gap);
-  command_button(context, "own-view", Icon::none, "View as I look now", false, width);
+  command_button(context, command::own_view, Icon::none, "View as I look now", false, width);
   const LookedAt::Kind kind = context.window.selection.view.kind;
   if (kind == LookedAt::Kind::candidate)
-    command_button(context, "take-view", Icon::none, "Take this view next", true, 2 * width + gap);
+    command_button(context, command::take_view, Icon::none, "Take this view next", true, 2 * width + gap);
   if (kind == LookedAt::Kind::own)
-    command_button(context, "take-own-view", Icon::none, "Take my own view next", true, 2 * width + gap);
+    command_button(context, command::take_own_view, Icon::none, "Take my own view next", true, 2 * width + gap);
 }
 
 }  // namespace

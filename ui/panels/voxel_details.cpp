@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/commands/gibbs_commands.hpp"
+#include "ui/commands/selection_commands.hpp"
+#include "ui/commands/window_commands.hpp"
 #include "ui/panels/plot.hpp"
 
 namespace nextview {
@@ -73,8 +76,8 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     if (ImGui::Selectable(fmt::format("{}##history", k + 1).c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
-      context.call("select-taken", k + 1);
-      context.call("panel", "view");
+      context.post(command::select_taken(k + 1));
+      context.post(command::panel(PanelName::view));
     }
     tooltip("Click to look at this view.");
     for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.passes),
@@ -133,7 +136,7 @@ void draw_gibbs(const PanelContext& context, const VoxelInspection& voxel) {
   heading(context.style, "Gibbs sampler");
   if (!s.gibbs) {
     small_text(context.style, "There is no Gibbs map yet.");
-    return command_button(context, "refine", Icon::none, "Refine the map");
+    return command_button(context, command::refine, Icon::none, "Refine the map");
   }
   if (s.gibbs->views < s.records.size())
     small_text(context.style, fmt::format("The Gibbs map is of the first {} views.", s.gibbs->views), theme::chosen);

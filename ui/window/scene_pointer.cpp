@@ -1,5 +1,6 @@
 #include "ui/window/scene_pointer.hpp"
 
+#include "ui/commands/selection_commands.hpp"
 #include "ui/window/camera_control.hpp"
 
 namespace nextview {
@@ -22,14 +23,14 @@ void ScenePointer::pick(SceneView& view, const PanelContext& context) const {
   const ImGuiIO& io = ImGui::GetIO();
   const Picked picked = view.pick(io.MousePos.x, io.MousePos.y);
   if (picked.candidate) {
-    context.call("select-view", *picked.candidate);
+    context.post(command::select_view(*picked.candidate));
   } else if (picked.voxel) {
     const Vector3 centre = context.snapshot.grid.centre(*picked.voxel);
-    context.call("inspect-voxel", centre.x(), centre.y(), centre.z());
+    context.post(command::inspect_voxel(centre.x(), centre.y(), centre.z()));
   } else if (picked.ray) {
-    context.call("inspect-ray", *picked.ray);
+    context.post(command::inspect_ray(*picked.ray));
   } else {
-    context.call("clear-selection");
+    context.post(command::clear_selection());
   }
 }
 

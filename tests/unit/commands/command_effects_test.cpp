@@ -3,7 +3,8 @@
 
 #include "tests/unit/workbench/gated_worker.hpp"
 #include "tests/unit/workbench/inspected_scan.hpp"
-#include "ui/commands/command.hpp"
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/script.hpp"
 
 namespace nextview {
 namespace {

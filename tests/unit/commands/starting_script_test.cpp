@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ui/commands/command.hpp"
+#include "ui/commands/script.hpp"
 
 namespace nextview {
 namespace {
@@ -14,14 +14,15 @@ Configuration followed(const Lines& script) {
   Configuration configuration;
   for (const std::string& line : script) {
     const CommandCall call = parse_call(line);
+    const auto values = call.values();
     if (call.command->name == "open") {
-      configuration.object.file = call.arguments[0];
-    } else if (call.arguments.at(0) == "sensor.preset") {
-      apply_sensor_preset(configuration, call.arguments[1]);
+      configuration.object.file = values[0];
+    } else if (values.at(0) == "sensor.preset") {
+      apply_sensor_preset(configuration, values[1]);
     } else {
       auto all = settings(configuration);
       for (Setting& setting : all)
-        if (setting.key == call.arguments[0]) setting.set(call.arguments[1]);
+        if (setting.key == values[0]) setting.set(values[1]);
     }
     EXPECT_NO_THROW(configuration.validate()) << line;
   }

@@ -2,7 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/workbench/session_runner_test.hpp"
-#include "ui/commands/command.hpp"
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/script.hpp"
 
 namespace nextview {
 namespace {

@@ -129,7 +129,7 @@ TEST_F(Layers, TheSliceIsInMillimetresAndMovesInMetres) {
   const auto calls = desk_.frames();
   ASSERT_FALSE(calls.empty());
   EXPECT_EQ(calls.back().command->name, "slice-at");
-  const double at = std::stod(calls.back().arguments.at(0));
+  const double at = std::stod(calls.back().values().at(0));
   EXPECT_TRUE(at > 0.151 && at < scan_->grid.upper().y()) << at << " m";
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/unit/workbench/small_scan.hpp"
+#include "ui/commands/command_target.hpp"
 #include "ui/panels/all_panels.hpp"
 #include "ui/window/imgui_host.hpp"
 #include "ui/workbench/session_runner.hpp"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/panels/desk.hpp"
+#include "ui/commands/command_list.hpp"
 
 namespace nextview {
 namespace {

@@ -62,8 +62,8 @@ TEST_F(InspectorPanel, AClickOnARaysVoxelInspectsItsCentre) {
   const auto calls = click_on(desk_, "540", "Inspector");
   ASSERT_EQ(calls.size(), 1u);
   EXPECT_EQ(calls[0].command->name, "inspect-voxel");
-  const Vector3 centre(std::stod(calls[0].arguments[0]), std::stod(calls[0].arguments[1]),
-                       std::stod(calls[0].arguments[2]));
+  const auto values = calls[0].values();
+  const Vector3 centre(std::stod(values[0]), std::stod(values[1]), std::stod(values[2]));
   EXPECT_LT((centre - Vector3(0.1, 0.14, 0.14)).norm(), 1e-9) << text_of(calls);
 }
 

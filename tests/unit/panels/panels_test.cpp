@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/panels/desk.hpp"
+#include "ui/commands/file_commands.hpp"
+#include "ui/workbench/inspector.hpp"
 
 namespace nextview {
 namespace {
@@ -169,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Panels,
 
 /// To clear a text in the session panel once threw out of the frame.
 TEST(SessionPanel, ATextCanBeCleared) {
-  EXPECT_EQ(make_call("set", {"planner.combined_weights", ""}).text(), "set planner.combined_weights \"\"");
+  EXPECT_EQ(command::set("planner.combined_weights", "").text(), "set planner.combined_weights \"\"");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "tests/unit/panels/desk.hpp"
+#include "ui/commands/command_list.hpp"
+#include "ui/commands/script.hpp"
 
 namespace nextview {
 namespace {
@@ -11,8 +13,9 @@ namespace {
 /// The command that calls stand for: itself, or the one that the palette asks values for.
 void note(const std::vector<CommandCall>& calls, std::set<std::string>& reached) {
   for (const CommandCall& call : calls) {
-    const bool asks = call.command->name == "palette" && !call.arguments.empty();
-    reached.insert(asks ? call.arguments.front().substr(0, call.arguments.front().find(' ')) : call.command->name);
+    const auto values = call.values();
+    const bool asks = call.command->name == "palette" && !values.empty();
+    reached.insert(asks ? values.front().substr(0, values.front().find(' ')) : call.command->name);
   }
 }
 
@@ -89,10 +92,10 @@ TEST(Reach, EveryCommandThroughThePalette) {
     desk.type(Key::enter);
     std::vector<CommandCall> calls = desk.frames();
     std::string values;
-    const bool asks = !command.arguments.empty() && !command.arguments.front().optional;
+    const bool asks = !command.needs_no_value();
     if (asks) {
       EXPECT_TRUE(calls.empty()) << command.name << " was done without its values";
-      for (const Argument& argument : command.arguments)
+      for (const Argument& argument : command.arguments())
         if (!argument.optional) values += (values.empty() ? "" : " ") + valid_value(argument, *desk.snapshot);
       desk.write(values);
       desk.type(Key::enter);
@@ -147,7 +150,7 @@ TEST(Reach, EveryCommandByAScript) {
   open_all_ways(desk);
   for (const Command& command : commands()) {
     std::string line = command.name;
-    for (const Argument& argument : command.arguments) line += " " + valid_value(argument, *desk.snapshot);
+    for (const Argument& argument : command.arguments()) line += " " + valid_value(argument, *desk.snapshot);
     const auto calls = parse_script(line + "\n");
     ASSERT_EQ(calls.size(), 1u) << line;
     EXPECT_EQ(calls.front().text(), line);

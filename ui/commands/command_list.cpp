@@ -1,0 +1,66 @@
+#include "ui/commands/command_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "ui/commands/file_commands.hpp"
+#include "ui/commands/gibbs_commands.hpp"
+#include "ui/commands/scan_commands.hpp"
+#include "ui/commands/scene_commands.hpp"
+#include "ui/commands/selection_commands.hpp"
+#include "ui/commands/window_commands.hpp"
+
+namespace nextview {
+
+std::span<const std::reference_wrapper<const Command>> commands() {
+  using namespace command;
+  static const std::vector<std::reference_wrapper<const Command>> all = {
+      // File
+      open, set, reset_setting, reset_settings, export_scan, save_picture, save_script, quit,
+      // Scan
+      step, play, pause, speed, take_view, take_proposal, take_own_view, cancel, undo, redo, reset,
+      // Gibbs
+      refine, hold_refinement, continue_refinement,
+      // Select
+      select_view, select_taken, select_next, own_view, look_through, inspect_voxel, inspect_ray, clear_selection,
+      // Scene
+      frame, look_from, zoom, toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays, toggle_region,
+      toggle_missed, object_style, cloud_colour, voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free,
+      toggle_uncertain, threshold, uncertain_from, slice_axis, slice_at, lock_ranges,
+      // Window
+      panel, curves, forget_runs, sort, palette, shortcuts};
+  return all;
+}
+
+std::vector<std::string> menus() {
+  std::vector<std::string> names;
+  for (const Command& command : commands())
+    if (std::find(names.begin(), names.end(), command.menu) == names.end()) names.push_back(command.menu);
+  return names;
+}
+
+const Command& find_command(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  throw std::invalid_argument(
+      fmt::format("there is no command '{}'; did you mean '{}'?", name, nearest(std::string(name), names)));
+}
+
+std::string command_table() {
+  std::string table = "| command | key | does |\n|---|---|---|\n";
+  for (const Command& command : commands()) {
+    std::string keys;
+    for (const Shortcut& s : command.shortcuts)
+      keys += fmt::format("{}{}{}", keys.empty() ? "" : ", ", s.text(),
+                          s.values.empty() ? "" : fmt::format(" ({})", fmt::join(s.values, " ")));
+    table += fmt::format("| `{}` | {} | {} |\n", command.usage(), keys, command.help);
+  }
+  return table;
+}
+
+}  // namespace nextview

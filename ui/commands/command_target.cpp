@@ -1,0 +1,16 @@
+#include "ui/commands/command_target.hpp"
+
+#include <stdexcept>
+
+namespace nextview {
+
+void execute(const CommandCall& call, CommandTarget& target) {
+  const Command& command = *call.command;
+  if (command.why_not) {
+    const std::string reason = command.why_not(target.state());
+    if (!reason.empty()) throw std::invalid_argument(command.name + ": " + reason);
+  }
+  call.run(target);
+}
+
+}  // namespace nextview

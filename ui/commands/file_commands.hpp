@@ -1,0 +1,16 @@
+#pragma once
+#include "core/session/configuration.hpp"
+#include "ui/commands/command.hpp"
+
+namespace nextview::command {
+
+extern const CommandOf<std::string> open;              ///< a file, or a known object
+extern const CommandOf<std::string, std::string> set;  ///< a setting's key, and its value as a file has it
+extern const CommandOf<std::string> reset_setting;     ///< its key
+extern const CommandOf<> reset_settings, quit;
+extern const CommandOf<std::string> export_scan, save_picture, save_script;  ///< where to
+
+/// `set`: gives a setting the value that it has in `wanted`.
+CommandCall set_as_in(const Configuration& wanted, const std::string& key);
+
+}  // namespace nextview::command

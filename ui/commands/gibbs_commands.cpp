@@ -1,0 +1,49 @@
+#include "ui/commands/gibbs_commands.hpp"
+
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/needs.hpp"
+
+namespace nextview {
+namespace {
+
+std::string refine_why_not(const CommandState& t) {
+  const std::string reason = needs_view(t);
+  return reason.empty() ? needs_rest(t) : reason;
+}
+
+}  // namespace
+
+const CommandOf<std::optional<int>, std::optional<int>> command::refine{
+    {"refine",
+     "Gibbs",
+     "Refine the map",
+     "Samples the Gibbs map of all views so far until it is stationary.",
+     {{key('G')}},
+     refine_why_not},
+    argument::optional(argument::whole<int>("chains", "independent chains", 1, 16)),
+    argument::optional(argument::whole<int>("sweeps", "of each chain, at most", 4, 100'000)),
+    [](CommandTarget& t, std::optional<int> chains, std::optional<int> sweeps) {
+      const auto& sampler = t.session.configuration.gibbs.sampler;
+      t.worker.post(request::Refine{chains.value_or(sampler.chains), sweeps.value_or(sampler.sweeps)});
+      t.window.bring_to_front(PanelName::gibbs);
+    }};
+
+const CommandOf<> command::hold_refinement{
+    {"hold-refinement",
+     "Gibbs",
+     "Hold the sampler",
+     "Holds the sampler between two sweeps.",
+     {{key('H')}},
+     [](const CommandState& t) { return t.progress.refining && !t.progress.paused ? "" : "the sampler does not run"; }},
+    [](CommandTarget& t) { t.worker.hold_refinement(true); }};
+
+const CommandOf<> command::continue_refinement{
+    {"continue-refinement",
+     "Gibbs",
+     "Let the sampler go on",
+     "Lets the sampler go on after hold-refinement.",
+     {{key('H')}},
+     [](const CommandState& t) { return t.progress.paused ? "" : "the sampler is not held"; }},
+    [](CommandTarget& t) { t.worker.hold_refinement(false); }};
+
+}  // namespace nextview

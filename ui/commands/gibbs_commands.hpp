@@ -1,0 +1,9 @@
+#pragma once
+#include "ui/commands/command.hpp"
+
+namespace nextview::command {
+
+extern const CommandOf<std::optional<int>, std::optional<int>> refine;  ///< chains, sweeps; or as the settings say
+extern const CommandOf<> hold_refinement, continue_refinement;
+
+}  // namespace nextview::command

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "ui/commands/command.hpp"
+
+namespace nextview {
+
+// Why a command cannot be done, in words that several share; empty if it can.
+
+std::string needs_session(const CommandState& state);
+std::string needs_view(const CommandState& state);  ///< that has been taken
+/// Nothing may be running that would change the session beneath it.
+std::string needs_rest(const CommandState& state);
+
+}  // namespace nextview

@@ -1,0 +1,177 @@
+#include "ui/window/interface_parts.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/file_commands.hpp"
+#include "ui/window/panels_alone.hpp"
+#include "ui/window/selection_overlay.hpp"
+
+namespace nextview {
+namespace {
+
+/// The camera is at rest when it did not move for so long [s].
+constexpr double rest = 0.15;
+
+}  // namespace
+
+/// A script waits until nothing runs and the news of that are here.
+bool Interface::Parts::script_may_go_on() const {
+  const bool at_rest = (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy() &&
+                       !state.picture_file && !state.quit;
+  return script.may_go_on({*news.snapshot, news.progress, state}, at_rest);
+}
+
+void Interface::Parts::take_news() {
+  News now = latest();
+  if (now.snapshot != news.snapshot || now.inspection != news.inspection || now.log != news.log ||
+      now.progress.busy != news.progress.busy)
+    settling = frames_to_settle;
+  news = std::move(now);
+}
+
+void Interface::Parts::take_input() {
+  const std::vector<InputEvent> events = queue.take_frame();
+  if (!events.empty()) settling = frames_to_settle;
+  host.take(events);
+  for (const InputEvent& event : events) {
+    if (std::holds_alternative<input::Expose>(event)) composer.forget();
+    if (const auto* drop = std::get_if<input::Drop>(&event)) do_call(command::open(drop->file.string()));
+  }
+}
+
+bool Interface::Parts::layout_is_old() const {
+  return layout.width != surface.width() || layout.height != surface.height() || layout_open != state.open;
+}
+
+void Interface::Parts::follow_size() {
+  if (!layout_is_old()) return;
+  const Rectangle scene = layout.scene;
+  const bool resized = layout.width != surface.width() || layout.height != surface.height();
+  layout_open = state.open;
+  layout = Layout(surface.width(), surface.height(), host.style().scale, state.open);
+  settling = frames_to_settle;
+  if (!resized && layout.scene == scene) return;
+  view.place(layout.scene);
+  if (!camera_moved) view.move(camera_motion::Frame{});
+  scene_is_old = true;
+}
+
+/// Another session has other views, voxels and rays; after going back some of them are gone.
+void Interface::Parts::follow_session() {
+  const SessionSnapshot& s = *news.snapshot;
+  if (session != s.session) {
+    session = s.session;
+    state.selection = {};
+    camera_moved = false;
+  }
+  if (state.selection.view.kind == LookedAt::Kind::taken && state.selection.view.index >= s.records.size())
+    state.selection.view = {};
+}
+
+void Interface::Parts::draw_interface(double seconds) {
+  ImGui_ImplOpenGL3_NewFrame();
+  host.begin_frame(int(layout.width), int(layout.height), seconds);
+  std::vector<CommandCall> calls;
+  std::optional<std::size_t> hovered;
+  const PanelContext context{*news.snapshot, news.progress, state, *news.inspection, *news.log,
+                             host.style(),   pictures,      calls, hovered};
+  state.scene_camera = view.camera_pose();
+  obey_keys(context);
+  follow_pointer(context, seconds);
+  panels.draw(context, layout, worker.log().count(), seconds);
+  draw_selection_overlay(view, context);
+  ImGui::Render();
+  follow_tooltip();
+  if (calls.empty() && script_may_go_on()) calls = script.go_on(*news.snapshot);
+  do_calls(std::move(calls));
+}
+
+/// ImGui shows a window that is new a frame after it was made.
+void Interface::Parts::follow_tooltip() {
+  const bool due = nextview::tooltip_is_due(host.context());
+  if (due && !tooltip_is_due) settling = frames_to_settle;
+  tooltip_is_due = due;
+}
+
+void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
+  if (!calls.empty()) settling = frames_to_settle;
+  for (const CommandCall& call : calls) do_call(call);
+}
+
+/// What cannot be done now is told in the log.
+void Interface::Parts::do_call(const CommandCall& call) {
+  CommandTarget target{worker, state, *news.snapshot, news.progress};
+  try {
+    execute(call, target);
+  } catch (const std::exception& error) {
+    script.refused(call, error.what());
+    return worker.log().add(LogEntry::Level::warning, error.what());
+  }
+  recorder.add(call);
+}
+
+void Interface::Parts::follow_pointer(const PanelContext& context, double seconds) {
+  if (pointer.follow(view, context)) {
+    camera_moved = scene_is_old = true;
+    motion_left = rest;
+    view.set_in_motion(true);
+  } else if (motion_left > 0 && (motion_left -= seconds) <= 0) {
+    bring_to_rest();
+  }
+}
+
+void Interface::Parts::bring_to_rest() {
+  motion_left = 0;
+  view.set_in_motion(false);
+  scene_is_old = true;
+}
+
+void Interface::Parts::move_camera() {
+  for (const CameraMotion& motion : state.camera_motions) {
+    view.move(motion);
+    camera_moved = !std::holds_alternative<camera_motion::Frame>(motion);
+    bring_to_rest();
+  }
+  state.camera_motions.clear();
+}
+
+void Interface::Parts::ask_inspector() {
+  if (!news.snapshot->loaded() || (asked_of == news.snapshot && asked == state.selection)) return;
+  asked_of = news.snapshot;
+  asked = state.selection;
+  inspector.ask(asked_of, asked);
+}
+
+/// Returns whether it was drawn anew.
+bool Interface::Parts::draw_scene() {
+  scene_is_old |= view.show(news.snapshot, state, news.inspection);
+  if (!scene_is_old) return false;
+  surface.render();
+  ++scene_drawings;
+  scene_is_old = false;
+  return true;
+}
+
+/// Without what is in front of the panels; the back buffer then has the whole frame again.
+void Interface::Parts::write_picture() {
+  const std::string file = *std::exchange(state.picture_file, std::nullopt);
+  PanelsAlone alone(*ImGui::GetDrawData());
+  composer.compose(alone.data(), std::nullopt, false);
+  composer.fill_back_buffer();
+  const Image picture = surface.read_back();
+  composer.compose(*ImGui::GetDrawData(), std::nullopt, false);
+  composer.fill_back_buffer();
+  try {
+    write_png(picture, file);
+    worker.log().add(LogEntry::Level::success, "Picture written to " + file);
+  } catch (const std::exception& error) {
+    const std::string reason = fmt::format("save-picture: {}", error.what());
+    script.refused(command::save_picture(file), reason);
+    worker.log().add(LogEntry::Level::warning, reason);
+  }
+}
+
+}  // namespace nextview

@@ -1,0 +1,76 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "ui/commands/script_recorder.hpp"
+#include "ui/panels/all_panels.hpp"
+#include "ui/window/frame_composer.hpp"
+#include "ui/window/imgui_host.hpp"
+#include "ui/window/interface.hpp"
+#include "ui/window/scene_pointer.hpp"
+
+namespace nextview {
+
+/// ImGui's windows settle within a few frames.
+constexpr int frames_to_settle = 3;
+
+/// What is drawn in one frame; the next one may have other news.
+struct News {
+  std::shared_ptr<const SessionSnapshot> snapshot;
+  WorkerProgress progress;
+  std::shared_ptr<const Inspection> inspection;
+  std::shared_ptr<const SessionLog::Entries> log;
+
+  bool operator==(const News&) const = default;
+};
+
+struct Interface::Parts {
+  Parts(RenderSurface& s, SessionWorker& w, InspectionWorker& i, double scale)
+      : surface(s), worker(w), inspector(i), host(scale), view(s, scale), pictures(&s), composer(s), layout(1, 1, 1) {}
+
+  RenderSurface& surface;
+  SessionWorker& worker;
+  InspectionWorker& inspector;
+  ImguiHost host;
+  InputQueue queue;
+  SceneView view;
+  ScenePointer pointer;
+  PanelPictures pictures;
+  FrameComposer composer;
+  AllPanels panels;
+  Layout layout;
+  Side layout_open = Side::right;  ///< that the layout was made for
+  WindowState state;
+  News news;
+  std::uint64_t session = 0;                        ///< whose numbers the selection has
+  std::shared_ptr<const SessionSnapshot> asked_of;  ///< the last question
+  Selection asked;
+  ScriptPlayer script;
+  ScriptRecorder recorder{state.script};
+  bool tooltip_is_due = false;  ///< in the last frame
+  bool camera_moved = false;    ///< by a person, since it was framed
+  double motion_left = 0;       ///< until the camera is at rest [s]; 0: it is
+  bool scene_is_old = true;
+  std::size_t scene_drawings = 0;
+  int settling = frames_to_settle;
+
+  News latest() const { return {worker.snapshot(), worker.progress(), inspector.answer(), worker.log().entries()}; }
+  bool script_may_go_on() const;
+  void take_news();
+  void take_input();
+  bool layout_is_old() const;
+  void follow_size();
+  void follow_session();
+  void draw_interface(double seconds);
+  void follow_tooltip();
+  void do_calls(std::vector<CommandCall> calls);
+  void do_call(const CommandCall& call);
+  void follow_pointer(const PanelContext& context, double seconds);
+  void move_camera();
+  void bring_to_rest();
+  void ask_inspector();
+  bool draw_scene();
+  void write_picture();
+};
+
+}  // namespace nextview
