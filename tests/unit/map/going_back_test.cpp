@@ -24,7 +24,7 @@ std::vector<Scan> some_scans() {
   return scans;
 }
 
-OccupancyMap empty_map() { return {region_of_interest(Vector3::Zero(), 0.44, resolution), {}}; }
+OccupancyMap empty_map() { return OccupancyMap(region_of_interest(Vector3::Zero(), 0.44, resolution)); }
 
 bool same(const OccupancyMap& a, const OccupancyMap& b) {
   return std::ranges::equal(a.voxels(), b.voxels(), [](const Voxel& x, const Voxel& y) {
