@@ -14,7 +14,7 @@ Pose pose_at(const Vector3& position, double turn) {
   return make_pose(position, Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vector3::UnitY())));
 }
 
-MotionCost cost(FreeFlyingCamera robot, const Pose& from, const Pose& to) {
+MotionCost cost_of(FreeFlyingCamera robot, const Pose& from, const Pose& to) {
   const auto reach = robot.reach(from, std::array{View{to}});
   EXPECT_EQ(reach.size(), 1u);
   EXPECT_EQ(reach[0].unreachable, "");
@@ -30,7 +30,7 @@ Failure failure(const Result<Pose>& result) {
 
 TEST(FreeFlyingCamera, CostIsTheStraightLineAndTheTurn) {
   const FreeFlyingCamera robot(Pose::Identity(), 0.5, 2.0);
-  const MotionCost cost = cost(robot, pose_at({1, 2, 3}, 0.2), pose_at({1, 5, 7}, 1.0));
+  const MotionCost cost = cost_of(robot, pose_at({1, 2, 3}, 0.2), pose_at({1, 5, 7}, 1.0));
   EXPECT_NEAR(cost.distance, 5.0, 1e-12);
   EXPECT_NEAR(cost.rotation, 0.8, 1e-9);
   EXPECT_NEAR(cost.seconds, 10.0, 1e-12);  // 5 m at 0.5 m/s; the turn takes 0.4 s
@@ -38,14 +38,14 @@ TEST(FreeFlyingCamera, CostIsTheStraightLineAndTheTurn) {
 
 TEST(FreeFlyingCamera, TheSlowerOfMoveAndTurnCounts) {
   const FreeFlyingCamera robot(Pose::Identity(), 1.0, 0.1);
-  const MotionCost cost = cost(robot, pose_at({0, 0, 0}, 0.0), pose_at({0, 0, 1}, std::numbers::pi / 2));
+  const MotionCost cost = cost_of(robot, pose_at({0, 0, 0}, 0.0), pose_at({0, 0, 1}, std::numbers::pi / 2));
   EXPECT_NEAR(cost.seconds, std::numbers::pi / 2 / 0.1, 1e-6);
 }
 
 TEST(FreeFlyingCamera, StayingCostsNothing) {
   const FreeFlyingCamera robot(Pose::Identity());
   const Pose pose = pose_at({1, 2, 3}, 0.7);
-  const MotionCost cost = cost(robot, pose, pose);
+  const MotionCost cost = cost_of(robot, pose, pose);
   EXPECT_EQ(cost.distance, 0.0);
   EXPECT_NEAR(cost.rotation, 0.0, 1e-7);
   EXPECT_NEAR(cost.seconds, 0.0, 1e-6);
