@@ -107,6 +107,72 @@ TEST(SessionEdge, TheObjectIsScaledOrKept) {
   EXPECT_NEAR(Session(kept).mesh()->bounding_box().sizes().maxCoeff(), 0.5, 1e-6);
 }
 
+/// Cannot go below the table.
+class AboveTheTable : public FreeFlyingCamera {
+ public:
+  AboveTheTable() : FreeFlyingCamera(look_at({0.7, 0.3, 0.2}, Vector3::Zero())) {}
+  std::vector<Reach> reach(const Pose& from, std::span<const View> views) override {
+    auto result = FreeFlyingCamera::reach(from, views);
+    for (std::size_t v = 0; v < views.size(); ++v)
+      if (is_below(views[v])) result[v].unreachable = reason;
+    return result;
+  }
+  Result<Pose> move_to(const View& view, std::stop_token stop) override {
+    if (is_below(view) || stuck) return Failure{Failure::unreachable, reason};
+    return FreeFlyingCamera::move_to(view, stop);
+  }
+  static bool is_below(const View& view) { return view.T_world_camera.translation().z() < 0.0; }
+  static constexpr const char* reason = "it is below the table";
+  bool stuck = false;
+};
+
+TEST(SessionEdge, ARobotThatKnowsItsLimitsIsHeard) {
+  Configuration c = small_scan();
+  c.termination.views = 20;
+  Session session(c, {.robot = std::make_unique<AboveTheTable>()});
+  EXPECT_GT(session.next_view().translation().z(), 0.0) << "it begins where the robot is";
+  session.step();
+  std::size_t below = 0;
+  for (std::size_t v = 0; v < session.candidates().size(); ++v) {
+    const bool is_below = AboveTheTable::is_below({session.candidates()[v]});
+    EXPECT_EQ(session.records()[0].candidates[v].available, !is_below) << v;
+    if (!is_below) continue;
+    ++below;
+    EXPECT_THROW(session.override_next_view(v), std::invalid_argument);
+    try {
+      session.override_next_view(session.candidates()[v]);
+      ADD_FAILURE() << v;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(AboveTheTable::reason), std::string::npos) << error.what();
+    }
+  }
+  ASSERT_GT(below, 0u);
+  finish(session);
+  EXPECT_EQ(session.records().size(), 1 + session.candidates().size() - below);
+  for (const StepRecord& r : session.records()) EXPECT_GE(r.T_world_camera.translation().z(), 0.0);
+}
+
+TEST(SessionEdge, AViewThatTheRobotDoesNotReachChangesNothing) {
+  auto robot = std::make_unique<AboveTheTable>();
+  AboveTheTable& table = *robot;
+  Session session(small_scan(), {.robot = std::move(robot)});
+  Session untouched(small_scan(), {.robot = std::make_unique<AboveTheTable>()});
+  session.step();
+  untouched.step();
+  table.stuck = true;
+  try {
+    session.step();
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find(AboveTheTable::reason), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(same_scan(session, untouched));
+  table.stuck = false;
+  session.step();
+  untouched.step();
+  EXPECT_TRUE(same_scan(session, untouched));
+}
+
 // The map of an ideal scan of a box: free in front, occupied where the box is, nothing measured inside.
 TEST(SessionEdge, TheMapShowsTheObject) {
   Configuration c = small_scan();
