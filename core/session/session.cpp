@@ -37,7 +37,7 @@ std::size_t measured_voxels(const OccupancyMap& map) {
 
 Session::Session(Configuration configuration, const Progress& progress, std::stop_token stop)
     : configuration_(affordable(validated(std::move(configuration)))),
-      object_file_(resolve_object(configuration_.object.file)),
+      object_file_(resolve_object(configuration_)),
       object_(std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, {configuration_.object.longest_side}, stop))),
       scene_(object_->mesh, stop),
       camera_(configuration_.sensor, stop),

@@ -18,22 +18,14 @@ std::vector<std::string> setting_keys(const SessionSnapshot&) {
   return keys;
 }
 
-Setting& setting(std::vector<Setting>& all, const std::string& key) {
-  return *std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
-}
-
 constexpr std::string_view kept = "termination.";  // settings that leave the scan as it is
 
 /// What ends a scan may change while it goes on; the views depend on all else. Nothing happens if the setting is so
 /// already.
 void change_setting(CommandTarget& target, const std::string& key, const std::string& text) {
   Configuration configuration = target.session.configuration;
-  if (key == "sensor.preset") {
-    apply_sensor_preset(configuration, text);
-  } else {
-    auto all = settings(configuration);
-    setting(all, key).set(text);
-  }
+  auto all = settings(configuration);
+  give(configuration, key, text, fmt::format("{} ({})", find_setting(all, key).label(), key));
   configuration.validate();
   if (to_toml(configuration) == to_toml(target.session.configuration)) return;
   if (key.starts_with(kept)) return target.worker.post(request::SetTermination{configuration.termination});
@@ -43,7 +35,7 @@ void change_setting(CommandTarget& target, const std::string& key, const std::st
 std::string default_of(const std::string& key) {
   Configuration defaults;
   auto all = settings(defaults);
-  return setting(all, key).text();
+  return find_setting(all, key).text();
 }
 
 }  // namespace

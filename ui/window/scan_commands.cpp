@@ -41,6 +41,14 @@ void take_own_view(CommandTarget& t, const Arguments&) {
   t.window.selection.ray.reset();
 }
 
+/// A whole number, as a setting takes it.
+Argument like_setting(const std::string& name, const std::string& key) {
+  Configuration defaults;
+  auto all = settings(defaults);
+  const Setting& setting = find_setting(all, key);
+  return {name, Argument::Kind::whole, setting.help, setting.bounds->low, setting.bounds->high, {}, true};
+}
+
 }  // namespace
 
 std::string needs_session(const CommandState& t) { return t.session.loaded() ? "" : "there is no object yet"; }
@@ -159,8 +167,7 @@ std::vector<Command> gibbs_commands() {
        "Gibbs",
        "Refine the map",
        "Samples the Gibbs map of all views so far until it is stationary.",
-       {{"chains", Argument::Kind::whole, "independent chains", 1, 16, {}, true},
-        {"sweeps", Argument::Kind::whole, "of each chain, at most", 4, 100'000, {}, true}},
+       {like_setting("chains", "gibbs.chains"), like_setting("sweeps", "gibbs.sweeps")},
        {{key('G')}},
        [](CommandTarget& t, const Arguments& a) {
          const auto& sampler = t.session.configuration.gibbs.sampler;
