@@ -25,8 +25,8 @@ constexpr std::array short_names = {
 };
 
 std::string describe(const Setting& setting) {
-  std::string text = setting.help;
-  if (!setting.unit.empty()) text += fmt::format(" [{}]", setting.unit);
+  std::string text = setting.explanation();
+  if (setting.bounds) text += "; " + setting.bounds->text();
   if (const auto* choice = std::get_if<Setting::Choice>(&setting.value))
     text += fmt::format("; one of {}", fmt::join(choice->names, ", "));
   const std::string value = setting.text();
@@ -55,22 +55,26 @@ void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std:
                  "options all")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  static Configuration defaults;
+  Configuration defaults;
   for (const Setting& setting : settings(defaults)) {
     if (!takes(setting.key)) continue;
-    std::string option = "--" + setting.key, names = option;
-    std::string group = "Settings";
-    for (const auto& [name, key] : short_names)
-      if (setting.key == key) {
-        // The key itself stays an option where it is not the short name already.
-        names = names == name ? names : fmt::format("{},{}", name, names);
-        option = name;
-        group = "Common settings";
-      }
-    const auto keep = [this, key = setting.key, option](const std::string& text) { given_[key] = {option, text}; };
-    app.add_option_function<std::string>(names, keep, describe(setting))
-        ->group(group)
-        ->type_name(setting.unit.empty() ? "VALUE" : setting.unit);
+    const std::string by_key = "--" + setting.key;
+    const auto add = [&](const std::string& option, const std::string& name, const std::string& help) {
+      const auto keep = [this, key = setting.key, name](const std::string& text) { given_[key] = {name, text}; };
+      return app.add_option_function<std::string>(option, keep, help)
+          ->type_name(setting.unit.empty() ? "VALUE" : setting.unit);
+    };
+    const auto brief = std::find_if(short_names.begin(), short_names.end(),
+                                    [&](const ShortName& name) { return setting.key == name.key; });
+    if (brief == short_names.end()) {
+      add(by_key, by_key, describe(setting))->group("Settings");
+    } else if (by_key == brief->name) {
+      add(by_key, by_key, describe(setting))->group("Common settings");
+    } else {
+      CLI::Option* option = add(brief->name, fmt::format("{} ({})", brief->name, setting.key), describe(setting));
+      option->group("Common settings");
+      add(by_key, by_key, fmt::format("the same as {}", brief->name))->group("Settings")->excludes(option);
+    }
   }
 }
 
@@ -88,26 +92,21 @@ Configuration ConfigurationOptions::configuration() const {
 
 void ConfigurationOptions::apply_to(Configuration& configuration) const {
   Configuration read = configuration;
-  SettingSources sources;
-  for (const std::string& file : files_) read = read_configuration(find_configuration(file), read, &sources);
+  for (const std::string& file : files_) read_settings(find_configuration(file), read);
   auto from = settings(read), to = settings(configuration);
-  for (std::size_t i = 0; i < to.size(); ++i)
-    if (takes(to[i].key)) to[i].set(from[i].text());
-  configuration.read_from = read.read_from;
-  if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
-    apply_sensor_preset(configuration, preset->second.text, &sources);
-  for (Setting& setting : to)
-    if (const auto given = given_.find(setting.key); given != given_.end()) set(setting, given->second, sources);
-  validate(configuration, sources);
-}
-
-void ConfigurationOptions::set(Setting& setting, const Given& given, SettingSources& sources) {
-  try {
-    setting.set(given.text);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(complaint_about(setting.key, given.option, error.what()));
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (!takes(to[i].key)) continue;
+    to[i].set(from[i].text());
+    if (const auto source = read.sources.find(to[i].key); source != read.sources.end())
+      configuration.sources[to[i].key] = source->second;
   }
-  sources[setting.key] = given.option;
+  configuration.read_from = read.read_from;
+  // The preset first: what else is given of the sensor overrides it.
+  if (const auto preset = given_.find("sensor.preset"); preset != given_.end())
+    give(configuration, preset->first, preset->second.text, preset->second.option);
+  for (const auto& [key, given] : given_)
+    if (key != "sensor.preset") give(configuration, key, given.text, given.option);
+  configuration.validate();
 }
 
 }  // namespace nextview

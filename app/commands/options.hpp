@@ -33,7 +33,6 @@ class ConfigurationOptions {
   struct Given {
     std::string option, text;
   };
-  static void set(Setting& setting, const Given& given, SettingSources& sources);
 
   std::map<std::string, Given> given_;  ///< by key
 };

@@ -133,17 +133,19 @@ PointCloud down_sample(const PointCloud& points, double leaf) {
 
 }  // namespace
 
-void CloudConfig::validate() const {
-  if (outlier_neighbours < 1 || outlier_neighbours > 1000)
-    throw std::invalid_argument(
-        fmt::format("cloud: outlier_neighbours must be from 1 to 1000, not {}", outlier_neighbours));
-  if (!(outlier_deviations > 0.0 && outlier_deviations <= 100.0))
-    throw std::invalid_argument(
-        fmt::format("cloud: outlier_deviations must be over 0 and at most 100, not {}", outlier_deviations));
-  if (!(down_sampling_leaf >= 1e-6 && down_sampling_leaf <= 1.0))
-    throw std::invalid_argument(
-        fmt::format("cloud: down_sampling_leaf must be from 0.000001 to 1 m, not {}", down_sampling_leaf));
+std::vector<Setting> settings(CloudConfig& c) {
+  return {
+      {"cloud.outlier_removal", "", "statistical outlier removal", &c.outlier_removal},
+      {"cloud.outlier_neighbours", "", "neighbours whose mean distance is looked at", &c.outlier_neighbours,
+       from_to(1, 1000)},
+      {"cloud.outlier_deviations", "", "standard deviations beyond which a point goes", &c.outlier_deviations,
+       over_to(0, 100)},
+      {"cloud.down_sampling", "", "voxel-grid down-sampling", &c.down_sampling},
+      {"cloud.down_sampling_leaf", "m", "edge of its voxels", &c.down_sampling_leaf, from_to(1e-6, 1)},
+  };
 }
+
+void CloudConfig::validate() const { require_in_bounds(*this); }
 
 PointCloud clean(const PointCloud& returns, const CloudConfig& config, const std::stop_token& stop) {
   config.validate();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/sensor/depth_image.hpp"
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 
@@ -34,9 +35,10 @@ struct CloudConfig {
   bool down_sampling = false;       ///< voxel-grid down-sampling of the returns (PCL)
   double down_sampling_leaf = 0.002;  ///< [m]
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };
+std::vector<Setting> settings(CloudConfig& config);
 
 /// The returns after outlier removal and down-sampling, each if switched on. Outlier removal keeps the order;
 /// down-sampling puts one centroid a leaf, in the order of the leaves (x fastest).

@@ -47,18 +47,30 @@ double log_cone(double z, double range, double sigma, double offset) {
 
 }  // namespace
 
+std::vector<Setting> settings(ForwardSensorModel& m) {
+  return {
+      {"gibbs.model", "", "forward sensor model", choice(m.kind, {"paper", "cone", "beam", "attenuation"})},
+      {"gibbs.voxel_range", "", "range of a voxel: over the ray's segment in it, or its centre's",
+       choice(m.voxel_range, {"segment", "centre"})},
+      {"gibbs.random_weight", "", "beam, attenuation: share of ranges that come from anywhere", &m.random_weight,
+       between(0, 1)},
+      {"gibbs.max_weight", "", "beam, attenuation: share of rays that miss a surface they met", &m.max_weight,
+       between(0, 1)},
+      {"gibbs.eta_hit", "", "paper: weight inside the exponent of Eq. 1", &m.eta_hit, over_to(0, 1000)},
+  };
+}
+
 void ForwardSensorModel::validate() const {
-  require(sigma > 0.0 && std::isfinite(sigma), fmt::format("gibbs: sigma must be over 0, not {}", sigma));
+  require_in_bounds(*this);
+  require(sigma > 0.0 && std::isfinite(sigma), fmt::format("gibbs.sigma must be over 0, not {}", sigma));
   require(angular_sigma > 0.0 && std::isfinite(angular_sigma),
-          fmt::format("gibbs: angular_sigma must be over 0, not {}", angular_sigma));
-  require(random_weight > 0.0 && max_weight > 0.0 && hit_weight() > 0.0,
-          fmt::format("gibbs: random_weight and max_weight must be over 0 and leave something for hits, not {} and {}",
-                      random_weight, max_weight));
-  require(eta_hit > 0.0 && eta_hit <= 1e3,
-          fmt::format("gibbs: eta_hit must be over 0 and at most 1000, not {}", eta_hit));
+          fmt::format("gibbs.angular_sigma must be over 0, not {}", angular_sigma));
+  require(hit_weight() > 0.0, fmt::format("gibbs.random_weight, {}, and gibbs.max_weight, {}, must leave something for "
+                                          "hits: together they must be below 1",
+                                          random_weight, max_weight));
   require(!attenuations.empty() && attenuations.size() <= most_attenuations && attenuations.front() > 0.0 &&
               attenuations.back() <= 50.0 && std::is_sorted(attenuations.begin(), attenuations.end()),
-          fmt::format("gibbs: attenuations must be one to {} ascending numbers over 0, up to 50", most_attenuations));
+          fmt::format("gibbs.attenuations must be one to {} ascending numbers over 0, up to 50", most_attenuations));
 }
 
 double ForwardSensorModel::transmission(int level, double chord) const {

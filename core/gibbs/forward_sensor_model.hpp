@@ -6,6 +6,7 @@
 
 #include "core/gibbs/range_measurements.hpp"
 #include "core/map/voxel_grid.hpp"
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 
@@ -48,7 +49,7 @@ struct ForwardSensorModel {
   /// mostly fills little of it: with strong ones a voxel that stops half of its rays makes its neighbours look free.
   std::vector<double> attenuations = {0.05, 0.2};
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 
   int levels() const { return kind == ForwardModel::attenuation ? 1 + static_cast<int>(attenuations.size()) : 2; }
@@ -58,6 +59,8 @@ struct ForwardSensorModel {
   /// voxel.
   double transmission(int level, double chord) const;
 };
+/// Without those that come from elsewhere: sigmas and attenuations.
+std::vector<Setting> settings(ForwardSensorModel& model);
 
 /// How far a measurement depends on voxels [m]: up to 4 sigma behind its range, or to the maximum range.
 double list_end(const RangeMeasurements& measurements, const RangeMeasurement& ray, const ForwardSensorModel& model);

@@ -77,20 +77,27 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
 
 }  // namespace
 
+std::vector<Setting> settings(PosteriorSamplerConfig& c) {
+  return {
+      {"gibbs.prior", "", "of a voxel being occupied (at any level but free)", &c.prior, between(0, 1)},
+      {"gibbs.sampler", "", "draw from the full conditional, or Algorithm 1 as printed",
+       choice(c.sampler, {"exact", "algorithm1"})},
+      {"gibbs.updated", "", "voxels that are updated", choice(c.updated, {"occupied-and-free", "occupied"})},
+      {"gibbs.start", "", "map that the chains start from", choice(c.start, {"octree", "free", "occupied", "random"})},
+      {"gibbs.swaps", "", "passes of neighbour swaps a sweep", &c.swaps, from_to(0, 15)},
+      {"gibbs.plaquettes", "", "passes of 2 x 2 plaquettes a sweep", &c.plaquettes, from_to(0, 15)},
+      {"gibbs.chains", "", "independent chains, a thread each", &c.chains, from_to(1, 64)},
+      {"gibbs.sweeps", "", "sweeps of each chain, at most", &c.sweeps, from_to(4, 1e6)},
+      {"gibbs.burn_in", "", "sweeps before the first mean that is tried", &c.burn_in, from_to(0, 1e6)},
+      {"gibbs.until_stationary", "", "stop as soon as the chains are stationary", &c.until_stationary},
+      {"gibbs.ray_spacing", "", "rays nearer to each other than this are joined [voxel edges]; 0: none", &c.ray_spacing,
+       from_to(0, 100)},
+  };
+}
+
 void PosteriorSamplerConfig::validate() const {
   model.validate();
-  const auto within = [](const char* field, double value, double low, double high) {
-    if (!(value >= low && value <= high))
-      throw std::invalid_argument(fmt::format("gibbs.{} must be from {} to {}, not {}", field, low, high, value));
-  };
-  if (!(prior > 0.0 && prior < 1.0))
-    throw std::invalid_argument(fmt::format("gibbs.prior must be between 0 and 1, not {}", prior));
-  within("swaps", swaps, 0, 15);
-  within("plaquettes", plaquettes, 0, 15);
-  within("chains", chains, 1, 64);
-  within("sweeps", sweeps, 4, 1'000'000);
-  within("burn_in", burn_in, 0, 1'000'000);
-  within("ray_spacing", ray_spacing, 0, 100);
+  require_in_bounds(*this);
 }
 
 std::vector<Voxel> GibbsPosterior::voxels(const InverseSensorModel& classes) const {

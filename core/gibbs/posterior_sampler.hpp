@@ -41,9 +41,11 @@ struct PosteriorSamplerConfig {
   bool keep_traces = false;
   std::size_t most_trace_bytes = std::size_t{200} << 20;  ///< of the traces; beyond it the oldest sweeps are dropped
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };
+/// Without the model's.
+std::vector<Setting> settings(PosteriorSamplerConfig& config);
 
 /// The levels that the chains drew for the voxels near a return, sweep by sweep of the mean.
 struct LevelTraces {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/setting/setting.hpp"
+
 namespace nextview {
 
 inline double log_odds(double probability) { return std::log(probability / (1.0 - probability)); }
@@ -57,7 +59,7 @@ struct InverseSensorModel {
   double occupied_above = 0.8;       ///< class occupied: p > this; between the two: unknown
 
   bool operator==(const InverseSensorModel&) const = default;
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 
   bool range_dependent() const { return hit_decay != 0.0 || miss_decay != 0.0; }
@@ -70,5 +72,6 @@ struct InverseSensorModel {
     return p > occupied_above ? VoxelClass::occupied : p < free_below ? VoxelClass::free : VoxelClass::unknown;
   }
 };
+std::vector<Setting> settings(InverseSensorModel& model);
 
 }  // namespace nextview

@@ -46,7 +46,11 @@ CombinedPolicy::CombinedPolicy(const std::string& weights) {
     if (!std::isfinite(weight) || *end != '\0' || end == part.c_str() + equals + 1)
       throw std::invalid_argument(
           fmt::format("planner.combined_weights takes `gain=weight,gain=weight`, not '{}'", part));
-    gains_.push_back(&nextview::gain(part.substr(0, equals)));
+    try {
+      gains_.push_back(&nextview::gain(part.substr(0, equals)));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("planner.combined_weights: {}", error.what()));
+    }
     weights_.push_back(weight);
   }
 }

@@ -1,8 +1,10 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/gain/ray.hpp"
 #include "core/planner/next_best_view.hpp"
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 
@@ -16,6 +18,10 @@ struct PlannerConfig {
   double ray_length = 1.5;        ///< [m]
   double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
   double start_elevation = 20.0;  ///< [deg]
+
+  /// @throws std::invalid_argument naming the setting and its bounds.
+  void validate() const;
 };
+std::vector<Setting> settings(PlannerConfig& config);
 
 }  // namespace nextview

@@ -2,20 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-#include <utility>
-
 namespace nextview {
 
-void TerminationConfig::validate() const {
-  if (views < 1 || views > 10'000)
-    throw std::invalid_argument(fmt::format("termination: views must be from 1 to 10000, not {}", views));
-  for (const auto& [name, share] :
-       {std::pair{"coverage", coverage}, {"gain", gain}, {"new_voxels", new_voxels}, {"entropy_slope", entropy_slope}})
-    if (!(share >= 0.0 && share <= 1.0))
-      throw std::invalid_argument(
-          fmt::format("termination: {} must be a share from 0 (off) to 1, not {}", name, share));
+std::vector<Setting> settings(TerminationConfig& c) {
+  return {
+      {"termination.views", "", "stop after this many views", &c.views, from_to(1, 10000)},
+      {"termination.coverage", "", "stop at this share of the visible surface; 0: off", &c.coverage, from_to(0, 1)},
+      {"termination.gain", "", "stop when the best gain falls to this share of the first; 0: off", &c.gain,
+       from_to(0, 1)},
+      {"termination.new_voxels", "", "stop when a view measures less than this share of the region anew; 0: off",
+       &c.new_voxels, from_to(0, 1)},
+      {"termination.entropy_slope", "", "stop when a view lowers the entropy by less than this share; 0: off",
+       &c.entropy_slope, from_to(0, 1)},
+  };
 }
+
+void TerminationConfig::validate() const { require_in_bounds(*this); }
 
 std::string termination_reason(const TerminationConfig& config, const ScanProgress& progress) {
   if (progress.views >= config.views) return fmt::format("{} views taken", progress.views);

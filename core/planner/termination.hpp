@@ -1,5 +1,8 @@
 #pragma once
 #include <string>
+#include <vector>
+
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 
@@ -11,9 +14,10 @@ struct TerminationConfig {
   double new_voxels = 0.0;     ///< a view measured less than this share of the region's voxels for the first time
   double entropy_slope = 0.0;  ///< a view lowered the map's entropy (Eq. 18) by less than this share
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };
+std::vector<Setting> settings(TerminationConfig& config);
 
 /// How far a scan has come, as the criteria see it.
 struct ScanProgress {

@@ -17,11 +17,6 @@ constexpr double degree = std::numbers::pi / 180.0;
 /// Noise may bring a surface from beyond the maximum range into it; the draws stay within this many standard
 /// deviations.
 constexpr double largest_noise = 7.0;
-void require(double value, double lowest, double highest, const char* field, const char* unit) {
-  if (!(value >= lowest && value <= highest))
-    throw std::invalid_argument(
-        fmt::format("depth camera: {} must be from {} to {}{}, not {}", field, lowest, highest, unit, value));
-}
 
 /// Four rows of an image, or what is left of it. Taken column by column, 16 pixels in a row are a block of 4 x 4: rays
 /// that stay together.
@@ -65,16 +60,27 @@ DepthImage sense_image(const RayScene& scene, const Pose& T_world_camera, const 
 
 }  // namespace
 
+std::vector<Setting> settings(DepthCameraConfig& c) {
+  return {
+      {"sensor.width", "px", "image width", &c.width, from_to(1, 16384)},
+      {"sensor.height", "px", "image height", &c.height, from_to(1, 16384)},
+      {"sensor.field_of_view", "deg", "horizontal field of view", &c.field_of_view, from_to(1, 170)},
+      {"sensor.min_range", "m", "nearer surfaces give invalid pixels", &c.min_range, from_to(0, 1000)},
+      {"sensor.max_range", "m", "farther surfaces are beyond range", &c.max_range, from_to(0.001, 1000)},
+      {"sensor.range_noise", "m", "standard deviation along the ray", &c.range_noise, from_to(0, 1)},
+      {"sensor.dropout", "", "share of pixels that return nothing", &c.dropout, from_to(0, 1)},
+      {"sensor.outliers", "", "share of the other pixels whose range is any within the limits", &c.outliers,
+       from_to(0, 1)},
+      {"sensor.grazing_limit", "deg", "surfaces met at more than this from their normal give invalid pixels",
+       &c.grazing_limit, from_to(0, 90)},
+  };
+}
+
 void DepthCameraConfig::validate() const {
-  require(width, 1, 16384, "width", " px");
-  require(height, 1, 16384, "height", " px");
-  require(field_of_view, 1.0, 170.0, "field_of_view", " deg");
-  require(max_range, 0.001, 1000.0, "max_range", " m");
-  require(min_range, 0.0, max_range, "min_range", " m (max_range)");
-  require(range_noise, 0.0, 1.0, "range_noise", " m");
-  require(dropout, 0.0, 1.0, "dropout", "");
-  require(outliers, 0.0, 1.0, "outliers", "");
-  require(grazing_limit, 0.0, 90.0, "grazing_limit", " deg");
+  require_in_bounds(*this);
+  if (min_range > max_range)
+    throw std::invalid_argument(
+        fmt::format("sensor.min_range, {} m, must be at most sensor.max_range, {} m", min_range, max_range));
 }
 
 PinholeCamera DepthCameraConfig::camera() const {

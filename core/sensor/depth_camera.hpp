@@ -8,6 +8,7 @@
 
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/sensor/depth_image.hpp"
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 
@@ -23,10 +24,12 @@ struct DepthCameraConfig {
   double outliers = 0.0;
   double grazing_limit = 85.0;  ///< surfaces met at more than this from their normal give invalid pixels [deg]
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
   PinholeCamera camera() const;
 };
+/// Their bounds are declared here and nowhere else; the settings of other configurations are likewise.
+std::vector<Setting> settings(DepthCameraConfig& config);
 
 /// A mesh that rays can be shot at (an Embree scene). Safe to use from several threads at once.
 class RayScene {

@@ -29,31 +29,11 @@ std::string beside(const fs::path& file, const std::string& said) {
   return !said.empty() && fs::path(said).is_relative() && fs::is_regular_file(there, ignored) ? there.string() : said;
 }
 
-/// A TOML value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
-std::string value_text(const Setting& setting, const toml::node& node) {
-  const bool takes_text =
-      std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
-  if (takes_text != node.is_string())
-    throw std::invalid_argument(
-        fmt::format("{} takes {} quotes, as a single value", setting.key, takes_text ? "a text in" : "no"));
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-  throw std::invalid_argument(setting.key + " takes a single value");
-}
-
 class TomlReader {
  public:
   /// With `only`, keys outside of that section are errors.
-  TomlReader(const fs::path& file, Configuration& configuration, SettingSources& sources, std::string only = "")
-      : file_(file),
-        only_(std::move(only)),
-        configuration_(configuration),
-        sources_(sources),
-        settings_(settings(configuration)) {
-    for (const Setting& s : settings_) keys_.push_back(s.key);
-  }
+  TomlReader(const fs::path& file, Configuration& configuration, std::string only = "")
+      : file_(file), only_(std::move(only)), configuration_(configuration), settings_(settings(configuration)) {}
 
   void read(const std::string& text) {
     toml::table table;
@@ -63,11 +43,8 @@ class TomlReader {
       throw failure(error.source().begin.line, std::string(error.description()));
     }
     // The preset first: what else the file says of the sensor overrides it.
-    if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty()) try {
-        apply_sensor_preset(configuration_, located("sensor.preset", preset->get()), &sources_);
-      } catch (const std::runtime_error& error) {
-        throw failure(preset->source().begin.line, error.what());
-      }
+    if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty())
+      take("sensor.preset", preset->get(), preset->source().begin.line);
     apply(table, "");
     configuration_.read_from.push_back(file_);
   }
@@ -87,22 +64,46 @@ class TomlReader {
         apply(*section, key + ".");
         continue;
       }
-      const auto setting =
-          std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
       const auto line = node.source().begin.line;
-      if (setting == settings_.end())
-        throw failure(line, fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys_)));
+      const Setting& setting = known(key, line);
       if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
         throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
-      try {
-        setting->set(located(key, value_text(*setting, node)));
-        sources_[key] = place(line);
-      } catch (const std::invalid_argument& error) {
-        throw failure(line, error.what());
-      }
+      if (key == "sensor.preset" && node.is_string()) continue;  // is taken already
+      take(key, value_text(setting, node), line);
     }
   }
 
+  const Setting& known(const std::string& key, std::uint32_t line) const {
+    const auto setting =
+        std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+    if (setting != settings_.end()) return *setting;
+    std::vector<std::string> keys;
+    for (const Setting& s : settings_) keys.push_back(s.key);
+    throw failure(line, fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys)));
+  }
+
+  /// A value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
+  std::string value_text(const Setting& setting, const toml::node& node) const {
+    const bool takes_text =
+        std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
+    const auto line = node.source().begin.line;
+    if (takes_text != node.is_string())
+      throw failure(line,
+                    fmt::format("{} takes {} quotes, as a single value", setting.key, takes_text ? "a text in" : "no"));
+    if (const auto* text = node.as_string()) return text->get();
+    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+    throw failure(line, setting.key + " takes a single value");
+  }
+
+  void take(const std::string& key, const std::string& text, std::uint32_t line) {
+    try {
+      give(configuration_, key, located(key, text), key, place(line));
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(error.what());
+    }
+  }
   std::string place(std::uint32_t line) const { return fmt::format("{}:{}", file_.string(), line); }
   std::runtime_error failure(std::uint32_t line, const std::string& reason) const {
     return std::runtime_error(place(line) + ": " + reason);
@@ -111,26 +112,28 @@ class TomlReader {
   fs::path file_;
   std::string only_;
   Configuration& configuration_;
-  SettingSources& sources_;
   std::vector<Setting> settings_;
-  std::vector<std::string> keys_;
 };
 
 void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
 
-/// What a part says of its fields, "room: field must be …", said of the settings of this section: "map.hit must be …".
-template <class Part>
-void validate_section(const Part& part, const std::string& section) {
-  try {
-    part.validate();
-  } catch (const std::invalid_argument& error) {
-    const std::string reason = error.what();
-    if (reason.starts_with(section)) throw;
-    const auto room = reason.find(": ");
-    throw std::invalid_argument(section + reason.substr(room == reason.npos ? 0 : room + 2));
-  }
+/// All that Configuration::validate checks, in the words of the declarations.
+void require_valid(const Configuration& c) {
+  require_in_bounds(c);
+  c.sensor.validate();
+  c.views.validate();
+  c.map.model.validate();
+  c.gibbs.validate();
+  c.planner.validate();
+  const double voxels = c.map.region_edge / c.map.resolution;
+  require(voxels >= 1.0 && voxels <= 512.0,
+          fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
+  require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
+          fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
+  require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,
+          "map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no range");
 }
 
 }  // namespace
@@ -140,54 +143,49 @@ PosteriorSamplerConfig posterior_sampler_config(const Configuration& c) {
 }
 
 void Configuration::validate() const {
-  validate_section(sensor, "sensor.");
-  validate_section(cloud, "cloud.");
-  validate_section(views, "views.");
-  validate_section(termination, "termination.");
-  validate_section(map.model, "map.");
-  validate_section(gibbs, "gibbs.");
-  const auto in = [](double value, double low, double high, const char* key, const char* unit) {
-    require(value >= low && value <= high,
-            fmt::format("{} must be from {} to {}{}, not {}", key, low, high, unit, value));
-  };
-  require(object.longest_side == 0.0 || (object.longest_side >= 1e-3 && object.longest_side <= 100.0),
-          fmt::format("object.longest_side must be 0 or from 0.001 to 100 m, not {}", object.longest_side));
-  in(map.resolution, 1e-4, 1.0, "map.resolution", " m");
-  in(map.region_edge, 1e-3, 1000.0, "map.region_edge", " m");
-  in(map.region_edge / map.resolution, 1.0, 512.0, "map.region_edge / map.resolution", " voxels");
-  in(views.radius, 0.01, 100.0, "views.radius", " m");  // of the start view, whatever the layout
-  in(planner.ray_columns, 1, 2000, "planner.ray_columns", "");
-  in(planner.ray_rows, 1, 2000, "planner.ray_rows", "");
-  in(planner.ray_length, 1e-3, 1000.0, "planner.ray_length", " m");
-  in(planner.weights.gain, 0.0, 1e6, "planner.gain_weight", "");
-  in(planner.weights.cost, 0.0, 1e6, "planner.cost_weight", "");
-  in(planner.start_azimuth, -360.0, 360.0, "planner.start_azimuth", " deg");
-  in(planner.start_elevation, -90.0, 90.0, "planner.start_elevation", " deg");
-  in(evaluation.d_reg, 1e-5, 1.0, "evaluation.d_reg", " m");
-  in(evaluation.surface_samples, 1, 10'000'000, "evaluation.surface_samples", "");
-  in(history.memory, 0.0, 1024.0, "history.memory", "GiB");
-  const auto names = policy_names();
-  require(std::find(names.begin(), names.end(), planner.gain) != names.end(),
-          fmt::format("there is no gain '{}'; did you mean '{}'?", planner.gain, nearest(planner.gain, names)));
-  const PolicyNeeds needs = make_policy(planner)->needs();
-  require(!needs.true_surface || evaluation.enabled,
-          fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", planner.gain));
-  require(
-      !needs.posterior || planner.semantics == Semantics::published,
-      fmt::format("planner.gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
-  require(!map.model.range_dependent() || planner.semantics == Semantics::published,
-          "map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no range");
-  constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
-  require(seed <= largest,
-          fmt::format("seed must be at most {}, the largest whole number of TOML, not {}", largest, seed));
-  CombinedPolicy(planner.combined_weights);  // whether it can be read
+  try {
+    require_valid(*this);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_given(error.what()));
+  }
 }
 
-Configuration read_configuration(const fs::path& file, const Configuration& base, SettingSources* sources) {
+std::string Configuration::as_given(const std::string& message) const {
+  Configuration copy = *this;
+  SettingSources still;
+  for (const Setting& setting : settings(copy))
+    if (const auto source = sources.find(setting.key); source != sources.end() && source->second.text == setting.text())
+      still.insert(*source);
+  return nextview::as_given(message, still);
+}
+
+void give(Configuration& configuration, const std::string& key, const std::string& text, const std::string& name,
+          const std::string& place) {
+  const SettingSources here{{key, {name, place, text}}};
+  try {
+    if (key == "sensor.preset") {
+      apply_sensor_preset(configuration, text);
+    } else {
+      auto all = settings(configuration);
+      find_setting(all, key).set(text);
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_given(error.what(), here));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(as_given(error.what(), here));
+  }
+  auto all = settings(configuration);
+  configuration.sources[key] = {name, place, find_setting(all, key).text()};
+}
+
+void read_settings(const fs::path& file, Configuration& configuration) {
+  TomlReader(file, configuration).read(read_file(file, largest_file));
+}
+
+Configuration read_configuration(const fs::path& file, const Configuration& base) {
   Configuration configuration = base;
-  SettingSources of_file;
-  TomlReader(file, configuration, sources ? *sources : of_file).read(read_file(file, largest_file));
-  if (!sources) validate(configuration, of_file);
+  read_settings(file, configuration);
+  configuration.validate();
   return configuration;
 }
 
@@ -204,26 +202,25 @@ std::string to_toml(const Configuration& configuration) {
       value << toml::value<std::string>(s.text());
     else
       value << s.text();
-    text += fmt::format("{} = {}  # {}{}\n", s.key.substr(dot == std::string::npos ? 0 : dot + 1), value.str(), s.help,
-                        s.unit.empty() ? "" : fmt::format(" [{}]", s.unit));
+    text += fmt::format("{} = {}  # {}\n", s.key.substr(dot == std::string::npos ? 0 : dot + 1), value.str(),
+                        s.explanation());
   }
   return text;
 }
 
-void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources) {
+void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
   fs::path file = named_sensor(preset);
   if (!is_there(file)) file = preset;
   if (!is_there(file)) {
     std::vector<std::string> known;
     for (const auto& entry : fs::directory_iterator(assets_folder() / "sensors")) known.push_back(entry.path().stem());
     std::sort(known.begin(), known.end());
-    throw std::runtime_error(
-        fmt::format("there is no sensor '{}'; there are {}, or give a file", preset, fmt::join(known, ", ")));
+    throw std::runtime_error(fmt::format("sensor.preset: there is no sensor '{}'; there are {}, or give a file", preset,
+                                         fmt::join(known, ", ")));
   }
   configuration.sensor = {};
-  SettingSources of_file;
-  if (sources) std::erase_if(*sources, [](const auto& source) { return source.first.starts_with("sensor."); });
-  TomlReader(file, configuration, sources ? *sources : of_file, "sensor.").read(read_file(file, largest_file));
+  std::erase_if(configuration.sources, [](const auto& source) { return source.first.starts_with("sensor."); });
+  TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));
   configuration.sensor_preset = preset;
 }
 

@@ -1,10 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
@@ -13,6 +10,8 @@
 #include "core/planner/termination.hpp"
 #include "core/sensor/depth_camera.hpp"
 #include "core/session/gibbs_config.hpp"
+#include "core/setting/setting.hpp"
+#include "core/setting/setting_sources.hpp"
 #include "core/view/candidate_views.hpp"
 
 namespace nextview {
@@ -28,6 +27,7 @@ struct MapConfig {
   Insertion insertion = Insertion::local_octree;
   InverseSensorModel model;
 };
+std::vector<Setting> settings(MapConfig& config);
 
 struct EvaluationConfig {
   bool enabled = true;   ///< compare with the mesh after each view
@@ -55,58 +55,40 @@ struct Configuration {
   EvaluationConfig evaluation;
   HistoryConfig history;
   std::vector<std::filesystem::path> read_from;  ///< the files it comes from, no setting: nothing may replace them
+  SettingSources sources;                        ///< of settings that were given, for messages; no setting either
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the settings as they were given, and their bounds.
   void validate() const;
+  /// A message that names settings by their keys, as they were given; what was changed since is left as it is.
+  std::string as_given(const std::string& message) const;
 };
 
 /// The sampler's configuration for this camera and map.
 PosteriorSamplerConfig posterior_sampler_config(const Configuration& configuration);
 
-/// One setting of a configuration. Files, the command line, `--help` and panels are all made from the list of these.
-struct Setting {
-  struct Choice {
-    std::vector<std::string> names;
-    std::function<std::size_t()> get;
-    std::function<void(std::size_t)> set;
-  };
-  std::string key;   ///< as in the file and, behind `--`, on the command line: "sensor.range_noise"
-  std::string unit;  ///< "m", "deg", …; empty if it has none
-  std::string help;
-  std::variant<bool*, int*, double*, std::uint64_t*, std::string*, Choice> value;
-
-  std::string text() const;
-  /// @throws std::invalid_argument naming the key and what it takes.
-  void set(const std::string& text);
-};
-
-/// The settings of `configuration`, which must outlive them.
+/// All settings of `configuration`, which must outlive them, in the order of a file.
 std::vector<Setting> settings(Configuration& configuration);
 
-/// Where each setting was given: key -> "config.toml:3", or an option of the command line, "--seed".
-using SettingSources = std::map<std::string, std::string>;
+/// Sets a setting and notes where it was given (SettingSource). The preset of the sensor sets all settings of it.
+/// @throws std::invalid_argument, and for files std::runtime_error, as given
+void give(Configuration& configuration, const std::string& key, const std::string& text, const std::string& name,
+          const std::string& place = "");
 
-/// What is wrong with a setting and where it was given: "config.toml:3: seed must be …", "--views
-/// (termination.views) must be …". `reason` begins with the key, or tells of it otherwise.
-std::string complaint_about(const std::string& key, const std::string& source, const std::string& reason);
-
-/// Reads TOML over `base`: keys that the file leaves out stay as they are; an unknown key is an error that names the
-/// nearest known one. Relative paths in it are relative to its folder; what is not there, to the working folder. With
-/// `sources`, notes there what the file gives, and leaves it to the caller to validate what becomes of it.
+/// Reads TOML over `configuration`: keys that the file leaves out stay as they are; an unknown key is an error that
+/// names the nearest known one. Relative paths in it are relative to its folder; what is not there, to the working
+/// folder. The caller validates what becomes of it.
 /// @throws std::runtime_error "file:line: reason".
-Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration(),
-                                 SettingSources* sources = nullptr);
-/// Configuration::validate(), also telling where what is wrong was given.
-/// @throws std::runtime_error
-void validate(const Configuration& configuration, const SettingSources& sources);
+void read_settings(const std::filesystem::path& file, Configuration& configuration);
+/// read_settings and Configuration::validate. @throws std::runtime_error, std::invalid_argument
+Configuration read_configuration(const std::filesystem::path& file, const Configuration& base = Configuration());
 std::string to_toml(const Configuration& configuration);
 /// As a file in `folder` says it, so that it can be read from anywhere: a path is relative to the folder if its target
 /// lies inside, absolute otherwise.
 std::string to_toml(const Configuration& configuration, const std::filesystem::path& folder);
 
-/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path; notes in `sources` what that gives.
+/// Sets the sensor to a preset: the name of a file in assets/sensors, or a path.
 /// @throws std::runtime_error
-void apply_sensor_preset(Configuration& configuration, const std::string& preset, SettingSources* sources = nullptr);
+void apply_sensor_preset(Configuration& configuration, const std::string& preset);
 
 /// Files that come with Nextview: where NEXTVIEW_ASSETS in the environment says, or as shared_folder finds them.
 std::filesystem::path assets_folder();
@@ -118,8 +100,7 @@ std::filesystem::path default_object();
 /// "gearbox"; empty: the default.
 /// @throws std::runtime_error if it is none of these.
 std::filesystem::path resolve_object(const std::string& name);
-
-/// Of `known`, the one that `word` is most likely meant to be.
-std::string nearest(const std::string& word, const std::vector<std::string>& known);
+/// The same of a configuration's object; the error tells where it was given.
+std::filesystem::path resolve_object(const Configuration& configuration);
 
 }  // namespace nextview

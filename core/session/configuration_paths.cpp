@@ -52,4 +52,14 @@ fs::path resolve_object(const std::string& name) {
       fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
 }
 
+fs::path resolve_object(const Configuration& configuration) {
+  try {
+    return resolve_object(configuration.object.file);
+  } catch (const std::runtime_error& error) {
+    const std::string key = "object.file: ";
+    const std::string told = configuration.as_given(key + error.what());
+    throw std::runtime_error(told.starts_with(key) ? error.what() : told);  // one that no one gave a name has none
+  }
+}
+
 }  // namespace nextview

@@ -23,17 +23,41 @@ std::vector<double> parse_attenuations(const std::string& text) {
   return values;
 }
 
+/// Puts settings behind the one of this key.
+void insert(std::vector<Setting>& settings, const std::string& behind, std::vector<Setting> more) {
+  const auto place = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == behind; });
+  settings.insert(place + 1, more.begin(), more.end());
+}
+
 }  // namespace
 
+std::vector<Setting> settings(GibbsConfig& c) {
+  std::vector<Setting> all = settings(c.sampler.model);
+  insert(
+      all, "gibbs.voxel_range",
+      {
+          {"gibbs.sigma", "m", "standard deviation of ranges; 0: the sensor's noise, at least a tenth of a voxel",
+           &c.sigma, from_to(0, 1000)},
+          {"gibbs.angular_sigma", "rad", "model cone: of azimuth and altitude; 0: half the angular pitch of the rays",
+           &c.angular_sigma, from_to(0, 1000)},
+      });
+  insert(all, "gibbs.eta_hit",
+         {
+             {"gibbs.attenuations", "", "attenuation: of each level, per voxel edge", &c.attenuations},
+         });
+  std::vector<Setting> sampler = settings(c.sampler);
+  insert(
+      sampler, "gibbs.until_stationary",
+      {
+          {"gibbs.view_sweeps", "", "gain gibbs: sweeps after each view, from the last view's on; 0: until stationary",
+           &c.view_sweeps, zero_or(4, 1e6)},
+      });
+  all.insert(all.end(), sampler.begin(), sampler.end());
+  return all;
+}
+
 void GibbsConfig::validate() const {
-  const auto not_negative = [](const char* key, double value) {
-    if (!(value >= 0.0 && value <= 1e3))
-      throw std::invalid_argument(fmt::format("gibbs.{} must be from 0 to 1000, not {}", key, value));
-  };
-  not_negative("sigma", sigma);
-  not_negative("angular_sigma", angular_sigma);
-  if (view_sweeps != 0 && (view_sweeps < 4 || view_sweeps > 1'000'000))
-    throw std::invalid_argument(fmt::format("gibbs.view_sweeps must be 0 or from 4 to 1000000, not {}", view_sweeps));
+  require_in_bounds(*this);
   posterior_sampler_config(*this, 0.001, 0.001, 0.01, 0).validate();
 }
 

@@ -14,9 +14,11 @@ struct GibbsConfig {
   std::string attenuations = "0.05, 0.2";  ///< of the levels (model attenuation) [1 / voxel edge]
   int view_sweeps = 8;  ///< sweeps after each view of a scan, from the last view's maps on; 0: until stationary
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };
+/// With those of the sampler and its model.
+std::vector<Setting> settings(GibbsConfig& config);
 
 /// `sensor_noise` [m], `ray_pitch` [rad] and `resolution` [m] stand in where a setting is 0.
 PosteriorSamplerConfig posterior_sampler_config(const GibbsConfig& config, double sensor_noise, double ray_pitch,

@@ -3,7 +3,7 @@
 namespace nextview {
 
 std::vector<InputFile> input_files(const Configuration& c) {
-  const std::filesystem::path object = resolve_object(c.object.file);
+  const std::filesystem::path object = resolve_object(c);
   std::vector<InputFile> inputs = {{object, "the object that is scanned"},
                                    {openings_file(object), "the list of the object's openings"}};
   if (!c.views.file.empty()) inputs.push_back({c.views.file, "the views file"});

@@ -63,13 +63,7 @@ std::vector<Opening> known_openings(const fs::path& object, const MeshPlacement&
 
 /// What was scanned must still be there, and the same. @throws std::runtime_error naming the file and the reason.
 void require_scanned_object(const fs::path& folder, const Configuration& c) {
-  fs::path object;
-  try {
-    object = resolve_object(c.object.file);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{}: object.file: {}", (folder / "config.toml").string(), error.what()));
-  }
-  require_same_object(folder, object);
+  require_same_object(folder, resolve_object(c));
 }
 
 }  // namespace
@@ -89,7 +83,7 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
 RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views, const Progress& progress,
                              std::stop_token stop) {
   const Configuration c = affordable(configuration);
-  const fs::path object = resolve_object(c.object.file);
+  const fs::path object = resolve_object(c);
   const auto mesh = std::make_shared<PlacedMesh>(load_placed_mesh(object, {c.object.longest_side}, stop));
   require_within_region(mesh->mesh, c, object);
   const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);

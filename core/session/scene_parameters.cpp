@@ -3,12 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <utility>
+
+#include "core/session/configuration.hpp"
 
 #include "core/source/recorded_source.hpp"
 
 namespace nextview {
 namespace {
+
+/// Settings that scenes know by other names.
+constexpr std::array parameter_names = {std::pair{"map.resolution", "resolution_m"},
+                                        std::pair{"map.hit", "hit_probability"},
+                                        std::pair{"map.miss", "miss_probability"},
+                                        std::pair{"map.clamp_min", "clamping_threshold_min"},
+                                        std::pair{"map.clamp_max", "clamping_threshold_max"},
+                                        std::pair{"map.occupancy_threshold", "occupancy_threshold"},
+                                        std::pair{"map.free_below", "p_unknown_lower_bound"},
+                                        std::pair{"map.occupied_above", "p_unknown_upper_bound"}};
+
+/// What `check` finds wrong with settings, said of parameters.
+void with_names_of_parameters(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    SettingSources names;
+    for (const auto& [key, name] : parameter_names) names[key].name = fmt::format("parameter {}", name);
+    throw std::invalid_argument(as_given(error.what(), names));
+  }
+}
 
 /// The scene's parameters by the names of the reference code, with its defaults.
 class Parameters {
@@ -50,16 +75,15 @@ void require_in_octree(const Vector3& point, double resolution, std::string_view
 ReferenceMap::Parameters map_parameters(Parameters& p) {
   ReferenceMap::Parameters m;
   constexpr double longest_ray = 1000.0;  // [m], as in configurations
-  m.resolution = p("resolution_m", m.resolution);
-  if (!(m.resolution >= 1e-4 && m.resolution <= 1.0))
-    throw std::invalid_argument(fmt::format("parameter resolution_m must be from 0.0001 to 1, not {}", m.resolution));
-  m.model.hit = p("hit_probability", m.model.hit);
-  m.model.miss = p("miss_probability", m.model.miss);
-  m.model.clamp_min = p("clamping_threshold_min", m.model.clamp_min);
-  m.model.clamp_max = p("clamping_threshold_max", m.model.clamp_max);
-  m.model.occupancy_threshold = p("occupancy_threshold", m.model.occupancy_threshold);
-  m.model.free_below = p("p_unknown_lower_bound", m.model.free_below);
-  m.model.occupied_above = p("p_unknown_upper_bound", m.model.occupied_above);
+  MapConfig map{.resolution = m.resolution, .model = m.model};
+  auto map_settings = settings(map);
+  for (const auto& [key, name] : parameter_names) {
+    double& value = *std::get<double*>(find_setting(map_settings, key).value);
+    value = p(name, value);
+  }
+  with_names_of_parameters([&] { find_setting(map_settings, "map.resolution").require_in_bounds(); });
+  m.resolution = map.resolution;
+  m.model = map.model;
   m.unknown_prior = p("p_unknown_prior", m.unknown_prior);
   m.use_bounding_box = p("use_bounding_box", 1.0) != 0.0;
   m.lower = {p("bbox_min_x_m", p("bbox_min_x", -0.64)), p("bbox_min_y_m", p("bbox_min_y", -0.64)),
@@ -127,7 +151,7 @@ VoxelGrid SceneParameters::grid() const {
 SceneParameters scene_parameters(const RecordedScene& scene, const std::function<void(const std::string&)>& warn) {
   Parameters parameters(scene.parameters);
   SceneParameters result{map_parameters(parameters), bundle(parameters)};
-  result.map.model.validate();
+  with_names_of_parameters([&] { result.map.model.validate(); });
   parameters("voxels_in_void_ray", 100.0);  // the reference code has it, and never gets to use it
   for (const std::string& name : parameters.not_asked_for())
     if (warn) warn(fmt::format("parameter {} has no meaning here and is ignored", name));

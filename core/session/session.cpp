@@ -39,7 +39,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
 
 std::shared_ptr<const SimulatedWorld> Session::make_world(const std::stop_token& stop) {
   const Configuration& c = setup_.configuration;
-  object_file_ = resolve_object(c.object.file);
+  object_file_ = resolve_object(c);
   object_ = std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, {c.object.longest_side}, stop));
   require_within_region(object_->mesh, c, object_file_);
   return std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);

@@ -68,18 +68,23 @@ std::vector<Vector3> equal_rings(int count, int rings) {
 
 }  // namespace
 
+std::vector<Setting> settings(CandidateViewsConfig& c) {
+  return {
+      {"views.layout", "", "how candidate views are laid out",
+       choice(c.layout, {"hemisphere", "sphere", "rings", "fibonacci", "file"})},
+      {"views.count", "", "number of candidate views", &c.count, from_to(1, 10000)},
+      {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(0.01, 100)},
+      {"views.rings", "", "number of rings (layout rings)", &c.rings, from_to(1, 10000)},
+      {"views.file", "", "views file (layout file): a count, then x y z qx qy qz qw a line", &c.file},
+  };
+}
+
 void CandidateViewsConfig::validate() const {
-  if (layout == ViewLayout::file) {
-    if (file.empty()) throw std::invalid_argument("candidate views: layout 'file' needs the name of a views file");
-    return;
-  }
-  if (count < 1 || count > 10'000)
-    throw std::invalid_argument(fmt::format("candidate views: count must be from 1 to 10000, not {}", count));
-  if (!(radius >= 0.01 && radius <= 100.0))
-    throw std::invalid_argument(fmt::format("candidate views: radius must be from 0.01 to 100 m, not {}", radius));
-  if (layout == ViewLayout::rings && (rings < 1 || rings > count))
-    throw std::invalid_argument(
-        fmt::format("candidate views: rings must be from 1 to the number of views, not {}", rings));
+  require_in_bounds(*this);
+  if (layout == ViewLayout::file && file.empty())
+    throw std::invalid_argument("views.file must name a views file where views.layout is file");
+  if (layout == ViewLayout::rings && rings > count)
+    throw std::invalid_argument(fmt::format("views.rings, {}, must be at most views.count, {}", rings, count));
 }
 
 std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target) {

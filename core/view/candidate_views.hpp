@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/setting/setting.hpp"
 #include "core/view/pose.hpp"
 
 namespace nextview {
@@ -22,9 +23,10 @@ struct CandidateViewsConfig {
   int rings = 3;        ///< number of rings; `rings` only
   std::string file;     ///< views file; `file` only
 
-  /// @throws std::invalid_argument naming the field and its bounds.
+  /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };
+std::vector<Setting> settings(CandidateViewsConfig& config);
 
 std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target);
 

@@ -41,7 +41,7 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   const std::string file = in("c.toml");
   EXPECT_EQ(with("seed = 1\n[sensor]\nrange_noise = 5\n"),
             line(file + ":3: sensor.range_noise must be from 0 to 1 m, not 5"));
-  EXPECT_EQ(with("[map]\n\nhit = 0.2\n"), line(file + ":3: map.hit must lie between 0.5 and 1"));
+  EXPECT_EQ(with("[map]\n\nhit = 0.2\n"), line(file + ":3: map.hit must be over 0.5 and below 1, not 0.2"));
   EXPECT_EQ(with("[cloud]\noutlier_neighbours = 0\n"),
             line(file + ":2: cloud.outlier_neighbours must be from 1 to 1000, not 0"));
   EXPECT_EQ(with("[termination]\nviews = 0\n"), line(file + ":2: termination.views must be from 1 to 10000, not 0"));
@@ -50,7 +50,7 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   EXPECT_EQ(with("[planner]\nray_rows = 0\n"), line(file + ":2: planner.ray_rows must be from 1 to 2000, not 0"));
   // The bound that is not kept is of another setting than the one that the file gives.
   EXPECT_EQ(with("[sensor]\nmax_range = 0.01\n"),
-            line(file + ":2: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.2"));
+            line(file + ":2: sensor.min_range, 0.2 m, must be at most sensor.max_range, 0.01 m"));
   EXPECT_EQ(with("[map]\nregion_edge = 100\n"),
             line(file + ":2: map.region_edge / map.resolution must be from 1 to 512 voxels, not 10000"));
 }
@@ -65,22 +65,48 @@ TEST_F(Messages, OfSeveralFilesTheOneIsNamedThatGaveTheSetting) {
   // What one file leaves wrong another may mend.
   const std::string far = write("far.toml", "[sensor]\nmin_range = 7\n"),
                     farther = write("farther.toml", "[sensor]\nmax_range = 9\n");
-  EXPECT_THAT(complaint(scan() + "--config " + far), HasSubstr("far.toml:2: sensor.min_range must"));
+  EXPECT_THAT(complaint(scan() + "--config " + far), HasSubstr("far.toml:2: sensor.min_range, 7 m, must"));
   EXPECT_THAT(complaint(scan() + "--config " + far + " --config " + farther + " --seed x"), HasSubstr("--seed"));
 }
 
 TEST_F(Messages, ARangeErrorOnTheCommandLineNamesTheOption) {
   EXPECT_EQ(complaint(scan() + "--sensor.range_noise 5"), line("--sensor.range_noise must be from 0 to 1 m, not 5"));
   EXPECT_EQ(complaint(scan() + "--views 0"), line("--views (termination.views) must be from 1 to 10000, not 0"));
-  EXPECT_EQ(complaint(scan() + "--termination.views 0"),
-            line("--views (termination.views) must be from 1 to 10000, not 0"));
+  EXPECT_EQ(complaint(scan() + "--termination.views 0"), line("--termination.views must be from 1 to 10000, not 0"));
   EXPECT_EQ(complaint(scan() + "--views many"), line("--views (termination.views) takes a whole number, not 'many'"));
   EXPECT_EQ(complaint(scan() + "--sensor.max_range 0.01"),
-            line("--sensor.max_range: sensor.min_range must be from 0 to 0.01 m (max_range), not 0.2"));
+            line("sensor.min_range, 0.2 m, must be at most --sensor.max_range, 0.01 m"));
+  EXPECT_THAT(complaint(scan() + "--sensor none"), HasSubstr("--sensor (sensor.preset): there is no sensor 'none'"));
+  EXPECT_THAT(complaint(scan() + "--views 2 --termination.views 2"), HasSubstr("--views"));
   // The option is wrong, not the file that it overrides.
   EXPECT_EQ(
       complaint(scan() + "--config " + write("c.toml", "[sensor]\nrange_noise = 0.1\n") + " --sensor.range_noise 5"),
       line("--sensor.range_noise must be from 0 to 1 m, not 5"));
+}
+
+TEST_F(Messages, OfTwoSettingsEachIsNamedAsItWasGiven) {
+  const std::string near = write("near.toml", "[sensor]\nmax_range = 0.3\n"),
+                    far = write("far.toml", "\nsensor.min_range = 0.4\n");
+  EXPECT_EQ(complaint(scan() + "--config " + near + " --config " + far),
+            line(far + ":2: sensor.min_range, 0.4 m, must be at most sensor.max_range (" + near + ":2), 0.3 m"));
+  EXPECT_EQ(complaint(scan() + "--config " + near + " --sensor.min_range 0.4"),
+            line(near + ":2: --sensor.min_range, 0.4 m, must be at most sensor.max_range, 0.3 m"));
+}
+
+TEST_F(Messages, AnObjectThatIsNotThereIsToldWithItsPlace) {
+  const std::string missing = ": there is no such file, nor an object of this name that comes with the program";
+  const std::string file = write("c.toml", "\n[object]\nfile = \"none.ply\"\n");
+  const std::string bare = "scan --no-pictures --out " + in("out") + " ";
+  EXPECT_EQ(complaint(bare + "--config " + file), line(file + ":3: object.file: none.ply" + missing));
+  EXPECT_EQ(complaint(bare + "--object.file none.ply"), line("--object.file: none.ply" + missing));
+  EXPECT_EQ(complaint(bare + "--config " + file + " other.ply"), line("other.ply" + missing));
+}
+
+TEST_F(Messages, HelpTellsTheBounds) {
+  const Result run = nextview("scan --help");
+  EXPECT_THAT(run.out, HasSubstr("from 1 to 16384"));
+  EXPECT_THAT(run.out, HasSubstr("--views"));
+  EXPECT_THAT(run.out, HasSubstr("the same as --views"));
 }
 
 TEST_F(Messages, WhatStandsInFilesAndNamesIsQuoted) {

@@ -214,7 +214,7 @@ TEST_F(OutputFolder, OfTheVersionBeforeIsStillReadWhereItWasMade) {
   fs::create_directories(in("elsewhere"));
   const Result lost = run("refine ../out --out refined --no-pictures", "elsewhere");
   EXPECT_EQ(lost.exit_code, 2);
-  EXPECT_THAT(lost.err, AllOf(HasSubstr("out/config.toml: object.file: part.ply")));
+  EXPECT_THAT(lost.err, AllOf(HasSubstr("out/config.toml:4: object.file: part.ply")));
   write_file(in("out/step_20.png"), "of the version before");
   expect_done("scan box --out out" + quick);
   EXPECT_FALSE(fs::exists(in("out/step_20.png")));

@@ -26,8 +26,11 @@ ArgumentOf<std::string> setting_key() { return argument::name("key", "as in the 
 
 Setting setting(Configuration& configuration, const std::string& key) {
   auto all = settings(configuration);
-  return *std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
+  return find_setting(all, key);
 }
+
+/// As the window names a setting.
+std::string shown_name(const Setting& setting) { return fmt::format("{} ({})", setting.label(), setting.key); }
 
 constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, too
 constexpr std::string_view kept = "termination.";       // settings that leave the scan as it is
@@ -43,11 +46,7 @@ void change_setting(CommandTarget& target, const std::string& key, const Configu
 
 void set_as_text(CommandTarget& target, const std::string& key, const std::string& text) {
   Configuration configuration = target.session.configuration;
-  if (key == sensor_preset) {
-    apply_sensor_preset(configuration, text);
-  } else {
-    setting(configuration, key).set(text);
-  }
+  give(configuration, key, text, shown_name(setting(configuration, key)));
   change_setting(target, key, configuration);
 }
 
@@ -70,6 +69,7 @@ void set_from(CommandTarget& target, const std::string& key, Configuration wante
   } else {
     Setting changed = setting(configuration, key);
     copy_value(setting(wanted, key), changed);
+    configuration.sources[key] = {shown_name(changed), "", changed.text()};
   }
   change_setting(target, key, configuration);
 }

@@ -11,6 +11,14 @@ std::string refine_why_not(const CommandState& t) {
   return reason.empty() ? needs_rest(t) : reason;
 }
 
+/// A whole number, as a setting takes it.
+ArgumentOf<int> like_setting(const std::string& name, const std::string& key) {
+  Configuration defaults;
+  auto all = settings(defaults);
+  const Setting& setting = find_setting(all, key);
+  return argument::whole<int>(name, setting.help, setting.bounds->low, setting.bounds->high);
+}
+
 }  // namespace
 
 const CommandOf<std::optional<int>, std::optional<int>> command::refine{
@@ -20,8 +28,8 @@ const CommandOf<std::optional<int>, std::optional<int>> command::refine{
      "Samples the Gibbs map of all views so far until it is stationary.",
      {{key('G')}},
      refine_why_not},
-    argument::optional(argument::whole<int>("chains", "independent chains", 1, 16)),
-    argument::optional(argument::whole<int>("sweeps", "of each chain, at most", 4, 100'000)),
+    argument::optional(like_setting("chains", "gibbs.chains")),
+    argument::optional(like_setting("sweeps", "gibbs.sweeps")),
     [](CommandTarget& t, std::optional<int> chains, std::optional<int> sweeps) {
       const auto& sampler = t.session.configuration.gibbs.sampler;
       t.worker.post(request::Refine{chains.value_or(sampler.chains), sweeps.value_or(sampler.sweeps)});

@@ -53,19 +53,12 @@ constexpr std::array groups = {std::pair{"object", "Object"},         std::pair{
                                std::pair{"gibbs", "Gibbs sampler"},   std::pair{"termination", "Termination"},
                                std::pair{"evaluation", "Evaluation"}};
 
-/// "range noise [m]"
-std::string name_in_group(const Setting& setting) {
-  std::string name = setting.key.substr(setting.key.find('.') + 1);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 }  // namespace
 
 void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, const char* name) {
   const bool keeps_scan = setting.key.starts_with("termination.");
   label(context, name,
-        fmt::format("{}: {}\n{}", setting.key, explanation(setting),
+        fmt::format("{}: {}\n{}", setting.key, setting_help(setting),
                     keeps_scan ? "A change keeps the scan." : "A change starts the scan over; undo brings it back."));
   if (setting.key == "object.file") {
     draw_object(context, setting);
@@ -84,7 +77,7 @@ void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
   const std::string& object = context.snapshot.object_name;
   ImGui::InputTextWithHint("##object.file", object.empty() ? "a mesh file, or choose one" : object.c_str(), &file);
   const bool typed = ImGui::IsItemDeactivatedAfterEdit();
-  tooltip(explanation(setting) + ". Or drop a file on the window.");
+  tooltip(setting_help(setting) + ". Or drop a file on the window.");
   ImGui::SameLine(0, context.style.px(2));
   bool chosen = false;
   if (ImGui::BeginCombo("##known objects", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
@@ -104,7 +97,7 @@ void SessionPanel::draw_sensor(const PanelContext& context, const Setting& setti
       if (ImGui::Selectable(name.c_str(), name == edited_.sensor_preset)) context.post(command::set(setting.key, name));
     ImGui::EndCombo();
   }
-  tooltip(explanation(setting));
+  tooltip(setting_help(setting));
 }
 
 void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group) {
@@ -112,12 +105,12 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
   for (Setting& setting : settings) {
     if (!setting.key.starts_with(group + ".")) continue;
     const std::string unit = setting.unit.empty() ? "" : " [" + setting.unit + "]";
-    const bool narrow = name_in_group(setting).size() + unit.size() > 14;
+    const bool narrow = setting.label().size() + unit.size() > 14;
     if (narrow) {  // the name has a line of its own
-      ImGui::TextUnformatted((name_in_group(setting) + unit).c_str());
-      tooltip(setting.key + ": " + explanation(setting));
+      ImGui::TextUnformatted((setting.label() + unit).c_str());
+      tooltip(setting.key + ": " + setting_help(setting));
     }
-    draw_setting(context, setting, narrow ? "" : (name_in_group(setting) + unit).c_str());
+    draw_setting(context, setting, narrow ? "" : (setting.label() + unit).c_str());
   }
   ImGui::PopFont();
 }

@@ -3,26 +3,28 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include <algorithm>
-#include <cassert>
-
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
 namespace {
 
-/// A control for each type that a setting can have.
+/// A control for each type that a setting can have. A number that is typed comes to the nearest that is allowed.
 struct Control {
   const char* id;
+  const std::optional<Bounds>& bounds;
 
   bool operator()(bool* value) const { return ImGui::Checkbox(id, value); }
   bool operator()(int* value) const {
     ImGui::InputInt(id, value, 1, 10);
-    return ImGui::IsItemDeactivatedAfterEdit();
+    if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+    if (bounds) *value = static_cast<int>(bounds->nearest(*value));
+    return true;
   }
   bool operator()(double* value) const {
     ImGui::InputDouble(id, value, 0, 0, "%.6g");
-    return ImGui::IsItemDeactivatedAfterEdit();
+    if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+    if (bounds) *value = bounds->nearest(*value);
+    return true;
   }
   bool operator()(std::uint64_t* value) const {
     ImGui::InputScalar(id, ImGuiDataType_U64, value);
@@ -53,21 +55,15 @@ struct Control {
 
 }  // namespace
 
-std::string explanation(const Setting& setting) {
-  return setting.help + (setting.unit.empty() ? "" : " [" + setting.unit + "]");
+std::string setting_help(const Setting& setting) {
+  return setting.explanation() + (setting.bounds ? "; " + setting.bounds->text() : "");
 }
 
 bool setting_control(Setting& setting) {
   const std::string id = "##" + setting.key;
-  const bool changed = std::visit(Control{id.c_str()}, setting.value);
-  tooltip(explanation(setting));
+  const bool changed = std::visit(Control{id.c_str(), setting.bounds}, setting.value);
+  tooltip(setting_help(setting));
   return changed;
-}
-
-Setting& find_setting(std::vector<Setting>& settings, const char* key) {
-  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
-  assert(found != settings.end());
-  return *found;
 }
 
 }  // namespace nextview

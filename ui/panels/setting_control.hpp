@@ -1,5 +1,5 @@
 #pragma once
-#include "core/session/configuration.hpp"
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 
@@ -7,10 +7,7 @@ namespace nextview {
 /// whether a person has finished changing the setting.
 bool setting_control(Setting& setting);
 
-/// "horizontal field of view [deg]"
-std::string explanation(const Setting& setting);
-
-/// @pre there is a setting with this key
-Setting& find_setting(std::vector<Setting>& settings, const char* key);
+/// "horizontal field of view [deg]; from 1 to 170"
+std::string setting_help(const Setting& setting);
 
 }  // namespace nextview

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -106,14 +107,42 @@ TEST(Settings, AChoiceSuggestsTheNearest) {
   }
 }
 
-TEST(Nearest, CountsInsertionsDeletionsAndReplacements) {
-  EXPECT_EQ(nearest("kitten", {"sitting", "mitten", "bitter"}), "mitten");
-  EXPECT_EQ(nearest("coverge", {"average", "coverage", "converge"}), "coverage");
-  EXPECT_EQ(nearest("", {"abc", "a", "ab"}), "a");
-  EXPECT_EQ(nearest("same", {"other", "same"}), "same");
-}
-
 TEST(Validate, TheDefaultsAreGood) { EXPECT_NO_THROW(Configuration().validate()); }
+
+// What is just within the bounds is taken, what is just outside is not, and the message is all of it.
+TEST(Validate, EachNumberHasItsBoundsAndTheMessageNamesThem) {
+  Configuration names;
+  for (const Setting& s : settings(names)) {
+    const bool is_int = std::holds_alternative<int*>(s.value);
+    ASSERT_EQ(s.bounds.has_value(), is_int || std::holds_alternative<double*>(s.value)) << s.key;
+    if (!s.bounds) continue;
+    const auto below = [&](double v) { return is_int ? v - 1 : std::nextafter(v, -1e300); };
+    const auto above = [&](double v) { return is_int ? v + 1 : std::nextafter(v, 1e300); };
+    const auto refusal = [&](double value) -> std::string {
+      Configuration configuration;
+      try {
+        const Setting setting = find(configuration, s.key);
+        Setting(setting).set(is_int ? std::to_string(int(value)) : fmt::format("{}", value));
+        setting.require_in_bounds();
+        return "";
+      } catch (const std::invalid_argument& error) {
+        return error.what();
+      }
+    };
+    const auto refused = [&](double value) {
+      const std::string text = find(names, s.key).bounds->text(s.unit);
+      return fmt::format("{} must be {}, not {}", s.key, text, is_int ? double(int(value)) : value);
+    };
+    const auto [low, high] = std::pair{s.bounds->low, s.bounds->high};
+    EXPECT_EQ(refusal(s.bounds->low_included ? low : above(low)), "");
+    EXPECT_EQ(refusal(s.bounds->high_included ? high : below(high)), "");
+    EXPECT_EQ(refusal(s.bounds->low_included ? below(low) : low),
+              s.bounds->or_zero && low == 0 ? "" : refused(s.bounds->low_included ? below(low) : low));
+    EXPECT_EQ(refusal(s.bounds->high_included ? above(high) : high),
+              refused(s.bounds->high_included ? above(high) : high));
+    if (s.bounds->or_zero) EXPECT_EQ(refusal(0.0), "");
+  }
+}
 
 // No number takes NaN, infinity or something far below 0, whichever setting it is.
 TEST(Validate, RejectsWhatIsNoUsableNumber) {

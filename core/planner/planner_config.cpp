@@ -1,0 +1,53 @@
+#include "core/planner/planner_config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/planner/gain_policies.hpp"
+
+namespace nextview {
+namespace {
+
+Setting::Choice gain_choice(std::string& gain) {
+  return {policy_names(),
+          [&gain] {
+            const auto names = policy_names();
+            return static_cast<std::size_t>(std::find(names.begin(), names.end(), gain) - names.begin());
+          },
+          [&gain](std::size_t i) { gain = policy_names()[i]; }};
+}
+
+}  // namespace
+
+std::vector<Setting> settings(PlannerConfig& c) {
+  return {
+      {"planner.gain", "", "what ranks the candidate views", gain_choice(c.gain)},
+      {"planner.semantics", "", "published, or what the reference code computes",
+       choice(c.semantics, {"published", "reference"})},
+      {"planner.gain_weight", "", "weight of the gain in the utility (Eq. 13)", &c.weights.gain, from_to(0, 1e6)},
+      {"planner.cost_weight", "", "weight of the distance in the utility (Eq. 13)", &c.weights.cost, from_to(0, 1e6)},
+      {"planner.combined_weights", "", "gain=weight,…; empty: the pre-release weights, unconfirmed",
+       &c.combined_weights},
+      {"planner.ray_columns", "", "rays that score a view, across", &c.ray_columns, from_to(1, 2000)},
+      {"planner.ray_rows", "", "rays that score a view, down", &c.ray_rows, from_to(1, 2000)},
+      {"planner.ray_length", "m", "how far they reach", &c.ray_length, from_to(1e-3, 1000)},
+      {"planner.start_azimuth", "deg", "start view, seen from the object", &c.start_azimuth, from_to(-360, 360)},
+      {"planner.start_elevation", "deg", "start view, seen from the object", &c.start_elevation, from_to(-90, 90)},
+  };
+}
+
+void PlannerConfig::validate() const {
+  require_in_bounds(*this);
+  const auto names = policy_names();
+  if (std::find(names.begin(), names.end(), gain) == names.end())
+    throw std::invalid_argument(
+        fmt::format("planner.gain: there is no gain '{}'; did you mean '{}'?", gain, nearest(gain, names)));
+  if (make_policy(*this)->needs().posterior && semantics != Semantics::published)
+    throw std::invalid_argument(
+        fmt::format("planner.gain {} needs planner.semantics published: the reference code knows no Gibbs map", gain));
+  const CombinedPolicy readable(combined_weights);
+}
+
+}  // namespace nextview

@@ -1,0 +1,29 @@
+#include "core/setting/bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nextview {
+
+bool Bounds::allow(double value) const {
+  if (or_zero && value == 0.0) return true;
+  return (low_included ? value >= low : value > low) && (high_included ? value <= high : value < high);
+}
+
+double Bounds::nearest(double value) const {
+  if (allow(value)) return value;
+  if (or_zero && value < 0.5 * low) return 0.0;
+  const double end = std::clamp(value, low, high);
+  return allow(end) ? end : value;
+}
+
+std::string Bounds::text(const std::string& unit) const {
+  const std::string behind = unit.empty() ? "" : " " + unit;
+  const std::string zero = or_zero ? "0 or " : "";
+  if (low_included && high_included) return fmt::format("{}from {} to {}{}", zero, low, high, behind);
+  return fmt::format("{}{} {} and {} {}{}", zero, low_included ? "at least" : "over", low,
+                     high_included ? "at most" : "below", high, behind);
+}
+
+}  // namespace nextview

@@ -1,0 +1,135 @@
+#include "core/setting/setting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <limits>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+template <class Number>
+bool parse_number(const std::string& text, Number& value) {
+  Number parsed{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  value = parsed;
+  return true;
+}
+
+std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+/// What a setting takes, for messages.
+struct Expected {
+  std::string operator()(bool*) const { return "true or false"; }
+  std::string operator()(int*) const { return "a whole number"; }
+  std::string operator()(std::uint64_t*) const { return "a whole number, 0 or more"; }
+  std::string operator()(double*) const { return "a number"; }
+  std::string operator()(std::string*) const { return "a text"; }
+  std::string operator()(const Setting::Choice& c) const { return "one of " + join(c.names); }
+};
+
+struct Assign {
+  const std::string& text;
+  bool operator()(bool* v) const {
+    if (text != "true" && text != "false") return false;
+    *v = text == "true";
+    return true;
+  }
+  bool operator()(std::string* v) const {
+    *v = text;
+    return true;
+  }
+  bool operator()(Setting::Choice& c) const {
+    const auto found = std::find(c.names.begin(), c.names.end(), text);
+    if (found == c.names.end()) return false;
+    c.set(static_cast<std::size_t>(found - c.names.begin()));
+    return true;
+  }
+  template <class Number>
+  bool operator()(Number* v) const {
+    return parse_number(text, *v);
+  }
+};
+
+struct Text {
+  std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
+  std::string operator()(const std::string* v) const { return *v; }
+  std::string operator()(const Setting::Choice& c) const {
+    const std::size_t i = c.get();
+    return i < c.names.size() ? c.names[i] : "";
+  }
+  template <class Number>
+  std::string operator()(const Number* v) const {
+    return fmt::format("{}", *v);
+  }
+};
+
+/// Whether a value is within the bounds of its setting.
+struct Allowed {
+  const std::optional<Bounds>& bounds;
+  bool operator()(const int* v) const { return !bounds || bounds->allow(*v); }
+  bool operator()(const double* v) const { return !bounds || bounds->allow(*v); }
+  bool operator()(const auto&) const { return true; }
+};
+
+}  // namespace
+
+std::string Setting::text() const { return std::visit(Text{}, value); }
+
+void Setting::set(const std::string& new_text) {
+  if (std::visit(Assign{new_text}, value)) return;
+  std::string hint;
+  if (const auto* c = std::get_if<Choice>(&value))
+    hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));
+  throw std::invalid_argument(
+      fmt::format("{} takes {}, not '{}'{}", key, std::visit(Expected{}, value), new_text, hint));
+}
+
+void Setting::require_in_bounds() const {
+  if (!std::visit(Allowed{bounds}, value))
+    throw std::invalid_argument(fmt::format("{} must be {}, not {}", key, bounds->text(unit), text()));
+  const auto* whole = std::get_if<std::uint64_t*>(&value);
+  constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
+  if (whole && **whole > largest)
+    throw std::invalid_argument(
+        fmt::format("{} must be at most {}, the largest whole number of TOML, not {}", key, largest, **whole));
+}
+
+std::string Setting::label() const {
+  std::string name = key.substr(key.find('.') + 1);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string Setting::explanation() const { return unit.empty() ? help : fmt::format("{} [{}]", help, unit); }
+
+Setting& find_setting(std::vector<Setting>& settings, const std::string& key) {
+  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
+  assert(found != settings.end());
+  return *found;
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  const auto distance = [](const std::string& a, const std::string& b) {  // Levenshtein
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t above = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+        diagonal = above;
+      }
+    }
+    return row.back();
+  };
+  return *std::min_element(known.begin(), known.end(),
+                           [&](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
+}
+
+}  // namespace nextview

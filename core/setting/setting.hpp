@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/setting/bounds.hpp"
+
+namespace nextview {
+
+/// One setting of a configuration, declared once, beside what it configures: the function `settings` of each
+/// configuration struct lists its own. Files, the command line, `--help`, panels and checks are all made from that.
+struct Setting {
+  struct Choice {
+    std::vector<std::string> names;
+    std::function<std::size_t()> get;
+    std::function<void(std::size_t)> set;
+  };
+  std::string key;   ///< as in the file and, behind `--`, on the command line: "sensor.range_noise"
+  std::string unit;  ///< "m", "deg", …; empty if it has none
+  std::string help;
+  std::variant<bool*, int*, double*, std::uint64_t*, std::string*, Choice> value;
+  std::optional<Bounds> bounds = {};  ///< of int and double
+
+  std::string text() const;
+  /// @throws std::invalid_argument naming the key and what it takes.
+  void set(const std::string& text);
+  /// @throws std::invalid_argument naming the key and its bounds.
+  void require_in_bounds() const;
+
+  /// "range noise"
+  std::string label() const;
+  /// "horizontal field of view [deg]"
+  std::string explanation() const;
+};
+
+/// A choice among the values of an enumeration, in their order.
+template <class Enum>
+Setting::Choice choice(Enum& value, std::vector<std::string> names) {
+  return {std::move(names), [&value] { return static_cast<std::size_t>(value); },
+          [&value](std::size_t i) { value = static_cast<Enum>(i); }};
+}
+
+/// That each setting of a configuration struct is within its bounds.
+/// @throws std::invalid_argument naming the key and its bounds.
+template <class Configuration>
+void require_in_bounds(Configuration configuration) {
+  for (const Setting& setting : settings(configuration)) setting.require_in_bounds();
+}
+
+/// @pre there is a setting with this key
+Setting& find_setting(std::vector<Setting>& settings, const std::string& key);
+
+/// Of `known`, the one that `word` is most likely meant to be.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace nextview

@@ -1,0 +1,66 @@
+#include "core/setting/setting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace nextview {
+namespace {
+
+TEST(Nearest, CountsInsertionsDeletionsAndReplacements) {
+  EXPECT_EQ(nearest("kitten", {"sitting", "mitten", "bitter"}), "mitten");
+  EXPECT_EQ(nearest("coverge", {"average", "coverage", "converge"}), "coverage");
+  EXPECT_EQ(nearest("", {"abc", "a", "ab"}), "a");
+  EXPECT_EQ(nearest("same", {"other", "same"}), "same");
+}
+
+TEST(Bounds, EndsAreIncludedOrNot) {
+  EXPECT_TRUE(from_to(1, 2).allow(1) && from_to(1, 2).allow(2));
+  EXPECT_FALSE(between(1, 2).allow(1) || between(1, 2).allow(2));
+  EXPECT_TRUE(!over_to(1, 2).allow(1) && over_to(1, 2).allow(2));
+  EXPECT_TRUE(zero_or(4, 9).allow(0) && !zero_or(4, 9).allow(3));
+  for (const Bounds& bounds : {from_to(1, 2), between(-1, 2), over_to(1, 2), zero_or(1, 2)})
+    EXPECT_FALSE(bounds.allow(std::nan("")) || bounds.allow(INFINITY) || bounds.allow(-INFINITY));
+}
+
+TEST(Bounds, AreToldInWords) {
+  EXPECT_EQ(from_to(0.5, 10000).text("px"), "from 0.5 to 10000 px");
+  EXPECT_EQ(between(0, 1).text(), "over 0 and below 1");
+  EXPECT_EQ(over_to(0, 100).text("m"), "over 0 and at most 100 m");
+  EXPECT_EQ(zero_or(4, 1e6).text(), "0 or from 4 to 1000000");
+}
+
+TEST(Bounds, TheNearestNumberIsAtAnEndThatIsAllowed) {
+  EXPECT_EQ(from_to(1, 2).nearest(1.5), 1.5);
+  EXPECT_EQ(from_to(1, 2).nearest(-7), 1);
+  EXPECT_EQ(from_to(1, 2).nearest(INFINITY), 2);
+  EXPECT_EQ(zero_or(4, 9).nearest(-3), 0);
+  EXPECT_EQ(zero_or(4, 9).nearest(1), 0);
+  EXPECT_EQ(zero_or(4, 9).nearest(3), 4);
+  EXPECT_EQ(over_to(0, 9).nearest(10), 9);
+  EXPECT_EQ(over_to(0, 9).nearest(-1), -1) << "0 is not allowed: there is none";
+  EXPECT_TRUE(std::isnan(from_to(1, 2).nearest(std::nan(""))));
+}
+
+TEST(Setting, IsCheckedOnlyWhenItIsAskedTo) {
+  int pixels = 5;
+  Setting setting{"sensor.width", "px", "image width", &pixels, from_to(1, 10)};
+  setting.set("11");  // as a part of a configuration that may be mended by what comes
+  EXPECT_EQ(pixels, 11);
+  try {
+    setting.require_in_bounds();
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "sensor.width must be from 1 to 10 px, not 11");
+  }
+  EXPECT_EQ(setting.explanation(), "image width [px]");
+}
+
+TEST(Setting, ItsLabelIsTheKeyInWords) {
+  double value = 0;
+  EXPECT_EQ((Setting{"sensor.range_noise", "m", "", &value}.label()), "range noise");
+  EXPECT_EQ((Setting{"seed", "", "", &value}.label()), "seed");
+}
+
+}  // namespace
+}  // namespace nextview
