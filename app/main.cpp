@@ -25,7 +25,7 @@
 #include "core/progress/stopped.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
-#include "ui/surface/headless.hpp"
+#include "ui/render_target/headless.hpp"
 #include "ui/window/window.hpp"
 
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/config/configuration.hpp"
+#include "core/config/known_objects.hpp"
 #include "core/file/read_file.hpp"
-#include "core/session/configuration.hpp"
-#include "core/session/known_objects.hpp"
 
 namespace nextview {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/session/configuration.hpp"
+#include "core/config/configuration.hpp"
 
 namespace nextview {
 

@@ -67,8 +67,7 @@ Answers answer(const GibbsToy& toy, const PosteriorSamplerConfig& config) {
   OccupancyMap map(toy.grid, {});
   for (const Scan& scan : toy.scans) map.insert(scan);
   Answers answers{exact_posterior(toy.grid, measurements, config.model, config.prior),
-                  sample_posterior(toy.grid, measurements, config, {}, {}, tell, stop.token()),
-                  map.voxels().dense()};
+                  sample_posterior(toy.grid, measurements, config, {}, {}, tell, stop.token()), map.voxels().dense()};
   throw_if_stopped(stop.token());
   progress.clear();
   return answers;

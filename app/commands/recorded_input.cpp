@@ -6,6 +6,7 @@
 
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
+#include "core/results/manifest.hpp"
 
 namespace nextview {
 

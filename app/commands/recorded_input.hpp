@@ -4,7 +4,7 @@
 
 #include "app/commands/options.hpp"
 #include "core/cloud/range_scan_folder.hpp"
-#include "core/session/refinement.hpp"
+#include "core/offline/refinement.hpp"
 
 namespace nextview {
 

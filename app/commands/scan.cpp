@@ -8,10 +8,11 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/shell_text.hpp"
 #include "app/commands/surface_output.hpp"
+#include "core/config/input_files.hpp"
+#include "core/config/known_objects.hpp"
+#include "core/export/scan_files.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
-#include "core/session/known_objects.hpp"
-#include "core/session/scan_files.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
 

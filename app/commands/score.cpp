@@ -6,12 +6,12 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/progress.hpp"
+#include "core/config/configuration.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
+#include "core/offline/scene_scores.hpp"
 #include "core/planner/policy.hpp"
-#include "core/session/configuration.hpp"
-#include "core/session/scene_scores.hpp"
 
 namespace nextview {
 namespace {

@@ -2,7 +2,8 @@
 #include <span>
 #include <string>
 
-#include "core/session/scan_surfaces.hpp"
+#include "core/export/scan_surfaces.hpp"
+#include "core/results/output_folder.hpp"
 
 namespace nextview {
 

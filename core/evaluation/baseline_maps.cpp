@@ -65,8 +65,7 @@ double beta_binomial(const RayCounts& counts) {
   return probability(log_odds(prior_occupied) + log_if_occupied - log_if_free);
 }
 
-BaselineMaps::BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans,
-                           const InverseSensorModel& model)
+BaselineMaps::BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, const InverseSensorModel& model)
     : grid_(grid), scans_(scans), model_(model), counts_(grid.voxel_count()) {
   model.validate();
   for (const Scan& scan : scans)

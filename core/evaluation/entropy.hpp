@@ -16,7 +16,6 @@ double total_entropy(const VoxelBricks& voxels);
 /// Realised gain (Eq. 12) [nats]: the entropy that the voxels lost from `before` to `after`; negative if they became
 /// less certain. With a mask only the voxels where it is not 0 count, such as those in the frustum.
 /// @throws std::invalid_argument if lengths differ.
-double realised_gain(const VoxelBricks& before, const VoxelBricks& after,
-                     std::span<const std::uint8_t> mask = {});
+double realised_gain(const VoxelBricks& before, const VoxelBricks& after, std::span<const std::uint8_t> mask = {});
 
 }  // namespace nextview

@@ -99,8 +99,8 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera,
 void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                            const std::stop_token& stop) const {
   const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
-  mark_visited(truth_.grid, back_project(ideal, T_world_camera, camera_.config().max_range, stop),
-               state.visited_voxels, stop);
+  mark_visited(truth_.grid, back_project(ideal, T_world_camera, camera_.config().max_range, stop), state.visited_voxels,
+               stop);
   for (const std::uint32_t s : samples_seen(T_world_camera, stop)) state.seen[s] = 1;
   state.coverage.add(points, stop);
   state.coverage_paper.add(points, stop);

@@ -15,9 +15,9 @@ namespace nextview {
 
 /// How far a scan has come with a known object.
 struct EvaluationState {
-  std::vector<std::uint8_t> seen;          ///< one a surface sample, 1: a view would have seen it, but for noise
-  SurfaceCoverage coverage;                ///< by the points of the views, at d_reg
-  SurfaceCoverage coverage_paper;          ///< at the paper's
+  std::vector<std::uint8_t> seen;            ///< one a surface sample, 1: a view would have seen it, but for noise
+  SurfaceCoverage coverage;                  ///< by the points of the views, at d_reg
+  SurfaceCoverage coverage_paper;            ///< at the paper's
   std::vector<std::uint8_t> visited_voxels;  ///< one a voxel, 1: a noise-free ray visited it
 
   std::size_t bytes() const { return seen.size() + 2 * coverage.observed().size() + visited_voxels.size(); }

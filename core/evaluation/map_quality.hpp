@@ -50,6 +50,4 @@ struct MapQuality {
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,
                        ScoredSet set, std::span<const std::uint8_t> visited = {});
 
-
-
 }  // namespace nextview

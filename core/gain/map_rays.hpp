@@ -30,9 +30,9 @@ class ReferenceMap : public RayCaster {
     bool use_bounding_box = true;
     Vector3 lower = Vector3::Zero();  ///< bounding box [m, world]; points outside are dropped
     Vector3 upper = Vector3::Zero();
-    double max_sensor_range = 1.5;    ///< [m]; negative: no limit
+    double max_sensor_range = 1.5;                           ///< [m]; negative: no limit
     double occlusion_distance = default_occlusion_distance;  ///< [m]
-    double max_ray_depth = 1.5;       ///< [m]
+    double max_ray_depth = 1.5;                              ///< [m]
   };
 
   explicit ReferenceMap(const Parameters& parameters);

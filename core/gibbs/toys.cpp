@@ -6,7 +6,7 @@
 namespace nextview {
 namespace {
 
-constexpr double edge = 0.01;  ///< of a voxel [m]
+constexpr double edge = 0.01;       ///< of a voxel [m]
 constexpr double max_range = 0.15;  ///< of the sensor [m]
 
 /// One ray along the corridor's axis that ended at `x` [m].
@@ -44,10 +44,10 @@ GibbsToy slot() {
             {at(0.002f, 0.0125f), at(0.006f, 0.0118f), at(0.0196f, 0.0155f), at(0.026f, 0.0122f), at(0.033f, 0.0118f)},
             {},
             max_range};
-  Scan right{
-      {0.06, -0.03, 0.005}, {at(0.036f, 0.0121f), at(0.030f, 0.0117f), at(0.024f, 0.0124f), at(0.0104f, 0.0133f)},
-      {},
-      max_range};
+  Scan right{{0.06, -0.03, 0.005},
+             {at(0.036f, 0.0121f), at(0.030f, 0.0117f), at(0.024f, 0.0124f), at(0.0104f, 0.0133f)},
+             {},
+             max_range};
   const auto pass = [&](Scan& scan, float x) {  // crosses the front of the wall at x
     const Vector3 direction = (at(x, 0.012f).cast<double>() - scan.origin).normalized();
     scan.passes.push_back((scan.origin + max_range * direction).cast<float>());

@@ -161,8 +161,7 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
   tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t brick) {
     const VoxelBricks::Brick& voxels = *bricks[brick];
     for (std::size_t i = 0; i < voxels.size(); ++i)
-      if (voxels[i].measured)
-        touched[brick * VoxelBricks::brick_voxels + i] = voxels[i].log_odds > 0.0f ? hit : passed;
+      if (voxels[i].measured) touched[brick * VoxelBricks::brick_voxels + i] = voxels[i].log_odds > 0.0f ? hit : passed;
   });
   add(touched, origin);
 }

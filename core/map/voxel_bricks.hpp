@@ -11,9 +11,9 @@
 
 namespace nextview {
 
-/// The voxels of a grid in bricks of 8 x 8 x 8. A copy costs a pointer: copies share their bricks, and a brick is copied
-/// when one of them changes it. Of bricks that hold only unmeasured voxels there is one for all. Copies may live in
-/// different threads.
+/// The voxels of a grid in bricks of 8 x 8 x 8. A copy costs a pointer: copies share their bricks, and a brick is
+/// copied when one of them changes it. Of bricks that hold only unmeasured voxels there is one for all. Copies may live
+/// in different threads.
 class VoxelBricks {
  public:
   static constexpr int edge = 8;  ///< of a brick [voxels]
@@ -26,8 +26,8 @@ class VoxelBricks {
   VoxelBricks(const Eigen::Vector3i& size, std::span<const Voxel> voxels);
 
   std::size_t size() const { return std::size_t(size_.x()) * size_.y() * size_.z(); }  ///< voxels
-  const Eigen::Vector3i& edges() const { return size_; }                              ///< voxels along each axis
-  const Eigen::Vector3i& brick_edges() const { return bricks_; }                      ///< bricks along each axis
+  const Eigen::Vector3i& edges() const { return size_; }                               ///< voxels along each axis
+  const Eigen::Vector3i& brick_edges() const { return bricks_; }                       ///< bricks along each axis
   std::size_t brick_count() const { return table_->size(); }
 
   /// Where a voxel stands when voxels are counted brick by brick, x fastest in both.

@@ -75,8 +75,7 @@ std::vector<VoxelUpdate> voxel_history(const VoxelGrid& grid, const InverseSenso
                                        std::span<const std::shared_ptr<const Scan>> scans, std::uint32_t voxel) {
   std::vector<VoxelUpdate> history(scans.size());
   tbb::parallel_for(std::size_t{0}, scans.size(), [&](std::size_t k) {
-    for (const VoxelRay& ray : rays_through(grid, *scans[k], voxel))
-      ++(ray.hit ? history[k].hits : history[k].passes);
+    for (const VoxelRay& ray : rays_through(grid, *scans[k], voxel)) ++(ray.hit ? history[k].hits : history[k].passes);
   });
   const auto lowest = static_cast<float>(log_odds(model.clamp_min));
   const auto highest = static_cast<float>(log_odds(model.clamp_max));

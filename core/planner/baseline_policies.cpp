@@ -23,7 +23,9 @@ double FarthestPolicy::value(const PlanningState& state, std::size_t candidate) 
   if (state.taken.empty()) return 0.0;
   double nearest = std::numeric_limits<double>::max();
   for (const TakenView& taken : state.taken)
-    nearest = std::min(nearest, (taken.T_world_camera.translation() - state.candidates[candidate].T_world_camera.translation()).norm());
+    nearest = std::min(
+        nearest,
+        (taken.T_world_camera.translation() - state.candidates[candidate].T_world_camera.translation()).norm());
   return nearest;
 }
 

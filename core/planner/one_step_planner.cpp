@@ -6,8 +6,7 @@ namespace {
 
 PlanningState state_of(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
                        const RayCaster& rays) {
-  return {setup.config, setup.seed,         setup.occlusion_reach, rays,
-          setup.bundle, setup.true_surface, views,                 known.taken};
+  return {setup.config, setup.seed, setup.occlusion_reach, rays, setup.bundle, setup.true_surface, views, known.taken};
 }
 
 }  // namespace

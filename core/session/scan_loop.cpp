@@ -156,8 +156,7 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
   for (std::size_t k = from.scans.size(); k < state.scans.size(); ++k) {
     report(progress, stop, double(k) / double(state.scans.size()), "making the map again");
     fuse(known, *state.scans[k], fusion(setup), {}, stop);
-    if (evaluation)
-      setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->returns, stop);
+    if (evaluation) setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->returns, stop);
   }
   known.taken = state.known.taken;
   state.known = std::move(known);

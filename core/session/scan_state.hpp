@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/config/configuration.hpp"
 #include "core/evaluation/known_object.hpp"
 #include "core/planner/planner.hpp"
 #include "core/robot/robot.hpp"
-#include "core/session/configuration.hpp"
 #include "core/session/step_record.hpp"
 #include "core/source/scan_source.hpp"
 
@@ -42,9 +42,9 @@ struct ScanState {
   std::shared_ptr<const EvaluationState> evaluation;  ///< null without evaluation
   std::vector<std::shared_ptr<const Scan>> scans;     ///< one a step, returns cleaned
   std::vector<std::shared_ptr<const StepRecord>> records;
-  std::vector<View> candidates;  ///< that are ranked
-  NextView next;                 ///< of no meaning once finished
-  std::string finished;          ///< why the scan is done; empty while it is not
+  std::vector<View> candidates;            ///< that are ranked
+  NextView next;                           ///< of no meaning once finished
+  std::string finished;                    ///< why the scan is done; empty while it is not
   Pose T_world_camera = Pose::Identity();  ///< where the robot is
   bool has_maps = true;                    ///< false after drop_maps
 };

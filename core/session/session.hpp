@@ -19,8 +19,8 @@ struct SessionParts {
   std::unique_ptr<CandidateGenerator> candidates = {};
 };
 
-/// A scan of one object: Algorithm 2, step by step, with the robot and the source that it is taken with. Not safe to use
-/// from two threads at once.
+/// A scan of one object: Algorithm 2, step by step, with the robot and the source that it is taken with. Not safe to
+/// use from two threads at once.
 class Session {
  public:
   /// Asked between capture and absorption; false refuses the view, and nothing of it is kept.
@@ -42,8 +42,8 @@ class Session {
 
   /// All that evolves; what step() leaves is another value, this one can be kept.
   const ScanState& state() const { return state_; }
-  /// Goes on from a state of this session's, or of one of the same configuration. Nothing is captured; a simulated robot
-  /// is put back, a real one stays where it is.
+  /// Goes on from a state of this session's, or of one of the same configuration. Nothing is captured; a simulated
+  /// robot is put back, a real one stays where it is.
   void restore(ScanState state);
 
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
@@ -78,8 +78,8 @@ class Session {
   const std::vector<Pose>& candidates() const { return candidates_; }
   const std::vector<StepRecord>& records() const { return records_; }
   const std::vector<std::shared_ptr<const Scan>>& scans() const { return state_.scans; }  ///< one a step, cleaned
-  const KnownObject* known_object() const { return setup_.truth.get(); }         ///< null without evaluation
-  const EvaluationState* evaluation() const { return state_.evaluation.get(); }  ///< likewise
+  const KnownObject* known_object() const { return setup_.truth.get(); }                  ///< null without evaluation
+  const EvaluationState* evaluation() const { return state_.evaluation.get(); }           ///< likewise
 
   /// Where the next view is taken from. Before the first step this is the start view.
   Pose next_view() const { return state_.next.view.T_world_camera; }

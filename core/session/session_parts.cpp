@@ -92,8 +92,8 @@ VoxelGrid configured_region(const Configuration& c, const SourceDescription& sou
 
 std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& c,
                                                                 const SourceDescription& source) {
-  return std::make_shared<FixedCandidates>(
-      source.frames.empty() ? views_at(candidate_views(c.views, Vector3::Zero())) : source.frames);
+  return std::make_shared<FixedCandidates>(source.frames.empty() ? views_at(candidate_views(c.views, Vector3::Zero()))
+                                                                 : source.frames);
 }
 
 void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {
@@ -134,9 +134,7 @@ Knowledge nothing_known(const Configuration& c, const VoxelGrid& region, const P
   return known;
 }
 
-double occlusion_reach(const Configuration& c) {
-  return occlusion_reach(default_occlusion_distance, c.map.resolution);
-}
+double occlusion_reach(const Configuration& c) { return occlusion_reach(default_occlusion_distance, c.map.resolution); }
 
 Configuration validated(Configuration c) {
   c.validate();

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "core/session/configuration.hpp"
+#include "core/config/configuration.hpp"
 #include "core/planner/planner.hpp"
 #include "core/robot/robot.hpp"
 #include "core/source/scan_source.hpp"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/config/configuration.hpp"
 #include "core/mesh/triangle_mesh.hpp"
-#include "core/session/configuration.hpp"
 
 namespace nextview {
 

@@ -90,7 +90,7 @@ ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Prog
     if (record->refinement) compare_with_conventional(setup, state, input, candidates, *record, stop);
   }
   state.records.back() = std::move(record);
-  state.next = proposal(setup, state);  // p <- next best view
+  state.next = proposal(setup, state);                                   // p <- next best view
   state.finished = termination(setup.configuration.termination, state);  // if p meets the terminal criterion, finish
   return state;
 }

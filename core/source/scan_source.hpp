@@ -23,9 +23,9 @@ struct Capture {
 
 /// What a source says of itself.
 struct SourceDescription {
-  PinholeCamera camera;        ///< views are scored with its rays
-  double max_range = 1.5;      ///< [m]
-  double range_noise = 0.002;  ///< standard deviation along the ray [m]
+  PinholeCamera camera;                            ///< views are scored with its rays
+  double max_range = 1.5;                          ///< [m]
+  double range_noise = 0.002;                      ///< standard deviation along the ray [m]
   std::optional<Pose> start = {};                  ///< where to begin; none: as the configuration says
   std::optional<Eigen::AlignedBox3d> region = {};  ///< region of interest [m, world]; none: the configuration's
   std::vector<View> frames = {};                   ///< if any, these alone can be captured

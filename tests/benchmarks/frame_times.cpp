@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "ui/surface/headless.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/headless.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/window/interface.hpp"
 
 namespace nextview {
@@ -56,7 +56,7 @@ void append(FrameTimes& times, const FrameTimes& more) {
 
 class Window {
  public:
-  Window() : surface_(1280, 800), interface_(surface_, worker_, inspector_) {}
+  Window() : target_(1280, 800), interface_(target_, worker_, inspector_) {}
 
   void load(const Configuration& configuration) {
     worker_.post(request::Load{configuration});
@@ -145,12 +145,12 @@ class Window {
     const auto start = Clock::now();
     const double processor = processor_seconds();
     interface_.draw(frame_interval);
-    reinterpret_cast<void (*)()>(surface_.gl_function("glFinish"))();
+    reinterpret_cast<void (*)()>(target_.gl_function("glFinish"))();
     times.wall.push_back(1e3 * seconds_since(start));
     times.processor.push_back(1e3 * (processor_seconds() - processor));
   }
 
-  OffscreenSurface surface_;
+  OffscreenTarget target_;
   SessionWorker worker_;
   InspectionWorker inspector_;
   Interface interface_;

@@ -7,11 +7,11 @@
 #include <map>
 #include <memory>
 
+#include "core/config/configuration.hpp"
 #include "core/gibbs/chain.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/map/traversal.hpp"
 #include "core/mesh/mesh_file.hpp"
-#include "core/session/configuration.hpp"
 #include "tests/benchmarks/simulated_views.hpp"
 
 namespace nextview {

@@ -14,7 +14,7 @@
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
-#include "core/session/refinement.hpp"
+#include "core/offline/refinement.hpp"
 #include "tests/benchmarks/simulated_views.hpp"
 
 namespace nextview {

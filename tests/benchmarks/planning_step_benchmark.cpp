@@ -9,12 +9,12 @@
 #include <map>
 #include <memory>
 
+#include "core/config/configuration.hpp"
 #include "core/gain/map_rays.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/sensor/depth_camera.hpp"
-#include "core/session/configuration.hpp"
 
 namespace nextview {
 namespace {

@@ -15,9 +15,9 @@
 
 #include "core/random/counter_random.hpp"
 #include "ui/layers/voxel_polydata.hpp"
+#include "ui/render_target/headless.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/scene/scene.hpp"
-#include "ui/surface/headless.hpp"
-#include "ui/surface/offscreen_surface.hpp"
 
 namespace nextview {
 namespace {
@@ -87,15 +87,15 @@ void measure_faces(int edge, double radius) {
 /// Turns the map once around and prints how long frames took.
 void measure_turning(int edge, double radius, int frames, bool moving) {
   const Map map = dented_ball(edge, radius);
-  OffscreenSurface surface(1280, 800);
+  OffscreenTarget target(1280, 800);
   Scene scene;
-  scene.attach(surface, {269 / 1280.0, 250 / 800.0, 944 / 1280.0, 740 / 800.0});  // 675 x 490, as in the window
+  scene.attach(target, {269 / 1280.0, 250 / 800.0, 944 / 1280.0, 740 / 800.0});  // 675 x 490, as in the window
   scene.octree().show(map.grid, map.voxels);
   scene.frame();
   scene.set_moving(moving);
-  const auto finish = reinterpret_cast<void (*)()>(surface.gl_function("glFinish"));
+  const auto finish = reinterpret_cast<void (*)()>(target.gl_function("glFinish"));
   const auto draw = [&] {
-    surface.render();
+    target.render();
     finish();
   };
   const Cost first = cost(draw);

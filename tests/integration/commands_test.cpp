@@ -68,7 +68,7 @@ class Commands : public InTemporaryFolder {
       for (const CommandCall& call : parse_script(lines))
         EXPECT_FALSE(log[i].text.starts_with(call.command->name + ": ")) << log[i].text;
     EXPECT_EQ(person.session().message, "");
-    EXPECT_EQ(person.surface().gl_error(), 0u);
+    EXPECT_EQ(person.target().gl_error(), 0u);
     expect_valid(person.session());
     expect_valid(person.window().state(), person.session());
   }
@@ -230,7 +230,7 @@ TEST_F(Commands, AThousandAtRandomLeaveAValidSession) {
     SCOPED_TRACE(fmt::format("after {} commands", done + refused));
     expect_valid(s);
     expect_valid(person.window().state(), s);
-    EXPECT_EQ(person.surface().gl_error(), 0u);
+    EXPECT_EQ(person.target().gl_error(), 0u);
     ASSERT_FALSE(person.window().wants_to_quit());
     views += s.records.size();
     if (is_large(s.configuration)) person.run("open \"" + file("tiny scan.toml").string() + "\"\n");
@@ -242,7 +242,7 @@ TEST_F(Commands, AThousandAtRandomLeaveAValidSession) {
   person.run("open \"" + file("tiny scan.toml").string() + "\"\nstep\n");
   EXPECT_EQ(person.session().records.size(), 1u);
   EXPECT_EQ(person.session().message, "");
-  EXPECT_EQ(person.surface().gl_error(), 0u);
+  EXPECT_EQ(person.target().gl_error(), 0u);
 }
 
 }  // namespace

@@ -18,24 +18,24 @@ constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA
 
 /// What the last frame shows, all of it drawn at once: the scene's picture, then every panel. In a framebuffer of its
 /// own, whose rows are in the other order than the back buffer's: a renderer may round otherwise there.
-Image drawn_whole(RenderSurface& surface) {
-  surface.make_current();
-  vtkGenericOpenGLRenderWindow& window = surface.window();
+Image drawn_whole(RenderTarget& target) {
+  target.make_current();
+  vtkGenericOpenGLRenderWindow& window = target.window();
   vtkOpenGLState& state = *window.GetState();
   vtkNew<vtkOpenGLFramebufferObject> whole;
   whole->SetContext(&window);
-  whole->PopulateFramebuffer(surface.width(), surface.height(), true, 1, VTK_UNSIGNED_CHAR, false, 0, 0);
+  whole->PopulateFramebuffer(target.width(), target.height(), true, 1, VTK_UNSIGNED_CHAR, false, 0, 0);
   whole->Bind(gl_draw_framebuffer);
   window.BlitDisplayFramebuffer();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   whole->Bind(gl_read_framebuffer);
   state.vtkglBindFramebuffer(gl_draw_framebuffer, 0);
   state.vtkglDrawBuffer(gl_back);
-  state.vtkglBlitFramebuffer(0, 0, surface.width(), surface.height(), 0, 0, surface.width(), surface.height(),
+  state.vtkglBlitFramebuffer(0, 0, target.width(), target.height(), 0, 0, target.width(), target.height(),
                              gl_color_buffer_bit, gl_nearest);
   state.vtkglBindFramebuffer(gl_read_framebuffer, 0);
   whole->ReleaseGraphicsResources(&window);
-  return surface.read_back();
+  return target.read_back();
 }
 
 /// Looks at frames one by one and compares each with one that is drawn whole.
@@ -46,7 +46,7 @@ class Comparison : public ::testing::Test {
       const bool differs = person_.window().draw(frame);
       drawn_partly_ += differs && person_.window().pixels_drawn() < pixels() / 2;
       const Image seen = person_.look();
-      ASSERT_TRUE(seen == drawn_whole(person_.surface())) << what << ", frame " << i;
+      ASSERT_TRUE(seen == drawn_whole(person_.target())) << what << ", frame " << i;
     }
   }
   /// While the session's worker is busy, and until nothing new comes.
@@ -58,7 +58,7 @@ class Comparison : public ::testing::Test {
     person_.move(x, y);
     look("hovering");
   }
-  std::size_t pixels() { return std::size_t(person_.surface().width()) * std::size_t(person_.surface().height()); }
+  std::size_t pixels() { return std::size_t(person_.target().width()) * std::size_t(person_.target().height()); }
 
   Person person_{small_scan()};
   const Layout layout_ = person_.window().layout();
@@ -118,7 +118,7 @@ TEST_F(Comparison, TurningAndResizing) {
   look("the camera comes to rest", 20);
   EXPECT_GT(drawn_partly_, 10);
   for (const auto& [width, height] : {std::pair{1200, 720}, {1240, 760}, {1280, 800}}) {
-    person_.surface().window().SetSize(width, height);
+    person_.target().window().SetSize(width, height);
     look("another size", 4);
   }
 }

@@ -1,4 +1,6 @@
 // What a run may replace and remove in the folder that it writes to, and that its results can be read from anywhere.
+#include "core/results/output_folder.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "ui/commands/script.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/window/interface.hpp"
 
 namespace nextview {
@@ -14,7 +14,7 @@ namespace nextview {
 class Person {
  public:
   explicit Person(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
-      : surface_(width, height), interface_(surface_, worker_, inspector_, scale) {
+      : target_(width, height), interface_(target_, worker_, inspector_, scale) {
     interface_.open(configuration);
     wait();
   }
@@ -59,17 +59,17 @@ class Person {
   }
   void drop(const std::filesystem::path& file) { interface_.push(input::Drop{file}); }
 
-  Image look() { return surface_.read_back(); }
+  Image look() { return target_.read_back(); }
   const SessionSnapshot& session() {
     seen_ = worker_.snapshot();
     return *seen_;
   }
   Interface& window() { return interface_; }
-  RenderSurface& surface() { return surface_; }
+  RenderTarget& target() { return target_; }
   SessionWorker& worker() { return worker_; }
 
  private:
-  OffscreenSurface surface_;
+  OffscreenTarget target_;
   SessionWorker worker_;
   InspectionWorker inspector_;
   Interface interface_;

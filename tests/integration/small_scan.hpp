@@ -1,5 +1,5 @@
 #pragma once
-#include "core/session/configuration.hpp"
+#include "core/config/configuration.hpp"
 
 namespace nextview {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "ui/surface/headless.hpp"
+#include "ui/render_target/headless.hpp"
 
 int main(int argc, char** argv) {
   try {

@@ -394,7 +394,7 @@ TEST(Window, WorksAtAnySize) {
     person.release();
     person.wait();
     EXPECT_EQ(person.session().records.size(), 1u);
-    EXPECT_EQ(person.surface().gl_error(), 0u);
+    EXPECT_EQ(person.target().gl_error(), 0u);
   }
 }
 

@@ -3,7 +3,7 @@
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
 #include "ui/figures/step_figure.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -52,16 +52,16 @@ TEST(Figures, StepFigure) {
 }
 
 TEST(Figures, Chart) {
-  OffscreenSurface surface(720, 420);
+  OffscreenTarget target(720, 420);
   Chart chart;
-  chart.attach(surface);
+  chart.attach(target);
   ChartContent content{"Entropy of the map", "view", "", "entropy", "bits", {}, {}, true};
   content.series = {curve("occlusion aware", 2.1e6, 1.3e5, 0.5, 20), curve("random views", 2.1e6, 4.1e5, 0.3, 20),
                     curve("fixed order", 2.1e6, 6.0e5, 0.2, 20)};
   chart.show(content);
-  surface.render();
-  expect_screenshot("chart", surface.read_back());
-  EXPECT_EQ(surface.gl_error(), 0u);
+  target.render();
+  expect_screenshot("chart", target.read_back());
+  EXPECT_EQ(target.gl_error(), 0u);
 }
 
 }  // namespace

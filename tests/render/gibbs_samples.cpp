@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/config/gibbs_config.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/map/traversal.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/sensor/depth_camera.hpp"
-#include "core/session/gibbs_config.hpp"
 
 namespace nextview::samples {
 namespace {

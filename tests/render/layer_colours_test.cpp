@@ -11,8 +11,8 @@
 
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/scene/scene_overlay.hpp"
-#include "ui/surface/offscreen_surface.hpp"
 
 /// What the layers' colours and legends say, by pixels and by words.
 namespace nextview {
@@ -191,7 +191,7 @@ TEST(MeshLayer, ClassesThatDoNotFitAreRefused) {
 
 /// The right 250 pixels of a picture with legends, and with a label that belongs where they are.
 std::vector<std::uint8_t> beside_legends(const std::vector<Label>& labels) {
-  OffscreenSurface surface(675, 490);
+  OffscreenTarget target(675, 490);
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   vtkNew<vtkContextActor> actor;
@@ -204,11 +204,11 @@ std::vector<std::uint8_t> beside_legends(const std::vector<Label>& labels) {
   actor->GetScene()->AddItem(overlay);
   actor->GetScene()->SetRenderer(renderer);
   renderer->AddActor(actor);
-  surface.window().AddRenderer(renderer);
-  surface.render();
-  const Image image = surface.read_back();
+  target.window().AddRenderer(renderer);
+  target.render();
+  const Image image = target.read_back();
   actor->GetScene()->SetRenderer(nullptr);
-  surface.window().RemoveRenderer(renderer);
+  target.window().RemoveRenderer(renderer);
   std::vector<std::uint8_t> strip;
   for (int y = 0; y < 490; ++y)
     for (int x = 675 - 188; x < 675; ++x) strip.push_back(image.rgba[(std::size_t(y) * 675 + x) * 4]);

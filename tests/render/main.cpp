@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "tests/render/window_picture.hpp"
-#include "ui/surface/headless.hpp"
+#include "ui/render_target/headless.hpp"
 
 /// The tests draw headless. With --draw-in-window FILE this program draws one picture in a window instead; the test
 /// that compares the two starts it so.

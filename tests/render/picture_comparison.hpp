@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 

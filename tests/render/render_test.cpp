@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -43,13 +43,13 @@ void expect_screenshot(const std::string& name, const Image& actual, const Pictu
 }
 
 Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill) {
-  OffscreenSurface surface(width, height);
+  OffscreenTarget target(width, height);
   Scene scene;
-  scene.attach(surface);
+  scene.attach(target);
   fill(scene);
-  surface.render();
-  Image image = surface.read_back();
-  EXPECT_EQ(surface.gl_error(), 0u) << "OpenGL reported an error";
+  target.render();
+  Image image = target.read_back();
+  EXPECT_EQ(target.gl_error(), 0u) << "OpenGL reported an error";
   return image;
 }
 

@@ -1,6 +1,6 @@
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 /// Ways to say the same must draw the same. These need no screenshots, and so none can be wrong.
 namespace nextview {
@@ -72,15 +72,15 @@ TEST(SamePicture, AnotherColouringIsAnotherPicture) {
 }
 
 TEST(SamePicture, RoughEdgesWhileMovingAreSmoothAgainAtRest) {
-  OffscreenSurface surface(320, 200);
+  OffscreenTarget target(320, 200);
   Scene scene;
-  scene.attach(surface);
+  scene.attach(target);
   show_map(scene, VoxelColouring::by_class);
   scene.frame();
   const auto draw = [&](bool moving) {
     scene.set_moving(moving);
-    surface.render();
-    return surface.read_back();
+    target.render();
+    return target.read_back();
   };
   const Image at_rest = draw(false), moving = draw(true), again = draw(false);
   EXPECT_NE(at_rest, moving);

@@ -1,9 +1,9 @@
 // The pictures of real surfaces and of a real calibration, small enough to be made anew in some seconds.
-#include "core/session/scan_surfaces.hpp"
+#include "core/export/scan_surfaces.hpp"
 
 #include <fmt/format.h>
 
-#include "core/session/map_calibration.hpp"
+#include "core/offline/map_calibration.hpp"
 #include "core/view/candidate_views.hpp"
 #include "tests/render/render_test.hpp"
 #include "ui/figures/calibration_figure.hpp"

@@ -12,8 +12,8 @@
 #include "tests/render/samples.hpp"
 #include "ui/drawing/shader_file.hpp"
 #include "ui/layers/geometry.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/scene/scene.hpp"
-#include "ui/surface/offscreen_surface.hpp"
 
 namespace nextview {
 namespace {
@@ -37,9 +37,9 @@ TEST(Shaders, AnErrorIsTracedToItsFileAndLine) {
   const std::string shader = load_shader("ghost.glsl", folder);
   std::filesystem::remove_all(folder);
 
-  OffscreenSurface surface(64, 64);
+  OffscreenTarget target(64, 64);
   Scene scene;
-  scene.attach(surface);
+  scene.attach(target);
   vtkNew<vtkOpenGLPolyDataMapper> mapper;
   mapper->SetInputDataObject(triangle_polydata(samples::torus()));
   vtkNew<vtkActor> actor;
@@ -48,7 +48,7 @@ TEST(Shaders, AnErrorIsTracedToItsFileAndLine) {
                                                            false);
   scene.renderer().AddActor(actor);
   try {
-    surface.render();
+    target.render();
     FAIL() << "compiled";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), StartsWith("shaders/ghost.glsl:3: error:"));

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "ui/render_target/image.hpp"
 #include "ui/scene/scene.hpp"
-#include "ui/surface/image.hpp"
 
 namespace nextview {
 

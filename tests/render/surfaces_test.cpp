@@ -11,8 +11,8 @@
 
 #include "tests/render/picture_comparison.hpp"
 #include "tests/render/window_picture.hpp"
-#include "ui/surface/headless.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/headless.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -74,15 +74,15 @@ TEST(Surfaces, WindowAndImageAreEqualToTheByte) {
   const Image window = read_png(png);
   std::filesystem::remove(png);
 
-  OffscreenSurface surface(window.width, window.height);
-  const Image image = draw_everything(surface);
+  OffscreenTarget target(window.width, window.height);
+  const Image image = draw_everything(target);
   EXPECT_EQ(image, window) << compare(window, image).summary();
 }
 
 TEST(Surfaces, ASceneDoesNotDependOnWhatWasDrawnBefore) {
-  OffscreenSurface first(960, 600);
+  OffscreenTarget first(960, 600);
   const Image once = draw_everything(first);
-  OffscreenSurface second(960, 600);
+  OffscreenTarget second(960, 600);
   const Image other = draw_everything(second);
   EXPECT_EQ(once, other);
   EXPECT_EQ(draw_everything(first), once) << "drawn again while another surface lives";

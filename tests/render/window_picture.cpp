@@ -1,12 +1,12 @@
 #include "tests/render/window_picture.hpp"
 
 #include "tests/render/samples.hpp"
+#include "ui/render_target/window_target.hpp"
 #include "ui/scene/scene.hpp"
-#include "ui/surface/window_surface.hpp"
 
 namespace nextview {
 
-Image draw_everything(RenderSurface& surface) {
+Image draw_everything(RenderTarget& target) {
   const Vector3 viewer(0.5, -0.8, 0.4);
   const auto candidates = samples::candidates();
   const auto scores = samples::scores(candidates, viewer);
@@ -18,7 +18,7 @@ Image draw_everything(RenderSurface& surface) {
   views.chosen = 17;
 
   Scene scene;
-  scene.attach(surface);
+  scene.attach(target);
   scene.set_caption("Everything at once");
   scene.mesh().show(samples::torus(), MeshStyle::ghost);
   scene.cloud().show(samples::cloud(viewer));
@@ -27,13 +27,13 @@ Image draw_everything(RenderSurface& surface) {
   scene.rays().show(samples::rays(candidates[17]), {});
   scene.region().show({map.grid.lower(), map.grid.upper()});
   scene.frame();
-  surface.render();
-  return surface.read_back();
+  target.render();
+  return target.read_back();
 }
 
 void draw_in_window(const std::filesystem::path& png) {
-  WindowSurface surface("Nextview", 960, 600);
-  write_png(draw_everything(surface), png);
+  WindowTarget target("Nextview", 960, 600);
+  write_png(draw_everything(target), png);
 }
 
 }  // namespace nextview

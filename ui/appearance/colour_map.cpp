@@ -1,7 +1,7 @@
 #include "ui/appearance/colour_map.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

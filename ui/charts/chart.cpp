@@ -23,7 +23,7 @@
 #include <stdexcept>
 
 #include "ui/drawing/painter.hpp"
-#include "ui/surface/render_surface.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 namespace {
@@ -152,9 +152,9 @@ Chart::~Chart() {
   if (vtkRenderWindow* window = renderer_->GetRenderWindow()) window->RemoveRenderer(renderer_);
 }
 
-void Chart::attach(RenderSurface& surface, const Viewport& viewport) {
+void Chart::attach(RenderTarget& target, const Viewport& viewport) {
   renderer_->SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
-  surface.window().AddRenderer(renderer_);
+  target.window().AddRenderer(renderer_);
 }
 
 void Chart::show(const ChartContent& content) {

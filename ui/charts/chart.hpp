@@ -12,7 +12,7 @@ class vtkRenderer;
 
 namespace nextview {
 
-class RenderSurface;
+class RenderTarget;
 
 struct ChartSeries {
   std::string name;
@@ -38,8 +38,8 @@ class Chart {
   Chart(const Chart&) = delete;
   Chart& operator=(const Chart&) = delete;
 
-  /// Draws into this part of the surface from now on.
-  void attach(RenderSurface& surface, const Viewport& viewport = {});
+  /// Draws into this part of the target from now on.
+  void attach(RenderTarget& target, const Viewport& viewport = {});
 
   /// @throws std::invalid_argument naming the series if its x and y differ in number.
   void show(const ChartContent& content);

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -36,7 +36,7 @@ vtkStandardNewMacro(Page);
 }  // namespace
 
 Image draw_page(int width, int height, const std::function<void(vtkContext2D&)>& paint) {
-  OffscreenSurface surface(width, height);
+  OffscreenTarget target(width, height);
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkContextActor> actor;
   vtkNew<Page> page;
@@ -45,11 +45,11 @@ Image draw_page(int width, int height, const std::function<void(vtkContext2D&)>&
   renderer->AddActor(actor);
   actor->GetScene()->SetRenderer(renderer);
   actor->GetScene()->AddItem(page);
-  surface.window().AddRenderer(renderer);
-  surface.render();
-  Image image = surface.read_back();
+  target.window().AddRenderer(renderer);
+  target.render();
+  Image image = target.read_back();
   actor->GetScene()->SetRenderer(nullptr);
-  surface.window().RemoveRenderer(renderer);
+  target.window().RemoveRenderer(renderer);
   return image;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ui/drawing/painter.hpp"
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 class vtkContext2D;
 

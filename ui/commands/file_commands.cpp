@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "core/config/known_objects.hpp"
 #include "core/file/atomic_file.hpp"
-#include "core/session/known_objects.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/session/configuration.hpp"
+#include "core/config/configuration.hpp"
 #include "ui/commands/command.hpp"
 
 namespace nextview {

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/session/map_calibration.hpp"
-#include "ui/surface/image.hpp"
+#include "core/offline/map_calibration.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/session/map_calibration.hpp"
+#include "core/offline/map_calibration.hpp"
 #include "ui/charts/page.hpp"
 
 namespace nextview {

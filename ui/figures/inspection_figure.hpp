@@ -3,7 +3,7 @@
 
 #include "core/evaluation/inspection.hpp"
 #include "core/surface/surface.hpp"
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 

@@ -10,7 +10,7 @@
 #include "core/mesh/parts.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "ui/figures/grid_slice.hpp"
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 

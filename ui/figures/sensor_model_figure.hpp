@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gibbs/forward_sensor_model.hpp"
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 

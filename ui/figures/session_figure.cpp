@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "ui/layers/ray_segments.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -72,8 +72,8 @@ StepPicture step_picture(const Session& session) {
 }
 
 struct SessionFigure::Parts {
-  OffscreenSurface surface{1600, 1000};
-  StepFigure figure{surface};
+  OffscreenTarget target{1600, 1000};
+  StepFigure figure{target};
 };
 
 SessionFigure::SessionFigure() : parts_(std::make_unique<Parts>()) {}
@@ -81,8 +81,8 @@ SessionFigure::~SessionFigure() = default;
 
 void SessionFigure::write(const Session& session, const std::filesystem::path& file) {
   parts_->figure.show(step_picture(session));
-  parts_->surface.render();
-  write_png(parts_->surface.read_back(), file);
+  parts_->target.render();
+  write_png(parts_->target.read_back(), file);
 }
 
 }  // namespace nextview

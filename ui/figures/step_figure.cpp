@@ -13,7 +13,7 @@
 
 #include "ui/drawing/painter.hpp"
 #include "ui/figures/ranking.hpp"
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -21,8 +21,8 @@ namespace {
 struct Panel {
   double x, y, width, height;  ///< [px]
 
-  Viewport in(const RenderSurface& surface) const {
-    return {x / surface.width(), y / surface.height(), (x + width) / surface.width(), (y + height) / surface.height()};
+  Viewport in(const RenderTarget& target) const {
+    return {x / target.width(), y / target.height(), (x + width) / target.width(), (y + height) / target.height()};
   }
 };
 
@@ -31,9 +31,9 @@ struct Layout {
   Panel views, map, ranking, entropy, coverage;
   double title_y;
 
-  explicit Layout(const RenderSurface& surface) {
+  explicit Layout(const RenderTarget& target) {
     constexpr double gap = 16, title = 64;
-    const double width = surface.width(), height = surface.height();
+    const double width = target.width(), height = target.height();
     const double column = std::floor((width - 4 * gap) / 3);
     const double lower = std::floor(0.31 * height), upper = height - title - lower - 2 * gap;
     const double third = 3 * gap + 2 * column;
@@ -89,9 +89,9 @@ ViewsPicture views_of(const StepPicture& picture) {
 }  // namespace
 
 struct StepFigure::Parts {
-  explicit Parts(RenderSurface& target) : surface(target), layout(target) {}
+  explicit Parts(RenderTarget& where) : target(where), layout(where) {}
 
-  RenderSurface& surface;
+  RenderTarget& target;
   Layout layout;
   vtkNew<vtkRenderer> sheet_renderer;
   vtkNew<vtkContextActor> sheet_actor;
@@ -101,7 +101,7 @@ struct StepFigure::Parts {
   Chart entropy, coverage;
 };
 
-StepFigure::StepFigure(RenderSurface& surface) : parts_(std::make_unique<Parts>(surface)) {
+StepFigure::StepFigure(RenderTarget& target) : parts_(std::make_unique<Parts>(target)) {
   Parts& p = *parts_;
   p.sheet_renderer->SetBackground(theme::paper.data());
   p.sheet_renderer->AddActor(p.sheet_actor);
@@ -109,22 +109,22 @@ StepFigure::StepFigure(RenderSurface& surface) : parts_(std::make_unique<Parts>(
   p.sheet_actor->GetScene()->AddItem(p.sheet);
   p.sheet_actor->GetScene()->AddItem(p.ranking);
   p.sheet->title_y = p.layout.title_y;
-  p.sheet->width = surface.width();
+  p.sheet->width = target.width();
   p.sheet->panels = {p.layout.views, p.layout.map, p.layout.ranking, p.layout.entropy, p.layout.coverage};
   p.ranking->x = p.layout.ranking.x;
   p.ranking->y = p.layout.ranking.y;
   p.ranking->width = p.layout.ranking.width;
   p.ranking->height = p.layout.ranking.height;
-  surface.window().AddRenderer(p.sheet_renderer);
-  p.views.attach(surface, p.layout.views.in(surface));
-  p.map.attach(surface, p.layout.map.in(surface));
-  p.entropy.attach(surface, p.layout.entropy.in(surface));
-  p.coverage.attach(surface, p.layout.coverage.in(surface));
+  target.window().AddRenderer(p.sheet_renderer);
+  p.views.attach(target, p.layout.views.in(target));
+  p.map.attach(target, p.layout.map.in(target));
+  p.entropy.attach(target, p.layout.entropy.in(target));
+  p.coverage.attach(target, p.layout.coverage.in(target));
 }
 
 StepFigure::~StepFigure() {
   parts_->sheet_actor->GetScene()->SetRenderer(nullptr);
-  parts_->surface.window().RemoveRenderer(parts_->sheet_renderer);
+  parts_->target.window().RemoveRenderer(parts_->sheet_renderer);
 }
 
 void StepFigure::show(const StepPicture& picture) {
@@ -153,11 +153,11 @@ void StepFigure::show(const StepPicture& picture) {
 }
 
 Image draw_step_figure(const StepPicture& picture, int width, int height) {
-  OffscreenSurface surface(width, height);
-  StepFigure figure(surface);
+  OffscreenTarget target(width, height);
+  StepFigure figure(target);
   figure.show(picture);
-  surface.render();
-  return surface.read_back();
+  target.render();
+  return target.read_back();
 }
 
 ViewDirection beside(const Pose& T_world_camera) {

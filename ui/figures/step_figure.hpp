@@ -50,8 +50,8 @@ struct StepPicture {
 /// A scanning step as one picture, as for a paper: the views around the object, the map, the ranking, the curves.
 class StepFigure {
  public:
-  /// Draws over the whole surface, which must live longer. Made for 1600 x 1000 pixels.
-  explicit StepFigure(RenderSurface& surface);
+  /// Draws over the whole target, which must live longer. Made for 1600 x 1000 pixels.
+  explicit StepFigure(RenderTarget& target);
   ~StepFigure();
   StepFigure(const StepFigure&) = delete;
   StepFigure& operator=(const StepFigure&) = delete;

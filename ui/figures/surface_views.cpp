@@ -2,7 +2,7 @@
 
 #include <vtkContext2D.h>
 
-#include "ui/surface/offscreen_surface.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -20,16 +20,16 @@ std::vector<Vector3> points_to_frame(const TriangleMesh& mesh) {
 
 Image draw(const PageArea& panel, const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading,
            const ViewDirection& direction, bool legend) {
-  OffscreenSurface surface(int(panel.width), int(panel.height));
+  OffscreenTarget target(int(panel.width), int(panel.height));
   Scene scene;
-  scene.attach(surface);
+  scene.attach(target);
   scene.set_caption(heading);
   scene.set_axes(true, legend);
   scene.set_legends(legend);
   scene.mesh().show(mesh, paint);
   scene.frame(points_to_frame(mesh), direction);
-  surface.render();
-  return surface.read_back();
+  target.render();
+  return target.read_back();
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "ui/surface/render_surface.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 namespace {
@@ -12,34 +12,34 @@ constexpr unsigned int gl_texture_2d = 0x0DE1, gl_min_filter = 0x2801, gl_mag_fi
 constexpr int gl_nearest = 0x2600, gl_clamp_to_edge = 0x812F;
 
 template <class Function>
-Function gl(const RenderSurface& surface, const char* name) {
-  return reinterpret_cast<Function>(surface.gl_function(name));
+Function gl(const RenderTarget& target, const char* name) {
+  return reinterpret_cast<Function>(target.gl_function(name));
 }
 
 }  // namespace
 
 PanelPictures::~PanelPictures() {
-  if (!surface_) return;
-  surface_->make_current();
+  if (!target_) return;
+  target_->make_current();
   for (const auto& [name, picture] : pictures_)
-    gl<void (*)(int, const unsigned int*)>(*surface_, "glDeleteTextures")(1, &picture.texture);
+    gl<void (*)(int, const unsigned int*)>(*target_, "glDeleteTextures")(1, &picture.texture);
 }
 
 void PanelPictures::upload(unsigned int texture, const Image& image) const {
-  gl<void (*)(unsigned int, unsigned int)>(*surface_, "glBindTexture")(gl_texture_2d, texture);
-  const auto set = gl<void (*)(unsigned int, unsigned int, int)>(*surface_, "glTexParameteri");
+  gl<void (*)(unsigned int, unsigned int)>(*target_, "glBindTexture")(gl_texture_2d, texture);
+  const auto set = gl<void (*)(unsigned int, unsigned int, int)>(*target_, "glTexParameteri");
   for (const unsigned int filter : {gl_min_filter, gl_mag_filter}) set(gl_texture_2d, filter, gl_nearest);
   for (const unsigned int wrap : {gl_wrap_s, gl_wrap_t}) set(gl_texture_2d, wrap, gl_clamp_to_edge);
   gl<void (*)(unsigned int, int, int, int, int, int, unsigned int, unsigned int, const void*)>(
-      *surface_, "glTexImage2D")(gl_texture_2d, 0, gl_rgba, image.width, image.height, 0, gl_rgba, gl_unsigned_byte,
-                                 image.rgba.data());
-  gl<void (*)(unsigned int, unsigned int)>(*surface_, "glBindTexture")(gl_texture_2d, 0);
+      *target_, "glTexImage2D")(gl_texture_2d, 0, gl_rgba, image.width, image.height, 0, gl_rgba, gl_unsigned_byte,
+                                image.rgba.data());
+  gl<void (*)(unsigned int, unsigned int)>(*target_, "glBindTexture")(gl_texture_2d, 0);
 }
 
 ImTextureID PanelPictures::get(const std::string& name, std::uint64_t version, const std::function<Image()>& make) {
-  if (!surface_) return nullptr;
+  if (!target_) return nullptr;
   Picture& picture = pictures_[name];
-  if (picture.texture == 0) gl<void (*)(int, unsigned int*)>(*surface_, "glGenTextures")(1, &picture.texture);
+  if (picture.texture == 0) gl<void (*)(int, unsigned int*)>(*target_, "glGenTextures")(1, &picture.texture);
   if (picture.version != version) {
     upload(picture.texture, make());
     picture.version = version;

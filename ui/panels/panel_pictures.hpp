@@ -6,22 +6,22 @@
 #include <map>
 #include <string>
 
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 
-class RenderSurface;
+class RenderTarget;
 
-/// Pictures in panels, by name: given to the graphics card when they change. Without a surface (panels that are drawn
+/// Pictures in panels, by name: given to the graphics card when they change. Without a target (panels that are drawn
 /// without pixels, in tests) there are none.
 class PanelPictures {
  public:
-  explicit PanelPictures(RenderSurface* surface = nullptr) : surface_(surface) {}
+  explicit PanelPictures(RenderTarget* target = nullptr) : target_(target) {}
   ~PanelPictures();
   PanelPictures(const PanelPictures&) = delete;
   PanelPictures& operator=(const PanelPictures&) = delete;
 
-  /// `make` is called if the picture of this name was of another `version`. Null without a surface.
+  /// `make` is called if the picture of this name was of another `version`. Null without a target.
   ImTextureID get(const std::string& name, std::uint64_t version, const std::function<Image()>& make);
   /// How often a picture was new or changed.
   std::size_t uploads() const { return uploads_; }
@@ -33,7 +33,7 @@ class PanelPictures {
   };
   void upload(unsigned int texture, const Image& image) const;
 
-  RenderSurface* surface_;
+  RenderTarget* target_;
   std::map<std::string, Picture> pictures_;
   std::size_t uploads_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/session/known_objects.hpp"
+#include "core/config/known_objects.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/panels/setting_control.hpp"
 

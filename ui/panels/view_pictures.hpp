@@ -1,10 +1,10 @@
 #pragma once
 #include <span>
 
+#include "core/config/configuration.hpp"
 #include "core/gain/expected_view.hpp"
 #include "core/gain/view_score.hpp"
-#include "core/session/configuration.hpp"
-#include "ui/surface/image.hpp"
+#include "ui/render_target/image.hpp"
 
 namespace nextview {
 

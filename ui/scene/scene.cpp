@@ -74,9 +74,9 @@ Scene::~Scene() {
 
 vtkRenderer& Scene::renderer() { return *renderer_; }
 
-void Scene::attach(RenderSurface& surface, const Viewport& viewport) {
+void Scene::attach(RenderTarget& target, const Viewport& viewport) {
   renderer_->SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
-  surface.window().AddRenderer(renderer_);
+  target.window().AddRenderer(renderer_);
 }
 
 std::array<Layer*, 6> Scene::layers() const {

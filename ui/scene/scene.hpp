@@ -9,8 +9,8 @@
 #include "ui/layers/rays_layer.hpp"
 #include "ui/layers/region_layer.hpp"
 #include "ui/layers/views_layer.hpp"
+#include "ui/render_target/render_target.hpp"
 #include "ui/scene/camera_framing.hpp"
-#include "ui/surface/render_surface.hpp"
 
 namespace nextview {
 
@@ -28,8 +28,8 @@ class Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// Draws into this part of the surface from now on. The surface may go before the scene.
-  void attach(RenderSurface& surface, const Viewport& viewport = {});
+  /// Draws into this part of the target from now on. The target may go before the scene.
+  void attach(RenderTarget& target, const Viewport& viewport = {});
 
   MeshLayer& mesh() { return *mesh_; }
   CloudLayer& cloud() { return *cloud_; }
@@ -44,7 +44,7 @@ class Scene {
   /// and legends become as much larger.
   void set_scale(double scale);
   /// While the camera moves, edges may be rough: drawing in software then takes a third of the time. Holds for the
-  /// whole surface, from the next drawing on. Does nothing without a surface.
+  /// whole target, from the next drawing on. Does nothing without a target.
   void set_moving(bool moving);
   /// Whether paper lies behind the legends: for scenes that people move, where anything may come to lie there. It does
   /// not unless told otherwise.
@@ -52,7 +52,7 @@ class Scene {
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }
 
-  /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a surface, for its
+  /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a target, for its
   /// proportions.
   void frame(const ViewDirection& direction = {});
   /// Frames these points [m, world].

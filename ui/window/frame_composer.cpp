@@ -11,7 +11,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "ui/surface/render_surface.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 namespace {
@@ -83,15 +83,15 @@ bool FrameComposer::Triangle::operator==(const Triangle& other) const {
   return std::memcmp(this, &other, sizeof(Triangle)) == 0;
 }
 
-FrameComposer::FrameComposer(RenderSurface& surface)
-    : surface_(surface), frame_(vtkSmartPointer<vtkOpenGLFramebufferObject>::New()) {
-  surface.window().SetFrameBlitModeToNoBlit();
-  frame_->SetContext(&surface.window());
+FrameComposer::FrameComposer(RenderTarget& target)
+    : target_(target), frame_(vtkSmartPointer<vtkOpenGLFramebufferObject>::New()) {
+  target.window().SetFrameBlitModeToNoBlit();
+  frame_->SetContext(&target.window());
 }
 
 FrameComposer::~FrameComposer() {
-  surface_.make_current();
-  frame_->ReleaseGraphicsResources(&surface_.window());
+  target_.make_current();
+  frame_->ReleaseGraphicsResources(&target_.window());
 }
 
 std::vector<FrameComposer::Triangle> FrameComposer::triangles_of(const ImDrawList& list) {
@@ -168,7 +168,7 @@ bool FrameComposer::compose(ImDrawData& panels, const std::optional<Rectangle>& 
     windows.push_back({list._OwnerName ? list._OwnerName : "", triangles_of(list)});
   }
   damage_ = {};
-  const std::array<int, 2> size{surface_.width(), surface_.height()};
+  const std::array<int, 2> size{target_.width(), target_.height()};
   const PixelBox all{0, 0, size[0], size[1]};
   if (size_ != size) {
     size_ = size;
@@ -194,8 +194,8 @@ bool FrameComposer::compose(ImDrawData& panels, const std::optional<Rectangle>& 
 }
 
 void FrameComposer::draw(ImDrawData& panels) {
-  vtkGenericOpenGLRenderWindow& window = surface_.window();
-  surface_.make_current();
+  vtkGenericOpenGLRenderWindow& window = target_.window();
+  target_.make_current();
   if (frame_->GetFBOIndex() == 0) {
     frame_->PopulateFramebuffer(size_[0], size_[1], true, 1, VTK_UNSIGNED_CHAR, false, 0, 0);
   } else {
@@ -229,8 +229,8 @@ void FrameComposer::draw(ImDrawData& panels) {
 }
 
 void FrameComposer::fill_back_buffer() {
-  surface_.make_current();
-  vtkOpenGLState& state = *surface_.window().GetState();
+  target_.make_current();
+  vtkOpenGLState& state = *target_.window().GetState();
   state.PushReadFramebufferBinding();
   frame_->Bind(gl_read_framebuffer);
   frame_->ActivateReadBuffer(0);

@@ -15,7 +15,7 @@ struct ImDrawList;
 
 namespace nextview {
 
-class RenderSurface;
+class RenderTarget;
 
 /// Pixels of the window: from the left edge and from the lower edge, as OpenGL counts them.
 struct PixelBox {
@@ -41,15 +41,15 @@ class PixelBoxes {
 /// picture is the same as if all of it were drawn.
 class FrameComposer {
  public:
-  /// From now on VTK draws the scene into its own framebuffer only. The surface must live longer.
-  explicit FrameComposer(RenderSurface& surface);
+  /// From now on VTK draws the scene into its own framebuffer only. The target must live longer.
+  explicit FrameComposer(RenderTarget& target);
   ~FrameComposer();
   FrameComposer(const FrameComposer&) = delete;
   FrameComposer& operator=(const FrameComposer&) = delete;
 
   /// The next frame is drawn whole.
   void forget() { size_ = {}; }
-  /// Composes a frame in the surface's back buffer, if it differs from the last one; returns whether it does.
+  /// Composes a frame in the target's back buffer, if it differs from the last one; returns whether it does.
   /// `new_scene` is where the scene was drawn anew; `new_pictures` tells that other textures than that of the letters
   /// may have changed.
   bool compose(ImDrawData& panels, const std::optional<Rectangle>& new_scene, bool new_pictures);
@@ -84,7 +84,7 @@ class FrameComposer {
   void damage_differences(const std::vector<Window>& now);
   void draw(ImDrawData& panels);
 
-  RenderSurface& surface_;
+  RenderTarget& target_;
   vtkSmartPointer<vtkOpenGLFramebufferObject> frame_;  ///< keeps what was drawn, which a back buffer does not
   std::array<int, 2> size_{};                          ///< of the last frame [px]; 0: there is none
   std::vector<Window> windows_;                        ///< of the last frame, the lowest first

@@ -16,15 +16,15 @@ constexpr double longest_wait_while_busy = 1.0;
 
 }  // namespace
 
-Interface::Interface(RenderSurface& surface, SessionWorker& worker, InspectionWorker& inspector, double scale) {
-  surface.make_current();
-  parts_ = std::make_unique<Parts>(surface, worker, inspector, scale);
+Interface::Interface(RenderTarget& target, SessionWorker& worker, InspectionWorker& inspector, double scale) {
+  target.make_current();
+  parts_ = std::make_unique<Parts>(target, worker, inspector, scale);
   ImGui_ImplOpenGL3_Init("#version 150");
   parts_->news = parts_->latest();
 }
 
 Interface::~Interface() {
-  parts_->surface.make_current();
+  parts_->target.make_current();
   parts_->host.make_current();
   ImGui_ImplOpenGL3_Shutdown();
 }
@@ -64,7 +64,7 @@ std::string Interface::title() const {
 bool Interface::draw(double seconds) {
   Parts& p = *parts_;
   p.host.make_current();
-  p.surface.make_current();
+  p.target.make_current();
   p.settling = std::max(p.settling - 1, 0);
   const bool wants_picture = p.state.picture_file.has_value();  // since a frame: what it was asked from is gone
   p.take_news();

@@ -5,7 +5,7 @@
 
 #include "ui/commands/command.hpp"
 #include "ui/commands/script_player.hpp"
-#include "ui/surface/render_surface.hpp"
+#include "ui/render_target/render_target.hpp"
 #include "ui/window/clipboard.hpp"
 #include "ui/window/input.hpp"
 #include "ui/window/scene_view.hpp"
@@ -14,12 +14,12 @@
 
 namespace nextview {
 
-/// Everything in the window: scene and panels. It draws into any surface and knows nothing of where input comes from,
+/// Everything in the window: scene and panels. It draws into any target and knows nothing of where input comes from,
 /// so tests drive it without a display. There is one at a time.
 class Interface {
  public:
   /// `scale` is the display's. Surface and workers must live longer.
-  Interface(RenderSurface& surface, SessionWorker& worker, InspectionWorker& inspector, double scale = 1.0);
+  Interface(RenderTarget& target, SessionWorker& worker, InspectionWorker& inspector, double scale = 1.0);
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
@@ -34,7 +34,7 @@ class Interface {
   ScriptPlayer& script();
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
   double seconds_to_next_frame() const;
-  /// Draws a frame into the surface's back buffer, `seconds` after the last one, and returns whether it differs from
+  /// Draws a frame into the target's back buffer, `seconds` after the last one, and returns whether it differs from
   /// the last one; if not, the back buffer is left alone. The scene is drawn anew only if it changed.
   bool draw(double seconds);
 

@@ -25,10 +25,10 @@ struct News {
 };
 
 struct Interface::Parts {
-  Parts(RenderSurface& s, SessionWorker& w, InspectionWorker& i, double scale)
-      : surface(s), worker(w), inspector(i), host(scale), view(s, scale), pictures(&s), composer(s), layout(1, 1, 1) {}
+  Parts(RenderTarget& s, SessionWorker& w, InspectionWorker& i, double scale)
+      : target(s), worker(w), inspector(i), host(scale), view(s, scale), pictures(&s), composer(s), layout(1, 1, 1) {}
 
-  RenderSurface& surface;
+  RenderTarget& target;
   SessionWorker& worker;
   InspectionWorker& inspector;
   ImguiHost host;

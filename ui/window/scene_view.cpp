@@ -41,8 +41,8 @@ std::shared_ptr<const ScoreExplanation> explanation_of(const SessionSnapshot& s,
 
 }  // namespace
 
-SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
-  scene_.attach(surface);
+SceneView::SceneView(RenderTarget& target, double scale) : target_(target) {
+  scene_.attach(target);
   scene_.set_scale(scale);
   scene_.set_backed(true);
 }
@@ -50,11 +50,11 @@ SceneView::SceneView(RenderSurface& surface, double scale) : surface_(surface) {
 void SceneView::place(const Rectangle& rectangle) {
   rectangle_ = rectangle;
   Rectangle drawn = rectangle;  // at least a pixel: what is not drawn at all has no framebuffer to compose from
-  drawn.x = std::min(drawn.x, surface_.width() - 1.0);
-  drawn.y = std::min(drawn.y, surface_.height() - 1.0);
+  drawn.x = std::min(drawn.x, target_.width() - 1.0);
+  drawn.y = std::min(drawn.y, target_.height() - 1.0);
   drawn.width = std::max(drawn.width, 1.0);
   drawn.height = std::max(drawn.height, 1.0);
-  const Viewport viewport = drawn.in(surface_.width(), surface_.height());
+  const Viewport viewport = drawn.in(target_.width(), target_.height());
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 

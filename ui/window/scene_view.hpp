@@ -17,9 +17,9 @@ struct Picked {
 /// The 3D part of the window: a scene that follows snapshots and does again only what changed.
 class SceneView {
  public:
-  SceneView(RenderSurface& surface, double scale);
+  SceneView(RenderTarget& target, double scale);
 
-  /// In the surface as it is now; call it again when its size changed.
+  /// In the target as it is now; call it again when its size changed.
   void place(const Rectangle& rectangle);
   /// Returns whether the picture changed.
   bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
@@ -52,7 +52,7 @@ class SceneView {
   /// Direction into the scene at a point of the window; of any length.
   Vector3 direction_at(double x, double y);
 
-  RenderSurface& surface_;
+  RenderTarget& target_;
   Rectangle rectangle_;
   Scene scene_;
   std::shared_ptr<const SessionSnapshot> shown_;

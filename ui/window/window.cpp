@@ -9,7 +9,7 @@
 #include <functional>
 #include <optional>
 
-#include "ui/surface/window_surface.hpp"
+#include "ui/render_target/window_target.hpp"
 #include "ui/window/interface.hpp"
 
 namespace nextview {
@@ -143,8 +143,8 @@ class ScriptErrors {
   int count_ = 0;
 };
 
-void run(WindowSurface& surface, Interface& interface, const std::function<bool()>& has_to_end) {
-  GLFWwindow* window = surface.handle();
+void run(WindowTarget& target, Interface& interface, const std::function<bool()>& has_to_end) {
+  GLFWwindow* window = target.handle();
   std::string title;
   double last = glfwGetTime();
   const auto seconds_left = [&] { return interface.seconds_to_next_frame() - (glfwGetTime() - last); };
@@ -154,10 +154,10 @@ void run(WindowSurface& surface, Interface& interface, const std::function<bool(
     } else {
       glfwPollEvents();
     }
-    surface.follow_size();
+    target.follow_size();
     if (seconds_left() > 0) continue;
     const double now = glfwGetTime();
-    if (interface.draw(now - last)) surface.present();
+    if (interface.draw(now - last)) target.present();
     last = now;
     if (interface.title() != title) glfwSetWindowTitle(window, (title = interface.title()).c_str());
   }
@@ -167,21 +167,21 @@ void run(WindowSurface& surface, Interface& interface, const std::function<bool(
 
 int run_window(const Configuration& configuration, const Script& script) {
   const auto [first_width, first_height] = first_size();
-  WindowSurface surface("Nextview", first_width, first_height);
-  GLFWwindow* window = surface.handle();
+  WindowTarget target("Nextview", first_width, first_height);
+  GLFWwindow* window = target.handle();
   glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSwapInterval(1);
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);
   SessionWorker worker([] { glfwPostEmptyEvent(); });
   InspectionWorker inspector([] { glfwPostEmptyEvent(); });
-  Interface interface(surface, worker, inspector, scale);
+  Interface interface(target, worker, inspector, scale);
   ScriptErrors errors(script.file);
   interface.script().set_on_failure([&](const ScriptFailure& failure) { errors.add(failure); });
   interface.open(configuration);
   interface.run_script(script.calls);
   listen(window, interface);
-  run(surface, interface, [&] { return script.stop_on_error && errors.any(); });
+  run(target, interface, [&] { return script.stop_on_error && errors.any(); });
   if (!script.stop_on_error || !errors.any()) interface.script().give_up("not done: the program ended before");
   return errors.any() ? exit_not_done : 0;
 }

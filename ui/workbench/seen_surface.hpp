@@ -23,7 +23,7 @@ class SeenSurface {
 
  private:
   std::shared_ptr<const SeenCloud> cloud_ = std::make_shared<SeenCloud>();
-  std::shared_ptr<const GroundTruth> truth_;  ///< null without evaluation
+  std::shared_ptr<const GroundTruth> truth_;     ///< null without evaluation
   std::shared_ptr<const MeshDistance> surface_;  ///< so is this
   std::optional<MissedSurface> missed_;          ///< nothing without evaluation
   std::size_t scans_ = 0;

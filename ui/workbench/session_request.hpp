@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <variant>
 
-#include "core/session/configuration.hpp"
+#include "core/config/configuration.hpp"
 
 namespace nextview {
 

@@ -4,12 +4,13 @@
 
 #include <utility>
 
+#include "core/config/input_files.hpp"
+#include "core/config/known_objects.hpp"
 #include "core/evaluation/map_quality.hpp"
+#include "core/export/scan_files.hpp"
+#include "core/export/scan_surfaces.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/session/known_objects.hpp"
-#include "core/session/scan_files.hpp"
-#include "core/session/scan_surfaces.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
@@ -237,9 +238,9 @@ void SessionRunner::show_refinement(SessionSnapshot& snapshot, const MapRefineme
   ++snapshot.map;
   auto voxels = std::make_shared<const std::vector<Voxel>>(refinement.voxels().dense());
   const MapChange change = map_change(*snapshot.voxels, *voxels);
-  snapshot.gibbs = std::make_shared<const GibbsMap>(
-      GibbsMap{session_->scans().size(), refinement.shared_posterior(), std::move(voxels),
-               refinement.shared_measurements(), refinement.config(), change});
+  snapshot.gibbs = std::make_shared<const GibbsMap>(GibbsMap{session_->scans().size(), refinement.shared_posterior(),
+                                                             std::move(voxels), refinement.shared_measurements(),
+                                                             refinement.config(), change});
 }
 
 void SessionRunner::show_next_view(SessionSnapshot& snapshot) const {

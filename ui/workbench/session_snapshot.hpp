@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/config/configuration.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/triangle_mesh.hpp"
-#include "core/session/configuration.hpp"
 #include "core/session/scan_state.hpp"
 
 namespace nextview {
@@ -69,8 +69,8 @@ struct SessionSnapshot {
   std::size_t failures = 0;   ///< counts the requests that failed
 
   Configuration configuration;
-  std::shared_ptr<const ScanSetup> setup;  ///< null without a session
-  ScanState state;                         ///< shares its maps with the session
+  std::shared_ptr<const ScanSetup> setup;               ///< null without a session
+  ScanState state;                                      ///< shares its maps with the session
   std::string object_name;                              ///< for people
   std::shared_ptr<const TriangleMesh> mesh;             ///< null without a session; so are the next two
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread; null without a session

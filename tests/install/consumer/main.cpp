@@ -34,9 +34,9 @@ int main(int, char** argv) try {
   configuration.object.file = argv[1];
   const auto object = std::make_shared<PlacedMesh>(load_placed_mesh(argv[1], {configuration.object.longest_side}));
   const auto world = std::make_shared<SimulatedWorld>(object, configuration.sensor);
-  Session session(configuration, {std::make_unique<Scanner>(world, 1),
-                                  std::make_unique<Turntable>(look_at({0.9, 0, 0.3}, {0, 0, 0})),
-                                  std::make_unique<NearestFirst>()});
+  Session session(configuration,
+                  {std::make_unique<Scanner>(world, 1), std::make_unique<Turntable>(look_at({0.9, 0, 0.3}, {0, 0, 0})),
+                   std::make_unique<NearestFirst>()});
   for (int step = 0; step < 2; ++step) session.step();
   std::printf("%zu views, %.2f of the surface covered\n", session.records().size(), session.records().back().coverage);
 } catch (const std::exception& error) {

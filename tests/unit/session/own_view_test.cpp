@@ -1,10 +1,10 @@
 // Views of the operator's own, which are no candidates.
 #include <gtest/gtest.h>
 
-#include "core/session/refinement.hpp"
-#include "core/session/scan_files.hpp"
+#include "core/export/scan_files.hpp"
+#include "core/offline/refinement.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
-#include "tests/unit/session/begun.hpp"
+#include "tests/unit/results/begun.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {

@@ -82,17 +82,16 @@ TEST(ScanState, IsMadeAgainFromItsScans) {
 TEST(ScanState, AbsorbingIsAPureFunctionOnAnyThread) {
   Session session(with_gain("gibbs"));
   session.step();
-  SimulatedSource source(std::make_shared<SimulatedWorld>(
-                             std::make_shared<PlacedMesh>(load_placed_mesh(session.object_file(), {0.5})),
-                             session.configuration().sensor),
-                         session.configuration().seed);
+  SimulatedSource source(
+      std::make_shared<SimulatedWorld>(std::make_shared<PlacedMesh>(load_placed_mesh(session.object_file(), {0.5})),
+                                       session.configuration().sensor),
+      session.configuration().seed);
   FreeFlyingCamera robot(session.state().T_world_camera);
   const ScanState before = session.state();
   const Acquired acquired = std::get<Acquired>(acquire(before.next.view, 2, source, robot, {}, {}));
   std::vector<ScanState> forks(3);
   std::vector<std::thread> threads;
-  for (ScanState& fork : forks)
-    threads.emplace_back([&] { fork = absorb(session.setup(), before, acquired, {}, {}); });
+  for (ScanState& fork : forks) threads.emplace_back([&] { fork = absorb(session.setup(), before, acquired, {}, {}); });
   for (std::thread& thread : threads) thread.join();
   session.step();
   for (const ScanState& fork : forks) {

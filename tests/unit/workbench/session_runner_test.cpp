@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "core/export/scan_files.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/session/scan_files.hpp"
 
 namespace nextview {
 namespace {

@@ -1,0 +1,227 @@
+#include "core/config/configuration.hpp"
+
+#include <fmt/format.h>
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/file/atomic_file.hpp"
+#include "core/planner/gain_policies.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files are small: toml++ takes a table apart by recursion, and a larger one could nest deeper than the stack.
+constexpr std::uintmax_t largest_file = 1 << 15;
+
+/// Where a file says that another one is: beside it, if there is one, or as it stands.
+std::string beside(const fs::path& file, const std::string& said) {
+  const fs::path there = file.parent_path() / said;
+  std::error_code ignored;
+  return !said.empty() && fs::path(said).is_relative() && fs::is_regular_file(there, ignored) ? there.string() : said;
+}
+
+class TomlReader {
+ public:
+  /// With `only`, keys outside of that section are errors.
+  TomlReader(const fs::path& file, Configuration& configuration, std::string only = "")
+      : file_(file), only_(std::move(only)), configuration_(configuration), settings_(settings(configuration)) {}
+
+  void read(const std::string& text) {
+    toml::table table;
+    try {
+      table = toml::parse(text, file_.string());
+    } catch (const toml::parse_error& error) {
+      throw failure(error.source().begin.line, std::string(error.description()));
+    }
+    // The preset first: what else the file says of the sensor overrides it.
+    if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty())
+      take("sensor.preset", preset->get(), preset->source().begin.line);
+    apply(table, "");
+    configuration_.read_from.push_back(file_);
+  }
+
+ private:
+  /// The text of a setting: what names a file is looked for beside this one.
+  std::string located(const std::string& key, const std::string& text) const {
+    const bool names_file =
+        key == "object.file" || key == "views.file" || (key == "sensor.preset" && !is_there(named_sensor(text)));
+    return names_file ? beside(file_, text) : text;
+  }
+
+  void apply(const toml::table& table, const std::string& prefix) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      if (const auto* section = node.as_table(); section && prefix.empty()) {
+        apply(*section, key + ".");
+        continue;
+      }
+      const auto line = node.source().begin.line;
+      const Setting& setting = known(key, line);
+      if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
+        throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
+      if (key == "sensor.preset" && node.is_string()) continue;  // is taken already
+      take(key, value_text(setting, node), line);
+    }
+  }
+
+  const Setting& known(const std::string& key, std::uint32_t line) const {
+    const auto setting =
+        std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+    if (setting != settings_.end()) return *setting;
+    std::vector<std::string> keys;
+    for (const Setting& s : settings_) keys.push_back(s.key);
+    throw failure(line, fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys)));
+  }
+
+  /// A value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
+  std::string value_text(const Setting& setting, const toml::node& node) const {
+    const bool takes_text =
+        std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
+    const auto line = node.source().begin.line;
+    if (takes_text != node.is_string())
+      throw failure(line,
+                    fmt::format("{} takes {} quotes, as a single value", setting.key, takes_text ? "a text in" : "no"));
+    if (const auto* text = node.as_string()) return text->get();
+    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+    throw failure(line, setting.key + " takes a single value");
+  }
+
+  void take(const std::string& key, const std::string& text, std::uint32_t line) {
+    try {
+      give(configuration_, key, located(key, text), key, place(line));
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(error.what());
+    }
+  }
+  std::string place(std::uint32_t line) const { return fmt::format("{}:{}", file_.string(), line); }
+  std::runtime_error failure(std::uint32_t line, const std::string& reason) const {
+    return std::runtime_error(place(line) + ": " + reason);
+  }
+
+  fs::path file_;
+  std::string only_;
+  Configuration& configuration_;
+  std::vector<Setting> settings_;
+};
+
+void require(bool good, const std::string& what) {
+  if (!good) throw std::invalid_argument(what);
+}
+
+/// All that Configuration::validate checks, in the words of the declarations.
+void require_valid(const Configuration& c) {
+  require_in_bounds(c);
+  c.sensor.validate();
+  c.views.validate();
+  c.map.model.validate();
+  c.gibbs.validate();
+  c.planner.validate();
+  const double voxels = c.map.region_edge / c.map.resolution;
+  require(voxels >= 1.0 && voxels <= 512.0,
+          fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
+  require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
+          fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
+  require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,
+          "map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no range");
+}
+
+}  // namespace
+
+PosteriorSamplerConfig posterior_sampler_config(const Configuration& c) {
+  return posterior_sampler_config(c.gibbs, c.sensor.range_noise, ray_pitch(c.sensor), c.map.resolution, c.seed);
+}
+
+void Configuration::validate() const {
+  try {
+    require_valid(*this);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_given(error.what()));
+  }
+}
+
+std::string Configuration::as_given(const std::string& message) const {
+  Configuration copy = *this;
+  SettingSources still;
+  for (const Setting& setting : settings(copy))
+    if (const auto source = sources.find(setting.key); source != sources.end() && source->second.text == setting.text())
+      still.insert(*source);
+  return nextview::as_given(message, still);
+}
+
+void give(Configuration& configuration, const std::string& key, const std::string& text, const std::string& name,
+          const std::string& place) {
+  const SettingSources here{{key, {name, place, text}}};
+  try {
+    if (key == "sensor.preset") {
+      apply_sensor_preset(configuration, text);
+    } else {
+      auto all = settings(configuration);
+      find_setting(all, key).set(text);
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_given(error.what(), here));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(as_given(error.what(), here));
+  }
+  auto all = settings(configuration);
+  configuration.sources[key] = {name, place, find_setting(all, key).text()};
+}
+
+void read_settings(const fs::path& file, Configuration& configuration) {
+  TomlReader(file, configuration).read(read_file(file, largest_file));
+}
+
+Configuration read_configuration(const fs::path& file, const Configuration& base) {
+  Configuration configuration = base;
+  read_settings(file, configuration);
+  configuration.validate();
+  return configuration;
+}
+
+std::string to_toml(const Configuration& configuration) {
+  Configuration copy = configuration;
+  std::string text, section;
+  for (const Setting& s : settings(copy)) {
+    const auto dot = s.key.find('.');
+    const std::string room = dot == std::string::npos ? "" : s.key.substr(0, dot);
+    if (room != section) text += fmt::format("\n[{}]\n", room);
+    section = room;
+    std::ostringstream value;
+    if (std::holds_alternative<std::string*>(s.value) || std::holds_alternative<Setting::Choice>(s.value))
+      value << toml::value<std::string>(s.text());
+    else
+      value << s.text();
+    text += fmt::format("{} = {}  # {}\n", s.key.substr(dot == std::string::npos ? 0 : dot + 1), value.str(),
+                        s.explanation());
+  }
+  return text;
+}
+
+void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
+  fs::path file = named_sensor(preset);
+  if (!is_there(file)) file = preset;
+  if (!is_there(file)) {
+    std::vector<std::string> known;
+    for (const auto& entry : fs::directory_iterator(assets_folder() / "sensors")) known.push_back(entry.path().stem());
+    std::sort(known.begin(), known.end());
+    throw std::runtime_error(fmt::format("sensor.preset: there is no sensor '{}'; there are {}, or give a file", preset,
+                                         fmt::join(known, ", ")));
+  }
+  configuration.sensor = {};
+  std::erase_if(configuration.sources, [](const auto& source) { return source.first.starts_with("sensor."); });
+  TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));
+  configuration.sensor_preset = preset;
+}
+
+}  // namespace nextview

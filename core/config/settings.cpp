@@ -1,0 +1,56 @@
+#include <stdexcept>
+
+#include "core/config/configuration.hpp"
+
+namespace nextview {
+
+std::vector<Setting> settings(MapConfig& c) {
+  std::vector<Setting> all = {
+      {"map.resolution", "m", "voxel edge", &c.resolution, from_to(1e-4, 1)},
+      {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
+      {"map.insertion", "", "register a local octree, or insert directly: the same map",
+       choice(c.insertion, {"local-octree", "direct"})},
+  };
+  for (Setting& setting : settings(c.model)) all.push_back(std::move(setting));
+  return all;
+}
+
+std::vector<Setting> settings(ObjectConfig& c) {
+  return {
+      {"object.file", "", "mesh file, or the name of an object that comes with the program", &c.file},
+      {"object.longest_side", "m", "scale the object to this; 0 keeps its size", &c.longest_side, zero_or(1e-3, 100)},
+  };
+}
+
+std::vector<Setting> settings(EvaluationConfig& c) {
+  return {
+      {"evaluation.enabled", "", "compare with the mesh after each view", &c.enabled},
+      {"evaluation.d_reg", "m", "registration distance of surface coverage", &c.d_reg, from_to(1e-5, 1)},
+      {"evaluation.surface_samples", "", "points spread over the true surface", &c.surface_samples, from_to(1, 1e7)},
+  };
+}
+
+std::vector<Setting> settings(HistoryConfig& c) {
+  return {{"history.memory", "GiB", "that the maps of earlier views may take; older ones are made again from the scans",
+           &c.memory, from_to(0, 1024)}};
+}
+
+std::vector<Setting> settings(Configuration& c) {
+  std::vector<Setting> all = {{"seed", "", "seed of everything random", &c.seed}};
+  const auto add = [&](std::vector<Setting> more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(settings(c.object));
+  add({{"sensor.preset", "", "paper, narrow, wide, or a file; the other sensor settings override it",
+        &c.sensor_preset}});
+  add(settings(c.sensor));
+  add(settings(c.cloud));
+  add(settings(c.map));
+  add(settings(c.gibbs));
+  add(settings(c.views));
+  add(settings(c.planner));
+  add(settings(c.termination));
+  add(settings(c.evaluation));
+  add(settings(c.history));
+  return all;
+}
+
+}  // namespace nextview

@@ -1,0 +1,159 @@
+#include "core/export/scan_files.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/evaluation/accuracy.hpp"
+#include "core/evaluation/openings.hpp"
+#include "core/file/atomic_file.hpp"
+#include "core/map/octree_file.hpp"
+
+namespace nextview {
+namespace {
+
+std::string steps_csv(const Session& session) {
+  const std::string unit = session.planner().unit();
+  const auto d_reg = session.configuration().evaluation.d_reg;
+  std::string csv = fmt::format(
+      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],returns,points,"
+      "passes,new_voxels,"
+      "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
+      "nats],brier,"
+      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate\n",
+      unit, 1e3 * d_reg, 1e3 * d_reg);
+  double path = 0.0;
+  for (const StepRecord& r : session.records()) {
+    path += r.motion.distance;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.view,
+                       int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance, r.motion.rotation,
+                       path, r.returns, r.points, r.passes, r.new_voxels, r.entropy, r.total_entropy, r.coverage,
+                       r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss, r.quality.brier,
+                       r.quality_near_surface.log_loss, r.quality_near_surface.brier,
+                       r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()));
+  }
+  return csv;
+}
+
+std::string scores_csv(const Session& session) {
+  const bool refined = session.refinement() != nullptr;
+  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", session.planner().unit(),
+                                refined ? ",gain_on_conventional_map[nats]" : "");
+  for (const StepRecord& r : session.records())
+    for (std::size_t v = 0; v < r.candidates.size(); ++v) {
+      const Candidate& c = r.candidates[v];
+      csv += fmt::format("{},{},{},{},{},{}", r.step, v, int(c.available), c.gain, c.cost, c.utility);
+      csv += refined ? fmt::format(",{}\n", r.refinement->conventional_gains[v]) : "\n";
+    }
+  return csv;
+}
+
+/// What each refinement of the map did; gain gibbs only.
+std::string refinement_csv(const Session& session) {
+  std::string csv =
+      "step,joined_rays,informed_voxels,changed_class,sweeps,r_hat,trend_z,disagreeing_voxels,stationary,"
+      "conventional_next_view,rank_correlation,log_loss_near_surface[nats],brier_near_surface\n";
+  for (const StepRecord& r : session.records()) {
+    const RefinementRecord& n = *r.refinement;
+    const SamplerDiagnostics& d = n.diagnostics;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, d.joined_rays, d.informed_voxels,
+                       n.changed_class, d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, int(d.stationary),
+                       n.conventional_best ? fmt::format("{}", *n.conventional_best) : "", n.rank_correlation,
+                       n.quality_near_surface.log_loss, n.quality_near_surface.brier);
+  }
+  return csv;
+}
+
+std::string views_csv(const Session& session) {
+  std::string csv = "step,view,x[m],y[m],z[m],qx,qy,qz,qw\n";
+  for (const StepRecord& r : session.records()) {
+    const Vector3 p = r.T_world_camera.translation();
+    const Eigen::Quaterniond q(r.T_world_camera.linear());
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", r.step, r.view, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  return csv;
+}
+
+std::string timings_csv(const Session& session) {
+  std::string csv = "step,sense[s],clean[s],insert[s],refine[s],score[s],evaluate[s]\n";
+  for (const StepRecord& r : session.records())
+    csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", r.step, r.seconds.sense, r.seconds.clean,
+                       r.seconds.insert, r.seconds.refine, r.seconds.score, r.seconds.evaluate);
+  return csv;
+}
+
+nlohmann::ordered_json to_json(const MapQuality& q) {
+  return {{"voxels", q.voxels},
+          {"log_loss_nats", q.log_loss},
+          {"brier", q.brier},
+          {"d_kl_nats", q.divergence},
+          {"d_kl_outside_band", q.divergence_outside_band},
+          {"expected_calibration_error", q.calibration_error}};
+}
+
+/// The evaluation as it stands after the last view, each number with what it is over.
+nlohmann::ordered_json evaluation_json(const Session& session, const PointCloud& cloud) {
+  const KnownObject& object = *session.known_object();
+  const StepRecord& last = session.records().back();
+  nlohmann::ordered_json json;
+  json["coverage"] = {{"d_reg_m", session.configuration().evaluation.d_reg},
+                      {"of_all_surface", last.coverage},
+                      {"of_visible_surface", last.coverage_visible},
+                      {"of_all_surface_at_0.5_mm", last.coverage_paper}};
+  if (!cloud.empty()) {
+    const Accuracy a = accuracy(cloud, MeshDistance(*session.mesh()));
+    json["accuracy_m"] = {{"points", a.points}, {"mean", a.mean}, {"rms", a.rms}, {"percentile_95", a.percentile_95}};
+  }
+  const std::vector<Voxel> voxels = session.map().voxels().dense();
+  const auto p = probabilities(voxels);
+  for (const TruthConvention convention : {TruthConvention::touch, TruthConvention::centre}) {
+    for (const ScoredSet set : {ScoredSet::visited, ScoredSet::visited_band, ScoredSet::region})
+      json["map"][std::string(name(convention)) + " truth"][std::string(name(set))] =
+          to_json(map_quality(p, object.truth(), convention, set, session.evaluation()->visited_voxels));
+    const auto recall = surface_recall(voxels, object.truth(), convention, session.evaluation()->visited_voxels);
+    if (recall) json["map"][std::string(name(convention)) + " truth"]["surface_recall"] = *recall;
+  }
+  return json;
+}
+
+std::string metrics_json(const Session& session, const PointCloud& cloud) {
+  const auto& records = session.records();
+  double path = 0.0, rotation = 0.0;
+  for (const StepRecord& r : records) {
+    path += r.motion.distance;
+    rotation += r.motion.rotation;
+  }
+  nlohmann::ordered_json json = {{"object", session.object_file().filename().string()},
+                                 {"gain", session.configuration().planner.gain},
+                                 {"views", records.size()},
+                                 {"finished", session.finished()},
+                                 {"path_m", path},
+                                 {"rotation_rad", rotation}};
+  if (!records.empty()) {
+    json["entropy_bits"] = records.back().entropy;
+    json["total_entropy_bits"] = records.back().total_entropy;
+    if (session.known_object()) json.update(evaluation_json(session, cloud));
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+void write_scan(const Session& session, OutputFolder& out) {
+  PointCloud cloud;
+  for (const auto& scan : session.scans()) cloud.insert(cloud.end(), scan->returns.begin(), scan->returns.end());
+  write_file(out.claim("config.toml"), to_toml(session.configuration(), out.path()));
+  write_file(out.claim("steps.csv"), steps_csv(session));
+  write_file(out.claim("scores.csv"), scores_csv(session));
+  write_file(out.claim("views.csv"), views_csv(session));
+  write_file(out.claim("timings.csv"), timings_csv(session));
+  write_file(out.claim("metrics.json"), metrics_json(session, cloud));
+  write_octree(session.map(), out.claim("map.ot"));
+  write_octree(session.map(), out.claim("map.bt"));
+  write_ply(cloud, out.claim("cloud.ply"));
+  if (!session.refinement()) return;
+  write_file(out.claim("refinement.csv"), refinement_csv(session));
+  write_octree(to_occupancy_map(session.refinement()->posterior(), session.map().model()), out.claim("posterior.ot"));
+}
+
+}  // namespace nextview

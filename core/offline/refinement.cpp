@@ -1,0 +1,78 @@
+#include "core/offline/refinement.hpp"
+
+#include "core/gain/view_score.hpp"
+#include "core/planner/rank_correlation.hpp"
+
+namespace nextview {
+namespace {
+
+std::vector<double> gibbs_gains(const RefinementJob& job, const VoxelBricks& voxels) {
+  const MapRays rays(job.grid, voxels, job.model.occupancy_threshold, job.ray_length);
+  const Gain* gibbs = &gain("gibbs");
+  std::vector<double> gains;
+  for (const ViewScore& score : score_views(rays, job.candidates, job.bundle, {&gibbs, 1}))
+    gains.push_back(score.gains.front());
+  return gains;
+}
+
+}  // namespace
+
+RefinementJob refinement_job(const RecordedScene& scene, const GibbsConfig& gibbs, std::uint64_t seed,
+                             const std::function<void(const std::string&)>& warn) {
+  const SceneParameters parameters = scene_parameters(scene, warn);
+  if (scene.scans.empty()) throw std::invalid_argument("the scene holds no scan");
+  RefinementJob job;
+  job.grid = parameters.grid();
+  job.model = parameters.map.model;
+  job.ray_length = parameters.map.max_ray_depth;
+  job.scans = scans_of(scene, parameters);
+  job.candidates = scene.views;
+  job.bundle = parameters.rays;
+  const double resolution = parameters.map.resolution;
+  job.sampler = posterior_sampler_config(gibbs, 0.25 * resolution, 0.001, resolution, seed);
+  job.sampler.validate();
+  return job;
+}
+
+Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_token stop) {
+  const auto tell = [&](double fraction, std::string_view what) {
+    if (progress) progress(fraction, what);
+  };
+  Refinement r{OccupancyMap(job.grid, job.model), {}, VoxelBricks(), {}, {}, 0.0, {}, {}};
+  for (std::size_t k = 0; k < job.scans.size(); ++k) {
+    tell(0.2 * double(k) / double(job.scans.size()), "making the conventional map");
+    r.conventional.insert(job.scans[k], stop);
+  }
+  r.posterior = sample_posterior(
+      job.grid, measurements_of(job.scans), job.sampler, probabilities(r.conventional.voxels()), {},
+      [&](double fraction, std::string_view what, const SamplerDiagnostics&) { tell(0.2 + 0.7 * fraction, what); },
+      stop);
+  r.refined = VoxelBricks(job.grid.size, r.posterior.voxels(job.model));
+  tell(0.9, "scoring the candidate views");
+  r.gains_before = gibbs_gains(job, r.conventional.voxels());
+  r.gains_after = gibbs_gains(job, r.refined);
+  r.rank_correlation = rank_correlation(r.gains_before, r.gains_after);
+  r.scores_before = score_map(r.conventional.voxels(), job.truth);
+  r.scores_after = score_map(r.refined, job.truth);
+  return r;
+}
+
+std::optional<MapScores> score_map(const VoxelBricks& map, const std::optional<RefinementTruth>& truth) {
+  if (!truth) return std::nullopt;
+  const std::vector<Voxel> voxels = map.dense();
+  const auto p = probabilities(voxels);
+  const auto quality = [&](TruthConvention convention, ScoredSet set) {
+    return map_quality(p, truth->voxels, convention, set, truth->visited);
+  };
+  MapScores scores{quality(TruthConvention::touch, ScoredSet::visited_band),
+                   quality(TruthConvention::centre, ScoredSet::visited_band),
+                   quality(TruthConvention::touch, ScoredSet::visited),
+                   quality(TruthConvention::centre, ScoredSet::visited),
+                   surface_recall(voxels, truth->voxels, TruthConvention::touch, truth->visited),
+                   {}};
+  for (const Opening& opening : truth->openings)
+    scores.openings += score_opening(opening, voxels, truth->voxels, TruthConvention::centre, truth->visited);
+  return scores;
+}
+
+}  // namespace nextview

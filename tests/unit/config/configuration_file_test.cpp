@@ -1,0 +1,310 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "core/config/configuration.hpp"
+
+namespace nextview {
+namespace {
+
+class ConfigurationFile : public testing::Test {
+ protected:
+  ConfigurationFile()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("nextview_configuration_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~ConfigurationFile() override { std::filesystem::remove_all(folder_); }
+
+  Configuration read(const std::string& text, const Configuration& base) const {
+    std::ofstream(file(), std::ios::binary) << text;
+    Configuration configuration = base;
+    read_settings(file(), configuration);
+    return configuration;
+  }
+  Configuration read(const std::string& text) const {
+    const Configuration defaults;
+    return read(text, defaults);
+  }
+  /// Why the text is refused: one line that names the file. Empty if it is read.
+  std::string reason(const std::string& text) const {
+    try {
+      read(text);
+      return "";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(file().string()), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      return error.what();
+    }
+  }
+  /// What an error says.
+  static std::string complaint(const std::function<void()>& action) {
+    try {
+      action();
+      return "";
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+  }
+  std::filesystem::path file() const { return folder_ / "scan.toml"; }
+  std::filesystem::path folder_;
+};
+
+std::vector<std::string> texts(const Configuration& configuration) {
+  Configuration copy = configuration;
+  std::vector<std::string> result;
+  for (const Setting& s : settings(copy)) result.push_back(s.key + " = " + s.text());
+  return result;
+}
+
+std::vector<std::string> default_texts() {
+  const Configuration defaults;
+  return texts(defaults);
+}
+
+std::string default_toml() {
+  const Configuration defaults;
+  return to_toml(defaults);
+}
+
+TEST_F(ConfigurationFile, RoundTrip) {
+  Configuration changed;
+  changed.seed = 9223372036854775807u;
+  changed.object.file = "a \"quoted\" näme\\with\tmore # than = usual.ply";
+  changed.sensor.range_noise = 1.0 / 3.0 * 1e-7;
+  changed.sensor.width = 123;
+  changed.map.insertion = Insertion::direct;
+  changed.map.resolution = 0.1 + 0.2;
+  changed.planner.gain = "oracle";
+  changed.planner.semantics = Semantics::reference;
+  changed.views.layout = ViewLayout::fibonacci;
+  changed.evaluation.enabled = false;
+  changed.cloud.down_sampling = true;
+  changed.termination.coverage = 1e-5;
+  changed.planner.combined_weights = "average-entropy=2,rear-side-voxel=0.1";
+  for (const Configuration& configuration : {Configuration(), changed}) {
+    const Configuration again = read(to_toml(configuration));
+    EXPECT_EQ(texts(again), texts(configuration));
+    EXPECT_EQ(to_toml(again), to_toml(configuration));
+  }
+}
+
+// Every setting, one at a time, through a file.
+TEST_F(ConfigurationFile, EverySettingIsReadFromAFile) {
+  Configuration names;
+  for (const Setting& s : settings(names)) {
+    if (s.key == "sensor.preset") continue;
+    std::string value = "another";
+    if (std::holds_alternative<bool*>(s.value)) value = s.text() == "true" ? "false" : "true";
+    if (std::holds_alternative<int*>(s.value) || std::holds_alternative<std::uint64_t*>(s.value)) value = "7";
+    if (std::holds_alternative<double*>(s.value)) value = "0.625";
+    if (const auto* c = std::get_if<Setting::Choice>(&s.value)) value = c->names[(c->get() + 1) % c->names.size()];
+    const bool is_text =
+        std::holds_alternative<std::string*>(s.value) || std::holds_alternative<Setting::Choice>(s.value);
+    const std::vector<std::string> found = texts(read(s.key + " = " + (is_text ? "'" + value + "'" : value) + "\n"));
+    std::vector<std::string> expected = default_texts();
+    std::replace(expected.begin(), expected.end(), s.key + " = " + s.text(), s.key + " = " + value);
+    EXPECT_EQ(found, expected) << s.key;
+    EXPECT_NE(found, default_texts()) << s.key;
+  }
+}
+
+TEST_F(ConfigurationFile, WhatTheFileLeavesOutStays) {
+  Configuration base;
+  base.seed = 5;
+  base.map.resolution = 0.03;
+  const Configuration read_over = read("[map]\nregion_edge = 2\n", base);
+  EXPECT_EQ(read_over.seed, 5u);
+  EXPECT_EQ(read_over.map.resolution, 0.03);
+  EXPECT_EQ(read_over.map.region_edge, 2.0);
+  EXPECT_EQ(texts(read("", base)), texts(base));
+}
+
+TEST_F(ConfigurationFile, UnknownKeysNameTheLineAndTheNearest) {
+  const std::string why = reason("# a scan\n[sensor]\nwidht = 3\n");
+  EXPECT_NE(why.find(":3:"), std::string::npos) << why;
+  EXPECT_NE(why.find("sensor.widht"), std::string::npos) << why;
+  EXPECT_NE(why.find("'sensor.width'"), std::string::npos) << why;
+  EXPECT_NE(reason("[sensro]\nwidth = 3\n").find("'sensor.width'"), std::string::npos);
+  EXPECT_NE(reason("sed = 3\n").find("'seed'"), std::string::npos);
+  EXPECT_NE(reason("[map.resolution]\nx = 3\n"), "");
+  EXPECT_NE(reason("[[map]]\nresolution = 3\n"), "");
+}
+
+TEST_F(ConfigurationFile, WrongTypesNameTheKeyAndTheLine) {
+  for (const auto& [text, key] :
+       std::vector<std::pair<std::string, std::string>>{{"seed = true", "seed"},
+                                                        {"seed = 1.5", "seed"},
+                                                        {"seed = -1", "seed"},
+                                                        {"seed = '1'", "seed"},
+                                                        {"sensor.width = '640'", "sensor.width"},
+                                                        {"sensor.width = 640.5", "sensor.width"},
+                                                        {"sensor.width = [640]", "sensor.width"},
+                                                        {"sensor.width = 99999999999", "sensor.width"},
+                                                        {"map.resolution = 'fine'", "map.resolution"},
+                                                        {"map.resolution = '0.01'", "map.resolution"},
+                                                        {"map.resolution = true", "map.resolution"},
+                                                        {"map.resolution = 2020-01-01", "map.resolution"},
+                                                        {"evaluation.enabled = 1", "evaluation.enabled"},
+                                                        {"evaluation.enabled = 'true'", "evaluation.enabled"},
+                                                        {"object.file = 5", "object.file"},
+                                                        {"object.file = true", "object.file"},
+                                                        {"views.layout = 1", "views.layout"},
+                                                        {"views.layout = 'cube'", "views.layout"},
+                                                        {"sensor.preset = 5", "sensor.preset"}}) {
+    const std::string why = reason("\n" + text + "\n");
+    EXPECT_NE(why, "") << text;
+    EXPECT_NE(why.find(key), std::string::npos) << text << ": " << why;
+    EXPECT_NE(why.find(":2:"), std::string::npos) << text << ": " << why;
+  }
+}
+
+TEST_F(ConfigurationFile, WholeNumbersDoForNumbers) {
+  EXPECT_EQ(read("map.resolution = 1\n").map.resolution, 1.0);
+  EXPECT_EQ(read("map.resolution = 1e-2\n").map.resolution, 0.01);
+}
+
+TEST_F(ConfigurationFile, BrokenTomlNamesTheLine) {
+  EXPECT_NE(reason("seed = 1\nseed = 2\n").find(":2:"), std::string::npos);
+  for (const char* bad : {"seed", "seed =", "= 1", "[sensor", "seed = 1 2", "\"", "seed = '", "a = {b = ", "[]",
+                          "\x80\xff", "seed = 0x", "seed = 1__0", "seed = 99999999999999999999"})
+    EXPECT_NE(reason(bad), "") << bad;
+  EXPECT_NE(reason(std::string("seed = 1\0\n", 10)), "");
+}
+
+TEST_F(ConfigurationFile, HostileFilesAreRefused) {
+  const int many = 100'000;
+  std::string dotted = "a", arrays = "a = ", tables = "a = ", header = "[a";
+  for (int n = 0; n < many; ++n) dotted += ".a", arrays += "[", tables += "{a=", header += ".a";
+  for (const std::string& text : {dotted + " = 1\n", arrays, tables, header + "]\nb = 1\n", std::string(many, '['),
+                                  std::string(2 << 20, '\n'), std::string(2 << 20, 'a')})
+    EXPECT_NE(reason(text), "") << text.substr(0, 20);
+  for (const std::filesystem::path& path : {folder_, folder_ / "missing.toml", std::filesystem::path("/dev/zero")})
+    EXPECT_THROW(read_configuration(path), std::runtime_error) << path;
+}
+
+TEST_F(ConfigurationFile, FlippedBytesAreReadOrRefused) {
+  const std::string good = default_toml();
+  std::mt19937 random(1);
+  for (int n = 0; n < 400; ++n) {
+    std::string bad = good;
+    for (unsigned k = 0; k <= random() % 4; ++k) bad[random() % bad.size()] = char(random());
+    reason(n % 4 ? bad : bad.substr(0, random() % bad.size()));
+  }
+}
+
+TEST_F(ConfigurationFile, PresetsThenOverrides) {
+  Configuration narrow, wide;
+  apply_sensor_preset(narrow, "narrow");
+  apply_sensor_preset(wide, "wide");
+  EXPECT_EQ(narrow.sensor_preset, "narrow");
+  EXPECT_NE(narrow.sensor.field_of_view, wide.sensor.field_of_view);
+  // The order in the file does not matter.
+  for (const char* text : {"[sensor]\npreset = 'narrow'\nwidth = 77\n", "[sensor]\nwidth = 77\npreset = 'narrow'\n"}) {
+    const Configuration c = read(text);
+    EXPECT_EQ(c.sensor_preset, "narrow");
+    EXPECT_EQ(c.sensor.width, 77);
+    EXPECT_EQ(c.sensor.height, narrow.sensor.height);
+    EXPECT_EQ(c.sensor.field_of_view, narrow.sensor.field_of_view);
+  }
+  // A preset leaves nothing of the sensor before it.
+  Configuration base;
+  base.sensor.width = 5;
+  EXPECT_EQ(read("sensor.preset = 'wide'\n", base).sensor.width, wide.sensor.width);
+}
+
+TEST_F(ConfigurationFile, ThePapersPresetIsTheDefault) {
+  Configuration paper;
+  apply_sensor_preset(paper, "paper");
+  EXPECT_EQ(texts(paper), default_texts());
+  for (const char* name : {"paper", "narrow", "wide"}) {
+    Configuration configuration;
+    apply_sensor_preset(configuration, name);
+    EXPECT_NO_THROW(configuration.validate()) << name;
+  }
+}
+
+TEST_F(ConfigurationFile, APresetMayBeAFileOfSensorSettingsAlone) {
+  const auto preset = (folder_ / "mine.toml").string();
+  std::ofstream(preset) << "[sensor]\nwidth = 31\n";
+  EXPECT_EQ(read("sensor.preset = '" + preset + "'\n").sensor.width, 31);
+  for (const char* bad :
+       {"[map]\nresolution = 0.02\n", "[sensor]\npreset = 'wide'\n", "[sensor]\nwidht = 3\n", "[sensor"}) {
+    std::ofstream(preset, std::ios::trunc) << bad;
+    Configuration configuration;
+    EXPECT_THROW(apply_sensor_preset(configuration, preset), std::runtime_error) << bad;
+  }
+}
+
+TEST_F(ConfigurationFile, UnknownPresetsNameTheKnownAndTheLine) {
+  const std::string why = reason("\nsensor.preset = 'narow'\n");
+  EXPECT_NE(why.find("narrow"), std::string::npos) << why;
+  EXPECT_NE(why.find(":2:"), std::string::npos) << why;
+}
+
+TEST(ResolveObject, FindsPathsAndNames) {
+  const auto objects = std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets/objects";
+  EXPECT_TRUE(std::filesystem::equivalent(resolve_object((objects / "box.ply").string()), objects / "box.ply"));
+  EXPECT_TRUE(std::filesystem::equivalent(resolve_object("box"), objects / "box.ply"));
+  EXPECT_TRUE(std::filesystem::equivalent(resolve_object("box.ply"), objects / "box.ply"));
+  EXPECT_TRUE(std::filesystem::exists(resolve_object("")));
+  EXPECT_THROW(resolve_object("no such thing"), std::runtime_error);
+}
+
+TEST_F(ConfigurationFile, WhatMakesNoSenseNamesItsPlace) {
+  std::ofstream(file()) << "[sensor]\nrange_noise = 5\n";
+  EXPECT_EQ(complaint([&] { read_configuration(file()); }),
+            file().string() + ":2: sensor.range_noise must be from 0 to 1 m, not 5");
+  Configuration configuration;
+  read_settings(file(), configuration);
+  EXPECT_EQ(configuration.sources,
+            (SettingSources{{"sensor.range_noise", {"sensor.range_noise", file().string() + ":2", "5"}}}));
+  configuration.sensor.range_noise = 7;
+  EXPECT_EQ(complaint([&] { configuration.validate(); }), "sensor.range_noise must be from 0 to 1 m, not 7")
+      << "that is not what the file says";
+  configuration.sensor.range_noise = 0.5;
+  EXPECT_NO_THROW(configuration.validate());
+}
+
+TEST_F(ConfigurationFile, SettingsThatDoNotGoTogetherAreAllNamedAsTheyWereGiven) {
+  Configuration configuration = read("[sensor]\nmin_range = 0.5\n");
+  give(configuration, "sensor.max_range", "0.25", "--sensor.max_range");
+  EXPECT_EQ(complaint([&] { configuration.validate(); }),
+            file().string() + ":2: sensor.min_range, 0.5 m, must be at most --sensor.max_range, 0.25 m");
+  give(configuration, "sensor.min_range", "0.5", "min range (sensor.min_range)");  // as the window does
+  EXPECT_EQ(complaint([&] { configuration.validate(); }),
+            "min range (sensor.min_range), 0.5 m, must be at most --sensor.max_range, 0.25 m");
+  // One of them is the default.
+  for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
+           {"map.clamp_max = 0.51\nmap.occupancy_threshold = 0.6",
+            ":2: map.occupancy_threshold, 0.6, must lie between map.clamp_min, 0.12, and map.clamp_max, 0.51"},
+           {"\nmap.free_below = 0.9", ":2: map.free_below, 0.9, must be below map.occupied_above, 0.8"},
+           {"views.layout = 'file'", ":1: views.file must name a views file where views.layout is file"},
+           {"views.layout = 'rings'\nviews.rings = 99", ":2: views.rings, 99, must be at most views.count, 48"},
+           {"gibbs.random_weight = 0.99",
+            ":1: gibbs.random_weight, 0.99, and gibbs.max_weight, 0.05, must leave something for hits: together they "
+            "must be below 1"},
+           {"gibbs.attenuations = '2, 1'",
+            ":1: gibbs.attenuations must be one to 5 ascending numbers over 0, up to 50"},
+           {"gibbs.attenuations = 'x'", ":1: gibbs.attenuations takes numbers with commas, not 'x'"},
+           {"planner.combined_weights = 'x=1'", ":1: planner.combined_weights: there is no gain 'x'; there are"},
+           {"planner.gain = 'gibbs'\nplanner.semantics = 'reference'",
+            ":1: planner.gain gibbs needs planner.semantics published: the reference code knows no Gibbs map"},
+           {"evaluation.enabled = false\nplanner.gain = 'oracle'",
+            ":2: planner.gain oracle knows the mesh: it needs evaluation.enabled"},
+           {"map.hit_decay = 1\nplanner.semantics = 'reference'",
+            ":1: map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no "
+            "range"},
+           {"map.resolution = 1e-4", ":1: map.region_edge / map.resolution must be from 1 to 512 voxels, not 12800"}}) {
+    const Configuration bad = read(text);
+    EXPECT_TRUE(complaint([&] { bad.validate(); }).starts_with(file().string() + reason)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,59 @@
+#include "ui/render_target/image.hpp"
+
+#include <fmt/format.h>
+#include <stb/stb_image.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "core/file/atomic_file.hpp"
+
+namespace nextview {
+namespace {
+
+/// VTK's rows go from bottom to top.
+vtkNew<vtkImageData> to_vtk(const Image& image) {
+  vtkNew<vtkImageData> result;
+  result->SetDimensions(image.width, image.height, 1);
+  result->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  const std::size_t row = std::size_t(image.width) * 4;
+  auto* target = static_cast<std::uint8_t*>(result->GetScalarPointer());
+  for (int y = 0; y < image.height; ++y) {
+    std::copy_n(&image.rgba[y * row], row, target + (image.height - 1 - y) * row);
+  }
+  return result;
+}
+
+}  // namespace
+
+void write_png(const Image& image, const std::filesystem::path& file) {
+  if (image.rgba.empty()) throw std::runtime_error(fmt::format("{}: the picture is empty", file.string()));
+  vtkNew<vtkPNGWriter> writer;
+  writer->WriteToMemoryOn();
+  writer->SetInputData(to_vtk(image));
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  write_file(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), std::size_t(bytes->GetNumberOfValues())});
+}
+
+Image read_png(const std::filesystem::path& file) {
+  const auto cannot_read = [&](const std::string& reason) {
+    return std::runtime_error(fmt::format("{}: cannot read the picture: {}", file.string(), reason));
+  };
+  if (!std::filesystem::is_regular_file(file)) throw cannot_read("no such file");
+  // stb's reader and not VTK's, which ends the program when a file is truncated.
+  Image image;
+  int channels = 0;
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load(file.c_str(), &image.width, &image.height, &channels, 4), stbi_image_free);
+  if (!pixels) throw cannot_read(stbi_failure_reason());
+  image.rgba.assign(pixels.get(), pixels.get() + std::size_t(image.width) * image.height * 4);
+  return image;
+}
+
+}  // namespace nextview

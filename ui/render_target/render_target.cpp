@@ -1,0 +1,93 @@
+#include "ui/render_target/render_target.hpp"
+
+#include <vtkCallbackCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkOpenGLState.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "ui/drawing/shader_file.hpp"
+#include "ui/render_target/vtk_messages.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_back = 0x0405, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401;
+
+void answer_vtk(vtkObject*, unsigned long event, void* target_pointer, void* answer) {
+  auto& target = *static_cast<RenderTarget*>(target_pointer);
+  if (event == vtkCommand::WindowMakeCurrentEvent && !target.is_current()) target.make_current();
+  if (event == vtkCommand::WindowIsCurrentEvent) *static_cast<bool*>(answer) = target.is_current();
+}
+
+}  // namespace
+
+RenderTarget::RenderTarget() : window_(vtkSmartPointer<vtkGenericOpenGLRenderWindow>::New()) {}
+
+RenderTarget::~RenderTarget() = default;
+
+vtkGenericOpenGLRenderWindow& RenderTarget::window() { return *window_; }
+int RenderTarget::width() const { return window_->GetSize()[0]; }
+int RenderTarget::height() const { return window_->GetSize()[1]; }
+
+void RenderTarget::start(int width, int height) {
+  vtkNew<vtkCallbackCommand> callback;
+  callback->SetCallback(answer_vtk);
+  callback->SetClientData(this);
+  window_->AddObserver(vtkCommand::WindowMakeCurrentEvent, callback);
+  window_->AddObserver(vtkCommand::WindowIsCurrentEvent, callback);
+  window_->SetIsDirect(1);
+  window_->SetSupportsOpenGL(1);
+  window_->SetReadyForRendering(true);
+  window_->SetOwnContext(0);
+  window_->SetDPI(72);  // so that a font size is a height in pixels
+  window_->SetMultiSamples(4);
+  window_->SetSize(width, height);
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();  // edges lie before the faces that they bound
+  make_current();
+  window_->OpenGLInitContext();
+}
+
+void RenderTarget::finish() {
+  make_current();
+  window_->Finalize();
+}
+
+void RenderTarget::render() {
+  const VtkMessages messages;
+  make_current();
+  window_->Render();
+  if (!messages.errors().empty()) throw std::runtime_error(explain_drawing_error(messages.errors()));
+}
+
+Image RenderTarget::read_back() {
+  using ReadPixels = void (*)(int, int, int, int, unsigned int, unsigned int, void*);
+  make_current();
+  vtkOpenGLState* state = window_->GetState();
+  state->PushReadFramebufferBinding();
+  state->vtkglBindFramebuffer(gl_read_framebuffer, 0);
+  state->vtkglReadBuffer(gl_back);
+  Image image{width(), height(), {}};
+  const std::size_t row = std::size_t(image.width) * 4;
+  std::vector<std::uint8_t> pixels(row * image.height);
+  reinterpret_cast<ReadPixels>(gl_function("glReadPixels"))(0, 0, image.width, image.height, gl_rgba, gl_unsigned_byte,
+                                                            pixels.data());
+  state->PopReadFramebufferBinding();
+  image.rgba.resize(pixels.size());
+  for (int y = 0; y < image.height; ++y) {
+    std::copy_n(&pixels[(image.height - 1 - y) * row], row, &image.rgba[y * row]);
+  }
+  // A window's back buffer may have no alpha, and an opaque picture needs none.
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+unsigned int RenderTarget::gl_error() {
+  make_current();
+  return reinterpret_cast<unsigned int (*)()>(gl_function("glGetError"))();
+}
+
+}  // namespace nextview
