@@ -94,7 +94,7 @@ int run(int argc, char** argv) {
   CLI::Option* script_option =
       window->add_option("--script", script,
                          "does what this file says: a command a line, as in the palette (Ctrl+P); a line that fails is "
-                         "told as FILE:LINE, the others are done, and the exit code is 2");
+                         "reported as FILE:LINE, the others are done, and the exit code is 2");
   bool stop_on_error = false;
   window->add_flag("--stop-on-error", stop_on_error, "ends the program at the first line of the script that fails")
       ->needs(script_option);

@@ -1,4 +1,4 @@
-// A number a vertex as colours. Interpolated before it becomes a colour, so the map's colours appear in their order.
+// A number per vertex as colours. Interpolated before it becomes a colour, so the map's colours appear in their order.
 // range_colours[17], no_value_colours[2] (surface, stripes) and pixel_scale are set by ui/layers/mesh_layer.cpp.
 in vec2 paint_at_vertex;  // sum of the places in the range over the corners with a value, and their share
 

@@ -95,7 +95,7 @@ void print_model(const char* label, const InverseSensorModel& m) {
 void print(const MapCalibration& calibration) {
   const Calibration& fit = calibration.fit;
   fmt::print(
-      "Cross entropy to the Gibbs maps: {:.4f} before, {:.4f} after {} iterations of BFGS [nats a voxel].\n{}.\n\n",
+      "Cross entropy to the Gibbs maps: {:.4f} before, {:.4f} after {} iterations of BFGS [nats per voxel].\n{}.\n\n",
       fit.cross_entropy_before, fit.cross_entropy, fit.descent.empty() ? 0 : fit.descent.size() - 1, fit.termination);
   fmt::print("{:<8} {:>8} {:>8} {:>10} {:>10} {:>10} {:>10}\n", "", "hit", "miss", "clamp_min", "clamp_max",
              "hit_decay", "miss_decay");
@@ -130,7 +130,7 @@ void print(const MapCalibration& calibration) {
 std::string remark(const CalibrateArguments& arguments, const MapCalibration& calibration, double resolution) {
   return fmt::format(
       "The inverse sensor model that nextview calibrate fitted to the Gibbs maps of {}: cross entropy {:.4f}, before\n"
-      "{:.4f} nats a voxel. For voxels of {} m{}.\n"
+      "{:.4f} nats per voxel. For voxels of {} m{}.\n"
       "Use it with --config: nextview scan --config sensor_model.toml",
       printable(fmt::format("{}", fmt::join(arguments.fitted, ", "))), calibration.fit.cross_entropy,
       calibration.fit.cross_entropy_before, resolution,

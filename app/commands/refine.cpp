@@ -69,8 +69,8 @@ std::size_t best(const std::vector<double>& gains) {
 
 void print(const RefinementJob& job, const Refinement& r) {
   const SamplerDiagnostics& d = r.posterior.diagnostics;
-  fmt::print("{}: {}, {} joined to {}, {} informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
-             printable(job.name), counted(job.scans.size(), "view"), counted(d.measured_rays, "ray"), d.joined_rays,
+  fmt::print("{}: {}, {} merged to {}, {} informed; {:.1f} s for the lists, {:.1f} s for the sweeps\n",
+             printable(job.name), counted(job.scans.size(), "view"), counted(d.measured_rays, "ray"), d.merged_rays,
              counted(d.informed_voxels, "voxel"), d.build_seconds, d.sample_seconds);
   fmt::print("model {}: {}\n\n", name(job.sampler.model.kind), diagnostics_line(d));
   fmt::print("{:<36} {:>14} {:>14}\n", "", "conventional", "Gibbs");

@@ -32,8 +32,8 @@ void print_head(const Session& session) {
   fmt::print("{}, ranked by {}{} ({} semantics)\n\n", counted(session.candidates().size(), "candidate view"),
              c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved",
-             "returns", "new", "coverage", "entropy", "log loss", "seconds");
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
+             "new", "coverage", "entropy", "log loss", "seconds");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "voxels",
              "% visible", "kbit", "nats*", "");
 }
@@ -41,7 +41,7 @@ void print_head(const Session& session) {
 void print_step(const StepRecord& r) {
   const StageSeconds& s = r.seconds;
   fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
-             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.returns, r.new_voxels,
+             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.hits, r.new_voxels,
              100.0 * r.coverage_visible, r.entropy / 1e3, r.quality_near_surface.log_loss,
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
   if (r.refinement) {

@@ -106,7 +106,7 @@ void add_score_command(CLI::App& program) {
                   "a gain, 'combined', or 'all'; gibbs refines the map first, which takes seconds")
       ->capture_default_str();
   app->add_option("--csv", arguments->csv,
-                  "write a row a view with raw values; - for standard output; else a summary is printed")
+                  "write a row per view with raw values; - for standard output; else a summary is printed")
       ->type_name("FILE");
   app->footer("Example:\n  nextview score --scene scans1.txt --semantics reference --gain all --csv scores.csv");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });

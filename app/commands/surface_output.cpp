@@ -6,7 +6,7 @@
 
 #include "core/file/counted.hpp"
 #include "core/surface/seen_part.hpp"
-#include "ui/figures/inspection_figure.hpp"
+#include "ui/figures/surface_error_figure.hpp"
 
 namespace nextview {
 namespace {
@@ -20,7 +20,8 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
   picture.openings =
       surface.openings.empty() && !all_seen ? "none: closed by what was not seen" : summary(surface.openings);
   picture.surface = &surface.surface;
-  return surface.inspection ? draw_inspection_figure(picture, *surface.inspection) : draw_surface_figure(picture);
+  return surface.surface_error ? draw_surface_error_figure(picture, *surface.surface_error)
+                               : draw_surface_figure(picture);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ void judge_kink(Descent& descent) {
 
 /// BFGS from one start, again from where it ends until that no longer helps: at a kink its Hessian leads astray.
 Descent descend(const UpdateHistories& histories, const FreeSensorParameters& parameters,
-                const InverseSensorModel& start, int iterations, const std::function<void(int)>& tell,
+                const InverseSensorModel& start, int iterations, const std::function<void(int)>& report,
                 const std::stop_token& stop) {
   constexpr double helped = 1e-8;  // share of the cross entropy
   std::vector<double> free = parameters.from_model(start);
@@ -101,7 +101,7 @@ Descent descend(const UpdateHistories& histories, const FreeSensorParameters& pa
   const auto note = [&](const ceres::IterationSummary& summary) {
     if (summary.iteration == 0) return;  // that point is there already
     descent.steps.push_back({summary.cost, summary.gradient_norm, parameters.to_model(free)});
-    tell(static_cast<int>(descent.steps.size()));
+    report(static_cast<int>(descent.steps.size()));
   };
   Recorder recorder(note, stop);
   const ceres::GradientProblem problem(new Objective(histories, parameters, stop));  // which owns it
@@ -153,12 +153,12 @@ Calibration calibrate(const UpdateHistories& all, const InverseSensorModel& star
   result.model = start;
   result.cross_entropy = result.cross_entropy_before = histories.cross_entropy(start).value;
   for (std::size_t s = 0; s < starts.size(); ++s) {
-    const auto tell = [&](int step) {
+    const auto report = [&](int step) {
       const double of_descent = std::min(1.0, double(step) / config.iterations);
       if (progress) progress((double(s) + of_descent) / starts.size(), "fitting the inverse sensor model");
     };
     Descent descent =
-        descend(histories, parameters, with_scaled_terms(start, starts[s].scale), config.iterations, tell, stop);
+        descend(histories, parameters, with_scaled_terms(start, starts[s].scale), config.iterations, report, stop);
     if (descent.steps.empty()) continue;
     const CalibrationStep& last = descent.steps.back();
     const bool lower = last.cross_entropy < result.cross_entropy;

@@ -19,14 +19,14 @@ struct CalibrationConfig {
 
 /// A point of a descent.
 struct CalibrationStep {
-  double cross_entropy = 0.0;  ///< [nats a voxel]
+  double cross_entropy = 0.0;  ///< [nats per voxel]
   double gradient_norm = 0.0;  ///< by the parameters that BFGS sees
   InverseSensorModel model;
 };
 
 struct Calibration {
   InverseSensorModel model;
-  double cross_entropy_before = 0.0;     ///< of the model that was given [nats a voxel]
+  double cross_entropy_before = 0.0;     ///< of the model that was given [nats per voxel]
   double cross_entropy = 0.0;            ///< of `model`; never more than before
   std::vector<CalibrationStep> descent;  ///< of the start that won, from that start to `model`
   std::string termination;               ///< which start won, and why its descent ended

@@ -31,7 +31,7 @@ struct CrossEntropy {
 class UpdateHistories {
  public:
   /// Replays scans over a grid, as OccupancyMap::insert takes them. Kept are the voxels with mask != 0 that a scan
-  /// touched. May be called again for other grids, objects and views; 4 bytes a voxel and scan that touches it.
+  /// touched. May be called again for other grids, objects and views; 4 bytes per voxel and scan that touches it.
   /// @throws std::invalid_argument if `target` or `mask` is not of the grid's size, a target of the mask is not from 0
   ///         to 1, or a scan's maximum range is not over 0; Stopped. Nothing is added then.
   void add(const VoxelGrid& grid, std::span<const Scan> scans, std::span<const float> target,
@@ -46,7 +46,7 @@ class UpdateHistories {
   /// @throws std::invalid_argument if there are no voxels or the model is not valid.
   CrossEntropy cross_entropy(const InverseSensorModel& model) const;
 
-  /// What the map holds with this model, one a history: a voxel, in the order of `add` and of its grid.
+  /// What the map holds with this model, one per history: a voxel, in the order of `add` and of its grid.
   /// @throws std::invalid_argument if the model is not valid.
   std::vector<double> probabilities(const InverseSensorModel& model) const;
 

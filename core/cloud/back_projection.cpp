@@ -8,7 +8,7 @@ Scan back_project(const DepthImage& image, const Pose& T_world_camera, double ma
   scan.origin = T_world_camera.translation();
   scan.max_range = max_range;
   const auto& camera = image.camera;
-  scan.returns.reserve(image.range.size());
+  scan.hits.reserve(image.range.size());
   for (int v = 0; v < camera.height; ++v) {
     throw_if_stopped(stop);
     for (int u = 0; u < camera.width; ++u) {
@@ -17,7 +17,7 @@ Scan back_project(const DepthImage& image, const Pose& T_world_camera, double ma
       if (!met_surface && !DepthImage::is_beyond_range(range)) continue;
       const Vector3 direction = T_world_camera.linear() * camera.direction(u, v);
       const double length = met_surface ? double(range) : max_range;
-      (met_surface ? scan.returns : scan.passes).push_back((scan.origin + length * direction).cast<float>());
+      (met_surface ? scan.hits : scan.misses).push_back((scan.origin + length * direction).cast<float>());
     }
   }
   return scan;

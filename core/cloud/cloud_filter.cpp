@@ -147,11 +147,10 @@ std::vector<Setting> settings(CloudConfig& c) {
 
 void CloudConfig::validate() const { require_in_bounds(*this); }
 
-PointCloud clean(const PointCloud& returns, const CloudConfig& config, const std::stop_token& stop) {
+PointCloud clean(const PointCloud& hits, const CloudConfig& config, const std::stop_token& stop) {
   config.validate();
-  PointCloud cloud = config.outlier_removal
-                         ? remove_outliers(returns, config.outlier_neighbours, config.outlier_deviations, stop)
-                         : returns;
+  PointCloud cloud =
+      config.outlier_removal ? remove_outliers(hits, config.outlier_neighbours, config.outlier_deviations, stop) : hits;
   return config.down_sampling ? down_sample(cloud, config.down_sampling_leaf) : cloud;
 }
 

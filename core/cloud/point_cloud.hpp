@@ -19,20 +19,20 @@ using PointCloud = std::vector<Eigen::Vector3f>;
 /// up.
 struct Scan {
   Vector3 origin = Vector3::Zero();  ///< camera centre [m, world]
-  PointCloud returns;                ///< where rays met a surface
-  PointCloud passes;                 ///< where rays beyond range were given up (at the maximum range); they carve only
+  PointCloud hits;                   ///< where rays met a surface
+  PointCloud misses;                 ///< where rays beyond range were given up (at the maximum range); they carve only
   double max_range = std::numeric_limits<double>::infinity();  ///< longer rays count up to here and end nowhere [m]
 };
 
-/// Returns and passes of a depth image; invalid pixels give neither. Points in pixel order. @throws Stopped
+/// Hits and misses of a depth image; invalid pixels give neither. Points in pixel order. @throws Stopped
 Scan back_project(const DepthImage& image, const Pose& T_world_camera, double max_range,
                   const std::stop_token& stop = {});
 
 struct CloudConfig {
-  bool outlier_removal = true;      ///< statistical outlier removal of the returns (as PCL's)
+  bool outlier_removal = true;      ///< statistical outlier removal of the hits (as PCL's)
   int outlier_neighbours = 16;      ///< neighbours whose mean distance is looked at
   double outlier_deviations = 3.0;  ///< points whose mean distance is this many standard deviations over the average go
-  bool down_sampling = false;       ///< voxel-grid down-sampling of the returns (PCL)
+  bool down_sampling = false;       ///< voxel-grid down-sampling of the hits (PCL)
   double down_sampling_leaf = 0.002;  ///< [m]
 
   /// @throws std::invalid_argument naming the setting and its bounds.
@@ -40,12 +40,12 @@ struct CloudConfig {
 };
 std::vector<Setting> settings(CloudConfig& config);
 
-/// The returns after outlier removal and down-sampling, each if switched on. Outlier removal keeps the order;
+/// The hits after outlier removal and down-sampling, each if switched on. Outlier removal keeps the order;
 /// down-sampling puts one centroid a leaf, in the order of the leaves (x fastest).
 /// @throws std::invalid_argument if the configuration is not valid, or if the leaf is too small for the cloud's extent
 ///         (PCL numbers leaves with 32 bits).
 /// @throws Stopped
-PointCloud clean(const PointCloud& returns, const CloudConfig& config, const std::stop_token& stop = {});
+PointCloud clean(const PointCloud& hits, const CloudConfig& config, const std::stop_token& stop = {});
 
 /// Binary little-endian PLY with x y z floats. Written beside the file, then renamed.
 /// @throws std::runtime_error naming the file and the reason.

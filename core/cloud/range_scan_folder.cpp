@@ -69,7 +69,7 @@ std::vector<ConfLine> read_conf(const fs::path& file) {
   return scans;
 }
 
-/// The scans' files, one a line of the .conf, plain or compressed.
+/// The scans' files, one per line of the .conf, plain or compressed.
 std::vector<fs::path> find_scans(const fs::path& folder, const std::vector<ConfLine>& lines) {
   std::vector<fs::path> files;
   std::vector<std::string> missing;

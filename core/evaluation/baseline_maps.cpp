@@ -21,7 +21,7 @@ constexpr double prior_occupied = 0.05;
 constexpr double stop_alpha = 1, stop_beta = 2;      ///< of the share of rays that an occupied voxel stops
 constexpr double false_alpha = 1, false_beta = 999;  ///< of the share of rays that a free voxel stops (false hits)
 
-enum class Touch : bool { pass, hit };
+enum class Touch : bool { miss, hit };
 
 /// Calls `visit(voxel, touch)` for each voxel that a ray passes or ends in, ray after ray, along each in order.
 template <class Visit>
@@ -32,16 +32,16 @@ void visit_rays(const VoxelGrid& grid, const Scan& scan, Visit visit) {
     walk_segment(grid, origin, end, [&](int x, int y, int z) {
       if (!grid.contains({x, y, z})) return !inside;  // the region is convex: a ray that left it is done
       inside = true;
-      visit(grid.index({x, y, z}), Touch::pass);
+      visit(grid.index({x, y, z}), Touch::miss);
       return true;
     });
   };
-  for (const auto* ends : {&scan.returns, &scan.passes})
+  for (const auto* ends : {&scan.hits, &scan.misses})
     for (const Eigen::Vector3f& point : *ends) {
       const bool in_range = ray_length(origin, point) <= scan.max_range;
       carve(in_range ? point : point_on_ray(origin, point, scan.max_range));
       const Eigen::Vector3i cell = grid.cell_at(point.cast<double>());
-      if (ends == &scan.returns && in_range && grid.contains(cell)) visit(grid.index(cell), Touch::hit);
+      if (ends == &scan.hits && in_range && grid.contains(cell)) visit(grid.index(cell), Touch::hit);
     }
 }
 
@@ -50,15 +50,15 @@ double log_beta(double a, double b) { return std::lgamma(a) + std::lgamma(b) - s
 }  // namespace
 
 double hit_ratio(const RayCounts& counts) {
-  const double hits = counts.hits, rays = hits + counts.passes;
+  const double hits = counts.hits, rays = hits + counts.misses;
   return (hits + pseudo_hits) / (rays + pseudo_rays);
 }
 
 double beta_binomial(const RayCounts& counts) {
-  const double hits = counts.hits, passes = counts.passes;
-  // Integrated over the share q of rays that the voxel stops: q^hits (1-q)^passes Beta(q; alpha, beta).
+  const double hits = counts.hits, misses = counts.misses;
+  // Integrated over the share q of rays that the voxel stops: q^hits (1-q)^misses Beta(q; alpha, beta).
   const auto log_likelihood = [&](double alpha, double beta) {
-    return log_beta(alpha + hits, beta + passes) - log_beta(alpha, beta);
+    return log_beta(alpha + hits, beta + misses) - log_beta(alpha, beta);
   };
   const double log_if_occupied = log_likelihood(stop_alpha, stop_beta);
   const double log_if_free = log_likelihood(false_alpha, false_beta);
@@ -75,16 +75,16 @@ BaselineMaps::BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, c
 }
 
 void BaselineMaps::count_rays() {
-  constexpr std::uint8_t passed = 1, hit = 2;
+  constexpr std::uint8_t missed = 1, hit = 2;
   std::vector<std::uint8_t> touched(counts_.size());  // by the rays of one scan
   for (const Scan& scan : scans_) {
     visit_rays(grid_, scan, [&](std::uint32_t voxel, Touch touch) {
-      ++(touch == Touch::hit ? counts_[voxel].hits : counts_[voxel].passes);
-      touched[voxel] |= touch == Touch::hit ? hit : passed;
+      ++(touch == Touch::hit ? counts_[voxel].hits : counts_[voxel].misses);
+      touched[voxel] |= touch == Touch::hit ? hit : missed;
     });
     for (std::size_t v = 0; v < touched.size(); ++v) {
       counts_[v].scan_hits += (touched[v] & hit) != 0;
-      counts_[v].scan_passes += touched[v] == passed;
+      counts_[v].scan_misses += touched[v] == missed;
       touched[v] = 0;
     }
   }
@@ -149,7 +149,7 @@ std::vector<Voxel> BaselineMaps::no_clamps() const {
                            [&](std::uint32_t voxel, bool is_hit) { sums[voxel] += update_term(scan, voxel, is_hit); });
   } else {
     const double hit = model_.hit_term(1.0), miss = model_.miss_term(1.0);
-    for (std::size_t v = 0; v < sums.size(); ++v) sums[v] = counts_[v].scan_hits * hit + counts_[v].scan_passes * miss;
+    for (std::size_t v = 0; v < sums.size(); ++v) sums[v] = counts_[v].scan_hits * hit + counts_[v].scan_misses * miss;
   }
   return visited_voxels([&](std::size_t v) { return probability(sums[v]); });
 }

@@ -12,7 +12,7 @@
 namespace nextview {
 
 /// Maps that must stand beside the Gibbs map: what simpler rules make of the same rays. In all of them each voxel is on
-/// its own; they differ in what they make of the rays that ended in it (hits) and that passed through it (passes).
+/// its own; they differ in what they make of the rays that ended in it (hits) and that passed through it (misses).
 enum class BaselineMap { octomap, per_ray, no_clamps, hit_ratio, beta_binomial };
 
 struct BaselineMapInfo {
@@ -24,7 +24,7 @@ struct BaselineMapInfo {
 /// All of them, to loop over.
 inline constexpr std::array<BaselineMapInfo, 5> baseline_maps = {{
     {BaselineMap::octomap, "octomap", "the conventional map: one hit or miss a voxel and scan, clamped"},
-    {BaselineMap::per_ray, "per-ray", "the conventional map's terms, one a voxel and ray, clamped after each"},
+    {BaselineMap::per_ray, "per-ray", "the conventional map's terms, one per voxel and ray, clamped after each"},
     {BaselineMap::no_clamps, "no-clamps", "the conventional map without clamps"},
     {BaselineMap::hit_ratio, "hit-ratio", "share of a voxel's rays that ended in it"},
     {BaselineMap::beta_binomial, "beta-binomial",
@@ -32,21 +32,21 @@ inline constexpr std::array<BaselineMapInfo, 5> baseline_maps = {{
 }};
 
 /// What the rays say of one voxel. Rays are taken as OccupancyMap::insert takes them: those longer than the maximum
-/// range, and scans' passes, end nowhere and carve up to it; returns outside of the grid carve only.
+/// range, and scans' misses, end nowhere and carve up to it; hits outside of the grid carve only.
 struct RayCounts {
   std::uint32_t hits = 0;         ///< rays that ended in it
-  std::uint32_t passes = 0;       ///< rays that passed through it
+  std::uint32_t misses = 0;       ///< rays that passed through it
   std::uint32_t scan_hits = 0;    ///< scans with a ray that ended in it
-  std::uint32_t scan_passes = 0;  ///< scans with a ray that passed through it and none that ended in it
+  std::uint32_t scan_misses = 0;  ///< scans with a ray that passed through it and none that ended in it
 
-  bool any() const { return hits > 0 || passes > 0; }
+  bool any() const { return hits > 0 || misses > 0; }
 };
 
-/// hits / (hits + passes), with 0.05 hits in 0.1 rays more than there are: 0.5 where there are none.
+/// hits / (hits + misses), with 0.05 hits in 0.1 rays more than there are: 0.5 where there are none.
 double hit_ratio(const RayCounts& counts);
 
-/// P(occupied | hits, passes) of a voxel that stops each ray with a probability of its own: a priori Beta(1, 999) if it
-/// is free (false hits, 0.001 in the mean), Beta(1, 2) if it is occupied. Occupied a priori: 0.05. Passes without a hit
+/// P(occupied | hits, misses) of a voxel that stops each ray with a probability of its own: a priori Beta(1, 999) if it
+/// is free (false hits, 0.001 in the mean), Beta(1, 2) if it is occupied. Occupied a priori: 0.05. Misses without a hit
 /// always speak for free; where rays are many, a voxel is called occupied if more than about 0.9 % of them end in it.
 double beta_binomial(const RayCounts& counts);
 
@@ -60,10 +60,10 @@ class BaselineMaps {
   BaselineMaps(const VoxelGrid& grid, std::span<const Scan> scans, const InverseSensorModel& model = {});
 
   /// One voxel a voxel of the grid; where no ray went p is 0.5 and nothing is measured. `per_ray` depends on the order
-  /// of the rays: scan after scan, in each the returns first.
+  /// of the rays: scan after scan, in each the hits first.
   std::vector<Voxel> make(BaselineMap map) const;
 
-  std::span<const RayCounts> counts() const { return counts_; }  ///< one a voxel of the grid
+  std::span<const RayCounts> counts() const { return counts_; }  ///< one per voxel of the grid
 
  private:
   void count_rays();

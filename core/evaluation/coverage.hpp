@@ -25,7 +25,7 @@ class SurfaceCoverage {
   double of_all() const;      ///< share of all samples that are observed
   double of_visible() const;  ///< share of the visible samples that are observed; 0 if none is visible
   double d_reg() const { return cells_->d_reg; }
-  std::span<const std::uint8_t> observed() const { return observed_; }  ///< one a sample
+  std::span<const std::uint8_t> observed() const { return observed_; }  ///< one per sample
 
  private:
   struct Sample {

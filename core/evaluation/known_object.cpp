@@ -26,9 +26,10 @@ std::vector<Eigen::Vector3f> sample_normals(const TriangleMesh& mesh, const Surf
 
 }  // namespace
 
-KnownObject::KnownObject(const TriangleMesh& mesh, std::shared_ptr<const RayScene> scene, const DepthCamera& camera,
-                         std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples,
-                         double d_reg, std::uint64_t seed, const Progress& progress, std::stop_token stop)
+KnownObject::KnownObject(const TriangleMesh& mesh, std::shared_ptr<const MeshRayCaster> scene,
+                         const DepthCamera& camera, std::span<const Pose> candidates, const VoxelGrid& grid,
+                         std::size_t surface_samples, double d_reg, std::uint64_t seed, const Progress& progress,
+                         std::stop_token stop)
     : scene_(std::move(scene)),
       camera_(camera),
       samples_(sample_surface(mesh, surface_samples, seed)),
@@ -66,7 +67,7 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera,
   const DepthCameraConfig& config = camera_.config();
   const Eigen::Vector3f origin = T_world_camera.translation().cast<float>();
   const Pose T_camera_world = T_world_camera.inverse();
-  const float least_cosine = static_cast<float>(std::cos(config.grazing_limit * std::numbers::pi / 180.0));
+  const float min_cosine = static_cast<float>(std::cos(config.grazing_limit * std::numbers::pi / 180.0));
 
   std::vector<std::uint32_t> in_image;
   std::vector<Eigen::Vector3f> directions;
@@ -82,12 +83,12 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera,
     if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > config.width - 0.5 || pixel.y() > config.height - 0.5)
       continue;
     const Eigen::Vector3f direction = to_sample / range;
-    if (std::abs(direction.dot(normals_[s])) < least_cosine) continue;
+    if (std::abs(direction.dot(normals_[s])) < min_cosine) continue;
     in_image.push_back(s);
     directions.push_back(direction);
     ranges.push_back(range);
   }
-  std::vector<RayScene::Hit> hits(directions.size());
+  std::vector<MeshRayCaster::Hit> hits(directions.size());
   scene_->cast(T_world_camera.translation(), directions, static_cast<float>(config.max_range) + 0.01f, hits);
   constexpr float tolerance = 5e-4f;  // the sample lies on the surface: the ray meets it, give or take rounding [m]
   std::vector<std::uint32_t> seen;

@@ -18,7 +18,7 @@ struct EvaluationState {
   std::vector<std::uint8_t> seen;            ///< one a surface sample, 1: a view would have seen it, but for noise
   SurfaceCoverage coverage;                  ///< by the points of the views, at d_reg
   SurfaceCoverage coverage_paper;            ///< at the paper's
-  std::vector<std::uint8_t> visited_voxels;  ///< one a voxel, 1: a noise-free ray visited it
+  std::vector<std::uint8_t> visited_voxels;  ///< one per voxel, 1: a noise-free ray visited it
 
   std::size_t bytes() const { return seen.size() + 2 * coverage.observed().size() + visited_voxels.size(); }
 };
@@ -31,7 +31,7 @@ class KnownObject {
   static constexpr double paper_d_reg = 0.0005;
 
   /// @throws Stopped
-  KnownObject(const TriangleMesh& mesh, std::shared_ptr<const RayScene> scene, const DepthCamera& camera,
+  KnownObject(const TriangleMesh& mesh, std::shared_ptr<const MeshRayCaster> scene, const DepthCamera& camera,
               std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
               std::uint64_t seed, const Progress& progress, std::stop_token stop);
 
@@ -53,14 +53,14 @@ class KnownObject {
 
   const GroundTruth& truth() const { return truth_; }
   const SurfaceSamples& samples() const { return samples_; }
-  std::span<const std::uint8_t> visible() const { return visible_; }  ///< one a sample, 1: some candidate sees it
+  std::span<const std::uint8_t> visible() const { return visible_; }  ///< one per sample, 1: some candidate sees it
 
  private:
   std::vector<std::vector<std::uint32_t>> see_from(std::span<const Pose> candidates, const Progress& progress,
                                                    std::stop_token stop) const;
   std::vector<std::uint8_t> seen_by_any() const;
 
-  std::shared_ptr<const RayScene> scene_;
+  std::shared_ptr<const MeshRayCaster> scene_;
   DepthCamera camera_;
   SurfaceSamples samples_;
   std::vector<Eigen::Vector3f> normals_;               ///< of the samples

@@ -35,7 +35,7 @@ struct ReliabilityBin {
 /// How well a map's probabilities agree with the truth, over a scored set. Of an empty set all scores are 0.
 struct MapQuality {
   std::size_t voxels = 0;
-  double log_loss = 0.0;                 ///< mean of -ln of what the map gave to the truth, p clamped [nats a voxel]
+  double log_loss = 0.0;                 ///< mean of -ln of what the map gave to the truth, p clamped [nats per voxel]
   double brier = 0.0;                    ///< mean of (p - truth)^2
   double divergence = 0.0;               ///< D_KL(p || q), Eqs. 15-16: p as it is, q the clamped truth; a sum [nats]
   double divergence_outside_band = 0.0;  ///< share of it that lies outside the band; 0 if there is none
@@ -44,8 +44,8 @@ struct MapQuality {
   std::array<ReliabilityBin, 10> reliability;  ///< by p: [0, 0.1), ..., [0.9, 1]
 };
 
-/// `probabilities`: one a voxel of the truth's grid. `visited`: likewise, 1 where visited; only the sets named after it
-/// need it.
+/// `probabilities`: one per voxel of the truth's grid. `visited`: likewise, 1 where visited; only the sets named after
+/// it need it.
 /// @throws std::invalid_argument if lengths differ.
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,
                        ScoredSet set, std::span<const std::uint8_t> visited = {});

@@ -17,7 +17,7 @@ void mark_visited(const VoxelGrid& grid, const Scan& ideal, std::span<std::uint8
     std::atomic_ref(visited[grid.index({x, y, z})]).store(1, std::memory_order_relaxed);
     return true;
   };
-  for (const PointCloud* ends : {&ideal.returns, &ideal.passes})
+  for (const PointCloud* ends : {&ideal.hits, &ideal.misses})
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends->size(), 1024), [&](const auto& range) {
       if (stop.stop_requested()) return;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {

@@ -8,7 +8,7 @@ namespace nextview {
 
 std::string diagnostics_json(const SamplerDiagnostics& d) {
   return nlohmann::ordered_json{{"measured_rays", d.measured_rays},
-                                {"joined_rays", d.joined_rays},
+                                {"merged_rays", d.merged_rays},
                                 {"observed_voxels", d.observed_voxels},
                                 {"informed_voxels", d.informed_voxels},
                                 {"incidences", d.incidences},

@@ -16,8 +16,8 @@ std::string steps_csv(const Session& session) {
   const std::string unit = session.planner().unit();
   const auto d_reg = session.configuration().evaluation.d_reg;
   std::string csv = fmt::format(
-      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],returns,points,"
-      "passes,new_voxels,"
+      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],hits,points,"
+      "misses,new_voxels,"
       "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
       "nats],brier,"
       "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate\n",
@@ -27,7 +27,7 @@ std::string steps_csv(const Session& session) {
     path += r.motion.distance;
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.view,
                        int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance, r.motion.rotation,
-                       path, r.returns, r.points, r.passes, r.new_voxels, r.entropy, r.total_entropy, r.coverage,
+                       path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy, r.coverage,
                        r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss, r.quality.brier,
                        r.quality_near_surface.log_loss, r.quality_near_surface.brier,
                        r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()));
@@ -51,12 +51,12 @@ std::string scores_csv(const Session& session) {
 /// What each refinement of the map did; gain gibbs only.
 std::string refinement_csv(const Session& session) {
   std::string csv =
-      "step,joined_rays,informed_voxels,changed_class,sweeps,r_hat,trend_z,disagreeing_voxels,stationary,"
+      "step,merged_rays,informed_voxels,changed_class,sweeps,r_hat,trend_z,disagreeing_voxels,stationary,"
       "conventional_next_view,rank_correlation,log_loss_near_surface[nats],brier_near_surface\n";
   for (const StepRecord& r : session.records()) {
     const RefinementRecord& n = *r.refinement;
     const SamplerDiagnostics& d = n.diagnostics;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, d.joined_rays, d.informed_voxels,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, d.merged_rays, d.informed_voxels,
                        n.changed_class, d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, int(d.stationary),
                        n.conventional_best ? fmt::format("{}", *n.conventional_best) : "", n.rank_correlation,
                        n.quality_near_surface.log_loss, n.quality_near_surface.brier);
@@ -141,7 +141,7 @@ std::string metrics_json(const Session& session, const PointCloud& cloud) {
 
 void write_scan(const Session& session, OutputFolder& out) {
   PointCloud cloud;
-  for (const auto& scan : session.scans()) cloud.insert(cloud.end(), scan->returns.begin(), scan->returns.end());
+  for (const auto& scan : session.scans()) cloud.insert(cloud.end(), scan->hits.begin(), scan->hits.end());
   write_file(out.claim("config.toml"), to_toml(session.configuration(), out.path()));
   write_file(out.claim("steps.csv"), steps_csv(session));
   write_file(out.claim("scores.csv"), scores_csv(session));

@@ -4,7 +4,7 @@
 
 namespace nextview {
 
-/// Writes what a scan found: config.toml, steps.csv (a row a view), scores.csv (every candidate at every step),
+/// Writes what a scan found: config.toml, steps.csv (a row per view), scores.csv (every candidate at every step),
 /// views.csv (the poses taken), map.ot, map.bt, cloud.ply, metrics.json, and timings.csv (seconds per stage: the only
 /// file that differs between two runs). With gain gibbs also posterior.ot and refinement.csv.
 /// @pre out.begin() was called. @throws std::runtime_error naming the file and the reason.

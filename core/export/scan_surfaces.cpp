@@ -20,8 +20,8 @@ using Json = nlohmann::ordered_json;
 /// The cloud's surface is made in cells of this share of a voxel edge, or larger: see cloud_surface.
 constexpr double cloud_cell = 0.2;
 
-/// What surfaces are made of, and held against.
-struct Material {
+/// What surfaces are made of, and compared with.
+struct ReconstructionInput {
   const VoxelGrid& grid;
   std::span<const Voxel> voxels;
   std::optional<double> prior;  ///< if the voxels are a Gibbs map's: of a voxel being occupied
@@ -31,39 +31,40 @@ struct Material {
   std::span<const std::uint8_t> visible;
 };
 
-/// The returns that lie in the region: strays far off would make the cloud's lattice huge.
+/// The hits that lie in the region: strays far off would make the cloud's lattice huge.
 std::vector<Scan> within_region(std::span<const Scan* const> scans, const VoxelGrid& grid) {
   const Eigen::AlignedBox3d region(grid.lower(), grid.upper());
   std::vector<Scan> cropped;
   for (const Scan* scan : scans) {
     Scan& kept = cropped.emplace_back();
     kept.origin = scan->origin;
-    for (const Eigen::Vector3f& point : scan->returns)
-      if (region.contains(point.cast<double>())) kept.returns.push_back(point);
+    for (const Eigen::Vector3f& point : scan->hits)
+      if (region.contains(point.cast<double>())) kept.hits.push_back(point);
   }
   return cropped;
 }
 
-std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress& progress, std::stop_token stop) {
-  const auto tell = [&](double fraction, std::string_view what) {
+std::vector<ScanSurface> scan_surfaces(const ReconstructionInput& input, const Progress& progress,
+                                       std::stop_token stop) {
+  const auto report = [&](double fraction, std::string_view what) {
     if (progress) progress(fraction, what);
     return !stop.stop_requested();
   };
   std::vector<ScanSurface> surfaces;
-  if (!tell(0.0, "making the map's surface")) return surfaces;
-  surfaces.push_back({material.prior ? "surface_posterior" : "surface_map",
-                      material.prior ? "the Gibbs map" : "the occupancy map",
+  if (!report(0.0, "making the map's surface")) return surfaces;
+  surfaces.push_back({input.prior ? "surface_posterior" : "surface_map",
+                      input.prior ? "the Gibbs map" : "the occupancy map",
                       "Marching cubes at p = 0.5, through the middle of the outermost occupied voxels; closed where no "
                       "view has looked.",
-                      material.prior ? map_surface(material.grid, without_undecided(material.voxels, *material.prior))
-                                     : map_surface(material.grid, material.voxels),
+                      input.prior ? map_surface(input.grid, without_undecided(input.voxels, *input.prior))
+                                  : map_surface(input.grid, input.voxels),
                       {},
                       {}});
   Surface cloud;
   try {
     cloud = cloud_surface(
-        within_region(material.scans, material.grid), cloud_cell * material.grid.resolution,
-        [&](double fraction, std::string_view what) { tell(0.1 + 0.6 * fraction, what); }, stop);
+        within_region(input.scans, input.grid), cloud_cell * input.grid.resolution,
+        [&](double fraction, std::string_view what) { report(0.1 + 0.6 * fraction, what); }, stop);
   } catch (const std::invalid_argument& error) {  // the points do not make one; what the scan found stands all the same
     cloud.why_empty = error.what();
   }
@@ -76,17 +77,17 @@ std::vector<ScanSurface> scan_surfaces(const Material& material, const Progress&
                         {}});
 
   std::optional<SignedDistance> truth;
-  if (material.true_mesh) truth.emplace(*material.true_mesh);
+  if (input.true_mesh) truth.emplace(*input.true_mesh);
   for (ScanSurface& s : surfaces) {
     if (s.surface.empty()) continue;
     s.openings = boundary_loops(s.surface.mesh);
-    if (!truth || !tell(0.8, "holding the surfaces against the true one")) continue;
-    s.inspection = inspect(s.surface, *truth, *material.samples, material.visible);
+    if (!truth || !report(0.8, "comparing the surfaces with the true one")) continue;
+    s.surface_error = surface_error(s.surface, *truth, *input.samples, input.visible);
   }
   return surfaces;
 }
 
-Json to_json(const SurfaceInspection& i) {
+Json to_json(const SurfaceError& i) {
   Json scores = Json::array();
   for (const ThresholdScore& s : i.scores)
     scores.push_back({{"threshold_m", s.threshold},
@@ -120,7 +121,7 @@ Json to_json(const ScanSurface& s) {
                {"watertight", topology(s.surface.mesh).watertight()},
                {"openings", s.openings.size()},
                {"longest_openings", openings}};
-  if (s.inspection) json["inspection"] = to_json(*s.inspection);
+  if (s.surface_error) json["surface_error"] = to_json(*s.surface_error);
   return json;
 }
 
@@ -165,9 +166,9 @@ std::string summary(const ScanSurface& s) {
   if (s.surface.empty()) return fmt::format("none of {}: {}", s.source, s.surface.why_empty);
   const std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
                                        closedness(s.surface, s.openings));
-  if (!s.inspection) return text;
-  return text +
-         fmt::format("; 95 % of what was seen within {:.2f} mm of the true surface", 1e3 * s.inspection->percentile_95);
+  if (!s.surface_error) return text;
+  return text + fmt::format("; 95 % of what was seen within {:.2f} mm of the true surface",
+                            1e3 * s.surface_error->percentile_95);
 }
 
 std::vector<std::string> write_surfaces(std::span<const ScanSurface> surfaces, OutputFolder& out) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 #include "core/mesh/boundary_loops.hpp"
 #include "core/offline/refinement.hpp"
 #include "core/results/output_folder.hpp"
@@ -20,7 +20,7 @@ struct ScanSurface {
   std::string caption;  ///< one sentence: how it was made
   Surface surface;
   std::vector<BoundaryLoop> openings;
-  std::optional<SurfaceInspection> inspection;  ///< if the true surface is known and something of it was seen
+  std::optional<SurfaceError> surface_error;  ///< if the true surface is known and something of it was seen
 };
 
 /// The surface of the map that views are planned on and that of the cloud, in this order. Either may be empty and then

@@ -22,7 +22,7 @@ bool in_proc(const fs::path& link) {
 }  // namespace
 
 OutputTarget output_target(const fs::path& file) {
-  constexpr int most_links = 40;  // as the kernel has it
+  constexpr int max_links = 40;  // as the kernel has it
   OutputTarget target{file, false, std::nullopt};
   struct stat status {};
   for (int links = 0;; ++links) {
@@ -31,7 +31,7 @@ OutputTarget output_target(const fs::path& file) {
       throw file_error(file, "written", errno);
     }
     if (!S_ISLNK(status.st_mode)) break;
-    if (links == most_links) throw file_error(file, "written", ELOOP);
+    if (links == max_links) throw file_error(file, "written", ELOOP);
     if (in_proc(target.file)) {
       target.is_stream = true;
       return target;

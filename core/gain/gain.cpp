@@ -15,7 +15,9 @@ bool is_behind_surface(const RayVoxel& v) { return !v.measured && v.occlusion_di
 /// Most gains are their first sum.
 GainValue plain_sum(const GainSums& s) { return {s.sum[0], {1.0, 0.0, 0.0}}; }
 
-/// Each gain: `ray` calls add(voxel's place on the ray, which sum, how much).
+/// Below, pi_i is the visibility of voxel v_i on a ray, H its entropy [nats], v_N the voxel that ends the ray; sums are
+/// over the voxels of all rays of a view. Each gain: `ray` calls add(voxel's place on the ray, which sum, how much).
+/// Occlusion aware (Isler et al. 2016): sum of pi_i H(p_i).
 struct OcclusionAware {
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {
@@ -24,6 +26,7 @@ struct OcclusionAware {
   static constexpr auto value = plain_sum;
 };
 
+/// Unobserved voxel (Isler et al. 2016): sum of pi_i H(p_i) over unknown voxels.
 struct UnobservedVoxel {
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {
@@ -33,6 +36,7 @@ struct UnobservedVoxel {
   static constexpr auto value = plain_sum;
 };
 
+/// Rear side voxel (Isler et al. 2016): the number of occupied v_i whose v_(i-1) is unknown.
 struct RearSideVoxel {
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {
@@ -42,6 +46,7 @@ struct RearSideVoxel {
   static constexpr auto value = plain_sum;
 };
 
+/// Rear side entropy (Isler et al. 2016): sum of pi_i H(p_i) over an occupied v_N and the unknown run before it.
 struct RearSideEntropy {
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {
@@ -53,6 +58,7 @@ struct RearSideEntropy {
   static constexpr auto value = plain_sum;
 };
 
+/// Proximity count (Isler et al. 2016): sum of d_max - d(v_i) over unmeasured v_i at d behind a surface.
 struct ProximityCount {
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {
@@ -62,7 +68,7 @@ struct ProximityCount {
   static constexpr auto value = plain_sum;
 };
 
-/// Vasquez-Gomez et al. 2014: is a view's share of occupied, occluded and unknown ends near the wanted one?
+/// Area factor (Vasquez-Gomez et al. 2014): f(n_o/n; 0.2) + f(n_p/n; 0.8), of n ray ends n_o occupied, n_p occluded.
 struct AreaFactor {
   enum End { occupied, occluded, unknown };
 
@@ -89,7 +95,7 @@ struct AreaFactor {
       add(ray.voxels.size() - 1, unknown, 1.0);
   }
 
-  /// Rises from 0 to 1 at x = a and falls back to 0 at x = 1.
+  /// -2 x^3 / a^3 + 3 x^2 / a^2 up to a: rises from 0 to 1 at x = a and falls back to 0 at x = 1.
   static double f(double x, double a) {
     if (x <= a) return -2.0 * x * x * x / (a * a * a) + 3.0 * x * x / (a * a);
     const double b = (a - 1.0) * (a - 1.0) * (a - 1.0);
@@ -106,7 +112,7 @@ struct AreaFactor {
   }
 };
 
-/// Kriegel et al. 2015: mean entropy of the voxels on rays that end on the object.
+/// Average entropy (Kriegel et al. 2015): sum of H(p_i) over sum of N + 1, of the rays that end on the object.
 struct AverageEntropy {
   template <class Add>
   static void ray(const Ray& ray, GainSums& sums, Add add) {
@@ -120,7 +126,8 @@ struct AverageEntropy {
   }
 };
 
-/// Eqs. 10-11, on the Gibbs map: every voxel counts in full, as the ray ends where the posterior says 'occupied'.
+/// Gibbs (Eqs. 10-11): sum of H(p_i), p the posterior: every voxel counts in full, as the ray ends where the posterior
+/// says 'occupied'.
 struct Gibbs {
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {

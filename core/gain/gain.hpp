@@ -35,8 +35,7 @@ struct GainValue {
   std::array<double, 3> worth{};
 };
 
-/// A volumetric information (the table of SCIENCE's section on gains): a short function over the visited voxels of a
-/// ray.
+/// A volumetric information: a short function over the visited voxels of a ray.
 struct Gain {
   std::string_view name;     ///< as on the command line and in the head of a column, e.g. "occlusion-aware"
   std::string_view unit;     ///< "nats", "voxels", or "" if it has none

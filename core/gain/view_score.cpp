@@ -49,7 +49,7 @@ std::vector<ViewScore> score_views(const RayCaster& caster, std::span<const Pose
     ViewScore& score = scores[v];
     std::vector<GainSums> sums(gains.size());
     const bool whole = for_each_ray(caster, views[v], bundle, options, stop, [&](const Ray& ray, const Vector3&) {
-      for (std::size_t g = 0; g < gains.size(); ++g) gains[g]->add_ray(ray, sums[g]);
+      for (std::size_t g = 0; g < gains.size(); ++g) gains[g]->add_ray(ray, sums[g]);  // Eq. 10
       score.voxels += ray.voxels.size();
     });
     if (!whole) {

@@ -41,6 +41,7 @@ class StateChain final : public Chain {
     return state_.bytes() + (2 * sizeof(double) + sizeof(float)) * state_.map().size();
   }
 
+  /// A turn of the outer loop of Algorithm 1 (one sample j), and the moves that it lacks.
   std::size_t sweep(PosteriorSums* mean) override {
     ++sweep_;
     changed_ = 0;
@@ -72,7 +73,8 @@ class StateChain final : public Chain {
                          sweep_);
   }
 
-  /// One systematic scan of single-voxel updates, in the order of the voxels.
+  /// The inner loop of Algorithm 1: single-voxel updates in the order of the voxels. While one is drawn all others
+  /// stay, so p(m_-i | z, x) of Eq. 5 does, and with it the posterior.
   void update_levels(PosteriorSums* mean) {
     const bool front_too = mean && mean->near_sweeps++ % 8 == 0;
     if (front_too) ++mean->front_sweeps;
@@ -157,9 +159,10 @@ class StateChain final : public Chain {
     // Level 0 is drawn if the weights of the others, relative to its own, come to no more than this.
     const double limit = (1.0 - u) / u;
     const bool exact = config_.sampler == Sampler::exact;
-    std::array<double, ForwardSensorModel::most_attenuations> weights;
+    std::array<double, ForwardSensorModel::max_attenuations> weights;
     const auto used = std::span(weights).first(state_.levels() - 1);
     std::fill(used.begin(), used.end(), log_prior_odds_);
+    // Eq. 8: the prior, and of each ray what it says for the level less what it says for free.
     const bool settled = state_.conditional(voxel, exact && !mean ? limit : negligible_in_mean, used);
     if (settled && exact && !mean) {
       set(voxel, 0);
@@ -169,7 +172,8 @@ class StateChain final : public Chain {
     double occupied = 0.0;
     for (double& w : used) occupied += w = std::exp(w - largest);
     const double free = std::exp(-largest);
-    double p_occupied = occupied / (free + occupied);
+    double p_occupied = occupied / (free + occupied);  // Eq. 9
+    // Algorithm 1 puts p(occ) or p(free) in its place.
     if (!exact) p_occupied = p_occupied > 0.5 ? algorithm1_occupied : algorithm1_free;
 
     if (mean) {

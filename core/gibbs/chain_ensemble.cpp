@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t reach_incidences = 300'000'000;  ///< that a chain looks at for the reach of voxels, about
 constexpr std::size_t traced_voxels = 500;
 constexpr double largest_r_hat = 1.05;
-constexpr double largest_trend = 2.576;    ///< |z| at p = 0.01
-constexpr double most_disagreeing = 1e-4;  ///< of the informed voxels
+constexpr double largest_trend = 2.576;   ///< |z| at p = 0.01
+constexpr double max_disagreeing = 1e-4;  ///< of the informed voxels
 
 /// Binary divergence D_KL(p || q) [nats], both kept off 0 and 1.
 double divergence(double p, double q) {
@@ -88,11 +88,11 @@ void ChainEnsemble::sweep_into_mean(int c) {
 }
 
 void ChainEnsemble::keep_levels(int c) {
-  const std::size_t bytes_a_sweep = std::max<std::size_t>(1, sites_.near_voxels.size()) * chains_.size();
+  const std::size_t bytes_per_sweep = std::max<std::size_t>(1, sites_.near_voxels.size()) * chains_.size();
   auto& kept = levels_[c];
   std::vector<std::uint8_t>& now = kept.emplace_back();
   for (const std::uint32_t v : sites_.near_voxels) now.push_back(chains_[c]->map()[v]);
-  if (kept.size() > config_.most_trace_bytes / bytes_a_sweep) kept.pop_front();
+  if (kept.size() > config_.max_trace_bytes / bytes_per_sweep) kept.pop_front();
 }
 
 LevelTraces ChainEnsemble::take_level_traces() {
@@ -115,7 +115,7 @@ void ChainEnsemble::diagnose() {
   diagnose_voxels();
   count_voxels();
   d.stationary = d.r_hat < largest_r_hat && d.trend < largest_trend &&
-                 static_cast<double>(d.disagreeing_voxels) <= most_disagreeing * static_cast<double>(d.informed_voxels);
+                 static_cast<double>(d.disagreeing_voxels) <= max_disagreeing * static_cast<double>(d.informed_voxels);
 }
 
 bool ChainEnsemble::informed(std::size_t voxel) const {

@@ -47,7 +47,7 @@ class ChainEnsemble {
   std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
   std::vector<std::deque<std::vector<std::uint8_t>>> levels_;  ///< LevelTraces::levels
   int window_ = 1;                                             ///< sweeps of the mean
-  int reach_samples_ = 2;  ///< of each chain over the mean: a tenth of the sweeps, fewer where dear
+  int reach_samples_ = 2;  ///< of each chain over the mean: a tenth of the sweeps, fewer where expensive
 };
 
 }  // namespace nextview

@@ -21,7 +21,7 @@ void add_reach(const VoxelGrid& grid, const ForwardSensorModel& model, const Ran
   }
 }
 
-/// The next map: a number of `levels` digits, one a voxel. False after the last.
+/// The next map: a number of `levels` digits, one per voxel. False after the last.
 bool advance(std::vector<std::uint8_t>& map, int levels) {
   for (std::uint8_t& level : map) {
     if (++level < levels) return true;

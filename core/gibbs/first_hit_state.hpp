@@ -27,7 +27,7 @@ class FirstHitState {
 
   const RayLists& lists_;
   std::vector<std::uint8_t> map_;
-  std::vector<std::uint32_t> first_;  ///< of each ray: slot of its first occupied voxel, or its slots' end
+  std::vector<std::uint32_t> first_;  ///< of each ray: incidence of its first occupied voxel, or their end
 };
 
 }  // namespace nextview

@@ -36,7 +36,7 @@ struct VoxelSegment {
 /// A forward sensor model with its parameters. Voxels have levels: 0 is free; `paper`, `cone` and `beam` know one level
 /// more, occupied; `attenuation` one for each of its strengths.
 struct ForwardSensorModel {
-  static constexpr int most_attenuations = 5;
+  static constexpr int max_attenuations = 5;
 
   ForwardModel kind = ForwardModel::attenuation;
   VoxelRange voxel_range = VoxelRange::segment;

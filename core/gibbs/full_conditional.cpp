@@ -84,11 +84,11 @@ FullConditional full_conditional(const VoxelGrid& grid, const RangeMeasurements&
   std::vector<double> log_odds(model.levels(), conditional.log_prior_odds);
   log_odds[0] = 0.0;
   for (int q = 1; q < model.levels(); ++q)
-    for (std::size_t k = 0; k < conditional.rays.size(); ++k) log_odds[q] += terms[q][k] - terms[0][k];
+    for (std::size_t k = 0; k < conditional.rays.size(); ++k) log_odds[q] += terms[q][k] - terms[0][k];  // Eq. 8
   conditional.level = static_cast<int>(std::max_element(log_odds.begin() + 1, log_odds.end()) - log_odds.begin());
   for (std::size_t k = 0; k < conditional.rays.size(); ++k)
     conditional.rays[k].log_ratio = terms[conditional.level][k] - terms[0][k];
-  conditional.probability = normalised(log_odds);
+  conditional.probability = normalised(log_odds);  // Eq. 9
   return conditional;
 }
 

@@ -16,7 +16,7 @@ struct RayEvidence {
   double log_ratio = 0.0;
 };
 
-/// The full conditional of one voxel given all others (Eqs. 6-8), taken apart: what the exact sampler draws from.
+/// The full conditional of one voxel given all others (Eqs. 6-9), taken apart: what the exact sampler draws from.
 /// log(probability[level] / probability[0]) = log_prior_odds + the sum of the rays' log_ratio.
 struct FullConditional {
   std::vector<double> probability;  ///< of each level; they sum to 1

@@ -39,7 +39,7 @@ class Schedule {
       chains_.begin_mean(window);
       sweep(window, true);
       chains_.diagnose();
-      tell();
+      report();
       if (diagnostics_.stationary && config_.until_stationary) return;
       if (stop_.stop_requested() || diagnostics_.sweeps + 4 > config_.sweeps) return;
     }
@@ -49,12 +49,12 @@ class Schedule {
   void sweep(int count, bool into_mean) {
     for (int done = 0; done < count; done += sweeps_between_reports) {
       if (stop_.stop_requested() && (!into_mean || done >= 4)) return;
-      tell();
+      report();
       chains_.sweep(std::min(sweeps_between_reports, count - done), into_mean);
     }
   }
 
-  void tell() const {
+  void report() const {
     if (progress_) progress_(double(diagnostics_.sweeps) / config_.sweeps, "refining the map", diagnostics_);
   }
 
@@ -67,7 +67,7 @@ class Schedule {
 
 std::string warning(const SamplerDiagnostics& d, bool stopped) {
   if (stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
-  if (d.joined_rays == 0) return "no ray enters the region: nothing is informed";
+  if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
   return fmt::format(
       "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {} voxels "
@@ -84,13 +84,13 @@ std::vector<Setting> settings(PosteriorSamplerConfig& c) {
        choice(c.sampler, {"exact", "algorithm1"})},
       {"gibbs.updated", "", "voxels that are updated", choice(c.updated, {"occupied-and-free", "occupied"})},
       {"gibbs.start", "", "map that the chains start from", choice(c.start, {"octree", "free", "occupied", "random"})},
-      {"gibbs.swaps", "", "passes of neighbour swaps a sweep", &c.swaps, from_to(0, 15)},
-      {"gibbs.plaquettes", "", "passes of 2 x 2 plaquettes a sweep", &c.plaquettes, from_to(0, 15)},
+      {"gibbs.swaps", "", "passes of neighbour swaps per sweep", &c.swaps, from_to(0, 15)},
+      {"gibbs.plaquettes", "", "passes of 2 x 2 plaquettes per sweep", &c.plaquettes, from_to(0, 15)},
       {"gibbs.chains", "", "independent chains, a thread each", &c.chains, from_to(1, 64)},
       {"gibbs.sweeps", "", "sweeps of each chain, at most", &c.sweeps, from_to(4, 1e6)},
       {"gibbs.burn_in", "", "sweeps before the first mean that is tried", &c.burn_in, from_to(0, 1e6)},
       {"gibbs.until_stationary", "", "stop as soon as the chains are stationary", &c.until_stationary},
-      {"gibbs.ray_spacing", "", "rays nearer to each other than this are joined [voxel edges]; 0: none", &c.ray_spacing,
+      {"gibbs.ray_spacing", "", "rays nearer to each other than this are merged [voxel edges]; 0: none", &c.ray_spacing,
        from_to(0, 100)},
   };
 }
@@ -134,17 +134,17 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch building;
   if (progress) progress(0.0, "listing the rays of each voxel", d);
-  const RayLists lists(grid, join_rays(measurements, grid, config.ray_spacing), config.model);
+  const RayLists lists(grid, merge_rays(measurements, grid, config.ray_spacing), config.model);
   const Sites sites = find_sites(lists, config, start_map);
   d.measured_rays = measurements.rays.size();
-  d.joined_rays = lists.rays();
+  d.merged_rays = lists.rays();
   d.observed_voxels = sites.count();
-  d.incidences = lists.incidences();
+  d.incidences = lists.incidence_count();
   d.list_bytes = lists.bytes();
   d.build_seconds = building.seconds();
 
-  constexpr std::uint64_t bytes_a_voxel = 32;  // of a chain's map, state and sums
-  require_memory(bytes_a_voxel * voxels * std::uint64_t(config.chains),
+  constexpr std::uint64_t bytes_per_voxel = 32;  // of a chain's map, state and sums
+  require_memory(bytes_per_voxel * voxels * std::uint64_t(config.chains),
                  fmt::format("gibbs: {} chains of {} voxels", config.chains, voxels),
                  "use fewer chains (gibbs.chains) or a coarser map");
   const Stopwatch sampling;

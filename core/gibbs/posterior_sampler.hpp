@@ -29,17 +29,17 @@ struct PosteriorSamplerConfig {
   Sampler sampler = Sampler::exact;
   UpdatedVoxels updated = UpdatedVoxels::occupied_and_free;
   StartMap start = StartMap::octree;
-  int swaps = 1;                 ///< passes of neighbour swaps a sweep
-  int plaquettes = 0;            ///< passes of 2 x 2 plaquettes a sweep
+  int swaps = 1;                 ///< passes of neighbour swaps per sweep
+  int plaquettes = 0;            ///< passes of 2 x 2 plaquettes per sweep
   int chains = 2;                ///< independent of each other
   int sweeps = 400;              ///< at most, a chain
   int burn_in = 10;              ///< sweeps before the first attempt at a mean
   bool until_stationary = true;  ///< stop once stationary; otherwise all sweeps, burn-in left out, are the mean
-  double ray_spacing = 0.6;      ///< rays this near each other at the region's centre are joined [voxel edges]; 0: none
+  double ray_spacing = 0.6;      ///< rays this near each other at the region's centre are merged [voxel edges]; 0: none
   std::uint64_t seed = 1;
   /// Keeps GibbsPosterior::traces. For people who look into a run: no setting of files, and no result depends on it.
   bool keep_traces = false;
-  std::size_t most_trace_bytes = std::size_t{200} << 20;  ///< of the traces; beyond it the oldest sweeps are dropped
+  std::size_t max_trace_bytes = std::size_t{200} << 20;  ///< of the traces; beyond it the oldest sweeps are dropped
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
@@ -71,8 +71,8 @@ struct GibbsPosterior {
   std::vector<Voxel> voxels(const InverseSensorModel& classes) const;
 };
 
-/// Told every few sweeps how far a run has come, and how it goes: `so_far` has the traces up to now, what is worked out
-/// from them as of the last mean that was tried. It is valid during the call. Called from the thread that samples.
+/// Is given every few sweeps how far a run has come, and how it goes: `so_far` has the traces up to now, what is worked
+/// out from them as of the last mean that was tried. It is valid during the call. Called from the thread that samples.
 using SamplerProgress = std::function<void(double fraction, std::string_view what, const SamplerDiagnostics& so_far)>;
 
 /// Draws from p(m | z). `start_map`: probabilities that StartMap::octree starts from (occupied where p >= 0.5), and

@@ -50,7 +50,7 @@ class DirectionCells {
 };
 
 /// One ray for its members.
-RangeMeasurement joined(const RangeMeasurements& from, std::span<const CellRay> members) {
+RangeMeasurement merged(const RangeMeasurements& from, std::span<const CellRay> members) {
   Vector3 end = Vector3::Zero();
   std::uint32_t weight = 0;
   for (const CellRay& m : members) {
@@ -64,9 +64,9 @@ RangeMeasurement joined(const RangeMeasurements& from, std::span<const CellRay> 
   return ray;
 }
 
-/// The rays of one origin, joined.
-std::vector<RangeMeasurement> join_origin(const RangeMeasurements& measurements, std::span<const std::uint32_t> numbers,
-                                          double spacing, double spread) {
+/// The rays of one origin, merged.
+std::vector<RangeMeasurement> merge_origin(const RangeMeasurements& measurements,
+                                           std::span<const std::uint32_t> numbers, double spacing, double spread) {
   Vector3 mean = Vector3::Zero();
   for (const std::uint32_t n : numbers) mean += measurements.direction(measurements.rays[n]);
   const DirectionCells cells(mean, spacing);
@@ -83,21 +83,21 @@ std::vector<RangeMeasurement> join_origin(const RangeMeasurements& measurements,
     const float limit = rays[first].range + static_cast<float>(spread);  // infinite beyond range
     last = first + 1;
     while (last < rays.size() && rays[last].cell == rays[first].cell && rays[last].range <= limit) ++last;
-    result.push_back(joined(measurements, std::span(rays).subspan(first, last - first)));
+    result.push_back(merged(measurements, std::span(rays).subspan(first, last - first)));
   }
   return result;
 }
 
-RangeMeasurements join_each_origin(const RangeMeasurements& measurements, const std::vector<double>& spacings,
-                                   double spread) {
+RangeMeasurements merge_each_origin(const RangeMeasurements& measurements, const std::vector<double>& spacings,
+                                    double spread) {
   if (std::all_of(spacings.begin(), spacings.end(), [](double s) { return s <= 0.0; })) return measurements;
   std::vector<std::vector<std::uint32_t>> of_origin(measurements.origins.size());
   for (std::uint32_t n = 0; n < measurements.rays.size(); ++n) of_origin[measurements.rays[n].origin].push_back(n);
-  std::vector<std::vector<RangeMeasurement>> joined(of_origin.size());
+  std::vector<std::vector<RangeMeasurement>> merged(of_origin.size());
   tbb::parallel_for(std::size_t{0}, of_origin.size(),
-                    [&](std::size_t k) { joined[k] = join_origin(measurements, of_origin[k], spacings[k], spread); });
+                    [&](std::size_t k) { merged[k] = merge_origin(measurements, of_origin[k], spacings[k], spread); });
   RangeMeasurements result{measurements.max_range, measurements.origins, {}};
-  for (const auto& rays : joined) result.rays.insert(result.rays.end(), rays.begin(), rays.end());
+  for (const auto& rays : merged) result.rays.insert(result.rays.end(), rays.begin(), rays.end());
   return result;
 }
 
@@ -106,13 +106,13 @@ RangeMeasurements join_each_origin(const RangeMeasurements& measurements, const 
 void RangeMeasurements::add(const Scan& scan) {
   const auto origin = static_cast<std::uint32_t>(origins.size());
   origins.push_back(scan.origin);
-  rays.reserve(rays.size() + scan.returns.size() + scan.passes.size());
+  rays.reserve(rays.size() + scan.hits.size() + scan.misses.size());
   const auto append = [&](const Eigen::Vector3f& end, bool beyond_range) {
     const double range = (end.cast<double>() - scan.origin).norm();
     if (range > 0.0) rays.push_back({end, origin, 1, beyond_range || range > max_range});
   };
-  for (const Eigen::Vector3f& end : scan.returns) append(end, false);
-  for (const Eigen::Vector3f& end : scan.passes) append(end, true);
+  for (const Eigen::Vector3f& end : scan.hits) append(end, false);
+  for (const Eigen::Vector3f& end : scan.misses) append(end, true);
 }
 
 RangeMeasurements measurements_of(std::span<const Scan> scans) {
@@ -145,16 +145,16 @@ void RangeMeasurements::append(const RangeMeasurements& other) {
   }
 }
 
-RangeMeasurements join_rays(const RangeMeasurements& measurements, double spacing, double spread) {
-  return join_each_origin(measurements, std::vector<double>(measurements.origins.size(), spacing), spread);
+RangeMeasurements merge_rays(const RangeMeasurements& measurements, double spacing, double spread) {
+  return merge_each_origin(measurements, std::vector<double>(measurements.origins.size(), spacing), spread);
 }
 
-RangeMeasurements join_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing) {
+RangeMeasurements merge_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing) {
   const Vector3 centre = 0.5 * (grid.lower() + grid.upper());
   std::vector<double> spacings;
   for (const Vector3& origin : measurements.origins)
     spacings.push_back(spacing * grid.resolution / std::max((origin - centre).norm(), grid.resolution));
-  return join_each_origin(measurements, spacings, grid.resolution);
+  return merge_each_origin(measurements, spacings, grid.resolution);
 }
 
 }  // namespace nextview

@@ -22,7 +22,7 @@ struct RangeMeasurements {
   std::vector<Vector3> origins;
   std::vector<RangeMeasurement> rays;
 
-  /// Adds the rays of a scan. Returns farther than the maximum range are taken for beyond range. Points on the origin
+  /// Adds the rays of a scan. Hits farther than the maximum range are taken for beyond range. Points on the origin
   /// have no direction and are left out.
   void add(const Scan& scan);
   /// Adds the rays of other measurements of the same maximum range.
@@ -43,12 +43,12 @@ struct RangeMeasurements {
 RangeMeasurements measurements_of(std::span<const Scan> scans);
 
 /// Joins rays of one origin that see the same: that lie in one cell of a grid of directions, `spacing` [rad] wide, and
-/// whose ranges are at most `spread` [m] apart (beyond range joins with beyond range). The joined ray has the mean end
+/// whose ranges are at most `spread` [m] apart (beyond range merges with beyond range). The merged ray has the mean end
 /// and the sum of the weights; its likelihood counts that often. Dense images come down to what the voxels can tell
 /// apart, at the cost of what differs within a cell. No spacing, no change.
-RangeMeasurements join_rays(const RangeMeasurements& measurements, double spacing, double spread);
+RangeMeasurements merge_rays(const RangeMeasurements& measurements, double spacing, double spread);
 
 /// The same for a map: cells are `spacing` voxel edges wide at the grid's centre, ranges at most a voxel edge apart.
-RangeMeasurements join_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing);
+RangeMeasurements merge_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing);
 
 }  // namespace nextview

@@ -15,10 +15,10 @@ namespace nextview {
 namespace {
 
 constexpr double longest_chord = std::numbers::sqrt3;
-constexpr std::size_t most_rays = std::size_t{1} << 22;  // what FrontEntry can number
-constexpr std::size_t most_voxels = std::size_t{1} << 27;
-constexpr std::size_t most_bytes = std::size_t{8} << 30;
-constexpr std::size_t slot_bytes = sizeof(RayLists::Slot) + sizeof(RayLists::NearEntry);
+constexpr std::size_t max_rays = std::size_t{1} << 22;  // what FrontEntry can number
+constexpr std::size_t max_voxels = std::size_t{1} << 27;
+constexpr std::size_t max_bytes = std::size_t{8} << 30;
+constexpr std::size_t incidence_bytes = sizeof(RayLists::Incidence) + sizeof(RayLists::NearEntry);
 
 std::uint32_t chord_code(double chord) {
   return std::min(static_cast<std::uint32_t>(chord * ((RayLists::chord_codes - 1) / longest_chord) + 0.5),
@@ -35,9 +35,9 @@ struct RayLists::Block {
 };
 
 void RayLists::require_holdable(const VoxelGrid& grid) {
-  if (grid.voxel_count() > most_voxels)
+  if (grid.voxel_count() > max_voxels)
     throw std::invalid_argument(fmt::format("gibbs: {} voxels are more than the {} it can hold; use a coarser map",
-                                            grid.voxel_count(), most_voxels));
+                                            grid.voxel_count(), max_voxels));
 }
 
 double RayLists::chord(std::uint32_t code) { return code * longest_chord / (chord_codes - 1); }
@@ -47,7 +47,7 @@ RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements,
   model_.validate();
   require_holdable(grid_);
   sort_rays();
-  slots_begin_.assign(rays() + 1, 0);
+  incidences_begin_.assign(rays() + 1, 0);
   std::vector<Block> blocks(grid_.voxel_count() > (1u << 24) ? 1 : 4);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     blocks[b].first_ray = static_cast<std::uint32_t>(rays() * b / blocks.size());
@@ -59,7 +59,7 @@ RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements,
 }
 
 std::size_t RayLists::bytes() const {
-  return front_.size() * sizeof(FrontEntry) + near_.size() * slot_bytes +
+  return front_.size() * sizeof(FrontEntry) + near_.size() * incidence_bytes +
          rays() * (sizeof(RangeMeasurement) + 4 + 4 + 4) + grid_.voxel_count() * 8;
 }
 
@@ -71,10 +71,10 @@ void RayLists::sort_rays() {
              list_end(measurements_, ray, model_), [&](int, int, int) { return !(enters = true); });
     return !enters;
   });
-  if (rays.size() > most_rays)
+  if (rays.size() > max_rays)
     throw std::invalid_argument(
-        fmt::format("gibbs: {} rays are more than the {} it can hold; join them with a larger gibbs.ray_spacing",
-                    rays.size(), most_rays));
+        fmt::format("gibbs: {} rays are more than the {} it can hold; merge them with a larger gibbs.ray_spacing",
+                    rays.size(), max_rays));
   std::stable_sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
   for (std::uint32_t n = 0; n < rays.size(); ++n) {
     if (n == 0 || rays[n].weight != rays[n - 1].weight) weight_runs_.push_back({n, rays[n].weight});
@@ -109,14 +109,14 @@ void RayLists::count(Block& block) {
   block.front.assign(grid_.voxel_count(), 0);
   block.near.assign(grid_.voxel_count(), 0);
   for (std::uint32_t ray = block.first_ray; ray < block.last_ray; ++ray) {
-    std::uint32_t slots = 0;
+    std::uint32_t incidences = 0;
     walk(
         ray, [&](std::uint32_t voxel, std::uint32_t) { ++block.front[voxel]; },
         [&](const VoxelSegment& segment) {
           ++block.near[segment.voxel];
-          ++slots;
+          ++incidences;
         });
-    slots_begin_[ray + 1] = slots;
+    incidences_begin_[ray + 1] = incidences;
   }
 }
 
@@ -138,33 +138,33 @@ void RayLists::lay_out(std::vector<Block>& blocks) {
       place(near, block.near[v]);
     }
   }
-  const std::size_t bytes = front * sizeof(FrontEntry) + near * slot_bytes;
-  if (bytes > most_bytes || std::max(front, near) >= 0xffffffffu)
+  const std::size_t bytes = front * sizeof(FrontEntry) + near * incidence_bytes;
+  if (bytes > max_bytes || std::max(front, near) >= 0xffffffffu)
     throw std::invalid_argument(fmt::format(
-        "gibbs: the lists of {} rays would take {:.1f} GiB, more than the {} GiB allowed; join rays with a larger "
+        "gibbs: the lists of {} rays would take {:.1f} GiB, more than the {} GiB allowed; merge rays with a larger "
         "gibbs.ray_spacing, or use a coarser map",
-        rays(), static_cast<double>(bytes) / (1 << 30), most_bytes >> 30));
+        rays(), static_cast<double>(bytes) / (1 << 30), max_bytes >> 30));
   require_memory(bytes, fmt::format("gibbs: the lists of {} rays", rays()),
-                 "join rays with a larger gibbs.ray_spacing, or use a coarser map");
+                 "merge rays with a larger gibbs.ray_spacing, or use a coarser map");
   front_begin_[voxels] = static_cast<std::uint32_t>(front);
   near_begin_[voxels] = static_cast<std::uint32_t>(near);
   front_.resize(front);
   near_.resize(near);
-  for (std::size_t ray = 0; ray < rays(); ++ray) slots_begin_[ray + 1] += slots_begin_[ray];
-  slots_.resize(near);
+  for (std::size_t ray = 0; ray < rays(); ++ray) incidences_begin_[ray + 1] += incidences_begin_[ray];
+  incidences_.resize(near);
 }
 
 void RayLists::fill(Block& block) {
   for (std::uint32_t ray = block.first_ray; ray < block.last_ray; ++ray) {
-    std::uint32_t slot = slots_begin_[ray];
+    std::uint32_t incidence = incidences_begin_[ray];
     walk(
         ray,
         [&](std::uint32_t voxel, std::uint32_t code) { front_[block.front[voxel]++] = FrontEntry{ray << 10 | code}; },
         [&](const VoxelSegment& segment) {
-          near_[block.near[segment.voxel]++] = {ray, slot};
-          slots_[slot] = {segment.voxel, chord_code((segment.exit - segment.enter) / grid_.resolution),
-                          slot_value_of(measurements_.rays[ray], segment)};
-          ++slot;
+          near_[block.near[segment.voxel]++] = {ray, incidence};
+          incidences_[incidence] = {segment.voxel, chord_code((segment.exit - segment.enter) / grid_.resolution),
+                                    incidence_value_of(measurements_.rays[ray], segment)};
+          ++incidence;
         });
   }
 }
@@ -178,7 +178,7 @@ float RayLists::open_value_of(const RangeMeasurement& ray) const {
   return static_cast<float>((1.0 - model_.random_weight - model_.max_weight) / model_.max_weight);
 }
 
-float RayLists::slot_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const {
+float RayLists::incidence_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const {
   const Vector3& origin = measurements_.origins[ray.origin];
   const double z = measurements_.range(ray);
   if (model_.is_first_hit())

@@ -11,9 +11,11 @@ namespace nextview {
 /// Which rays pass through which voxels, both ways round: what the sampler walks instead of casting rays again.
 ///
 /// A ray's voxels are in front of its range (they can only block it) or near it (it may have ended there). Only the
-/// near ones are listed by ray; each has a *slot*. In first-hit models every voxel has a say, so all count as near.
+/// near ones are listed by ray; each has an *incidence*. In first-hit models every voxel has a say, so all count as
+/// near.
 ///
-/// Costs 4 bytes a pair of ray and front voxel, 20 bytes a slot, 36 bytes a ray, 8 bytes a voxel of the grid.
+/// Costs 4 bytes per pair of ray and front voxel, 20 bytes per incidence, 36 bytes per ray, 8 bytes per voxel of the
+/// grid.
 class RayLists {
  public:
   /// A voxel in front of a ray's range. The chord is rounded to sqrt(3) / 1023 voxel edges.
@@ -23,10 +25,10 @@ class RayLists {
     std::uint32_t chord() const { return bits & 1023u; }
   };
   struct NearEntry {
-    std::uint32_t ray, slot;
+    std::uint32_t ray, incidence;
   };
   /// A voxel near a ray's range.
-  struct Slot {
+  struct Incidence {
     std::uint32_t voxel;
     std::uint32_t chord;  ///< code
     /// beam, attenuation: density of the measured range if the ray ended here, over that of a random range.
@@ -50,7 +52,7 @@ class RayLists {
 
   const VoxelGrid& grid() const { return grid_; }
   std::size_t rays() const { return measurements_.rays.size(); }
-  std::size_t incidences() const { return front_.size() + near_.size(); }
+  std::size_t incidence_count() const { return front_.size() + near_.size(); }
   std::size_t bytes() const;
 
   std::span<const FrontEntry> front(std::uint32_t voxel) const {
@@ -66,14 +68,14 @@ class RayLists {
   }
   bool is_near(std::uint32_t voxel) const { return near_begin_[voxel] < near_begin_[voxel + 1]; }
 
-  std::uint32_t slots_begin(std::uint32_t ray) const { return slots_begin_[ray]; }
-  std::uint32_t slots_end(std::uint32_t ray) const { return slots_begin_[ray + 1]; }
-  std::span<const Slot> slots(std::uint32_t ray) const {
-    return {slots_.data() + slots_begin_[ray], slots_.data() + slots_begin_[ray + 1]};
+  std::uint32_t incidences_begin(std::uint32_t ray) const { return incidences_begin_[ray]; }
+  std::uint32_t incidences_end(std::uint32_t ray) const { return incidences_begin_[ray + 1]; }
+  std::span<const Incidence> incidences(std::uint32_t ray) const {
+    return {incidences_.data() + incidences_begin_[ray], incidences_.data() + incidences_begin_[ray + 1]};
   }
-  const Slot& slot(std::uint32_t slot) const { return slots_[slot]; }
+  const Incidence& incidence(std::uint32_t incidence) const { return incidences_[incidence]; }
   /// What is left when nothing on the ray is occupied. beam, attenuation: by how much 'beyond range' is then likelier
-  /// than otherwise, less 1; 0 for returns. paper, cone: log p(z | nothing).
+  /// than otherwise, less 1; 0 for hits. paper, cone: log p(z | nothing).
   float open_value(std::uint32_t ray) const { return open_value_[ray]; }
   std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }
   std::span<const WeightRun> weight_runs() const { return weight_runs_; }
@@ -94,7 +96,7 @@ class RayLists {
   void lay_out(std::vector<Block>& blocks);
   void fill(Block& block);
   float open_value_of(const RangeMeasurement& ray) const;
-  float slot_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
+  float incidence_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
 
   VoxelGrid grid_;
   RangeMeasurements measurements_;  ///< those that enter the grid, the heaviest first
@@ -102,8 +104,8 @@ class RayLists {
   std::vector<std::uint32_t> weight_;
   std::vector<WeightRun> weight_runs_;
   std::vector<float> open_value_;
-  std::vector<std::uint32_t> slots_begin_;
-  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> incidences_begin_;
+  std::vector<Incidence> incidences_;
   std::vector<std::uint32_t> front_begin_, near_begin_;
   std::vector<FrontEntry, HugePages<FrontEntry>> front_;
   std::vector<NearEntry, HugePages<NearEntry>> near_;

@@ -20,7 +20,7 @@ double geweke_z(std::span<const double> chain);
 
 /// How a run of the sampler went.
 struct SamplerDiagnostics {
-  std::size_t measured_rays = 0, joined_rays = 0;  ///< before and after joining
+  std::size_t measured_rays = 0, merged_rays = 0;  ///< before and after merging
   std::size_t observed_voxels = 0;                 ///< some ray may depend on them
   std::size_t informed_voxels = 0;
   std::size_t incidences = 0;  ///< pairs of ray and voxel

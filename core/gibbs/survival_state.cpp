@@ -76,11 +76,11 @@ void SurvivalState::reset(std::vector<std::uint8_t> map) {
 
 /// S of a ray, from scratch.
 float SurvivalState::near_sum(std::uint32_t ray) const {
-  float pass = 1.0f, sum = lists_.open_value(ray);  // 0 for a return
-  for (const RayLists::Slot& slot : lists_.slots(ray))
-    if (const std::uint8_t level = map_[slot.voxel]) {
-      const float passed = pass * passing_[level][slot.chord];
-      sum += (pass - passed) * slot.value;
+  float pass = 1.0f, sum = lists_.open_value(ray);  // 0 for a hit
+  for (const RayLists::Incidence& incidence : lists_.incidences(ray))
+    if (const std::uint8_t level = map_[incidence.voxel]) {
+      const float passed = pass * passing_[level][incidence.chord];
+      sum += (pass - passed) * incidence.value;
       pass = passed;
     }
   return sum;
@@ -123,22 +123,23 @@ bool SurvivalState::conditional(std::uint32_t voxel, double negligible, std::spa
   }
 }
 
+/// The terms of Eq. 8 of the rays that may have ended in the voxel.
 void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weights) const {
-  std::array<LogProduct, most_levels> products;
+  std::array<LogProduct, max_levels> products;
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
     const float pass_front = passing(cold_[entry.ray].depth);
     if (pass_front == 0.0f) continue;
     // before: what ends in front of the voxel; after: what ends behind it, were it free
     float pass = 1.0f, before = 0.0f, after = 0.0f, reaching = 1.0f;
-    const RayLists::Slot& own = lists_.slot(entry.slot);
-    for (const RayLists::Slot& slot : lists_.slots(entry.ray)) {
-      if (&slot == &own) {
+    const RayLists::Incidence& own = lists_.incidence(entry.incidence);
+    for (const RayLists::Incidence& incidence : lists_.incidences(entry.ray)) {
+      if (&incidence == &own) {
         reaching = pass;
         before = after;
         after = 0.0f;
-      } else if (const std::uint8_t level = map_[slot.voxel]) {
-        const float passed = pass * passing_[level][slot.chord];
-        after += (pass - passed) * slot.value;
+      } else if (const std::uint8_t level = map_[incidence.voxel]) {
+        const float passed = pass * passing_[level][incidence.chord];
+        after += (pass - passed) * incidence.value;
         pass = passed;
       }
     }
@@ -160,6 +161,7 @@ SurvivalState::Hot SurvivalState::without(RayLists::FrontEntry entry, std::uint8
   return hot(ray.near_sum * passing(ray.depth - depth_[level][entry.chord()]));
 }
 
+/// The terms of Eq. 8 of the rays whose range lies behind the voxel.
 template <int Levels>
 bool SurvivalState::front_terms(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {
   const auto entries = lists_.front(voxel);
@@ -205,9 +207,9 @@ void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {
   std::vector<float> behind_front(lists_.rays());  // of the measured rays that each ray stands for, how many get so far
   for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
     float pass = behind_front[ray] = static_cast<float>(lists_.weight(ray)) * passing(cold_[ray].depth);
-    for (const RayLists::Slot& slot : lists_.slots(ray)) {
-      reach[slot.voxel] += pass;
-      pass *= passing_[map_[slot.voxel]][slot.chord];
+    for (const RayLists::Incidence& incidence : lists_.incidences(ray)) {
+      reach[incidence.voxel] += pass;
+      pass *= passing_[map_[incidence.voxel]][incidence.chord];
     }
   }
   // What passes all of a ray's front reaches each voxel there: where that is enough already, which is nearly

@@ -42,7 +42,7 @@ class SurvivalState {
     float near_sum = 0.0f;   ///< S
     std::int32_t depth = 0;  ///< optical depth of the voxels in front, in units of 1 / depth_unit
   };
-  static constexpr int most_levels = 1 + ForwardSensorModel::most_attenuations;
+  static constexpr int max_levels = 1 + ForwardSensorModel::max_attenuations;
   static constexpr int depth_unit = 4096;
   static constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
 
@@ -56,8 +56,8 @@ class SurvivalState {
 
   const RayLists& lists_;
   int levels_;
-  std::array<std::array<std::int32_t, RayLists::chord_codes>, most_levels> depth_{};  ///< of a level along a chord
-  std::array<std::array<float, RayLists::chord_codes>, most_levels> passing_{};       ///< exp(-depth)
+  std::array<std::array<std::int32_t, RayLists::chord_codes>, max_levels> depth_{};  ///< of a level along a chord
+  std::array<std::array<float, RayLists::chord_codes>, max_levels> passing_{};       ///< exp(-depth)
   std::vector<std::uint8_t> map_;
   std::vector<Hot> hot_;
   std::vector<Cold> cold_;

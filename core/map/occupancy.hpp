@@ -45,12 +45,12 @@ inline double range_factor(double decay, double range) {
   return std::exp(std::clamp(-decay * (range - 1.0), -80.0, 80.0));
 }
 
-/// OctoMap's inverse sensor model and the bounds of the classes (SCIENCE: the conventional map). OctoMap's terms do not
-/// depend on the range; with decays they do.
+/// OctoMap's inverse sensor model and the bounds of the classes. OctoMap's terms do not depend on the range; with
+/// decays they do.
 struct InverseSensorModel {
   double hit = 0.7;         ///< probability that a voxel is occupied given that a ray ended in it, 1 m away
   double miss = 0.4;        ///< ... given that a ray passed through it
-  double hit_decay = 0.0;   ///< the log-odds of a hit fall by this share a metre, as exp(-decay (range - 1 m)) [1/m]
+  double hit_decay = 0.0;   ///< the log-odds of a hit fall by this share per metre, as exp(-decay (range - 1 m)) [1/m]
   double miss_decay = 0.0;  ///< ... of a miss
   double clamp_min = 0.12;  ///< bounds of the probability
   double clamp_max = 0.97;

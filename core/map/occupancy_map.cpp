@@ -80,7 +80,7 @@ void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
   Scratch<std::uint8_t> touched(voxels_.brick_count() * VoxelBricks::brick_voxels);
   // Hits first: a voxel where a ray ends is a hit, whatever else passes through it.
-  for (const auto& point : scan.returns) {
+  for (const auto& point : scan.hits) {
     const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
     if (grid_.contains(cell) && ray_length(origin, point) <= scan.max_range)
       touched[voxels_.place(cell.x(), cell.y(), cell.z())] = hit;
@@ -100,8 +100,8 @@ void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
       }
     });
   };
-  pass(scan.returns);
-  pass(scan.passes);
+  pass(scan.hits);
+  pass(scan.misses);
   throw_if_stopped(stop);
   add(touched, scan.origin);
 }
@@ -155,7 +155,7 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
   if (!same_grid || !(local.model_ == model_))
     throw std::invalid_argument(
         "occupancy map: a local map must have the grid and the model of the map it is registered into");
-  // One scan's log-odds tell hits from passes; they may be clamped already, so they are not what is added.
+  // One scan's log-odds tell hits from misses; they may be clamped already, so they are not what is added.
   Scratch<std::uint8_t> touched(voxels_.brick_count() * VoxelBricks::brick_voxels);
   const auto bricks = local.voxels_.bricks();
   tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t brick) {
@@ -169,10 +169,10 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
 void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
   Scratch<std::uint16_t> nearest_behind(voxels_.brick_count() * VoxelBricks::brick_voxels);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.returns.size(), 1024), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.hits.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Eigen::Vector3f& point = scan.returns[i];
+      const Eigen::Vector3f& point = scan.hits[i];
       const double length = ray_length(origin, point);
       if (length > scan.max_range || length == 0.0 || !grid_.contains(grid_.cell_at(point.cast<double>()))) continue;
       const Eigen::Vector3f end = point_on_ray(origin, point, length + distance);

@@ -23,8 +23,8 @@ class OccupancyMap {
   explicit OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model = {});
   OccupancyMap();  ///< of no voxels
 
-  /// Updates each voxel at most once: a hit where a return ends, a miss where a ray passes and none ends (as OctoMap's
-  /// insertPointCloud). Rays longer than the scan's maximum range carve up to it and end nowhere; passes carve only. If
+  /// Updates each voxel at most once: a hit where a ray ends, a miss where a ray passes and none ends (as OctoMap's
+  /// insertPointCloud). Rays longer than the scan's maximum range carve up to it and end nowhere; misses carve only. If
   /// the model depends on the range, it is that from the scan's origin to the voxel's centre.
   /// @throws Stopped; then, as after any other exception, the map is as it was.
   void insert(const Scan& scan, const std::stop_token& stop = {});

@@ -22,19 +22,19 @@ class NearbyRays {
                           1e-5 * (std::sqrt(distance_squared) + origin.norm());
     around_camera_ = distance_squared <= radius * radius;
     // The squared cosine at the cone's edge times the squared distance; what single precision makes of it taken off.
-    least_ = static_cast<float>((1.0 - 2e-6) * distance_squared - radius * radius);
+    min_squared_ = static_cast<float>((1.0 - 2e-6) * distance_squared - radius * radius);
   }
 
   /// Whether the straight line from the camera through `end`, and on to infinity, may touch the voxel.
   bool may_touch(const Eigen::Vector3f& end) const {
     const Eigen::Vector3f along = end - origin_;
     const float forward = along.dot(to_centre_);
-    return around_camera_ || (forward > 0.0f && forward * forward >= least_ * along.squaredNorm());
+    return around_camera_ || (forward > 0.0f && forward * forward >= min_squared_ * along.squaredNorm());
   }
 
  private:
   Eigen::Vector3f origin_, to_centre_;
-  float least_;
+  float min_squared_;
   bool around_camera_;  ///< the camera may be in the voxel
 };
 
@@ -56,18 +56,18 @@ std::vector<VoxelRay> rays_through(const VoxelGrid& grid, const Scan& scan, std:
   const Eigen::Vector3i cell = grid.cell(voxel);
   const NearbyRays nearby(grid, voxel, origin);
   std::vector<VoxelRay> rays;
-  const auto add = [&](const PointCloud& ends, bool returns) {
+  const auto add = [&](const PointCloud& ends, bool met) {
     for (const Eigen::Vector3f& point : ends) {
       if (!nearby.may_touch(point)) continue;
       const bool in_range = ray_length(origin, point) <= scan.max_range;
       const Eigen::Vector3f end = in_range ? point : point_on_ray(origin, point, scan.max_range);
-      const bool met_surface = returns && in_range;
+      const bool met_surface = met && in_range;
       const bool hit = met_surface && grid.cell_at(point.cast<double>()) == cell;
       if (hit || passes_through(grid, origin, end, cell)) rays.push_back({end, hit, met_surface});
     }
   };
-  add(scan.returns, true);
-  add(scan.passes, false);
+  add(scan.hits, true);
+  add(scan.misses, false);
   return rays;
 }
 
@@ -75,7 +75,7 @@ std::vector<VoxelUpdate> voxel_history(const VoxelGrid& grid, const InverseSenso
                                        std::span<const std::shared_ptr<const Scan>> scans, std::uint32_t voxel) {
   std::vector<VoxelUpdate> history(scans.size());
   tbb::parallel_for(std::size_t{0}, scans.size(), [&](std::size_t k) {
-    for (const VoxelRay& ray : rays_through(grid, *scans[k], voxel)) ++(ray.hit ? history[k].hits : history[k].passes);
+    for (const VoxelRay& ray : rays_through(grid, *scans[k], voxel)) ++(ray.hit ? history[k].hits : history[k].misses);
   });
   const auto lowest = static_cast<float>(log_odds(model.clamp_min));
   const auto highest = static_cast<float>(log_odds(model.clamp_max));

@@ -37,10 +37,10 @@ void check_indices(const aiScene& scene) {
 
 void append(const aiMesh& mesh, const Eigen::Matrix4d& T_file_mesh, ImportedTriangles& all) {
   const std::size_t first = all.vertices.size();
-  if (first + mesh.mNumVertices > most_vertices || all.triangles.size() + mesh.mNumFaces > most_triangles)
+  if (first + mesh.mNumVertices > max_vertices || all.triangles.size() + mesh.mNumFaces > max_triangles)
     throw std::runtime_error(
         fmt::format("has more than {} million vertices or {} million triangles; thin it out, or export a part of it",
-                    most_vertices / 1'000'000, most_triangles / 1'000'000));
+                    max_vertices / 1'000'000, max_triangles / 1'000'000));
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D& p = mesh.mVertices[v];
     all.vertices.push_back((T_file_mesh * Eigen::Vector4d(p.x, p.y, p.z, 1.0)).head<3>());

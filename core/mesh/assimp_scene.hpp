@@ -15,7 +15,7 @@ struct ImportedTriangles {
 };
 
 /// No file of 1 GiB that anybody has seen holds more.
-inline constexpr std::uint64_t most_vertices = std::uint64_t{1} << 27, most_triangles = std::uint64_t{1} << 26;
+inline constexpr std::uint64_t max_vertices = std::uint64_t{1} << 27, max_triangles = std::uint64_t{1} << 26;
 
 /// Reads a scene: all meshes of all nodes, each moved by its nodes' transforms; polygons become triangles; points and
 /// lines are left out. Assimp's reader of the name's ending reads it, whatever the content looks like. A damaged file

@@ -17,14 +17,14 @@ namespace nextview {
 namespace {
 
 /// For Assimp's own tables and small files.
-constexpr std::uint64_t least_memory = 512u << 20;  // [bytes]
+constexpr std::uint64_t min_memory = 512u << 20;  // [bytes]
 /// Of a file's size, for Assimp's scene and the triangles made of it. Measured with Debian's Assimp 5.2 on a million
 /// vertices: PLY and OFF 5, STL 6, OBJ and DAE 8; of compressed files 3MF 75. Three times that is for files less plain.
 constexpr std::uint64_t memory_per_byte = 30, memory_per_packed_byte = 250;
-/// Assimp reads 3 to 100 MB a second; where many programs run, a tenth of that.
-constexpr std::chrono::milliseconds least_time = std::chrono::minutes(5), time_per_megabyte = std::chrono::seconds(1);
+/// Assimp reads 3 to 100 MB per second; where many programs run, a tenth of that.
+constexpr std::chrono::milliseconds min_time = std::chrono::minutes(5), time_per_megabyte = std::chrono::seconds(1);
 
-constexpr scmp_datum_t most_descriptors = 64;
+constexpr scmp_datum_t max_descriptors = 64;
 
 /// Never above what was set before.
 void limit(__rlimit_resource what, rlim_t now, rlim_t at_most) {
@@ -71,7 +71,7 @@ bool allow_reading(const Filter& filter) {
                          SCMP_SYS(newfstatat), SCMP_SYS(close)})
     good &= allow(filter, call);
   // AT_FDCWD is beyond all descriptors, whether it comes as 32 or as 64 bits.
-  return good && allow(filter, SCMP_SYS(openat), SCMP_A0(SCMP_CMP_LT, most_descriptors),
+  return good && allow(filter, SCMP_SYS(openat), SCMP_A0(SCMP_CMP_LT, max_descriptors),
                        SCMP_A2(SCMP_CMP_MASKED_EQ, O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND, O_RDONLY));
 }
 
@@ -81,8 +81,8 @@ ReadingLimits reading_limits(std::string_view extension, std::uint64_t size, std
   const bool packed = extension == ".3mf" || extension == ".fbx";
   const std::uint64_t companions = has_companions(extension) ? largest_file - std::min(size, largest_file) : 0;
   const auto megabytes = static_cast<std::int64_t>((size + companions) >> 20);
-  return {least_memory + (packed ? memory_per_packed_byte : memory_per_byte) * size, companions,
-          least_time + time_per_megabyte * megabytes};
+  return {min_memory + (packed ? memory_per_packed_byte : memory_per_byte) * size, companions,
+          min_time + time_per_megabyte * megabytes};
 }
 
 HeldMemory held_memory() {
@@ -110,7 +110,7 @@ void allow_memory_for(std::uint64_t bytes) {
 
 bool confine(int pipe) {
   limit(RLIMIT_FSIZE, 0, 0);
-  limit(RLIMIT_NOFILE, most_descriptors, most_descriptors);
+  limit(RLIMIT_NOFILE, max_descriptors, max_descriptors);
   if (!can_confine) return false;
   const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release);
   return filter && allow_computing(filter) && allow_reading(filter) &&

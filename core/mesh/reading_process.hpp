@@ -33,7 +33,7 @@ class ReadingProcess {
   bool receive(void* data, std::size_t size);
   struct Death {
     std::string reason;             ///< for people
-    std::uint64_t most_memory = 0;  ///< resident at once, beyond what it had at its start, give or take [bytes]
+    std::uint64_t peak_memory = 0;  ///< resident at once, beyond what it had at its start, give or take [bytes]
   };
   /// Ends it, if it has not ended by itself.
   Death end();

@@ -91,7 +91,7 @@ ImportedTriangles import_scene(MeshBytes file, const ReadingLimits& limits, std:
   if (received.kind == Kind::scene) return std::move(received.scene);
   const ReadingProcess::Death death = process.end();
   // Not every library says so when there is no memory: some give up without a reason, some crash.
-  const bool used_up = limits.companions == 0 && death.most_memory > limits.memory / 2;
+  const bool used_up = limits.companions == 0 && death.peak_memory > limits.memory / 2;
   if (received.kind == Kind::out_of_memory || used_up) throw too_much_memory(limits);
   if (received.kind == Kind::message) throw std::runtime_error(received.message);
   throw std::runtime_error(

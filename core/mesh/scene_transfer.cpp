@@ -78,7 +78,7 @@ ReceivedScene receive_scene(ReadingProcess& process) {
   } else if (header.message > 0 && header.message <= longest_message) {
     received.message.resize(header.message);
     if (process.receive(received.message.data(), received.message.size())) received.kind = Kind::message;
-  } else if (header.message == 0 && header.vertices <= most_vertices && header.triangles <= most_triangles) {
+  } else if (header.message == 0 && header.vertices <= max_vertices && header.triangles <= max_triangles) {
     if (receive(process, header.vertices, received.scene.vertices) &&
         receive(process, header.triangles, received.scene.triangles) && has_valid_indices(received.scene))
       received.kind = Kind::scene;

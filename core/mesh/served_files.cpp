@@ -42,7 +42,7 @@ class ServingSystem : public Assimp::IOSystem {
       return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(files_.bytes.data()),
                                         files_.bytes.size());
     const Companion file(*this, name);
-    Assimp::IOStream* stream = file.regular() && file.size() <= files_.most_bytes ? read(file) : nullptr;
+    Assimp::IOStream* stream = file.regular() && file.size() <= files_.max_bytes ? read(file) : nullptr;
     if (!stream && files_.refused.empty()) files_.refused = name;
     return stream;
   }
@@ -65,7 +65,7 @@ class ServingSystem : public Assimp::IOSystem {
   };
 
   Assimp::IOStream* read(const Companion& file) {
-    files_.most_bytes -= file.size();
+    files_.max_bytes -= file.size();
     served_(file.size());
     auto bytes = std::make_unique<std::uint8_t[]>(file.size());
     for (std::uint64_t done = 0; done < file.size();) {

@@ -10,7 +10,7 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t most_triangles = 4'000'000;
+constexpr std::size_t max_triangles = 4'000'000;
 constexpr std::uint32_t whole = 0xffffffffu;  ///< in the place of a middle: the edge is not split
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -25,10 +25,10 @@ class Round {
     std::vector<Triangle> triangles;
     for (const Triangle& triangle : mesh_.triangles) {
       split(triangle, triangles);
-      if (triangles.size() > most_triangles && !middles_.empty())
+      if (triangles.size() > max_triangles && !middles_.empty())
         throw std::invalid_argument(
             fmt::format("subdivision: edges of at most {} m would take more than {} million triangles",
-                        std::sqrt(longest_squared_), most_triangles / 1'000'000));
+                        std::sqrt(longest_squared_), max_triangles / 1'000'000));
     }
     mesh_.triangles = std::move(triangles);
     return !middles_.empty();

@@ -29,8 +29,8 @@ struct ExampleScores {
   bool held_out = false;
   std::size_t voxels = 0;
   std::optional<double> cross_entropy_before,
-      cross_entropy_after;                        ///< to the Gibbs map [nats a voxel]; of no voxels none
-  std::optional<double> gibbs_entropy;            ///< of the Gibbs map itself: no map has less [nats a voxel]
+      cross_entropy_after;                        ///< to the Gibbs map [nats per voxel]; of no voxels none
+  std::optional<double> gibbs_entropy;            ///< of the Gibbs map itself: no map has less [nats per voxel]
   std::optional<MapScores> before, after, gibbs;  ///< against the true surface, if it is known
   GibbsReliability reliability_before, reliability_after;
   bool gibbs_stationary = false;
@@ -43,7 +43,7 @@ struct MapCalibrationConfig {
   int band = band_width;
 };
 
-/// What a calibration found (SCIENCE: calibration).
+/// What a calibration found.
 struct MapCalibration {
   MapCalibrationConfig config;
   InverseSensorModel before;

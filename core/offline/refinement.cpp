@@ -35,20 +35,20 @@ RefinementJob refinement_job(const RecordedScene& scene, const GibbsConfig& gibb
 }
 
 Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_token stop) {
-  const auto tell = [&](double fraction, std::string_view what) {
+  const auto report = [&](double fraction, std::string_view what) {
     if (progress) progress(fraction, what);
   };
   Refinement r{OccupancyMap(job.grid, job.model), {}, VoxelBricks(), {}, {}, 0.0, {}, {}};
   for (std::size_t k = 0; k < job.scans.size(); ++k) {
-    tell(0.2 * double(k) / double(job.scans.size()), "making the conventional map");
+    report(0.2 * double(k) / double(job.scans.size()), "making the conventional map");
     r.conventional.insert(job.scans[k], stop);
   }
   r.posterior = sample_posterior(
       job.grid, measurements_of(job.scans), job.sampler, probabilities(r.conventional.voxels()), {},
-      [&](double fraction, std::string_view what, const SamplerDiagnostics&) { tell(0.2 + 0.7 * fraction, what); },
+      [&](double fraction, std::string_view what, const SamplerDiagnostics&) { report(0.2 + 0.7 * fraction, what); },
       stop);
   r.refined = VoxelBricks(job.grid.size, r.posterior.voxels(job.model));
-  tell(0.9, "scoring the candidate views");
+  report(0.9, "scoring the candidate views");
   r.gains_before = gibbs_gains(job, r.conventional.voxels());
   r.gains_after = gibbs_gains(job, r.refined);
   r.rank_correlation = rank_correlation(r.gains_before, r.gains_after);

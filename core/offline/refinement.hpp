@@ -7,7 +7,7 @@
 #include "core/evaluation/known_object.hpp"
 #include "core/evaluation/map_quality.hpp"
 #include "core/evaluation/openings.hpp"
-#include "core/gibbs/map_refinement.hpp"
+#include "core/gibbs/gibbs_state.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/offline/scene_parameters.hpp"
 #include "core/results/input_file.hpp"
@@ -21,7 +21,7 @@ struct RefinementTruth {
   std::vector<std::uint8_t> visited;       ///< by noise-free rays
   std::vector<Opening> openings;           ///< of our own parts
   SurfaceSamples samples = {};             ///< of the true surface
-  std::vector<std::uint8_t> visible = {};  ///< one a sample, 1: some candidate sees it
+  std::vector<std::uint8_t> visible = {};  ///< one per sample, 1: some candidate sees it
 };
 
 /// Everything that refining the map of finished scans needs.

@@ -103,11 +103,11 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
   job.inputs = input_files(c);
   SimulatedSource source(world, c.seed);
   job.scans = take_scans(source, views_at(views), &c.cloud, progress, stop);
-  const KnownObject known(mesh->mesh, std::shared_ptr<const RayScene>(world, &world->scene), world->camera,
+  const KnownObject known(mesh->mesh, std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
                           job.candidates, job.grid, c.evaluation.surface_samples, c.evaluation.d_reg, c.seed, progress,
                           stop);
   EvaluationState evaluation = known.nothing_seen();
-  for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].returns, stop);
+  for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].hits, stop);
   job.truth = RefinementTruth{std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),
                               known.truth(),
                               std::move(evaluation.visited_voxels),

@@ -122,13 +122,13 @@ RayBundle bundle(Parameters& p) {
   const auto share = [&](const char* name, double otherwise) { return std::clamp(p(name, otherwise), 0.0, 1.0); };
   const Eigen::Vector2d lowest(share("min_x_perc", 0.25), share("min_y_perc", 0.25));
   const Eigen::Vector2d highest(share("max_x_perc", 0.75), share("max_y_perc", 0.75));
-  constexpr double most_rays = 4e6;  // as many as a configuration may have
+  constexpr double max_rays = 4e6;  // as many as a configuration may have
   const Eigen::Array2d across =
       (highest - lowest).array().max(0.0) * Eigen::Array2d(camera.width, camera.height) / spacing.array() + 1.0;
-  if (across.prod() > most_rays)
+  if (across.prod() > max_rays)
     throw std::invalid_argument(fmt::format(
         "a view has {:.3g} rays (img_width_px, img_height_px, raycasting_resolution_x, _y); at most {:g} are cast",
-        across.prod(), most_rays));
+        across.prod(), max_rays));
   return RayBundle::reference(camera, lowest, highest, spacing);
 }
 

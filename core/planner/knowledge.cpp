@@ -30,13 +30,13 @@ FusionSeconds fuse(Knowledge& known, const Scan& scan, const FusionConfig& confi
     if (config.occlusion_distance > 0.0) after.map.mark_occlusions(scan, config.occlusion_distance, stop);
     if (after.reference) {
       auto reference = after.reference->copy();
-      reference->insert(scan.origin, scan.returns, stop);
+      reference->insert(scan.origin, scan.hits, stop);
       after.reference = std::move(reference);
     }
   }
   if (after.posterior) {
     Stopwatch watch(seconds.refine);
-    auto posterior = std::make_shared<MapRefinement>(*after.posterior);
+    auto posterior = std::make_shared<GibbsState>(*after.posterior);
     posterior->add(scan);
     const auto report_sampler = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
       if (progress) progress(fraction, what);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/gain/map_rays.hpp"
-#include "core/gibbs/map_refinement.hpp"
+#include "core/gibbs/gibbs_state.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/progress/progress.hpp"
 #include "core/view/view.hpp"
@@ -21,8 +21,8 @@ struct TakenView {
 /// common.
 struct Knowledge {
   OccupancyMap map;
-  std::shared_ptr<const MapRefinement> posterior = {};  ///< the Gibbs map; null if the planner needs none
-  std::shared_ptr<const ReferenceMap> reference = {};   ///< reference semantics only
+  std::shared_ptr<const GibbsState> posterior = {};    ///< the Gibbs map; null if the planner needs none
+  std::shared_ptr<const ReferenceMap> reference = {};  ///< reference semantics only
   std::vector<TakenView> taken = {};
 
   /// The voxels that views are planned on: the Gibbs map's if there is one.

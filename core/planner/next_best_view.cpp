@@ -9,21 +9,21 @@ namespace nextview {
 namespace {
 
 /// Gains that differ by less than this share of the largest count as tied.
-constexpr double tie = 1e-9;
+constexpr double tolerance = 1e-9;
 
-std::string why_degenerate(const std::vector<double>& gains) {
+std::string degeneracy_reason(const std::vector<double>& gains) {
   if (!std::all_of(gains.begin(), gains.end(), [](double g) { return std::isfinite(g); }))
     return "the gain of a candidate is not a finite number";
   if (gains.size() < 2) return "";
-  const double least = *std::min_element(gains.begin(), gains.end());
-  const double most = *std::max_element(gains.begin(), gains.end());
-  if (most == 0.0 && least == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
-  if (most - least <= tie * std::abs(most))
-    return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", most);
+  const double smallest = *std::min_element(gains.begin(), gains.end());
+  const double largest = *std::max_element(gains.begin(), gains.end());
+  if (largest == 0.0 && smallest == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
+  if (largest - smallest <= tolerance * std::abs(largest))
+    return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", largest);
   const auto ties =
-      std::count_if(gains.begin(), gains.end(), [&](double g) { return most - g <= tie * std::abs(most); });
+      std::count_if(gains.begin(), gains.end(), [&](double g) { return largest - g <= tolerance * std::abs(largest); });
   if (ties * 2 > static_cast<std::ptrdiff_t>(gains.size()))
-    return fmt::format("{} of {} candidates tie at the largest gain, {:.6g}", ties, gains.size(), most);
+    return fmt::format("{} of {} candidates tie at the largest gain, {:.6g}", ties, gains.size(), largest);
   return "";
 }
 
@@ -47,7 +47,7 @@ Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights) {
     if (cost_sum != 0.0) c.utility -= weights.cost * c.cost / cost_sum;
     if (!ranking.best || c.utility > candidates[*ranking.best].utility) ranking.best = v;  // Eq. 14
   }
-  ranking.degenerate = why_degenerate(gains);
+  ranking.degenerate = degeneracy_reason(gains);
   return ranking;
 }
 

@@ -8,7 +8,7 @@ namespace nextview {
 
 /// One candidate view as the planner ranks it.
 struct Candidate {
-  bool available = true;  ///< not yet visited, and reachable
+  bool available = true;  ///< not yet taken, and reachable
   double gain = 0.0;      ///< in the gain's own unit
   double cost = 0.0;      ///< of going there (distance [m])
   double utility = 0.0;   ///< set by rank()

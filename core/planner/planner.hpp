@@ -34,7 +34,7 @@ class Planner {
   /// Of its gains, for people: "nats", "voxels", …, or "" if they have none.
   virtual std::string unit() const { return ""; }
   virtual PolicyNeeds needs() const { return {}; }
-  /// Values the available candidates among `views` and finds the next best one. `candidates`, one a view, say which
+  /// Values the available candidates among `views` and finds the next best one. `candidates`, one per view, say which
   /// are available and what going there costs. @throws Stopped
   virtual Plan plan(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
                     std::vector<Candidate> candidates, std::stop_token stop) const = 0;

@@ -31,27 +31,27 @@ struct Strip {
   std::size_t pixel(int i) const { return std::size_t(first_row + i % rows) * width + i / rows; }
 };
 
-std::vector<RayScene::Hit> cast(const RayScene& scene, const Pose& T_world_camera, const Strip& strip,
-                                const std::vector<Eigen::Vector3f>& directions, double reach) {
+std::vector<MeshRayCaster::Hit> cast(const MeshRayCaster& scene, const Pose& T_world_camera, const Strip& strip,
+                                     const std::vector<Eigen::Vector3f>& directions, double reach) {
   const Eigen::Matrix3d R_world_camera = T_world_camera.linear();
   std::vector<Eigen::Vector3f> rays(strip.pixels());
   for (int i = 0; i < strip.pixels(); ++i)
     rays[i] = (R_world_camera * directions[strip.pixel(i)].cast<double>()).cast<float>();
-  std::vector<RayScene::Hit> hits(rays.size());
+  std::vector<MeshRayCaster::Hit> hits(rays.size());
   scene.cast(T_world_camera.translation(), rays, static_cast<float>(reach), hits);
   return hits;
 }
 
 /// `to_range(pixel, hit)` makes a pixel of what its ray met within `reach` [m].
 template <class ToRange>
-DepthImage sense_image(const RayScene& scene, const Pose& T_world_camera, const PinholeCamera& camera,
+DepthImage sense_image(const MeshRayCaster& scene, const Pose& T_world_camera, const PinholeCamera& camera,
                        const std::vector<Eigen::Vector3f>& directions, double reach, const std::stop_token& stop,
                        const ToRange& to_range) {
   DepthImage image{camera, std::vector<float>(directions.size())};
   tbb::parallel_for(0, Strip::count(camera), [&](int index) {
     if (stop.stop_requested()) return;
     const Strip strip(index, camera);
-    const std::vector<RayScene::Hit> hits = cast(scene, T_world_camera, strip, directions, reach);
+    const std::vector<MeshRayCaster::Hit> hits = cast(scene, T_world_camera, strip, directions, reach);
     for (int i = 0; i < strip.pixels(); ++i) image.range[strip.pixel(i)] = to_range(strip.pixel(i), hits[i]);
   });
   throw_if_stopped(stop);
@@ -97,13 +97,13 @@ DepthCamera::DepthCamera(const DepthCameraConfig& config, const std::stop_token&
   }
 }
 
-DepthImage DepthCamera::sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed,
+DepthImage DepthCamera::sense(const MeshRayCaster& scene, const Pose& T_world_camera, std::uint64_t seed,
                               std::uint32_t view_index, const std::stop_token& stop) const {
   const CounterRandom noise(seed, random_stream::range_noise, view_index);
   const CounterRandom dropout(seed, random_stream::dropout, view_index);
   const CounterRandom outliers(seed, random_stream::outliers, view_index);
   const double grazing_cosine = std::cos(config_.grazing_limit * degree);
-  const auto to_range = [&](std::size_t pixel, const RayScene::Hit& hit) {
+  const auto to_range = [&](std::size_t pixel, const MeshRayCaster::Hit& hit) {
     if (config_.dropout > 0.0 && dropout.uniform(pixel)[0] < config_.dropout) return DepthImage::invalid;
     if (config_.outliers > 0.0) {
       const std::array<double, 4> draw = outliers.uniform(pixel);
@@ -119,9 +119,9 @@ DepthImage DepthCamera::sense(const RayScene& scene, const Pose& T_world_camera,
   return sense_image(scene, T_world_camera, camera_, directions_, reach, stop, to_range);
 }
 
-DepthImage DepthCamera::sense_ideal(const RayScene& scene, const Pose& T_world_camera,
+DepthImage DepthCamera::sense_ideal(const MeshRayCaster& scene, const Pose& T_world_camera,
                                     const std::stop_token& stop) const {
-  const auto to_range = [&](std::size_t, const RayScene::Hit& hit) {
+  const auto to_range = [&](std::size_t, const MeshRayCaster::Hit& hit) {
     return hit.range > config_.max_range   ? DepthImage::beyond_range
            : hit.range < config_.min_range ? DepthImage::invalid
                                            : hit.range;

@@ -32,13 +32,13 @@ struct DepthCameraConfig {
 std::vector<Setting> settings(DepthCameraConfig& config);
 
 /// A mesh that rays can be shot at (an Embree scene). Safe to use from several threads at once.
-class RayScene {
+class MeshRayCaster {
  public:
   /// @throws Stopped
-  explicit RayScene(const TriangleMesh& mesh, const std::stop_token& stop = {});
-  ~RayScene();
-  RayScene(RayScene&&) noexcept;
-  RayScene& operator=(RayScene&&) noexcept;
+  explicit MeshRayCaster(const TriangleMesh& mesh, const std::stop_token& stop = {});
+  ~MeshRayCaster();
+  MeshRayCaster(MeshRayCaster&&) noexcept;
+  MeshRayCaster& operator=(MeshRayCaster&&) noexcept;
 
   struct Hit {
     float range = DepthImage::beyond_range;  ///< [m]; beyond_range if nothing was met
@@ -65,11 +65,12 @@ class DepthCamera {
 
   /// What the camera sees from T_world_camera. `view_index` and `seed` choose the noise; each pixel draws its own.
   /// @throws Stopped
-  DepthImage sense(const RayScene& scene, const Pose& T_world_camera, std::uint64_t seed, std::uint32_t view_index,
+  DepthImage sense(const MeshRayCaster& scene, const Pose& T_world_camera, std::uint64_t seed, std::uint32_t view_index,
                    const std::stop_token& stop = {}) const;
   /// The same without noise, dropout, outliers and grazing limit: what a perfect camera would see. For scoring.
   /// @throws Stopped
-  DepthImage sense_ideal(const RayScene& scene, const Pose& T_world_camera, const std::stop_token& stop = {}) const;
+  DepthImage sense_ideal(const MeshRayCaster& scene, const Pose& T_world_camera,
+                         const std::stop_token& stop = {}) const;
 
  private:
   DepthCameraConfig config_;

@@ -51,7 +51,7 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   if (!setup.truth) return;
   Stopwatch watch(record.seconds.evaluate);
   auto evaluation = std::make_shared<EvaluationState>(*state.evaluation);
-  setup.truth->add_view(*evaluation, record.T_world_camera, scan.returns, stop);
+  setup.truth->add_view(*evaluation, record.T_world_camera, scan.hits, stop);
   record.coverage = evaluation->coverage.of_all();
   record.coverage_visible = evaluation->coverage.of_visible();
   record.coverage_paper = evaluation->coverage_paper.of_all();
@@ -111,9 +111,9 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
     Stopwatch watch(record.seconds.clean);
     return to_scan(acquired.capture, &setup.configuration.cloud, stop);
   }();
-  record.returns = captured.returns;
-  record.passes = captured.scan.passes.size();
-  record.points = captured.scan.returns.size();
+  record.hits = captured.hits;
+  record.misses = captured.scan.misses.size();
+  record.points = captured.scan.hits.size();
   const auto scan = std::make_shared<const Scan>(std::move(captured.scan));
 
   report(progress, stop, 0.4, "updating the map");
@@ -156,7 +156,7 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
   for (std::size_t k = from.scans.size(); k < state.scans.size(); ++k) {
     report(progress, stop, double(k) / double(state.scans.size()), "making the map again");
     fuse(known, *state.scans[k], fusion(setup), {}, stop);
-    if (evaluation) setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->returns, stop);
+    if (evaluation) setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->hits, stop);
   }
   known.taken = state.known.taken;
   state.known = std::move(known);

@@ -40,7 +40,7 @@ struct NextView {
 struct ScanState {
   Knowledge known;
   std::shared_ptr<const EvaluationState> evaluation;  ///< null without evaluation
-  std::vector<std::shared_ptr<const Scan>> scans;     ///< one a step, returns cleaned
+  std::vector<std::shared_ptr<const Scan>> scans;     ///< one per step, hits cleaned
   std::vector<std::shared_ptr<const StepRecord>> records;
   std::vector<View> candidates;            ///< that are ranked
   NextView next;                           ///< of no meaning once finished

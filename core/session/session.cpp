@@ -31,7 +31,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   if (!setup_.candidates) setup_.candidates = configured_candidates(c, setup_.source);
   if (c.evaluation.enabled)
     setup_.truth = std::make_shared<KnownObject>(
-        object_->mesh, std::shared_ptr<const RayScene>(world, &world->scene), world->camera,
+        object_->mesh, std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
         poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))), setup_.region,
         c.evaluation.surface_samples, c.evaluation.d_reg, c.seed, progress, stop);
   adopt(nothing_scanned(setup_, robot_->pose()));

@@ -48,7 +48,7 @@ class Session {
 
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
   void override_next_view(std::size_t candidate);
-  /// Makes a view of the operator's own the next one. Its record has view -1, overridden, and the gain that explain()
+  /// Makes a custom view the next one. Its record has view -1, overridden, and the gain that explain()
   /// expects of it now (0 if it has none). @throws std::invalid_argument before the first step, if the pose is not
   /// finite and rigid (is_rigid), or if the robot cannot reach it.
   void override_next_view(const Pose& T_world_camera);
@@ -72,21 +72,21 @@ class Session {
   const PinholeCamera& camera() const { return setup_.source.camera; }
   const Planner& planner() const { return *setup_.planner; }
   const OccupancyMap& map() const { return state_.known.map; }
-  const MapRefinement* refinement() const { return state_.known.posterior.get(); }  ///< null unless the gain needs it
+  const GibbsState* refinement() const { return state_.known.posterior.get(); }  ///< null unless the gain needs it
   /// What views are planned on: the Gibbs map if there is one.
   const VoxelBricks& planning_voxels() const { return state_.known.planning_voxels(); }
   const std::vector<Pose>& candidates() const { return candidates_; }
   const std::vector<StepRecord>& records() const { return records_; }
-  const std::vector<std::shared_ptr<const Scan>>& scans() const { return state_.scans; }  ///< one a step, cleaned
+  const std::vector<std::shared_ptr<const Scan>>& scans() const { return state_.scans; }  ///< one per step, cleaned
   const KnownObject* known_object() const { return setup_.truth.get(); }                  ///< null without evaluation
   const EvaluationState* evaluation() const { return state_.evaluation.get(); }           ///< likewise
 
   /// Where the next view is taken from. Before the first step this is the start view.
   Pose next_view() const { return state_.next.view.T_world_camera; }
-  /// The candidate that this is; none if it is the start view, or a view of the operator's own.
+  /// The candidate that this is; none if it is the start view, or a custom view.
   std::optional<std::size_t> next_candidate() const { return state_.next.candidate; }
-  /// Whether it is a view of the operator's own.
-  bool next_view_is_own() const { return state_.next.is_custom; }
+  /// Whether it is a custom view.
+  bool next_view_is_custom() const { return state_.next.is_custom; }
   /// Why a candidate has its score now. Nothing if no rays explain the planner's values.
   std::optional<ScoreExplanation> explain(std::size_t candidate) const { return explain(candidates().at(candidate)); }
   /// What any other view would score now, taken apart. @pre is_rigid(T_world_camera)

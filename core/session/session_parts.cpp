@@ -24,7 +24,7 @@ std::string image_text(const DepthCameraConfig& sensor) {
   return fmt::format("images of {} x {} pixels", sensor.width, sensor.height);
 }
 
-/// The map and what else has a value a voxel: the local map of a step, truth, masks, and the sampler.
+/// The map and what else has a value per voxel: the local map of a step, truth, masks, and the sampler.
 std::uint64_t map_bytes(const Configuration& c) {
   const VoxelGrid grid = configured_region(c);
   const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;
@@ -35,7 +35,7 @@ std::uint64_t map_bytes(const Configuration& c) {
 }
 
 /// The most views that a scan can take: the start view, and each candidate.
-int most_views(const Configuration& c) {
+int max_views(const Configuration& c) {
   return c.views.layout == ViewLayout::file ? c.termination.views : std::min(c.termination.views, c.views.count + 1);
 }
 
@@ -43,7 +43,7 @@ int most_views(const Configuration& c) {
 std::uint64_t image_bytes(const Configuration& c) {
   constexpr std::uint64_t ray = 12, while_taken = 60, point = 12;
   const std::uint64_t pixels = std::uint64_t(c.sensor.width) * std::uint64_t(c.sensor.height);
-  return pixels * (ray + while_taken + point * std::uint64_t(most_views(c)));
+  return pixels * (ray + while_taken + point * std::uint64_t(max_views(c)));
 }
 
 }  // namespace
@@ -53,10 +53,10 @@ Configuration affordable(Configuration c) {
   if (map >= images) {
     require_memory(map, map_text(configured_region(c)), coarser_map);
     require_memory(map + images,
-                   fmt::format("{}, with {} {},", map_text(configured_region(c)), most_views(c), image_text(c.sensor)),
+                   fmt::format("{}, with {} {},", map_text(configured_region(c)), max_views(c), image_text(c.sensor)),
                    coarser_map);
   } else {
-    require_memory(map + images, fmt::format("a scan of {} {}", most_views(c), image_text(c.sensor)), fewer_pixels);
+    require_memory(map + images, fmt::format("a scan of {} {}", max_views(c), image_text(c.sensor)), fewer_pixels);
   }
   return c;
 }
@@ -129,8 +129,7 @@ std::shared_ptr<const ReferenceMap> empty_reference_map(const Configuration& c, 
 Knowledge nothing_known(const Configuration& c, const VoxelGrid& region, const PolicyNeeds& needs) {
   Knowledge known{OccupancyMap(region, c.map.model)};
   if (c.planner.semantics == Semantics::reference) known.reference = empty_reference_map(c, region);
-  if (needs.posterior)
-    known.posterior = std::make_shared<MapRefinement>(region, posterior_sampler_config(c), c.map.model);
+  if (needs.posterior) known.posterior = std::make_shared<GibbsState>(region, posterior_sampler_config(c), c.map.model);
   return known;
 }
 

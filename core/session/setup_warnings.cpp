@@ -15,15 +15,15 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t samples = 1000;    // of the surface: near enough for what is said here
-constexpr double least_voxels = 5.0;     // along the object's longest side
-constexpr double least_in_image = 0.05;  // of the object, for a view to be more than a sliver
+constexpr std::size_t samples = 1000;  // of the surface: near enough for what is said here
+constexpr double min_voxels = 5.0;     // along the object's longest side
+constexpr double min_in_image = 0.05;  // of the object, for a view to be more than a sliver
 
 /// Where the views stand to the object. Points of the surface hide each other, which is left out here.
 struct Standing {
   std::size_t views = 0, inside = 0, near = 0, far = 0, beyond_rays = 0, past = 0;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;  ///< of all distances to the object [m]
-  double most_in_image = 0.0;                                                ///< share of the object, of all views
+  double max_in_image = 0.0;                                                 ///< share of the object, of all views
 };
 
 /// Distance from a point to the nearest of some [m].
@@ -76,7 +76,7 @@ Standing standing(const Configuration& c, const TriangleMesh& object, std::span<
     s.far += way > c.sensor.max_range;
     s.beyond_rays += way > c.planner.ray_length;
     s.past += in_image == 0.0;
-    s.most_in_image = std::max(s.most_in_image, in_image);
+    s.max_in_image = std::max(s.max_in_image, in_image);
   }
   return s;
 }
@@ -112,16 +112,16 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
     warn(s.beyond_rays, fmt::format("scored by rays that end before the object: planner.ray_length is {}, and it is up "
                                     "to {} off: raise planner.ray_length",
                                     metres(c.planner.ray_length), metres(s.farthest)));
-  if (s.inside < s.views && s.most_in_image < least_in_image)
+  if (s.inside < s.views && s.max_in_image < min_in_image)
     warnings.push_back(
         fmt::format("no view has more than {:.0f} % of the object in its image: widen "
                     "sensor.field_of_view ({:g} deg), or change {}",
-                    std::ceil(100.0 * s.most_in_image), c.sensor.field_of_view, stand));
+                    std::ceil(100.0 * s.max_in_image), c.sensor.field_of_view, stand));
   else
     warn(s.past, fmt::format("nothing of the object in the image, which looks past it: change {}, or widen "
                              "sensor.field_of_view ({:g} deg)",
                              stand, c.sensor.field_of_view));
-  if (longest < least_voxels * c.map.resolution)
+  if (longest < min_voxels * c.map.resolution)
     warnings.push_back(
         fmt::format("voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: lower "
                     "map.resolution, for example to {}",

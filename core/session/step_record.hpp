@@ -34,13 +34,13 @@ struct StepRecord {
   Pose T_world_camera = Pose::Identity();
   MotionCost motion;  ///< of getting here
   double gain = 0.0;  ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view, and for
-                      ///< an operator's own where the gain is not one of single views
+                      ///< a custom view where the gain is not one of single views
   double utility = 0.0;        ///< 0 for a view that is no candidate: it is a share of all candidates
   double realised_gain = 0.0;  ///< entropy that the map lost by this view [nats] (Eq. 12)
 
-  std::size_t returns = 0;     ///< pixels that met a surface
-  std::size_t passes = 0;      ///< pixels beyond range
-  std::size_t points = 0;      ///< returns left after cleaning
+  std::size_t hits = 0;        ///< pixels that met a surface
+  std::size_t misses = 0;      ///< pixels beyond range
+  std::size_t points = 0;      ///< hits left after cleaning
   std::size_t new_voxels = 0;  ///< voxels measured for the first time
 
   double entropy = 0.0;        ///< of the maximum-likelihood map (Eq. 18) [bits]

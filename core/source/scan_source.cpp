@@ -15,10 +15,10 @@ CapturedScan to_scan(const Capture& capture, const CloudConfig* cleaning, const 
     scan.origin = capture.T_world_camera.translation();
     scan.max_range = capture.max_range;
     for (const Vector3& point : std::get<std::vector<Vector3>>(capture.measured))
-      scan.returns.push_back((capture.T_world_camera * point).cast<float>());
+      scan.hits.push_back((capture.T_world_camera * point).cast<float>());
   }
-  captured.returns = scan.returns.size();
-  if (cleaning) scan.returns = clean(scan.returns, *cleaning, stop);
+  captured.hits = scan.hits.size();
+  if (cleaning) scan.hits = clean(scan.hits, *cleaning, stop);
   return captured;
 }
 

@@ -44,11 +44,11 @@ class ScanSource {
 
 /// A capture as the map takes it.
 struct CapturedScan {
-  Scan scan;                ///< its returns cleaned
-  std::size_t returns = 0;  ///< before they were cleaned
+  Scan scan;             ///< its hits cleaned
+  std::size_t hits = 0;  ///< before they were cleaned
 };
 
-/// Back-projects a capture, and cleans its returns unless `cleaning` is null. Points have no passes.
+/// Back-projects a capture, and cleans its hits unless `cleaning` is null. Points have no misses.
 /// @throws Stopped; std::invalid_argument as clean().
 CapturedScan to_scan(const Capture& capture, const CloudConfig* cleaning, const std::stop_token& stop = {});
 

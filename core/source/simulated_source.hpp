@@ -10,7 +10,7 @@ namespace nextview {
 /// An object in front of a simulated depth camera.
 struct SimulatedWorld {
   std::shared_ptr<const PlacedMesh> object;
-  RayScene scene;
+  MeshRayCaster scene;
   DepthCamera camera;
 
   /// @throws std::invalid_argument if the sensor's configuration is not valid; Stopped

@@ -38,11 +38,11 @@ constexpr double largest_lattice = 1 << 28;
 Eigen::Vector3f position(const pcl::PointNormal& p) { return p.getVector3fMap(); }
 Eigen::Vector3f normal(const pcl::PointNormal& p) { return p.getNormalVector3fMap(); }
 
-/// All returns that are finite; the normal is the direction to the camera.
+/// All hits that are finite; the normal is the direction to the camera.
 Cloud::Ptr to_pcl(std::span<const Scan> scans) {
   auto cloud = std::make_shared<Cloud>();
   for (const Scan& scan : scans)
-    for (const Eigen::Vector3f& point : scan.returns) {
+    for (const Eigen::Vector3f& point : scan.hits) {
       if (!point.allFinite()) continue;
       pcl::PointNormal p;
       p.getVector3fMap() = point;
@@ -57,7 +57,7 @@ double point_spacing(std::span<const Scan> scans) {
   constexpr std::size_t looked_at = 4, samples = 500;  // scans, and points of each
   std::vector<const Scan*> with_points;
   for (const Scan& scan : scans)
-    if (!scan.returns.empty()) with_points.push_back(&scan);
+    if (!scan.hits.empty()) with_points.push_back(&scan);
   std::vector<float> squared_distances;
   for (std::size_t s = 0; s < with_points.size(); s += with_points.size() / looked_at + 1) {
     const Cloud::Ptr cloud = to_pcl({with_points[s], 1});

@@ -11,7 +11,7 @@ namespace nextview {
 
 using SurfaceProgress = std::function<void(double fraction, std::string_view what)>;
 
-/// The surface through the returns of some scans, cleaned or not. Returns are averaged in cells, normals fitted to
+/// The surface through the hits of some scans, cleaned or not. Hits are averaged in cells, normals fitted to
 /// neighbours and turned to the camera, signed distances to the points' planes averaged over a lattice, and their zero
 /// is the surface (volumetric integration, Curless and Levoy 1996; VTK's). It ends where no points are: its openings
 /// are where no view has looked, and all of its vertices are `seen`. Cells are `finest` [m] wide, or, if the pixels lie

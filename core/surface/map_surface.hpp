@@ -16,7 +16,7 @@ namespace nextview {
 /// Voxels that are not measured count as solid: what no view has seen is closed, and its vertices are not `seen`. Walls
 /// one voxel thin become a shell a quarter of a voxel thick. Left out: what lies farther beyond the box of the occupied
 /// voxels than a quarter of its longest side; solid pieces with fewer than four occupied voxels side by side (stray
-/// returns), but for the largest; free pockets that do not reach the region's border (no camera sees into them; the
+/// hits), but for the largest; free pockets that do not reach the region's border (no camera sees into them; the
 /// largest piece of free space always stays).
 ///
 /// Uncertainty: half the distance between where p is 0.25 and 0.75, at most a voxel edge; about a quarter of an edge

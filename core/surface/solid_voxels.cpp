@@ -6,8 +6,8 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t fewest_trusted = 4;  ///< occupied voxels side by side; fewer are stray returns
-constexpr std::size_t fewest_thin = 4;     ///< on something thick; fewer are specks [voxels]
+constexpr std::size_t min_trusted = 4;  ///< occupied voxels side by side; fewer are stray hits
+constexpr std::size_t fewest_thin = 4;  ///< on something thick; fewer are specks [voxels]
 
 /// What is connected to what: over faces, or over faces, edges and corners.
 enum class Neighbours { faces, all };
@@ -72,7 +72,7 @@ void close_pockets(const VoxelGrid& grid, std::vector<float>& solid) {
     for (const std::uint32_t v : pocket) solid[v] = 1.0f;
 }
 
-/// Which voxels say where the object is: measured and occupied, but for pieces of fewer than a few, which stray returns
+/// Which voxels say where the object is: measured and occupied, but for pieces of fewer than a few, which stray hits
 /// leave; the largest piece counts in any case.
 std::vector<std::uint8_t> trusted_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels) {
   std::vector<std::uint8_t> trusted(voxels.size());
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> trusted_voxels(const VoxelGrid& grid, std::span<const 
       [&](const std::vector<std::uint32_t>& piece) {
         for (const std::uint32_t v : piece) trusted[v] = 1;
         largest = std::max(largest, piece.size());
-        if (piece.size() < fewest_trusted) small.push_back(piece);
+        if (piece.size() < min_trusted) small.push_back(piece);
       });
   for (const auto& piece : small)
     if (piece.size() < largest)

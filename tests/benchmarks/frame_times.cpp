@@ -2,7 +2,7 @@
 // the pointer moves over a panel, while a step or the Gibbs sampler runs and the scene stays as it is, and while the
 // scene is turned. A distribution each, not a mean. A frame ends when its pixels are in memory.
 //
-// Wall time is what a person feels; it grows with whatever else the machine does. Processor time is of the thread that
+// Wall time is what the user feels; it grows with whatever else the machine does. Processor time is of the thread that
 // draws and of the renderer's own threads, without the workers': what the frame costs, also on a busy machine.
 #include <fmt/format.h>
 

@@ -59,9 +59,9 @@ void sweep(benchmark::State& state, ForwardModel model) {
   for (int i = 0; i < 5; ++i) chain->sweep(nullptr);
   for (auto _ : state) chain->sweep(nullptr);
   state.counters["voxels"] = static_cast<double>(sites.count());
-  state.counters["incidences"] = static_cast<double>(lists.incidences());
-  state.counters["bytes a ray"] = static_cast<double>(lists.bytes()) / static_cast<double>(lists.rays());
-  state.counters["bytes a voxel"] = static_cast<double>(lists.bytes()) / static_cast<double>(sites.count());
+  state.counters["incidences"] = static_cast<double>(lists.incidence_count());
+  state.counters["bytes per ray"] = static_cast<double>(lists.bytes()) / static_cast<double>(lists.rays());
+  state.counters["bytes per voxel"] = static_cast<double>(lists.bytes()) / static_cast<double>(sites.count());
   state.counters["MB"] = static_cast<double>(lists.bytes() + chain->bytes()) / 1e6;
 }
 void Sweep_Beam(benchmark::State& state) { sweep(state, ForwardModel::beam); }

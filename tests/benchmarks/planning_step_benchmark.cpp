@@ -1,5 +1,5 @@
 // A whole planning step (sense at 640 x 480, insert, score 48 candidates at 950 rays each by one gain), and the same
-// step composed of OctoMap's own calls, in one run; then each stage alone with its rays and voxel steps a second.
+// step composed of OctoMap's own calls, in one run; then each stage alone with its rays and voxel steps per second.
 //   build/release/planning_step_benchmark                          both, on all threads
 //   build/release/planning_step_benchmark --benchmark_filter=Step  the two whole steps only
 #include <benchmark/benchmark.h>
@@ -26,7 +26,7 @@ constexpr int views_before = 5;  // the map is neither empty nor done
 struct Setup {
   Configuration configuration;
   TriangleMesh mesh = load_mesh(default_object());
-  RayScene scene{mesh};
+  MeshRayCaster scene{mesh};
   DepthCamera camera{configuration.sensor};
   std::vector<Pose> candidates = candidate_views(configuration.views, Vector3::Zero());
   RayBundle bundle = RayBundle::regular(camera.camera());
@@ -47,8 +47,8 @@ struct Setup {
   void insert_into_tree(const Scan& scan) {
     octomap::Pointcloud cloud;
     const Eigen::Vector3f origin = scan.origin.cast<float>();
-    for (const auto& p : scan.returns) cloud.push_back(p.x(), p.y(), p.z());
-    for (const auto& p : scan.passes) {  // a little beyond the range, so that they carve and do not hit
+    for (const auto& p : scan.hits) cloud.push_back(p.x(), p.y(), p.z());
+    for (const auto& p : scan.misses) {  // a little beyond the range, so that they carve and do not hit
       const Eigen::Vector3f q = origin + 1.01f * (p - origin);
       cloud.push_back(q.x(), q.y(), q.z());
     }
@@ -117,8 +117,8 @@ void Stage_Insert(benchmark::State& state) {
   Setup& s = setup();
   const Scan scan = s.sense(20);
   for (auto _ : state) s.map.insert(scan);
-  state.counters["rays/s"] = benchmark::Counter(double(scan.returns.size() + scan.passes.size()),
-                                                benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["rays/s"] =
+      benchmark::Counter(double(scan.hits.size() + scan.misses.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void Stage_Score(benchmark::State& state) {

@@ -5,7 +5,7 @@
 namespace nextview {
 
 SimulatedViews simulate_views(const TriangleMesh& mesh, const DepthCameraConfig& config, int count) {
-  const RayScene scene(mesh);
+  const MeshRayCaster scene(mesh);
   const DepthCamera camera(config);
   CandidateViewsConfig layout;
   layout.layout = ViewLayout::fibonacci;

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/file/atomic_file.hpp"
-#include "tests/integration/person.hpp"
 #include "tests/integration/random_calls.hpp"
+#include "tests/integration/user.hpp"
 #include "tests/integration/valid_session.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
 
@@ -36,7 +36,7 @@ Configuration tiny_scan() {
 /// A refinement that does not end by itself while a few frames are drawn: it is never tried whether so long a burn-in
 /// is stationary. The settings start the scan over.
 constexpr const char* endless_refinement =
-    "set gibbs.burn_in 50000\nstep\nstep\nrefine 1 100000\nhold-refinement\ncontinue-refinement\ncancel\n"
+    "set gibbs.burn_in 50000\nstep\nstep\nrefine 1 100000\npause-refinement\nresume-refinement\ncancel\n"
     "reset-setting gibbs.burn_in\nstep\nstep";
 
 /// A camera, a map or a sampler that would keep the tests waiting.
@@ -58,33 +58,33 @@ class Commands : public InTemporaryFolder {
   std::filesystem::path file(const char* name) const { return folder_ / name; }
 
   /// Does these lines, each of which must be done, and looks at the window.
-  void walk(Person& person, const std::string& lines) {
+  void walk(User& user, const std::string& lines) {
     SCOPED_TRACE(lines);
-    const std::size_t before = person.worker().log().count();
+    const std::size_t before = user.worker().log().count();
     for (const CommandCall& call : parse_script(lines)) walked_.insert(call.command->name);
-    person.run(lines);
-    const auto log = *person.worker().log().entries();
-    for (std::size_t i = log.size() - (person.worker().log().count() - before); i < log.size(); ++i)
+    user.run(lines);
+    const auto log = *user.worker().log().entries();
+    for (std::size_t i = log.size() - (user.worker().log().count() - before); i < log.size(); ++i)
       for (const CommandCall& call : parse_script(lines))
         EXPECT_FALSE(log[i].text.starts_with(call.command->name + ": ")) << log[i].text;
-    EXPECT_EQ(person.session().message, "");
-    EXPECT_EQ(person.target().gl_error(), 0u);
-    expect_valid(person.session());
-    expect_valid(person.window().state(), person.session());
+    EXPECT_EQ(user.session().message, "");
+    EXPECT_EQ(user.target().gl_error(), 0u);
+    expect_valid(user.session());
+    expect_valid(user.window().state(), user.session());
   }
 
   std::set<std::string> walked_;
 };
 
 TEST_F(Commands, EachIsDoneByAScript) {
-  Person person(tiny_scan(), width, height, scale);
+  User user(tiny_scan(), width, height, scale);
   const auto path = [&](const char* name) { return '"' + file(name).string() + '"'; };
-  walk(person, "frame\nlook-from 30 20\nzoom 2\nstep\nstep\n");
+  walk(user, "frame\nlook-from 30 20\nzoom 2\nstep\nstep\n");
   for (const char* lines : {"take-view",
                             "take-proposal",
-                            "own-view",
-                            "own-view 0.6 -0.6 0.5 0 0 0",
-                            "take-own-view",
+                            "custom-view",
+                            "custom-view 0.6 -0.6 0.5 0 0 0",
+                            "take-custom-view",
                             "look-through",
                             "select-next",
                             "select-taken 1",
@@ -130,62 +130,62 @@ TEST_F(Commands, EachIsDoneByAScript) {
                             "palette",
                             "shortcuts",
                             "shortcuts"}) {
-    if (std::string(lines) == "take-view") walk(person, fmt::format("select-view {}", another(person.session())));
-    walk(person, lines);
+    if (std::string(lines) == "take-view") walk(user, fmt::format("select-view {}", another(user.session())));
+    walk(user, lines);
   }
   for (const char* command : {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel"})
     for (const std::string& value : find_command(command).arguments().front().choices({}))
-      walk(person, fmt::format("{} {}", command, value));
+      walk(user, fmt::format("{} {}", command, value));
   for (const char* kind : {"entropy", "coverage", "divergence", "gain", "time"})
-    walk(person, fmt::format("curves {} entropy", kind));
-  walk(person, "export " + path("a scan") + "\n");
-  walk(person, "save-picture " + path("a picture.png") + "\n");
+    walk(user, fmt::format("curves {} entropy", kind));
+  walk(user, "export " + path("a scan") + "\n");
+  walk(user, "save-picture " + path("a picture.png") + "\n");
   EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
   EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
-  walk(person, "reset\nspeed 0\nplay\npause\n");
-  walk(person, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
-  walk(person, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
-  walk(person, "save-script " + path("a script.txt") + "\n");
+  walk(user, "reset\nspeed 0\nplay\npause\n");
+  walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
+  walk(user, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
+  walk(user, "save-script " + path("a script.txt") + "\n");
   EXPECT_NO_THROW(parse_script(read_file(file("a script.txt"))));
   walked_.insert("reset-settings");  // a large scan: it has a test of its own
   walked_.insert("quit");
-  EXPECT_FALSE(person.window().wants_to_quit());
-  person.run("quit\n");
-  EXPECT_TRUE(person.window().wants_to_quit());
+  EXPECT_FALSE(user.window().wants_to_quit());
+  user.run("quit\n");
+  EXPECT_TRUE(user.window().wants_to_quit());
   for (const Command& command : commands()) EXPECT_TRUE(walked_.contains(command.name)) << command.name;
-  expect_words_for_people(*person.worker().log().entries());
+  expect_words_for_people(*user.worker().log().entries());
 }
 
 /// This part of the test above once depended on how fast the machine was.
 TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
-  Person person(tiny_scan(), width, height, scale);
-  walk(person, endless_refinement);
-  const auto log = *person.worker().log().entries();
+  User user(tiny_scan(), width, height, scale);
+  walk(user, endless_refinement);
+  const auto log = *user.worker().log().entries();
   expect_words_for_people(log);
   const auto cancelled = [](const LogEntry& e) { return e.text.starts_with("Cancelled: the Gibbs map of 2 views"); };
   EXPECT_EQ(std::count_if(log.begin(), log.end(), cancelled), 1);
 }
 
 TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
-  Person person(tiny_scan(), width, height, scale);
-  person.run("reset-settings\n");
+  User user(tiny_scan(), width, height, scale);
+  user.run("reset-settings\n");
   Configuration expected;
   expected.object = tiny_scan().object;
-  EXPECT_EQ(to_toml(person.session().configuration), to_toml(expected));
-  person.run("undo\n");
-  EXPECT_EQ(to_toml(person.session().configuration), to_toml(tiny_scan()));
+  EXPECT_EQ(to_toml(user.session().configuration), to_toml(expected));
+  user.run("undo\n");
+  EXPECT_EQ(to_toml(user.session().configuration), to_toml(tiny_scan()));
 }
 
 TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
   const std::string script = '"' + file("script.txt").string() + '"';
-  Person first(tiny_scan(), width, height, scale);
+  User first(tiny_scan(), width, height, scale);
   first.run(
       "step\nstep\nselect-view 3\nzoom 1\nzoom 1\nslice-axis x\nslice-at 0.1 0.2\nslice-at 0.05\n"
-      "set planner.combined_weights \"\"\nstep\nown-view 0.6 -0.6 0.5 0 0 0\ntake-own-view\nstep\nundo\nstep\n"
+      "set planner.combined_weights \"\"\nstep\ncustom-view 0.6 -0.6 0.5 0 0 0\ntake-custom-view\nstep\nundo\nstep\n"
       "inspect-ray 3\ninspect-voxel 0 0 0\nsave-script " +
       script + "\n");
   const std::string saved = read_file(file("script.txt"));
-  Person second(tiny_scan(), width, height, scale);
+  User second(tiny_scan(), width, height, scale);
   second.run(saved);
   expect_valid(second.session());
   ASSERT_EQ(second.session().records.size(), first.session().records.size());
@@ -199,13 +199,13 @@ TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
 }
 
 TEST_F(Commands, AThousandAtRandomLeaveAValidSession) {
-  Person person(tiny_scan(), width, height, scale);
+  User user(tiny_scan(), width, height, scale);
   // Other commands: --gtest_random_seed.
   RandomCalls random(20240229 + std::uint64_t(GTEST_FLAG_GET(random_seed)), folder_, file("tiny scan.toml"));
   std::size_t done = 0, refused = 0, views = 0;
   while (done + refused < 1000) {
     for (std::size_t batch = 1 + random.below(12); batch-- > 0;) {
-      const auto [command, values] = random.next(person.session());
+      const auto [command, values] = random.next(user.session());
       const bool key = random.below(5) == 0 && !command->shortcuts.empty();
       // The default scan is a large one.
       if (command->name.starts_with("reset-setting") && random.below(6) != 0) continue;
@@ -214,35 +214,35 @@ TEST_F(Commands, AThousandAtRandomLeaveAValidSession) {
         ++done;
         if (key) {
           const Shortcut& shortcut = command->shortcuts.front();
-          if (shortcut.control) person.window().push(input::KeyChange{Key::control, true});
-          person.type(shortcut.key);
-          if (shortcut.control) person.window().push(input::KeyChange{Key::control, false});
+          if (shortcut.control) user.window().push(input::KeyChange{Key::control, true});
+          user.type(shortcut.key);
+          if (shortcut.control) user.window().push(input::KeyChange{Key::control, false});
         } else {
-          person.window().run_script({std::move(call)});
+          user.window().run_script({std::move(call)});
         }
       } catch (const std::invalid_argument& error) {
         ++refused;
         EXPECT_THAT(error.what(), testing::HasSubstr(command->name));
       }
     }
-    person.wait();
-    const SessionSnapshot& s = person.session();
+    user.wait();
+    const SessionSnapshot& s = user.session();
     SCOPED_TRACE(fmt::format("after {} commands", done + refused));
     expect_valid(s);
-    expect_valid(person.window().state(), s);
-    EXPECT_EQ(person.target().gl_error(), 0u);
-    ASSERT_FALSE(person.window().wants_to_quit());
+    expect_valid(user.window().state(), s);
+    EXPECT_EQ(user.target().gl_error(), 0u);
+    ASSERT_FALSE(user.window().wants_to_quit());
     views += s.records.size();
-    if (is_large(s.configuration)) person.run("open \"" + file("tiny scan.toml").string() + "\"\n");
+    if (is_large(s.configuration)) user.run("open \"" + file("tiny scan.toml").string() + "\"\n");
     if (HasFailure()) break;
   }
   EXPECT_GT(refused, 20u);
   EXPECT_GT(views, 50u) << "there was hardly ever anything to work on";
-  expect_words_for_people(*person.worker().log().entries());
-  person.run("open \"" + file("tiny scan.toml").string() + "\"\nstep\n");
-  EXPECT_EQ(person.session().records.size(), 1u);
-  EXPECT_EQ(person.session().message, "");
-  EXPECT_EQ(person.target().gl_error(), 0u);
+  expect_words_for_people(*user.worker().log().entries());
+  user.run("open \"" + file("tiny scan.toml").string() + "\"\nstep\n");
+  EXPECT_EQ(user.session().records.size(), 1u);
+  EXPECT_EQ(user.session().message, "");
+  EXPECT_EQ(user.target().gl_error(), 0u);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class Background {
   pid_t pid_ = 0;
 };
 
-/// What Xvfb keeps of its screen in a file: the X window dump format, 32 bits a pixel.
+/// What Xvfb keeps of its screen in a file: the X window dump format, 32 bits per pixel.
 Image read_screen(const std::filesystem::path& file) {
   const std::string dump = read_file(file);
   const auto number = [&](std::size_t i) {

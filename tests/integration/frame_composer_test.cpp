@@ -6,8 +6,8 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 
-#include "tests/integration/person.hpp"
 #include "tests/integration/small_scan.hpp"
+#include "tests/integration/user.hpp"
 
 namespace nextview {
 namespace {
@@ -43,51 +43,51 @@ class Comparison : public ::testing::Test {
  protected:
   void look(const char* what, int frames = 1) {
     for (int i = 0; i < frames && !HasFailure(); ++i) {
-      const bool differs = person_.window().draw(frame);
-      drawn_partly_ += differs && person_.window().pixels_drawn() < pixels() / 2;
-      const Image seen = person_.look();
-      ASSERT_TRUE(seen == drawn_whole(person_.target())) << what << ", frame " << i;
+      const bool differs = user_.window().draw(frame);
+      drawn_partly_ += differs && user_.window().pixels_drawn() < pixels() / 2;
+      const Image seen = user_.look();
+      ASSERT_TRUE(seen == drawn_whole(user_.target())) << what << ", frame " << i;
     }
   }
   /// While the session's worker is busy, and until nothing new comes.
   void look_until_done(const char* what) {
     do look(what);
-    while (!HasFailure() && (person_.worker().progress().busy || person_.window().seconds_to_next_frame() == 0.0));
+    while (!HasFailure() && (user_.worker().progress().busy || user_.window().seconds_to_next_frame() == 0.0));
   }
   void hover(double x, double y) {
-    person_.move(x, y);
+    user_.move(x, y);
     look("hovering");
   }
-  std::size_t pixels() { return std::size_t(person_.target().width()) * std::size_t(person_.target().height()); }
+  std::size_t pixels() { return std::size_t(user_.target().width()) * std::size_t(user_.target().height()); }
 
-  Person person_{small_scan()};
-  const Layout layout_ = person_.window().layout();
+  User user_{small_scan()};
+  const Layout layout_ = user_.window().layout();
   int drawn_partly_ = 0;
 };
 
 TEST_F(Comparison, StepsAndPanels) {
-  person_.type(key('S'));
+  user_.type(key('S'));
   look_until_done("a step");
   for (const char* script : {"panel view\n", "panel layers\n", "select-view 3\n", "select-view 4\n",
                              "panel inspector\n", "panel log\n", "panel candidates\n", "panel curves\n", "palette\n"}) {
-    person_.window().run_script(parse_script(script));
+    user_.window().run_script(parse_script(script));
     look_until_done(script);
   }
-  person_.write("vi");
+  user_.write("vi");
   look_until_done("a text in the palette");
-  person_.type(Key::escape);
+  user_.type(Key::escape);
   look_until_done("the palette is closed");
   EXPECT_GT(drawn_partly_, 10);
 }
 
 TEST_F(Comparison, PointerOverEverything) {
-  person_.type(key('S'));
-  person_.wait();
+  user_.type(key('S'));
+  user_.wait();
   for (int i = 0; i <= 40; ++i) hover(1279 * i / 40.0, 12 + 780 * (i * 7 % 41) / 40.0);
   for (const Rectangle& r : {layout_.left, layout_.right, layout_.bottom, layout_.scene}) {
     hover(r.x + r.width / 2, r.y + r.height / 2);
     for (const double steps : {-1, -1, 1, 1}) {
-      person_.window().push(input::Wheel{steps});
+      user_.window().push(input::Wheel{steps});
       look("scrolling", 2);
     }
     look("after scrolling", 15);
@@ -95,70 +95,70 @@ TEST_F(Comparison, PointerOverEverything) {
   hover(50, layout_.control_bar.y + 25);
   look("a tooltip", 60);
   for (double x = 10; x < 300; x += 40) {
-    person_.click(x, 12);
+    user_.click(x, 12);
     look("a menu", 5);
     hover(x + 20, 60);
     hover(x + 20, 90);
-    person_.type(Key::escape);
+    user_.type(Key::escape);
     look("a menu is closed", 3);
   }
   EXPECT_GT(drawn_partly_, 40);
 }
 
 TEST_F(Comparison, TurningAndResizing) {
-  person_.run("step\nselect-view 3\n");
+  user_.run("step\nselect-view 3\n");
   const Rectangle& scene = layout_.scene;
   hover(scene.x + 40, scene.y + 100);
-  person_.press();
+  user_.press();
   for (int i = 0; i < 12; ++i) {
-    person_.move(scene.x + 40 + 9 * i, scene.y + 100 + 4 * i);
+    user_.move(scene.x + 40 + 9 * i, scene.y + 100 + 4 * i);
     look("turning");
   }
-  person_.release();
+  user_.release();
   look("the camera comes to rest", 20);
   EXPECT_GT(drawn_partly_, 10);
   for (const auto& [width, height] : {std::pair{1200, 720}, {1240, 760}, {1280, 800}}) {
-    person_.target().window().SetSize(width, height);
+    user_.target().window().SetSize(width, height);
     look("another size", 4);
   }
 }
 
 TEST_F(Comparison, DrawsOnlyWhatIsNew) {
-  person_.type(key('S'));
-  person_.wait();
-  EXPECT_FALSE(person_.window().draw(frame)) << "nothing happened";
+  user_.type(key('S'));
+  user_.wait();
+  EXPECT_FALSE(user_.window().draw(frame)) << "nothing happened";
   const Rectangle& panel = layout_.right;
   hover(panel.x + 100, panel.y + 106);
-  person_.move(panel.x + 100, panel.y + 106 + 42);
-  EXPECT_TRUE(person_.window().draw(frame));
-  EXPECT_LT(person_.window().pixels_drawn(), pixels() / 2) << "another row is lit";
-  person_.wait();
-  person_.window().push(input::Expose{});
-  EXPECT_TRUE(person_.window().draw(frame)) << "the display lost its picture";
-  EXPECT_EQ(person_.window().pixels_drawn(), pixels());
+  user_.move(panel.x + 100, panel.y + 106 + 42);
+  EXPECT_TRUE(user_.window().draw(frame));
+  EXPECT_LT(user_.window().pixels_drawn(), pixels() / 2) << "another row is lit";
+  user_.wait();
+  user_.window().push(input::Expose{});
+  EXPECT_TRUE(user_.window().draw(frame)) << "the display lost its picture";
+  EXPECT_EQ(user_.window().pixels_drawn(), pixels());
 }
 
 TEST_F(Comparison, EdgesAreSmoothAgainWhenTheCameraIsAtRest) {
   const Rectangle& scene = layout_.scene;
-  person_.move(scene.x + 60, scene.y + 100);
-  person_.press();
-  person_.move(scene.x + 100, scene.y + 100);
-  person_.wait();
-  const Image in_motion = person_.look();
-  EXPECT_GT(person_.window().seconds_to_next_frame(), 0.0);
-  EXPECT_LE(person_.window().seconds_to_next_frame(), 0.15) << "the still picture is late";
-  person_.window().draw(0.1);
-  person_.window().draw(0.1);
-  person_.wait();
-  const Image at_rest = person_.look();
+  user_.move(scene.x + 60, scene.y + 100);
+  user_.press();
+  user_.move(scene.x + 100, scene.y + 100);
+  user_.wait();
+  const Image in_motion = user_.look();
+  EXPECT_GT(user_.window().seconds_to_next_frame(), 0.0);
+  EXPECT_LE(user_.window().seconds_to_next_frame(), 0.15) << "the still picture is late";
+  user_.window().draw(0.1);
+  user_.window().draw(0.1);
+  user_.wait();
+  const Image at_rest = user_.look();
   EXPECT_FALSE(at_rest == in_motion);
-  EXPECT_GT(person_.window().seconds_to_next_frame(), 0.15) << "it is drawn once";
-  person_.run("toggle-region\ntoggle-region\n");
-  EXPECT_TRUE(person_.look() == at_rest);
-  person_.run("zoom 1\n");
-  const Image zoomed = person_.look();
-  person_.window().draw(0.2);
-  EXPECT_TRUE(person_.look() == zoomed) << "a script's camera does not follow the pointer";
+  EXPECT_GT(user_.window().seconds_to_next_frame(), 0.15) << "it is drawn once";
+  user_.run("toggle-region\ntoggle-region\n");
+  EXPECT_TRUE(user_.look() == at_rest);
+  user_.run("zoom 1\n");
+  const Image zoomed = user_.look();
+  user_.window().draw(0.2);
+  EXPECT_TRUE(user_.look() == zoomed) << "a script's camera does not follow the pointer";
 }
 
 }  // namespace

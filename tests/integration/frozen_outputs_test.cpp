@@ -34,12 +34,20 @@ std::vector<std::string> names() {
   return names;
 }
 
-/// Columns have moved on: `old new` a line.
+/// Columns and keys have moved on: a line `old new` for each.
 std::string now_called(const std::string& column) {
   std::istringstream lines(read_file(frozen / "renamed_columns.txt"));
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with(column + " ")) return line.substr(column.size() + 1);
   return column;
+}
+
+/// The same of the path of a value in JSON, "/diagnostics/sweeps".
+std::string path_now_called(const std::string& path) {
+  std::string now;
+  std::istringstream keys(path.substr(1));
+  for (std::string key; std::getline(keys, key, '/');) now += "/" + now_called(key);
+  return now;
 }
 
 std::optional<double> number(const std::string& text) {
@@ -67,7 +75,8 @@ void expect_same_table(const std::string& before, const std::string& now, const 
 
 void expect_same_json(const std::string& before, const std::string& now, const std::string& what) {
   const Json old_values = Json::parse(before).flatten(), new_values = Json::parse(now).flatten();
-  for (const auto& [key, value] : old_values.items()) {
+  for (const auto& [path, value] : old_values.items()) {
+    const std::string key = path_now_called(path);
     ASSERT_TRUE(new_values.contains(key)) << what << ": " << key;
     EXPECT_TRUE(same(value.is_string() ? value.get<std::string>() : value.dump(),
                      new_values[key].is_string() ? new_values[key].get<std::string>() : new_values[key].dump()))

@@ -42,7 +42,8 @@ class OutputFiles : public ::testing::Test {
 };
 
 TEST_F(OutputFiles, WhatCannotBePrintedIsAFailure) {
-  for (const char* arguments : {"--help", "--version", "scan --help", "window --list-commands", "posterior --toy list"})
+  for (const char* arguments :
+       {"--help", "--version", "scan --help", "window --list-commands", "posterior --problem list"})
     expect_failure(arguments, ">/dev/full", "standard output: cannot be written: No space left on device");
   expect_failure(score(), ">/dev/full", "standard output: cannot be written: No space left on device");
   expect_failure(score() + " --csv -", ">/dev/full", "standard output: cannot be written: No space left on device");

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* toys[] = {"corridor", "contradiction", "slot", "grid"};
+constexpr const char* problems[] = {"corridor", "contradiction", "slot", "grid"};
 
 struct Row {
   double exact = 0.0, sampler = 0.0, octomap = 0.0, reach = 0.0;
@@ -48,10 +48,10 @@ std::vector<Row> rows_of(const std::string& arguments) {
 }
 
 TEST(Posterior, theSamplerIsWithinAHundredthOfTheExactPosterior) {
-  for (const std::string toy : toys)
+  for (const std::string problem : problems)
     for (const std::string model : {"attenuation", "beam"}) {
-      SCOPED_TRACE(toy + ", " + model);
-      const std::vector<Row> rows = rows_of("--toy " + toy + " --model " + model);
+      SCOPED_TRACE(problem + ", " + model);
+      const std::vector<Row> rows = rows_of("--problem " + problem + " --model " + model);
       EXPECT_GE(rows.size(), 10u);
       for (std::size_t voxel = 0; voxel < rows.size(); ++voxel) {
         const Row& row = rows[voxel];
@@ -66,23 +66,23 @@ TEST(Posterior, theSamplerIsWithinAHundredthOfTheExactPosterior) {
 }
 
 /// What the explanations say is what the numbers say.
-TEST(Posterior, theToysShowWhereIndependenceGoesWrong) {
-  const std::vector<Row> corridor = rows_of("--toy corridor");
+TEST(Posterior, theProblemsShowWhereIndependenceGoesWrong) {
+  const std::vector<Row> corridor = rows_of("--problem corridor");
   EXPECT_GT(corridor[5].octomap, 0.5);
   EXPECT_GT(corridor[6].octomap, 0.5);
   EXPECT_GT(corridor[5].exact, 0.9);
   EXPECT_LT(corridor[6].exact, 0.2);
   EXPECT_LT(corridor[8].reach, 0.5);
-  const std::vector<Row> filled = rows_of("--toy contradiction");
+  const std::vector<Row> filled = rows_of("--problem contradiction");
   EXPECT_GT(std::min(filled[4].exact, filled[7].exact), 0.95);
-  const std::vector<Row> beam = rows_of("--toy contradiction --model beam");
+  const std::vector<Row> beam = rows_of("--problem contradiction --model beam");
   EXPECT_NEAR(beam[4].exact, 0.5, 0.2);
   EXPECT_NEAR(beam[7].exact, 0.5, 0.2);
-  const std::vector<Row> slot = rows_of("--toy slot");
+  const std::vector<Row> slot = rows_of("--problem slot");
   EXPECT_GT(slot[5].octomap, 0.8) << "the opening";
   EXPECT_LT(slot[5].exact, 0.05);
   for (const int wall : {4, 6, 7}) EXPECT_GT(slot[wall].exact, 0.95);
-  const std::vector<Row> grid = rows_of("--toy grid");
+  const std::vector<Row> grid = rows_of("--problem grid");
   EXPECT_NEAR(grid[7].octomap, 0.4, 1e-6);
   EXPECT_LT(grid[7].exact, 0.1);
 }
@@ -90,7 +90,7 @@ TEST(Posterior, theToysShowWhereIndependenceGoesWrong) {
 TEST(Posterior, printsATableAndWhatToLookAt) {
   const TemporaryFolder folder;
   const std::string csv = (folder.path() / "slot.csv").string();
-  const Result run = nextview("posterior --toy slot --sweeps 1000 --csv " + csv);
+  const Result run = nextview("posterior --problem slot --sweeps 1000 --csv " + csv);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* word : {"slot: ", "exact", "sampler", "difference", "OctoMap", "hidden", "opening"})
     EXPECT_THAT(run.out, HasSubstr(word));
@@ -98,18 +98,27 @@ TEST(Posterior, printsATableAndWhatToLookAt) {
 }
 
 TEST(Posterior, theSeedAloneDecides) {
-  const std::string command = "posterior --toy corridor --sweeps 500 --csv - --seed ";
+  const std::string command = "posterior --problem corridor --sweeps 500 --csv - --seed ";
   EXPECT_EQ(nextview("--threads 1 " + command + "7").out, nextview("--threads 2 " + command + "7").out);
   EXPECT_NE(nextview(command + "7").out, nextview(command + "8").out);
 }
 
-TEST(Posterior, listsItsToys) {
-  const Result list = nextview("posterior --toy list"), help = nextview("posterior --help");
+TEST(Posterior, itsFormerOptionIsReadAndSaid) {
+  const Result now = nextview("posterior --problem corridor --sweeps 500 --csv -");
+  const Result former = nextview("posterior --toy corridor --sweeps 500 --csv -");
+  EXPECT_EQ(former.exit_code, 0);
+  EXPECT_EQ(former.out, now.out);
+  EXPECT_THAT(former.err, HasSubstr("--problem"));
+  EXPECT_EQ(now.err, "");
+}
+
+TEST(Posterior, listsItsProblems) {
+  const Result list = nextview("posterior --problem list"), help = nextview("posterior --help");
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* toy : toys) {
-    EXPECT_THAT(list.out, HasSubstr(toy));
-    EXPECT_THAT(help.out, HasSubstr(toy));
+  for (const char* problem : problems) {
+    EXPECT_THAT(list.out, HasSubstr(problem));
+    EXPECT_THAT(help.out, HasSubstr(problem));
   }
   EXPECT_THAT(help.out, HasSubstr("Example"));
 }
@@ -122,16 +131,16 @@ TEST(Posterior, badInputIsOneLineAndExitCode2) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_THAT(run.err, HasSubstr(word));
   };
-  expect_error("", "--toy");
-  expect_error("--toy teapot", "slot");
-  expect_error("--toy slot --model telescope", "attenuation");
+  expect_error("", "--problem");
+  expect_error("--problem teapot", "slot");
+  expect_error("--problem slot --model telescope", "attenuation");
   for (const char* prior : {"0", "1", "nan", "-0.5", "much"})
-    expect_error(std::string("--toy slot --prior ") + prior, "prior");
-  for (const char* sigma : {"0", "nan", "inf"}) expect_error(std::string("--toy slot --sigma ") + sigma, "sigma");
-  expect_error("--toy slot --sigma -0.001", "sigma");
+    expect_error(std::string("--problem slot --prior ") + prior, "prior");
+  for (const char* sigma : {"0", "nan", "inf"}) expect_error(std::string("--problem slot --sigma ") + sigma, "sigma");
+  expect_error("--problem slot --sigma -0.001", "sigma");
   for (const char* sweeps : {"0", "-5", "99999999999"})
-    expect_error(std::string("--toy slot --sweeps ") + sweeps, "sweeps");
-  expect_error("--toy slot --csv /no/such/folder/slot.csv", "/no/such/folder");
+    expect_error(std::string("--problem slot --sweeps ") + sweeps, "sweeps");
+  expect_error("--problem slot --csv /no/such/folder/slot.csv", "/no/such/folder");
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class PrintedNumbers : public ::testing::Test {
   const TemporaryFolder folder_;
 };
 
-// step, view, gain, moved [m], returns, new [voxels], coverage [% visible], entropy [kbit], log loss [nats], seconds
+// step, view, gain, moved [m], hits, new [voxels], coverage [% visible], entropy [kbit], log loss [nats], seconds
 TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
   const std::string out = run(quick + "--out " + in("out"));
   EXPECT_THAT(out, HasSubstr("% visible"));
@@ -75,7 +75,7 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
                                                i == 0 ? "start" : steps[i].at("view"),
                                                fmt::format("{:.5g}", cell("gain[voxels]")),
                                                fmt::format("{:.2f}", cell("distance[m]")),
-                                               steps[i].at("returns"),
+                                               steps[i].at("hits"),
                                                steps[i].at("new_voxels"),
                                                fmt::format("{:.1f}", 100.0 * cell("coverage_visible@5mm")),
                                                fmt::format("{:.1f}", cell("entropy[bits]") / 1e3),
@@ -110,8 +110,8 @@ TEST_F(PrintedNumbers, ARefinementsTableIsThatOfItsMetrics) {
   expect("D_KL, all visited, touch", "/touch truth/visited/d_kl_nats", "{:.1f}", 1e-3);
   expect("surface recall", "/surface_recall_touch", "{:.1f}", 100);
   const auto& d = metrics["diagnostics"];
-  EXPECT_THAT(out, HasSubstr(fmt::format("{} rays joined to {}, {} voxels informed", d["measured_rays"].get<int>(),
-                                         d["joined_rays"].get<int>(), d["informed_voxels"].get<int>())));
+  EXPECT_THAT(out, HasSubstr(fmt::format("{} rays merged to {}, {} voxels informed", d["measured_rays"].get<int>(),
+                                         d["merged_rays"].get<int>(), d["informed_voxels"].get<int>())));
   const auto informed = behind(out, "voxels measured, informed");
   EXPECT_EQ(informed[1], std::to_string(d["informed_voxels"].get<int>()));
 

@@ -50,7 +50,7 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 21)
       << "something else was left behind";
   const std::string steps = read_file(folder.path() / "steps.csv");
-  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row a view";
+  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row per view";
   const std::string scores = read_file(folder.path() / "scores.csv");
   EXPECT_EQ(std::count(scores.begin(), scores.end(), '\n'), 1 + 3 * 12) << "every candidate at every step";
   EXPECT_NO_THROW(read_octree(folder.path() / "map.ot"));

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "tests/integration/person.hpp"
+#include "tests/integration/user.hpp"
 #include "tests/unit/workbench/small_scan.hpp"
 
 namespace nextview {
@@ -12,7 +12,7 @@ namespace {
 
 using testing::ElementsAreArray;
 
-/// By gain alone: all utilities but those of visited candidates, which are 0, are over 0.
+/// By gain alone: all utilities but those of taken candidates, which are 0, are over 0.
 Configuration by_gain_alone() {
   Configuration c = small_scan();
   c.planner.gain = "occlusion-aware";
@@ -36,43 +36,43 @@ ValueRange utilities_left(const SessionSnapshot& s) {
 class SceneRanges : public testing::Test {
  protected:
   void expect_utilities(const ValueRange& range, bool locked) {
-    const Legend* l = legend(person_.window().scene().layers().views().legends(), "utility");
+    const Legend* l = legend(user_.window().scene().layers().views().legends(), "utility");
     ASSERT_NE(l, nullptr);
     EXPECT_EQ(l->range->low, range.first);
     EXPECT_EQ(l->range->high, range.second);
     EXPECT_EQ(l->locked, locked);
   }
-  Person person_{by_gain_alone(), 640, 400, 0.5};
+  User user_{by_gain_alone(), 640, 400, 0.5};
 };
 
 TEST_F(SceneRanges, UtilitiesAreThoseOfTheCandidatesThatAreLeft) {
-  person_.run("step\nstep\nstep\n");
-  const ValueRange now = utilities_left(person_.session());
-  ASSERT_GT(now.first, 0) << "a visited candidate's 0 would not show";
+  user_.run("step\nstep\nstep\n");
+  const ValueRange now = utilities_left(user_.session());
+  ASSERT_GT(now.first, 0) << "a taken candidate's 0 would not show";
   expect_utilities(now, false);
-  person_.run("lock-ranges\n");
+  user_.run("lock-ranges\n");
   expect_utilities(now, true);
-  person_.run("step\n");
-  EXPECT_NE(utilities_left(person_.session()), now);
+  user_.run("step\n");
+  EXPECT_NE(utilities_left(user_.session()), now);
   expect_utilities(now, true);
 }
 
 TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
-  person_.run("step\ncloud-colour height\n");
+  user_.run("step\ncloud-colour height\n");
   const auto heights = [&] {
-    const auto& points = person_.session().cloud->points;
+    const auto& points = user_.session().cloud->points;
     const auto [low, high] =
         std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
     return ValueRange(low->z(), high->z());
   };
   const auto shown = [&] {
-    for (const Legend& l : person_.window().scene().layers().cloud().legends())
+    for (const Legend& l : user_.window().scene().layers().cloud().legends())
       if (l.range) return ValueRange(l.range->low, l.range->high);
     ADD_FAILURE() << "no legend";
     return ValueRange();
   };
   const auto most = [&] {
-    for (const Legend& l : person_.window().scene().layers().rays().legends())
+    for (const Legend& l : user_.window().scene().layers().rays().legends())
       if (l.range) return l.range->high;
     ADD_FAILURE() << "no legend";
     return 0.0;
@@ -81,13 +81,13 @@ TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
   EXPECT_NEAR(shown().first, first.first, 1e-6);
   EXPECT_NEAR(shown().second, first.second, 1e-6);
   const double first_most = most();
-  person_.run("step\nstep\n");
+  user_.run("step\nstep\n");
   const ValueRange third = heights();
   ASSERT_NE(third, first) << "the scan tells nothing of this";
   EXPECT_NEAR(shown().second, third.second, 1e-6);
   EXPECT_NE(most(), first_most);
   const double locked_most = most();
-  person_.run("undo\nundo\nlock-ranges\nstep\nstep\n");
+  user_.run("undo\nundo\nlock-ranges\nstep\nstep\n");
   EXPECT_NEAR(shown().first, first.first, 1e-6);
   EXPECT_NEAR(shown().second, first.second, 1e-6);
   EXPECT_EQ(most(), first_most);
@@ -95,51 +95,52 @@ TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
 }
 
 TEST_F(SceneRanges, ASliceShowsFewerVoxelsAndAnotherPlaceOthers) {
-  person_.run("step\nstep\n");
-  const std::size_t all = person_.window().scene().voxel_faces();
-  person_.run("slice-axis z\n");
-  const std::size_t middle = person_.window().scene().voxel_faces();
+  user_.run("step\nstep\n");
+  const std::size_t all = user_.window().scene().voxel_faces();
+  user_.run("slice-axis z\n");
+  const std::size_t middle = user_.window().scene().voxel_faces();
   EXPECT_GT(middle, 0u);
   EXPECT_LT(middle, all);
-  person_.run("slice-at 0.6\n");
-  EXPECT_EQ(person_.window().scene().voxel_faces(), 0u) << "there is nothing above the object";
-  person_.run("slice-axis none\n");
-  EXPECT_EQ(person_.window().scene().voxel_faces(), all);
+  user_.run("slice-at 0.6\n");
+  EXPECT_EQ(user_.window().scene().voxel_faces(), 0u) << "there is nothing above the object";
+  user_.run("slice-axis none\n");
+  EXPECT_EQ(user_.window().scene().voxel_faces(), all);
 }
 
 TEST_F(SceneRanges, ASelectionLastsAsLongAsWhatItIsOf) {
-  using Kind = LookedAt::Kind;
-  const auto selection = [&] { return person_.window().state().selection; };
-  person_.run("step\nstep\nselect-view 3\ninspect-voxel 0 0 0\nstep\n");
+  using Kind = ViewSelection::Kind;
+  const auto selection = [&] { return user_.window().state().selection; };
+  user_.run("step\nstep\nselect-view 3\ninspect-voxel 0 0 0\nstep\n");
   EXPECT_TRUE(selection().view.is(Kind::candidate, 3)) << "a step leaves it";
   EXPECT_TRUE(selection().voxel);
-  person_.run("select-taken 3\nundo\n");
-  EXPECT_TRUE(selection().view == LookedAt{}) << "a view that is no more";
+  user_.run("select-taken 3\nundo\n");
+  EXPECT_TRUE(selection().view == ViewSelection{}) << "a view that is no more";
   EXPECT_TRUE(selection().voxel);
-  person_.run("select-taken 2\nredo\n");
+  user_.run("select-taken 2\nredo\n");
   EXPECT_TRUE(selection().view.is(Kind::taken, 1));
-  person_.run("set seed 5\n");
+  user_.run("set seed 5\n");
   EXPECT_EQ(selection(), Selection{}) << "of another scan";
-  EXPECT_EQ(person_.window().title(), "Nextview - sphere - view 0 of 4");
+  EXPECT_EQ(user_.window().title(), "Nextview - sphere - view 0 of 4");
 }
 
 /// Lines that only differ in their values, as of a slider, are one; those that add up, or name a thing, are not.
 TEST_F(SceneRanges, TheScriptHasWhatWasDoneAndNothingElse) {
-  person_.run(
+  user_.run(
       "step\nzoom 1\nzoom 1\nthreshold 0.2\nthreshold 0.4\nslice-axis x\nslice-at 0.1\nslice-at 0.2\nslice-at 0.2 0.1\n"
-      "select-view 1\nselect-view 2\npalette\npalette\nshortcuts\nshortcuts\nhold-refinement\nselect-view 99\nframe\n");
+      "select-view 1\nselect-view 2\npalette\npalette\nshortcuts\nshortcuts\npause-refinement\nselect-view "
+      "99\nframe\n");
   const std::vector<std::string> expected = {"step",          "zoom 1",       "zoom 1",           "threshold 0.4",
                                              "slice-axis x",  "slice-at 0.2", "slice-at 0.2 0.1", "select-view 1",
                                              "select-view 2", "frame"};
-  std::vector<std::string> script = person_.window().state().script;
+  std::vector<std::string> script = user_.window().state().script;
   ASSERT_GE(script.size(), expected.size());
   script.erase(script.begin(), script.end() - long(expected.size()));
   EXPECT_THAT(script, ElementsAreArray(expected));
   std::vector<std::string> warnings;
-  for (const LogEntry& entry : *person_.worker().log().entries())
+  for (const LogEntry& entry : *user_.worker().log().entries())
     if (entry.level == LogEntry::Level::warning && !entry.text.starts_with("The ranking"))
       warnings.push_back(entry.text);
-  EXPECT_THAT(warnings, testing::ElementsAre("hold-refinement: the sampler does not run",
+  EXPECT_THAT(warnings, testing::ElementsAre("pause-refinement: the sampler does not run",
                                              "select-view: there are 8 candidates, from 0"));
 }
 

@@ -61,7 +61,7 @@ TEST_F(Signals, WhatIsIgnoredStaysIgnored) {
 TEST_F(Signals, WhatHasNothingToKeepEndsWithTheSameCode) {
   ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);  // nobody reads from it: writing to it does not end
   for (const char* signal : {"INT", "TERM", "HUP"}) {
-    const Result run = signalled("posterior --toy slot --sweeps 4 --csv " + in("pipe"), "sleep 3",
+    const Result run = signalled("posterior --problem slot --sweeps 4 --csv " + in("pipe"), "sleep 3",
                                  fmt::format("kill -{} $nextview", signal));
     EXPECT_EQ(run.exit_code, 130) << signal;
     EXPECT_EQ(run.err, "nextview: stopped\n") << signal;

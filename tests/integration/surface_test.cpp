@@ -61,7 +61,7 @@ void expect_parts(const json& surface, const fs::path& folder, const std::string
   EXPECT_NEAR(double(surface["area_seen_m2"]) + double(surface["area_unseen_m2"]), surface["area_m2"], 1e-6);
 }
 
-void expect_sane(const json& surface, const fs::path& folder, const std::string& name, bool inspected) {
+void expect_sane(const json& surface, const fs::path& folder, const std::string& name, bool has_error) {
   SCOPED_TRACE(name);
   expect_parts(surface, folder, name);
   const TriangleMesh mesh = read(folder / (name + ".ply"));
@@ -78,9 +78,9 @@ void expect_sane(const json& surface, const fs::path& folder, const std::string&
     EXPECT_LE(opening["length_m"], shorter);
     shorter = opening["length_m"];
   }
-  ASSERT_EQ(surface.contains("inspection"), inspected);
-  if (!inspected) return;
-  const json& i = surface["inspection"];
+  ASSERT_EQ(surface.contains("surface_error"), has_error);
+  if (!has_error) return;
+  const json& i = surface["surface_error"];
   EXPECT_NEAR(double(i["area_seen_m2"]) + double(i["area_unseen_m2"]), surface["area_m2"], 1e-6);
   EXPECT_LE(std::abs(double(i["bias_m"])), double(i["rms_m"]));
   EXPECT_LE(i["percentile_50_m"], i["percentile_95_m"]);
@@ -120,7 +120,7 @@ TEST_F(Surfaces, AScanOfASphereIsASphereInMillimetres) {
   }
   const double radius = 0.25, area = 4.0 * std::numbers::pi * radius * radius;  // [m, m^2]
   EXPECT_NEAR(double(surfaces("out")["surface_cloud"]["area_m2"]), area, 0.02 * area);
-  EXPECT_LT(surfaces("out")["surface_cloud"]["inspection"]["percentile_95_m"], 0.002);
+  EXPECT_LT(surfaces("out")["surface_cloud"]["surface_error"]["percentile_95_m"], 0.002);
 }
 
 TEST_F(Surfaces, OneViewIsEnoughAndPicturesAreDrawn) {
@@ -135,9 +135,9 @@ TEST_F(Surfaces, OneViewIsEnoughAndPicturesAreDrawn) {
   EXPECT_THAT(printed, HasSubstr("is the hull of what no view saw"));
   EXPECT_THAT(printed.substr(printed.find("Surface of the occ")), Not(HasSubstr("watertight")));
   EXPECT_EQ(found["surface_map"]["watertight"], true) << "closed where no view has looked";
-  EXPECT_GT(found["surface_map"]["inspection"]["area_unseen_m2"], 0.0);
+  EXPECT_GT(found["surface_map"]["surface_error"]["area_unseen_m2"], 0.0);
   EXPECT_GT(found["surface_cloud"]["openings"], 0) << "open where no view has looked";
-  EXPECT_EQ(found["surface_cloud"]["inspection"]["area_unseen_m2"], 0.0);
+  EXPECT_EQ(found["surface_cloud"]["surface_error"]["area_unseen_m2"], 0.0);
 }
 
 TEST_F(Surfaces, NoneIfNotWanted) {

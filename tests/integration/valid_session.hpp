@@ -18,7 +18,7 @@ inline void expect_record(const SessionSnapshot& s, std::size_t k) {
   EXPECT_TRUE(r.T_world_camera.matrix().allFinite());
   EXPECT_TRUE(std::isfinite(r.entropy) && std::isfinite(r.realised_gain) && std::isfinite(r.gain));
   EXPECT_TRUE(!r.ranking.best || *r.ranking.best < s.candidates.size());
-  EXPECT_EQ(s.scans[k]->returns.size(), r.points);
+  EXPECT_EQ(s.scans[k]->hits.size(), r.points);
 }
 
 inline void expect_gibbs(const SessionSnapshot& s) {
@@ -47,7 +47,7 @@ inline void expect_valid(const SessionSnapshot& s) {
     EXPECT_LT(*s.next_candidate, s.candidates.size());
     EXPECT_TRUE(s.available(*s.next_candidate) || !s.finished.empty());
   }
-  EXPECT_FALSE(s.next_candidate && s.own_next_view);
+  EXPECT_FALSE(s.next_candidate && s.custom_next_view);
   EXPECT_TRUE(s.next_view.matrix().allFinite());
   EXPECT_EQ(s.truth != nullptr, s.configuration.evaluation.enabled);
   EXPECT_EQ(s.missed != nullptr, s.configuration.evaluation.enabled);
@@ -61,15 +61,15 @@ inline void expect_valid(const SessionSnapshot& s) {
 
 /// What is true of every state of the window.
 inline void expect_valid(const WindowState& window, const SessionSnapshot& s) {
-  const LookedAt& view = window.selection.view;
-  if (view.kind == LookedAt::Kind::candidate) {
+  const ViewSelection& view = window.selection.view;
+  if (view.kind == ViewSelection::Kind::candidate) {
     EXPECT_LT(view.index, s.candidates.size());
   }
-  if (view.kind == LookedAt::Kind::taken) {
+  if (view.kind == ViewSelection::Kind::taken) {
     EXPECT_LT(view.index, s.records.size());
   }
-  if (view.kind == LookedAt::Kind::own) {
-    EXPECT_TRUE(window.selection.own_view);
+  if (view.kind == ViewSelection::Kind::custom) {
+    EXPECT_TRUE(window.selection.custom_view);
   }
   if (window.selection.voxel) {
     EXPECT_LT(*window.selection.voxel, s.grid.voxel_count());

@@ -55,22 +55,22 @@ RENDER_TEST(missed_surface, 960, 600, {
   scene.frame({32, -12});
 })
 
-/// All layers, ranges locked, a view of one's own.
+/// All layers, ranges locked, a custom view.
 void show_everything(Scene& scene) {
   const auto map = samples::map(viewer);
   const auto candidates = samples::candidates();
   const auto scores = samples::scores(candidates, viewer);
-  const std::vector<std::size_t> visited{36, 22};
+  const std::vector<std::size_t> taken{36, 22};
   const std::vector<Pose> path{look_at(viewer, Vector3::Zero()), candidates[36], candidates[22]};
   const Pose own = look_at(Vector3(-0.75, -0.55, 0.35), Vector3::Zero());
   ViewsPicture views;
   views.camera = PinholeCamera::from_field_of_view(640, 480, 1.0123);
   views.candidates = candidates;
   views.scores = scores;
-  views.visited = visited;
+  views.taken = taken;
   views.path = path;
   views.numbered_path = true;
-  views.own_view = own;
+  views.custom_view = own;
   views.reach = own.translation().norm();
   views.score_name = "utility";
   views.score_unit = "nats";

@@ -32,7 +32,7 @@ StepPicture step(const TriangleMesh& object, const samples::Map& map, const Vect
   picture.candidates = samples::candidates();
   picture.scores = samples::scores(picture.candidates, viewer);
   for (std::size_t i = 0; i < picture.scores.size(); ++i) picture.utilities.push_back(picture.scores[i] / 50e3 - 0.01);
-  picture.visited = {36, 22};
+  picture.taken = {36, 22};
   picture.path = {look_at(viewer, Vector3::Zero()), picture.candidates[36], picture.candidates[22]};
   for (std::size_t i = 0; i < picture.scores.size(); ++i) {
     if (!picture.chosen || picture.scores[i] > picture.scores[*picture.chosen]) picture.chosen = i;

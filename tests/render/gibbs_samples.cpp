@@ -95,7 +95,7 @@ RefinedPlate refined_plate(std::uint64_t seed) {
   config.range_noise = RefinedPlate::range_noise;
   config.outliers = RefinedPlate::outliers;
   const DepthCamera camera(config);
-  const RayScene scene(plate.part.mesh);
+  const MeshRayCaster scene(plate.part.mesh);
 
   OccupancyMap map(plate.grid, InverseSensorModel{});
   RangeMeasurements measurements;

@@ -122,11 +122,11 @@ TEST(ViewsLayer, ALockedRangeKeepsItsColoursAndSaysSo) {
     picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
     picture.candidates = candidates;
     picture.scores = scores;
-    picture.own_view = look_at(viewer, Vector3::Zero());
+    picture.custom_view = look_at(viewer, Vector3::Zero());
     scene.views().show(picture);
     EXPECT_FALSE(scene.views().legends()[0].locked);
-    EXPECT_EQ(scene.views().legends()[1].swatches.at(0).name, "own view");
-    EXPECT_EQ(scene.views().labels()[0].text, "own view");
+    EXPECT_EQ(scene.views().legends()[1].swatches.at(0).name, "custom view");
+    EXPECT_EQ(scene.views().labels()[0].text, "custom view");
     picture.range = ValueRange{0.0, 20.0};
     scene.views().show(picture);
     EXPECT_TRUE(scene.views().legends()[0].locked);
@@ -134,7 +134,7 @@ TEST(ViewsLayer, ALockedRangeKeepsItsColoursAndSaysSo) {
     EXPECT_EQ(scene.views().legends()[0].range->high_name, "and more");
     picture.range = ValueRange{1.0, 1.0};
     EXPECT_THROW(scene.views().show(picture), std::invalid_argument);
-    scene.rays().show(samples::rays(*picture.own_view), {"entropy", "nats", 0.1});
+    scene.rays().show(samples::rays(*picture.custom_view), {"entropy", "nats", 0.1});
     EXPECT_TRUE(scene.rays().legends()[0].locked);
     EXPECT_EQ(scene.rays().legends()[0].range->high, 0.1);
   });

@@ -57,10 +57,10 @@ RENDER_TEST(octree_with_free_space, 960, 600, {
 RENDER_TEST(views_scored, 960, 600, {
   const auto candidates = samples::candidates();
   const auto scores = samples::scores(candidates, viewer);
-  const std::vector<std::size_t> visited{36, 22};
+  const std::vector<std::size_t> taken{36, 22};
   const std::vector<Pose> path{look_at(viewer, Vector3::Zero()), candidates[36], candidates[22]};
   auto picture = views(candidates, scores);
-  picture.visited = visited;
+  picture.taken = taken;
   picture.path = path;
   picture.chosen = 9;
   scene.mesh().show(samples::torus());

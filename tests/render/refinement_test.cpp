@@ -22,9 +22,9 @@ std::vector<RefinementNumber> numbers_of(const MapNumbers& before, const MapNumb
        open_rows(after.shown_opening), ""},
       {"solid rows called open", leaks(before.openings), leaks(after.openings), ""},
       {"log loss near the surface", fmt::format("{:.3f}", before.near_surface.log_loss),
-       fmt::format("{:.3f}", after.near_surface.log_loss), "nats a voxel"},
+       fmt::format("{:.3f}", after.near_surface.log_loss), "nats per voxel"},
       {"… against voxel centres", fmt::format("{:.3f}", before.centres.log_loss),
-       fmt::format("{:.3f}", after.centres.log_loss), "nats a voxel"},
+       fmt::format("{:.3f}", after.centres.log_loss), "nats per voxel"},
       {"Brier score near the surface", fmt::format("{:.3f}", before.near_surface.brier),
        fmt::format("{:.3f}", after.near_surface.brier), ""},
       {"entropy of the region", thousands(before.entropy), thousands(after.entropy), "thousand nats"},
@@ -38,7 +38,7 @@ std::string caption_of(const MapNumbers& before, const MapNumbers& after) {
   const double loss_before = before.near_surface.log_loss, loss_after = after.near_surface.log_loss;
   return fmt::format(
       "Of {} rows through the plate's slots and bores the conventional map leaves {} open, the Gibbs map {}; its log "
-      "loss near the surface is {}: {:.2f} instead of {:.2f} nats a voxel.",
+      "loss near the surface is {}: {:.2f} instead of {:.2f} nats per voxel.",
       before.openings.rows, before.openings.open_rows, after.openings.open_rows,
       loss_after < loss_before ? "lower" : "not lower", loss_after, loss_before);
 }

@@ -25,9 +25,9 @@ struct Map {
 };
 Map map(const Vector3& viewer);
 
-/// One value a voxel: |probability - truth|, none at the torus' foot.
+/// One value per voxel: |probability - truth|, none at the torus' foot.
 std::vector<float> errors(const Map& map);
-/// One value a voxel: what a map that knows how rays end would add to the probability, none far from the torus.
+/// One value per voxel: what a map that knows how rays end would add to the probability, none far from the torus.
 std::vector<float> differences(const Map& map);
 
 /// The clouds of several viewers, with their views and distances to the torus; a few points have none.

@@ -7,7 +7,7 @@
 #include "core/view/candidate_views.hpp"
 #include "tests/render/render_test.hpp"
 #include "ui/figures/calibration_figure.hpp"
-#include "ui/figures/inspection_figure.hpp"
+#include "ui/figures/surface_error_figure.hpp"
 
 namespace nextview {
 namespace {
@@ -55,14 +55,14 @@ SurfacePicture picture_of(const ScanSurface& surface) {
 
 TEST(Figures, InspectionOfTheCloudsSurface) {
   const ScanSurface& cloud = housing().surfaces.at(1);
-  ASSERT_TRUE(cloud.inspection);
-  expect_screenshot("surface_cloud", draw_inspection_figure(picture_of(cloud), *cloud.inspection));
+  ASSERT_TRUE(cloud.surface_error);
+  expect_screenshot("surface_cloud", draw_surface_error_figure(picture_of(cloud), *cloud.surface_error));
 }
 
 TEST(Figures, InspectionOfThePosteriorsSurface) {
   const ScanSurface& posterior = housing().surfaces.at(0);
-  ASSERT_TRUE(posterior.inspection);
-  expect_screenshot("surface_posterior", draw_inspection_figure(picture_of(posterior), *posterior.inspection));
+  ASSERT_TRUE(posterior.surface_error);
+  expect_screenshot("surface_posterior", draw_surface_error_figure(picture_of(posterior), *posterior.surface_error));
 }
 
 TEST(Figures, UncertaintyOfTheCloudsSurface) {

@@ -14,8 +14,8 @@ enum class VoxelColouring {
   by_class,
   by_probability,
   by_entropy,     ///< [nats], 0 to ln 2
-  by_difference,  ///< a value a voxel: the Gibbs map's probability minus the conventional one's, -1 to 1
-  by_error        ///< a value a voxel: |probability - truth|, 0 to 1
+  by_difference,  ///< a value per voxel: the Gibbs map's probability minus the conventional one's, -1 to 1
+  by_error        ///< a value per voxel: |probability - truth|, 0 to 1
 };
 
 enum class CloudColouring {

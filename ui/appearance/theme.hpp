@@ -32,7 +32,7 @@ inline constexpr Colour free = from_hex(0x9CCBD9);
 inline constexpr Colour missed = from_hex(0xD9722E);  ///< surface that no view has seen
 
 inline constexpr Colour chosen = from_hex(0xD1401F);
-inline constexpr Colour visited = from_hex(0x6E7781);
+inline constexpr Colour muted = from_hex(0x6E7781);
 
 /// Series of a chart, in this order.
 inline constexpr std::array<Colour, 5> series{from_hex(0x1F5FA8), from_hex(0xD1401F), from_hex(0x2C8C6B),

@@ -21,7 +21,7 @@ struct Argument {
   bool optional = false;     ///< this and all that follow it
   std::string command = {};  ///< that takes it; for messages
 
-  /// The value that a text says, as a script or a person writes it.
+  /// The value that a text says, as a script or the user writes it.
   /// @throws std::invalid_argument in one line: what the value must be.
   template <class Value>
   void read(const std::string& text, Value& value) const;

@@ -52,7 +52,7 @@ struct CommandDeclaration {
   bool adds_up = false;                                          ///< doing it twice is more than doing the last alone
 };
 
-/// Something that a person can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's
+/// Something that the user can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's
 /// table are made of these.
 class Command : public CommandDeclaration {
  public:
@@ -67,7 +67,7 @@ class Command : public CommandDeclaration {
   std::string keys() const;   ///< "S, Space"; empty if it has none
   std::string usage() const;  ///< "take-view CANDIDATE"
 
-  /// With values as a script or a person writes them.
+  /// With values as a script or the user writes them.
   /// @throws std::invalid_argument in one line: too many or too few of them, or what one must be.
   CommandCall read(std::vector<std::string> values) const;
 

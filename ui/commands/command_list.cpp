@@ -20,11 +20,11 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       // File
       open, set, reset_setting, reset_settings, export_scan, save_picture, save_script, quit,
       // Scan
-      step, play, pause, speed, take_view, take_proposal, take_own_view, cancel, undo, redo, reset,
+      step, play, pause, speed, take_view, take_proposal, take_custom_view, cancel, undo, redo, reset,
       // Gibbs
-      refine, hold_refinement, continue_refinement,
+      refine, pause_refinement, resume_refinement,
       // Select
-      select_view, select_taken, select_next, own_view, look_through, inspect_voxel, inspect_ray, clear_selection,
+      select_view, select_taken, select_next, custom_view, look_through, inspect_voxel, inspect_ray, clear_selection,
       // Scene
       frame, look_from, zoom, toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays, toggle_region,
       toggle_missed, object_style, cloud_colour, voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free,

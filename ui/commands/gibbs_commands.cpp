@@ -36,22 +36,22 @@ const CommandOf<std::optional<int>, std::optional<int>> command::refine{
       t.window.bring_to_front(PanelName::gibbs);
     }};
 
-const CommandOf<> command::hold_refinement{
-    {"hold-refinement",
+const CommandOf<> command::pause_refinement{
+    {"pause-refinement",
      "Gibbs",
-     "Hold the sampler",
-     "Holds the sampler between two sweeps.",
+     "Pause the sampler",
+     "Pauses the sampler between two sweeps.",
      {{key('H')}},
      [](const CommandState& t) { return t.progress.refining && !t.progress.paused ? "" : "the sampler does not run"; }},
-    [](CommandTarget& t) { t.worker.hold_refinement(true); }};
+    [](CommandTarget& t) { t.worker.pause_refinement(true); }};
 
-const CommandOf<> command::continue_refinement{
-    {"continue-refinement",
+const CommandOf<> command::resume_refinement{
+    {"resume-refinement",
      "Gibbs",
-     "Let the sampler go on",
-     "Lets the sampler go on after hold-refinement.",
+     "Resume the sampler",
+     "Resumes the sampler after pause-refinement.",
      {{key('H')}},
-     [](const CommandState& t) { return t.progress.paused ? "" : "the sampler is not held"; }},
-    [](CommandTarget& t) { t.worker.hold_refinement(false); }};
+     [](const CommandState& t) { return t.progress.paused ? "" : "the sampler is not paused"; }},
+    [](CommandTarget& t) { t.worker.pause_refinement(false); }};
 
 }  // namespace nextview

@@ -4,6 +4,6 @@
 namespace nextview::command {
 
 extern const CommandOf<std::optional<int>, std::optional<int>> refine;  ///< chains, sweeps; or as the settings say
-extern const CommandOf<> hold_refinement, continue_refinement;
+extern const CommandOf<> pause_refinement, resume_refinement;
 
 }  // namespace nextview::command

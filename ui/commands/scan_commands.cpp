@@ -29,9 +29,9 @@ std::string take_proposal_why_not(const CommandState& t) {
   return t.session.next_candidate == t.session.proposal() ? "it is the next view" : "";
 }
 
-std::string take_own_view_why_not(const CommandState& t) {
+std::string take_custom_view_why_not(const CommandState& t) {
   if (const std::string reason = take_why_not(t); !reason.empty()) return reason;
-  return t.window.selection.own_view ? "" : "set up a view of your own first (own-view)";
+  return t.window.selection.custom_view ? "" : "set up a custom view first (custom-view)";
 }
 
 std::vector<std::string> available_candidates(const SessionSnapshot& s) {
@@ -56,7 +56,7 @@ void take(CommandTarget& t, std::optional<std::size_t> candidate) {
 }
 
 void take_own(CommandTarget& t) {
-  t.worker.post(request::TakeOwnView{*t.window.selection.own_view});
+  t.worker.post(request::TakeCustomView{*t.window.selection.custom_view});
   look_at_next_view(t.window);
 }
 
@@ -107,13 +107,13 @@ const CommandOf<> command::take_proposal{
      take_proposal_why_not},
     [](CommandTarget& t) { t.worker.post(request::TakeView{*t.session.proposal()}); }};
 
-const CommandOf<> command::take_own_view{{"take-own-view",
-                                          "Scan",
-                                          "Take the own view next",
-                                          "Makes the view that was set up with own-view the next one.",
-                                          {{key('T'), true}},
-                                          take_own_view_why_not},
-                                         take_own};
+const CommandOf<> command::take_custom_view{{"take-custom-view",
+                                             "Scan",
+                                             "Take the custom view next",
+                                             "Makes the view that was set up with custom-view the next one.",
+                                             {{key('T'), true}},
+                                             take_custom_view_why_not},
+                                            take_own};
 
 const CommandOf<> command::cancel{{"cancel",
                                    "Scan",

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/former_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -55,7 +56,7 @@ std::string quoted(const std::string& text) {
 CommandCall parse_call(std::string_view line) {
   std::vector<std::string> values = words(line);
   if (values.empty()) throw std::invalid_argument("no command");
-  const Command& command = find_command(values.front());
+  const Command& command = find_command(current_command_name(values.front()));
   values.erase(values.begin());
   return command.read(std::move(values));
 }

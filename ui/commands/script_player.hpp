@@ -15,10 +15,10 @@ struct ScriptFailure {
 };
 
 /// A script that is played: which call comes next, and which failed. What a call sets going may fail long after the
-/// call; it is held against the last call.
+/// call; it is counted as a failure of the last call.
 class ScriptPlayer {
  public:
-  /// Is told of each failure.
+  /// Is given each failure.
   void set_on_failure(std::function<void(const ScriptFailure&)> on_failure) { on_failure_ = std::move(on_failure); }
 
   void add(std::vector<CommandCall> calls);

@@ -14,9 +14,9 @@
 namespace nextview {
 namespace {
 
-using Kind = LookedAt::Kind;
+using Kind = ViewSelection::Kind;
 
-void look_at_view(WindowState& window, LookedAt view) {
+void show_view(WindowState& window, ViewSelection view) {
   if (window.selection.view != view) window.selection.ray.reset();
   window.selection.view = view;
 }
@@ -34,13 +34,13 @@ void look_at_candidate(CommandTarget& t, std::size_t candidate) {
   if (candidate >= t.session.candidates.size())
     throw std::invalid_argument("select-view: there are " + std::to_string(t.session.candidates.size()) +
                                 " candidates, from 0");
-  look_at_view(t.window, {Kind::candidate, candidate});
+  show_view(t.window, {Kind::candidate, candidate});
 }
 
 void look_at_taken(CommandTarget& t, std::size_t step) {
   if (step > t.session.records.size())
     throw std::invalid_argument("select-taken: " + std::to_string(t.session.records.size()) + " views were taken");
-  look_at_view(t.window, {Kind::taken, step - 1});
+  show_view(t.window, {Kind::taken, step - 1});
 }
 
 void inspect_voxel_at(CommandTarget& t, double x, double y, double z) {
@@ -70,21 +70,21 @@ Pose view_of_scene(CommandTarget& t) {
 
 using Metres = std::optional<double>;
 
-/// A view of one's own: from and towards the given points, or as the scene is looked at now.
-void set_up_own_view(CommandTarget& t, Metres x, Metres y, Metres z, Metres to_x, Metres to_y, Metres to_z) {
+/// A custom view: from and towards the given points, or as the scene is looked at now.
+void set_up_custom_view(CommandTarget& t, Metres x, Metres y, Metres z, Metres to_x, Metres to_y, Metres to_z) {
   Pose T_world_camera;
   if (!x) {
     T_world_camera = view_of_scene(t);
   } else {
-    if (!to_z) throw std::invalid_argument("own-view takes either nothing or all six numbers");
+    if (!to_z) throw std::invalid_argument("custom-view takes either nothing or all six numbers");
     const Vector3 from(*x, *y, *z), to(*to_x, *to_y, *to_z);
-    if ((from - to).norm() < 1e-6) throw std::invalid_argument("own-view: the camera stands where it looks at");
+    if ((from - to).norm() < 1e-6) throw std::invalid_argument("custom-view: the camera stands where it looks at");
     T_world_camera = look_at(from, to);
   }
   if (const std::string reason = why_empty(t.session, T_world_camera); !reason.empty())
     t.worker.log().add(LogEntry::Level::warning, "Your view would measure nothing: " + reason);
-  t.window.selection.own_view = T_world_camera;
-  look_at_view(t.window, {Kind::own, 0});
+  t.window.selection.custom_view = T_world_camera;
+  show_view(t.window, {Kind::custom, 0});
   t.window.bring_to_front(PanelName::view);
 }
 
@@ -119,13 +119,13 @@ const CommandOf<> command::select_next{{"select-next",
                                         "Shows the view that is taken next.",
                                         {{key('N')}},
                                         needs_session},
-                                       [](CommandTarget& t) { look_at_view(t.window, {}); }};
+                                       [](CommandTarget& t) { show_view(t.window, {}); }};
 
-const CommandOf<Metres, Metres, Metres, Metres, Metres, Metres> command::own_view{
-    {"own-view",
+const CommandOf<Metres, Metres, Metres, Metres, Metres, Metres> command::custom_view{
+    {"custom-view",
      "Select",
-     "Set up a view of your own",
-     "Looks at a view from where the scene is looked at, or from a point towards another; take-own-view takes it.",
+     "Set up a custom view",
+     "Looks at a view from where the scene is looked at, or from a point towards another; take-custom-view takes it.",
      {{key('V')}},
      needs_session},
     own("x", "from [m]"),
@@ -134,7 +134,7 @@ const CommandOf<Metres, Metres, Metres, Metres, Metres, Metres> command::own_vie
     own("to_x", "towards [m]"),
     own("to_y", "towards [m]"),
     own("to_z", "towards [m]"),
-    set_up_own_view};
+    set_up_custom_view};
 
 const CommandOf<> command::look_through{
     {"look-through",
@@ -145,7 +145,7 @@ const CommandOf<> command::look_through{
      needs_session},
     [](CommandTarget& t) {
       t.window.camera_motions.push_back(
-          camera_motion::LookThrough{looked_at_pose(t.session, t.window.selection).value_or(t.session.next_view)});
+          camera_motion::LookThrough{selected_view_pose(t.session, t.window.selection).value_or(t.session.next_view)});
     }};
 
 const CommandOf<double, double, double> command::inspect_voxel{

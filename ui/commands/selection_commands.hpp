@@ -9,7 +9,7 @@ extern const CommandOf<> select_next, look_through, clear_selection;
 /// From a point towards another [m, world]; or as the scene is looked at.
 extern const CommandOf<std::optional<double>, std::optional<double>, std::optional<double>, std::optional<double>,
                        std::optional<double>, std::optional<double>>
-    own_view;
+    custom_view;
 extern const CommandOf<double, double, double> inspect_voxel;  ///< a point in it [m, world]
 extern const CommandOf<std::size_t> inspect_ray;               ///< of the view that is looked at
 

@@ -35,7 +35,7 @@ CurvePlot descent_plot(const Calibration& fit) {
   plot.title = "Descent (BFGS)";
   plot.remark = fit.converged ? "converged" : "not converged";
   plot.x_label = "iteration";
-  plot.y_label = "cross entropy [nats a voxel]";
+  plot.y_label = "cross entropy [nats per voxel]";
   plot.whole_x = true;
   Curve curve{"", {}, {}, {}, calibration_after};
   for (std::size_t i = 0; i < fit.descent.size(); ++i) {
@@ -140,7 +140,7 @@ Image draw_calibration_figure(const MapCalibration& calibration, int width, int 
     Painter painter(context);
     const double top =
         height - paint_title(painter, width, height, "The conventional map, calibrated to the Gibbs map",
-                             fmt::format("cross entropy {:.4f} before, {:.4f} after [nats a voxel]",
+                             fmt::format("cross entropy {:.4f} before, {:.4f} after [nats per voxel]",
                                          fit.cross_entropy_before, fit.cross_entropy),
                              fmt::format("Before: {}. After: {}.", numbers(calibration.before), numbers(fit.model)));
     const Layout layout(width, top, calibration.examples.size());

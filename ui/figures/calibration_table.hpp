@@ -5,7 +5,7 @@
 namespace nextview {
 
 /// Of what was before a calibration, and after.
-inline constexpr Colour calibration_before = theme::visited, calibration_after = theme::series[0];
+inline constexpr Colour calibration_before = theme::muted, calibration_after = theme::series[0];
 
 /// A panel with a row an example: cross entropy, log loss (also as marks along a line) and open rows, before and after
 /// and of the Gibbs map. Made for a panel 1568 pixels wide.

@@ -29,7 +29,7 @@ vtkStandardNewMacro(Ranking);
 std::vector<std::size_t> ranked(const RankingContent& content) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < content.scores.size(); ++i) {
-    if (std::find(content.visited.begin(), content.visited.end(), i) == content.visited.end()) order.push_back(i);
+    if (std::find(content.taken.begin(), content.taken.end(), i) == content.taken.end()) order.push_back(i);
   }
   const auto& key = content.utilities.empty() ? content.scores : content.utilities;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key[a] > key[b]; });

@@ -11,14 +11,14 @@ namespace nextview {
 struct RankingContent {
   std::string title;
   std::string score_name, unit;
-  std::vector<double> scores;         ///< one a candidate
-  std::vector<double> utilities;      ///< one a candidate, and then the order is theirs; or none
-  std::vector<std::size_t> visited;   ///< candidates that no longer take part
+  std::vector<double> scores;         ///< one per candidate
+  std::vector<double> utilities;      ///< one per candidate, and then the order is theirs; or none
+  std::vector<std::size_t> taken;     ///< candidates that no longer take part
   std::optional<std::size_t> chosen;  ///< stands out; shown even if others are better
   std::string note;                   ///< one line beneath, for example why a ranking says nothing
 };
 
-/// The candidates in the order of the ranking, without visited ones.
+/// The candidates in the order of the ranking, without those taken.
 std::vector<std::size_t> ranked(const RankingContent& content);
 
 /// Draws a ranking into a rectangle of the picture [px].

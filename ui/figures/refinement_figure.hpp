@@ -27,7 +27,7 @@ struct RefinementPicture {
   std::string remark;   ///< beside the title: how the maps came about
   std::string caption;  ///< one sentence: what is to be seen
   VoxelGrid grid;
-  std::span<const Voxel> conventional;   ///< one a voxel of the grid
+  std::span<const Voxel> conventional;   ///< one per voxel of the grid
   std::span<const Voxel> gibbs;          ///< likewise: GibbsPosterior::voxels, where measured means informed
   SamplerDiagnostics diagnostics;        ///< of the chains
   const TriangleMesh* object = nullptr;  ///< the true object, if known

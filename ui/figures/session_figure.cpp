@@ -9,16 +9,16 @@ namespace nextview {
 namespace {
 
 /// Points drawn at most: more do not show, and a software renderer feels each.
-constexpr std::size_t most_points = 150'000;
+constexpr std::size_t max_points = 150'000;
 
 PointCloud thinned(const std::vector<std::shared_ptr<const Scan>>& scans) {
   std::size_t total = 0;
-  for (const auto& scan : scans) total += scan->returns.size();
-  const std::size_t stride = total / most_points + 1;
+  for (const auto& scan : scans) total += scan->hits.size();
+  const std::size_t stride = total / max_points + 1;
   PointCloud points;
   std::size_t i = 0;
   for (const auto& scan : scans)
-    for (const Eigen::Vector3f& p : scan->returns)
+    for (const Eigen::Vector3f& p : scan->hits)
       if (i++ % stride == 0) points.push_back(p);
   return points;
 }
@@ -48,7 +48,7 @@ StepPicture step_picture(const Session& session) {
   }
   for (const StepRecord& r : session.records()) {
     picture.path.push_back(r.T_world_camera);
-    if (r.view >= 0) picture.visited.push_back(static_cast<std::size_t>(r.view));
+    if (r.view >= 0) picture.taken.push_back(static_cast<std::size_t>(r.view));
   }
   if (picture.chosen) {
     if (const auto explanation = session.explain(*picture.chosen))

@@ -30,7 +30,7 @@ struct SliceContent {
   VoxelGrid grid;
   GridSlice slice;
   SliceValue value = SliceValue::probability;
-  std::span<const Voxel> voxels;  ///< one a voxel of the grid
+  std::span<const Voxel> voxels;  ///< one per voxel of the grid
   std::span<const Voxel> other;   ///< `difference` only: what is subtracted
   std::string value_name = "P(occupied)";
   /// Of voxels that are hatched: no measurement says anything of them. Of a difference: of either map.

@@ -74,7 +74,7 @@ ViewsPicture views_of(const StepPicture& picture) {
   views.camera = picture.camera;
   views.candidates = picture.candidates;
   views.scores = picture.scores;
-  views.visited = picture.visited;
+  views.taken = picture.taken;
   views.chosen = picture.chosen;
   views.path = picture.path;
   views.score_name = picture.gain_name;
@@ -147,7 +147,7 @@ void StepFigure::show(const StepPicture& picture) {
   p.map.frame(direction);
 
   p.ranking->content = {"Best candidates", picture.gain_name, picture.gain_unit, picture.scores,
-                        picture.utilities, picture.visited,   picture.chosen,    picture.ranking_note};
+                        picture.utilities, picture.taken,     picture.chosen,    picture.ranking_note};
   p.entropy.show(picture.entropy);
   p.coverage.show(picture.coverage);
 }

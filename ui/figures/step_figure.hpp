@@ -26,15 +26,15 @@ struct StepPicture {
   const TriangleMesh* object = nullptr;  ///< the true object, if known
   MeshStyle object_style = MeshStyle::ghost;
   VoxelGrid grid;             ///< the region of interest
-  std::vector<Voxel> voxels;  ///< one a voxel of the grid
+  std::vector<Voxel> voxels;  ///< one per voxel of the grid
   PointCloud cloud;
   double point_size = 2.5;  ///< [px]
 
   PinholeCamera camera;
   std::vector<Pose> candidates;       ///< T_world_camera
-  std::vector<double> scores;         ///< one a candidate [gain_unit]
-  std::vector<double> utilities;      ///< one a candidate if the ranking is by utility, otherwise none
-  std::vector<std::size_t> visited;   ///< candidates that no longer take part
+  std::vector<double> scores;         ///< one per candidate [gain_unit]
+  std::vector<double> utilities;      ///< one per candidate if the ranking is by utility, otherwise none
+  std::vector<std::size_t> taken;     ///< candidates that no longer take part
   std::optional<std::size_t> chosen;  ///< a candidate: the next best view
   std::vector<Pose> path;             ///< views taken so far, the start view first; T_world_camera
   std::vector<RaySegment> rays;       ///< of the chosen view

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 
 namespace nextview {
 namespace {

@@ -24,7 +24,7 @@ class Layer {
   void set_visible(bool visible);
   bool visible() const { return visible_; }
 
-  /// Pixels of the display a pixel of the design: 2 on a HiDPI display. Lines and points become as much wider.
+  /// Pixels of the display per pixel of the design: 2 on a HiDPI display. Lines and points become as much wider.
   void set_scale(double scale);
 
   /// Points that enclose what the layer draws [m, world], for framing; none if it is empty.

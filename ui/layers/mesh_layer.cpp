@@ -28,7 +28,7 @@ constexpr double crease_angle = 35.0;  // [deg]
 
 constexpr double specular = 0.1;
 constexpr int paint_stops = 17;  // of the colours in shaders/mesh_paint.glsl
-constexpr int most_classes = 4;  // in shaders/mesh_classes.glsl
+constexpr int max_classes = 4;   // in shaders/mesh_classes.glsl
 const Colour no_value = mix(theme::object, theme::paper, 0.25), no_value_stripes = mix(theme::object, theme::ink, 0.4);
 
 bool has_value(const MeshPaint& paint, std::size_t vertex) {
@@ -76,7 +76,7 @@ void check(const TriangleMesh& mesh, const MeshClasses& classes) {
   if (classes.classes.size() != mesh.vertices.size())
     throw std::invalid_argument(
         fmt::format("painted mesh: {} vertices, but {} classes", mesh.vertices.size(), classes.classes.size()));
-  if (classes.palette.empty() || classes.palette.size() > most_classes)
+  if (classes.palette.empty() || classes.palette.size() > max_classes)
     throw std::invalid_argument(fmt::format("painted mesh: a palette of {} classes", classes.palette.size()));
   for (const std::uint8_t vertex_class : classes.classes)
     if (vertex_class >= classes.palette.size())
@@ -87,7 +87,7 @@ void check(const TriangleMesh& mesh, const MeshClasses& classes) {
 vtkSmartPointer<vtkFloatArray> class_attribute(const MeshClasses& classes) {
   auto attribute = vtkSmartPointer<vtkFloatArray>::New();
   attribute->SetName("class_weights");
-  attribute->SetNumberOfComponents(most_classes);
+  attribute->SetNumberOfComponents(max_classes);
   attribute->SetNumberOfTuples(vtkIdType(classes.classes.size()));
   attribute->Fill(0.0);
   for (std::size_t i = 0; i < classes.classes.size(); ++i)
@@ -96,10 +96,10 @@ vtkSmartPointer<vtkFloatArray> class_attribute(const MeshClasses& classes) {
 }
 
 void set_palette(vtkUniforms& uniforms, const std::vector<MeshClass>& palette) {
-  float colours[most_classes][3] = {};
+  float colours[max_classes][3] = {};
   for (std::size_t i = 0; i < palette.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) colours[i][c] = float(palette[i].colour[c]);
-  uniforms.SetUniform3fv("mesh_class_colours", most_classes, colours);
+  uniforms.SetUniform3fv("mesh_class_colours", max_classes, colours);
 }
 
 Legend legend_of(const MeshClasses& classes) {

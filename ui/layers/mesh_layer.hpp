@@ -10,10 +10,10 @@ class vtkOpenGLPolyDataMapper;
 
 namespace nextview {
 
-/// A number a vertex, to be seen as a colour.
+/// A number per vertex, to be seen as a colour.
 struct MeshPaint {
-  std::span<const float> values;            ///< one a vertex, in `unit`; finite where there is a value
-  std::span<const std::uint8_t> has_value;  ///< one a vertex, 0: striped grey; empty: all have one
+  std::span<const float> values;            ///< one per vertex, in `unit`; finite where there is a value
+  std::span<const std::uint8_t> has_value;  ///< one per vertex, 0: striped grey; empty: all have one
   ColourMap map = ColourMap::contribution();
   double low = 0.0, high = 1.0;               ///< numbers beyond take the colour of the end
   std::string title, unit;                    ///< of the legend
@@ -29,7 +29,7 @@ struct MeshClass {
 
 /// A class a vertex. Where corners differ, the border runs between them as a crisp line; no mixed colours.
 struct MeshClasses {
-  std::span<const std::uint8_t> classes;  ///< one a vertex, an index of the palette
+  std::span<const std::uint8_t> classes;  ///< one per vertex, an index of the palette
   std::vector<MeshClass> palette;         ///< 1 to 4
   std::string title = {};                 ///< of the legend
 };

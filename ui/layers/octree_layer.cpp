@@ -25,7 +25,7 @@ namespace nextview {
 namespace {
 
 constexpr float no_value = -1.0f;  // instead of a colour, for shaders/voxels_vertex.glsl
-constexpr std::size_t faces_a_task = 4096;
+constexpr std::size_t faces_per_task = 4096;
 
 /// 8 bits a channel in one float, which holds 24 bits exactly.
 float packed(const Colour& colour) {
@@ -121,7 +121,7 @@ bool OctreeLayer::colour_part(Part& part, const VoxelPalette& palette, std::span
   colours->SetName("voxel_colour");
   colours->SetNumberOfTuples(vtkIdType(part.faces.size()) * 4);
   std::atomic<bool> complete = true;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, part.faces.size(), faces_a_task), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, part.faces.size(), faces_per_task), [&](const auto& range) {
     float* out = colours->GetPointer(vtkIdType(range.begin()) * 4);
     for (std::size_t f = range.begin(); f < range.end(); ++f, out += 4) {
       const float value = values.empty() ? std::numeric_limits<float>::quiet_NaN() : values[part.faces[f].voxel];

@@ -14,7 +14,7 @@ class OctreeLayer : public Layer {
  public:
   explicit OctreeLayer(vtkRenderer& renderer);
 
-  /// `values`: one a voxel of the grid, for the colourings by a value; not a number where there is none. Without
+  /// `values`: one per voxel of the grid, for the colourings by a value; not a number where there is none. Without
   /// values no voxel has one.
   /// @throws std::invalid_argument if the number of voxels or values is not the grid's, or the slice's axis is none.
   void show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter = {},

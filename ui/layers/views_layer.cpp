@@ -49,8 +49,8 @@ void check(const ViewsPicture& picture) {
         fmt::format("scores: {} for {} candidates", picture.scores.size(), picture.candidates.size()));
   }
   const auto beyond = [&](std::size_t index) { return index >= picture.candidates.size(); };
-  if (std::any_of(picture.visited.begin(), picture.visited.end(), beyond)) {
-    throw std::invalid_argument("visited: an index is no candidate's");
+  if (std::any_of(picture.taken.begin(), picture.taken.end(), beyond)) {
+    throw std::invalid_argument("taken: an index is no candidate's");
   }
   if (picture.range && !(picture.range->first < picture.range->second)) {
     throw std::invalid_argument("the scores' range is empty");
@@ -61,13 +61,13 @@ void check(const ViewsPicture& picture) {
 struct Scores {
   double low = 0.0, high = 0.0;       ///< of the colours
   bool below = false, above = false;  ///< some scores are beyond these
-  std::vector<bool> visited;
+  std::vector<bool> taken;
 
-  explicit Scores(const ViewsPicture& picture) : visited(picture.candidates.size(), false) {
-    for (const std::size_t index : picture.visited) visited[index] = true;
+  explicit Scores(const ViewsPicture& picture) : taken(picture.candidates.size(), false) {
+    for (const std::size_t index : picture.taken) taken[index] = true;
     bool first = true;
     for (std::size_t i = 0; i < picture.scores.size(); ++i) {
-      if (visited[i]) continue;
+      if (taken[i]) continue;
       low = first ? picture.scores[i] : std::min(low, picture.scores[i]);
       high = first ? picture.scores[i] : std::max(high, picture.scores[i]);
       first = false;
@@ -79,18 +79,18 @@ struct Scores {
   }
 
   Colour colour(const ViewsPicture& picture, std::size_t candidate) const {
-    if (picture.chosen == candidate && !picture.own_view) return theme::chosen;
-    if (visited[candidate]) return theme::visited;
+    if (picture.chosen == candidate && !picture.custom_view) return theme::chosen;
+    if (taken[candidate]) return theme::muted;
     return picture.scores.empty() ? theme::object : ColourMap::score().at(picture.scores[candidate], low, high);
   }
 };
 
 std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores) {
-  if (picture.candidates.empty() && picture.path.empty() && !picture.own_view) return {};
+  if (picture.candidates.empty() && picture.path.empty() && !picture.custom_view) return {};
   Legend views{"views", {}, {}};
-  if (picture.chosen && !picture.own_view) views.swatches.push_back({"chosen", theme::chosen});
-  if (picture.own_view) views.swatches.push_back({"own view", theme::chosen});
-  if (!picture.visited.empty()) views.swatches.push_back({"visited", theme::visited});
+  if (picture.chosen && !picture.custom_view) views.swatches.push_back({"chosen", theme::chosen});
+  if (picture.custom_view) views.swatches.push_back({"custom view", theme::chosen});
+  if (!picture.taken.empty()) views.swatches.push_back({"taken", theme::muted});
   if (picture.scores.empty() && !picture.candidates.empty()) views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
   if (!picture.scores.empty()) {
@@ -151,16 +151,16 @@ void ViewsLayer::show(const ViewsPicture& picture) {
     points.push_back(picture.path[i].translation());
     if (at_eye(picture.path[i])) continue;
     if (i > 0 && !at_eye(picture.path[i - 1]))
-      path.add_line(picture.path[i - 1].translation(), points.back(), theme::visited);
+      path.add_line(picture.path[i - 1].translation(), points.back(), theme::muted);
     if (picture.numbered_path) labels.push_back({{points.back()}, std::to_string(i + 1), theme::soft_ink});
   }
-  const Pose* full = picture.own_view ? &*picture.own_view
-                     : picture.chosen ? &picture.candidates[*picture.chosen]
-                                      : nullptr;
+  const Pose* full = picture.custom_view ? &*picture.custom_view
+                     : picture.chosen    ? &picture.candidates[*picture.chosen]
+                                         : nullptr;
   if (full) points.push_back(full->translation());
   if (full && !at_eye(*full)) {
     show_full_frustum(picture, *full);
-    const std::string name = picture.own_view ? "own view" : fmt::format("view {}", *picture.chosen);
+    const std::string name = picture.custom_view ? "custom view" : fmt::format("view {}", *picture.chosen);
     labels.push_back({{full->translation()}, name, theme::chosen, true});
   } else {
     for (Part* part : {&chosen_faces_, &chosen_outline_})

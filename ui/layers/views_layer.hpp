@@ -10,21 +10,21 @@ class vtkPolyDataMapper;
 
 namespace nextview {
 
-/// Candidate views, what was scored, chosen and visited. Spans need to live during show() only.
+/// Candidate views, what was scored, chosen and taken. Spans need to live during show() only.
 struct ViewsPicture {
-  PinholeCamera camera;                  ///< gives the frustums' shape
-  std::span<const Pose> candidates;      ///< T_world_camera
-  std::span<const double> scores;        ///< one a candidate, or none
-  std::span<const std::size_t> visited;  ///< candidates
-  std::optional<std::size_t> chosen;     ///< a candidate
-  std::optional<Pose> own_view =
+  PinholeCamera camera;                ///< gives the frustums' shape
+  std::span<const Pose> candidates;    ///< T_world_camera
+  std::span<const double> scores;      ///< one per candidate, or none
+  std::span<const std::size_t> taken;  ///< candidates
+  std::optional<std::size_t> chosen;   ///< a candidate
+  std::optional<Pose> custom_view =
       {};                           ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place
   std::optional<Vector3> eye = {};  ///< views from here (or nearly) are not drawn: they would be in the way [m, world]
   std::span<const Pose> path;       ///< the views taken so far, in order; T_world_camera
   bool numbered_path = false;       ///< small numbers at the views taken, from 1
   std::string score_name = "score";
   std::string score_unit;
-  std::optional<ValueRange> range = {};  ///< of the colours, locked; that of the scores not visited if not given
+  std::optional<ValueRange> range = {};  ///< of the colours, locked; that of the candidates not taken if not given
   double size = 0.07;                    ///< depth of a frustum [m]
   double reach = 0.5;                    ///< depth of the chosen view's frustum [m]
 };
@@ -32,13 +32,13 @@ struct ViewsPicture {
 /// Whether an eye stands where a camera does, or nearly: it would look out of the camera's own pyramid.
 bool stands_at(const Vector3& eye, const Vector3& camera);
 
-/// Candidates as frustums coloured by score, visited ones grey, the chosen one with its full frustum, and the path so
+/// Candidates as frustums coloured by score, taken ones grey, the chosen one with its full frustum, and the path so
 /// far.
 class ViewsLayer : public Layer {
  public:
   explicit ViewsLayer(vtkRenderer& renderer);
 
-  /// @throws std::invalid_argument if there are scores, but not one a candidate, an index is no candidate's, or the
+  /// @throws std::invalid_argument if there are scores, but not one per candidate, an index is no candidate's, or the
   ///         range is empty.
   void show(const ViewsPicture& picture);
 

@@ -16,7 +16,7 @@ namespace nextview {
 namespace {
 
 /// Faces that one task writes: enough to outweigh starting it.
-constexpr std::size_t faces_a_task = 4096;
+constexpr std::size_t faces_per_task = 4096;
 
 vtkSmartPointer<vtkFloatArray> float_array(int components, vtkIdType tuples) {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
@@ -47,7 +47,7 @@ vtkSmartPointer<vtkPolyData> voxel_polydata(const VoxelGrid& grid, std::span<con
   const auto positions = float_array(3, vertices), corners = float_array(1, vertices);
   corners->SetName("voxel_corner");
   const auto offsets = corners_by_side();
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), faces_a_task), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), faces_per_task), [&](const auto& range) {
     float* position = positions->GetPointer(vtkIdType(range.begin()) * 12);
     float* packed = corners->GetPointer(vtkIdType(range.begin()) * 4);
     for (std::size_t f = range.begin(); f < range.end(); ++f) {

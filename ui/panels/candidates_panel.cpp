@@ -60,13 +60,13 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
   ImGui::TableNextColumn();
   if (!c.available) {
     const int step = step_of(s, candidate);
-    ImGui::TextUnformatted(step > 0 ? fmt::format("visited, view {}", step).c_str() : "not reachable");
+    ImGui::TextUnformatted(step > 0 ? fmt::format("taken, view {}", step).c_str() : "not reachable");
     return;
   }
   const Colour colour = is_proposed(s, candidate) ? theme::chosen : theme::series[0];
   number_cell(context, readable(c.gain), c.gain, largest.gain, colour);
   ImGui::TableNextColumn();
-  number_cell(context, fmt::format("{:.2f}", c.cost), c.cost, largest.cost, theme::visited);
+  number_cell(context, fmt::format("{:.2f}", c.cost), c.cost, largest.cost, theme::muted);
   ImGui::TableNextColumn();
   number_cell(context, fmt::format("{:.4f}", c.utility), c.utility, largest.utility, colour);
 }
@@ -126,8 +126,7 @@ void draw_degenerate(const PanelContext& context, const std::string& reason) {
 std::string next_text(const SessionSnapshot& s) {
   if (!s.finished.empty()) return "The scan is finished.";
   if (s.records.empty()) return "The first view is the start view; the candidates are ranked after it.";
-  if (s.own_next_view)
-    return fmt::format("Next is a view of your own; proposed was view {}.", s.proposal().value_or(0));
+  if (s.custom_next_view) return fmt::format("Next is a custom view; proposed was view {}.", s.proposal().value_or(0));
   if (!s.next_candidate) return "No candidate is left.";
   if (s.next_candidate == s.proposal()) return fmt::format("Next is the proposal, view {}.", *s.next_candidate);
   return fmt::format("Next is your choice, view {}; proposed was view {}.", *s.next_candidate, *s.proposal());

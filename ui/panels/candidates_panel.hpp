@@ -3,7 +3,7 @@
 
 namespace nextview {
 
-/// The ranking: what each candidate view is worth, which one is next and why. A person can take another one.
+/// The ranking: what each candidate view is worth, which one is next and why. The user can take another one.
 void draw_candidates_panel(const PanelContext& context, const Rectangle& rectangle);
 
 }  // namespace nextview

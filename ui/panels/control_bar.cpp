@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 // [px] on a display that does not scale
-constexpr float buttons_end = 316, speed_end = 396, least_bar = 40;
+constexpr float buttons_end = 316, speed_end = 396, min_bar = 40;
 
 /// Where there is no room for progress, what runs is cancelled here.
 void draw_buttons(const PanelContext& context, bool with_cancel) {
@@ -49,13 +49,13 @@ void draw_speed(const PanelContext& context, float x, float y) {
 std::string readiness(const SessionSnapshot& s) {
   if (!s.loaded()) return "No object yet: choose one, or drop a file here";
   if (s.records.empty()) return "Ready to take the start view";
-  if (s.own_next_view) return "Ready to take your own view";
+  if (s.custom_next_view) return "Ready to take your custom view";
   return s.next_candidate ? fmt::format("Ready to take view {}", *s.next_candidate) : "No candidate is left";
 }
 
 /// "scoring the candidate views, 2 more to do, about 12 s left"
 std::string job_text(const WorkerProgress& progress) {
-  std::string text = progress.paused ? "held: " + progress.what : progress.what;
+  std::string text = progress.paused ? "paused: " + progress.what : progress.what;
   if (text.empty()) text = "between two views";
   if (progress.waiting > 0) text += fmt::format(", {} more to do", progress.waiting);
   if (progress.seconds_left) text += fmt::format(", about {:.0f} s left", *progress.seconds_left);
@@ -76,7 +76,7 @@ void draw_progress(const PanelContext& context, float left, float right, float y
     return;
   }
   const float button = style.px(100), bar = right - left - button;
-  if (bar < style.px(least_bar)) return;  // the buttons have a Cancel then
+  if (bar < style.px(min_bar)) return;  // the buttons have a Cancel then
   ImGui::PushFont(style.small);
   ImGui::SetCursorPos({left, y - style.px(6)});
   ImGui::TextUnformatted(shortened(job_text(progress), right - left).c_str());
@@ -134,7 +134,7 @@ void draw_control_bar(const PanelContext& context, const Rectangle& rectangle) {
   const float end = float(rectangle.width) - style.px(16);
   const bool with_speed = end > style.px(speed_end + 330);
   const float left = style.px(with_speed ? speed_end : buttons_end);
-  draw_buttons(context, context.progress.busy && end - left < style.px(100 + least_bar));
+  draw_buttons(context, context.progress.busy && end - left < style.px(100 + min_bar));
   if (with_speed) {
     ImGui::SameLine(0, style.px(10));
     draw_speed(context, ImGui::GetCursorPosX(), y);

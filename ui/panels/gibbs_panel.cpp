@@ -14,7 +14,7 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t most_points = 200;  ///< of a curve: more do not show
+constexpr std::size_t max_points = 200;  ///< of a curve: more do not show
 
 void plot(const PanelContext& context, const ChartContent& chart, float height) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -32,7 +32,7 @@ void draw_traces(const PanelContext& context, const SamplerDiagnostics& d) {
   for (std::size_t c = 0; c < d.log_posterior.size(); ++c) {
     ChartSeries series{fmt::format("chain {}", c + 1), {}, {}};
     const auto& chain = d.log_posterior[c];
-    const std::size_t stride = chain.size() / most_points + 1;
+    const std::size_t stride = chain.size() / max_points + 1;
     for (std::size_t k = 0; k < chain.size(); k += stride) {
       series.x.push_back(double(k + 1));
       series.y.push_back((chain[k] - highest) / 1e3);
@@ -58,7 +58,7 @@ void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d)
   table_row("voxels that differ", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels),
             "Informed voxels whose mean differs by over 0.5 between two chains");
   table_row("effective samples", fmt::format("{:.0f}", d.effective_samples), "Of the log-posterior");
-  table_row("rays", fmt::format("{} joined of {}", d.joined_rays, d.measured_rays));
+  table_row("rays", fmt::format("{} merged of {}", d.merged_rays, d.measured_rays));
   table_row("time", fmt::format("{:.1f} s", d.build_seconds + d.sample_seconds));
   ImGui::PopFont();
   ImGui::EndTable();
@@ -122,9 +122,9 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
   ImGui::EndDisabled();
   tooltip(help_of(context, refine));
   ImGui::SameLine(0, gap);
-  const bool held = context.progress.paused;
-  command_button(context, held ? command::continue_refinement : command::hold_refinement,
-                 held ? Icon::play : Icon::pause, held ? "Go on" : "Hold", false, width);
+  const bool paused = context.progress.paused;
+  command_button(context, paused ? command::resume_refinement : command::pause_refinement,
+                 paused ? Icon::play : Icon::pause, paused ? "Resume" : "Pause", false, width);
 }
 
 void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {

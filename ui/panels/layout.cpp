@@ -12,9 +12,9 @@ constexpr double bottom_height = 236;
 /// Panels are this far apart: a hairline, in the colour behind them.
 constexpr double gap = 1;
 /// With less than this for the scene, panels are folded [px].
-constexpr double least_scene_width = 300, least_scene_height = 160;
+constexpr double min_scene_width = 300, min_scene_height = 160;
 /// With less than this between menu and status line, there is neither control bar nor status line [px].
-constexpr double least_middle = 130;
+constexpr double min_middle = 130;
 /// Of the window's width that a column takes at most, where there is one.
 constexpr double widest_column = 0.55;
 
@@ -28,17 +28,17 @@ Layout::Layout(int w, int h, double scale, Side open) : width(w), height(h), ope
   const auto px = [&](double length) { return std::round(length * scale); };
   menu = {0, 0, width, std::min(px(menu_height), height)};
   double top = menu.height + gap, end = height;
-  if (end - top - px(status_height) - gap >= px(least_middle)) {
+  if (end - top - px(status_height) - gap >= px(min_middle)) {
     end -= px(status_height) + gap;
     status = {0, end + gap, width, px(status_height)};
   }
-  if (end - top - px(bar_height) - gap >= px(least_middle)) {
+  if (end - top - px(bar_height) - gap >= px(min_middle)) {
     control_bar = {0, top, width, px(bar_height)};
     top += control_bar.height + gap;
   }
   const double middle = std::max(end - top, 0.0);
-  left_folded = width < px(left_width) + px(right_width) + px(least_scene_width) + 2 * gap;
-  bottom_folded = middle < px(bottom_height) + px(least_scene_height) + gap;
+  left_folded = width < px(left_width) + px(right_width) + px(min_scene_width) + 2 * gap;
+  bottom_folded = middle < px(bottom_height) + px(min_scene_height) + gap;
 
   const double column = left_folded ? std::min(px(right_width), std::floor(widest_column * width)) : px(right_width);
   const double begin_x = left_folded ? 0 : px(left_width) + gap, end_x = std::max(width - column - gap, begin_x);

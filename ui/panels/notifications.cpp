@@ -9,7 +9,7 @@ namespace nextview {
 namespace {
 
 constexpr double shown_seconds = 6.0, warning_seconds = 12.0;
-constexpr std::size_t most_notes = 3;
+constexpr std::size_t max_notes = 3;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void Notifications::draw(const PanelContext& context, const Rectangle& scene, st
     notes_.push_back({entry, entry.level == LogEntry::Level::warning ? warning_seconds : shown_seconds});
   }
   seen_ = count;
-  if (notes_.size() > most_notes) notes_.erase(notes_.begin(), notes_.end() - most_notes);
+  if (notes_.size() > max_notes) notes_.erase(notes_.begin(), notes_.end() - max_notes);
   if (notes_.empty()) return;
   const Style& style = context.style;
   ImGui::SetNextWindowPos({float(scene.x) + style.px(12), float(scene.y) + style.px(12)});

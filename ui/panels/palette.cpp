@@ -39,7 +39,7 @@ std::size_t values_before_last(const std::string& text) {
   return count - 1 - (text.back() == ' ' ? 0 : 1);
 }
 
-/// At the end of the text, where a person goes on.
+/// At the end of the text, where the user goes on.
 int to_end(ImGuiInputTextCallbackData* data) {
   if (*static_cast<bool*>(data->UserData)) {
     data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
@@ -105,7 +105,7 @@ void Palette::draw_commands(const PanelContext& context) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Command& command = *found[i];
     const bool can = command.available(context.state());
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(can ? theme::ink : theme::visited));
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(can ? theme::ink : theme::muted));
     const bool pressed = ImGui::Selectable(fmt::format("{}##{}", command.text, command.name).c_str(), i == chosen_);
     ImGui::PopStyleColor();
     tooltip(help_of(context, command));

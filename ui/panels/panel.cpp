@@ -14,13 +14,13 @@
 namespace nextview {
 namespace {
 
-constexpr float tooltip_delay = 0.45f;  // [s] so that a tooltip does not cover what a person is about to click
+constexpr float tooltip_delay = 0.45f;  // [s] so that a tooltip does not cover what the user is about to click
 
 }  // namespace
 
-Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags, float least_width) {
-  if (r.width < least_width) {
-    ImGui::SetNextWindowContentSize({least_width - 2 * ImGui::GetStyle().WindowPadding.x, 0});
+Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags, float min_width) {
+  if (r.width < min_width) {
+    ImGui::SetNextWindowContentSize({min_width - 2 * ImGui::GetStyle().WindowPadding.x, 0});
     flags |= ImGuiWindowFlags_HorizontalScrollbar;
   }
   ImGui::SetNextWindowPos({float(r.x), float(r.y)});

@@ -37,7 +37,7 @@ struct PanelContext {
 class Panel {
  public:
   /// What needs a larger width than the place has [px] is scrolled.
-  Panel(const char* name, const Rectangle& rectangle, ImGuiWindowFlags flags = 0, float least_width = 0);
+  Panel(const char* name, const Rectangle& rectangle, ImGuiWindowFlags flags = 0, float min_width = 0);
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
@@ -60,7 +60,7 @@ constexpr float left_panel_width = 272, right_panel_width = 336;
 /// As much of a text as fits into a width [px], with an ellipsis for the rest.
 std::string shortened(const std::string& text, float width);
 
-/// A button with an icon before its label. A primary button stands out: it is what a person most likely wants.
+/// A button with an icon before its label. A primary button stands out: it is what the user most likely wants.
 bool icon_button(const Style& style, Icon icon, const char* label, bool primary = false, float width = 0);
 /// A button for a command: its icon and label, disabled while the command cannot be done, with the declaration's help,
 /// keys and reason as its tooltip. `width` 0: as wide as it needs to be.

@@ -11,11 +11,11 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t most_dots = 40;  ///< of a series: more would be a thick line
+constexpr std::size_t max_dots = 40;  ///< of a series: more would be a thick line
 
 ImU32 series_colour(std::size_t index) { return to_imgui_u32(theme::series[index % theme::series.size()]); }
 
-ImU32 earlier_colour() { return to_imgui_u32(mix(theme::visited, theme::paper, 0.55)); }
+ImU32 earlier_colour() { return to_imgui_u32(mix(theme::muted, theme::paper, 0.55)); }
 
 /// What is drawn where: data coordinates and the pixels of the plot's area.
 struct Axes {
@@ -101,7 +101,7 @@ void draw_one_series(const Style& style, const ChartSeries& series, const Axes& 
     if (i > 0)
       list.AddLine({axes.x(series.x[i - 1]), axes.y(series.y[i - 1])}, point, colour,
                    style.px(series.earlier ? 1.2f : 1.8f));
-    if (!series.earlier && series.x.size() <= most_dots) list.AddCircleFilled(point, style.px(2.6f), colour);
+    if (!series.earlier && series.x.size() <= max_dots) list.AddCircleFilled(point, style.px(2.6f), colour);
   }
 }
 

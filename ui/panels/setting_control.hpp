@@ -4,7 +4,7 @@
 namespace nextview {
 
 /// A setting's control, without a label, as wide as the next item's width; its help and unit are the tooltip. Returns
-/// whether a person has finished changing the setting.
+/// whether the user has finished changing the setting.
 bool setting_control(Setting& setting);
 
 /// "horizontal field of view [deg]; from 1 to 170"

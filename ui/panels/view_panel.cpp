@@ -15,35 +15,35 @@
 namespace nextview {
 namespace {
 
-std::string title(const SessionSnapshot& s, const LookedAt& view) {
+std::string title(const SessionSnapshot& s, const ViewSelection& view) {
   switch (view.kind) {
-    case LookedAt::Kind::candidate:
+    case ViewSelection::Kind::candidate:
       return fmt::format("Candidate {}", view.index);
-    case LookedAt::Kind::taken:
+    case ViewSelection::Kind::taken:
       return fmt::format("View {} as taken", view.index + 1);
-    case LookedAt::Kind::own:
-      return "A view of your own";
-    case LookedAt::Kind::next:
+    case ViewSelection::Kind::custom:
+      return "A custom view";
+    case ViewSelection::Kind::next:
       break;
   }
-  if (s.own_next_view) return "Next: your own view";
+  if (s.custom_next_view) return "Next: your custom view";
   return s.next_candidate ? fmt::format("Next: candidate {}", *s.next_candidate) : "Next: the start view";
 }
 
 /// Which view: the next one, the views taken, the candidates.
 void draw_choice(const PanelContext& context) {
   const SessionSnapshot& s = context.snapshot;
-  const LookedAt& view = context.window.selection.view;
+  const ViewSelection& view = context.window.selection.view;
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::BeginCombo("##view", title(s, view).c_str(), ImGuiComboFlags_HeightLarge)) return;
-  if (s.finished.empty() && ImGui::Selectable("The next view", view.kind == LookedAt::Kind::next))
+  if (s.finished.empty() && ImGui::Selectable("The next view", view.kind == ViewSelection::Kind::next))
     context.post(command::select_next());
   for (std::size_t i = s.records.size(); i-- > 0;)
-    if (ImGui::Selectable(fmt::format("View {} as taken", i + 1).c_str(), view.is(LookedAt::Kind::taken, i)))
+    if (ImGui::Selectable(fmt::format("View {} as taken", i + 1).c_str(), view.is(ViewSelection::Kind::taken, i)))
       context.post(command::select_taken(i + 1));
   for (std::size_t i = 0; i < s.candidates.size(); ++i)
     if (s.available(i) &&
-        ImGui::Selectable(fmt::format("Candidate {}", i).c_str(), view.is(LookedAt::Kind::candidate, i)))
+        ImGui::Selectable(fmt::format("Candidate {}", i).c_str(), view.is(ViewSelection::Kind::candidate, i)))
       context.post(command::select_view(i));
   ImGui::EndCombo();
 }
@@ -132,7 +132,7 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
 
 void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
   const std::string unit = context.snapshot.gain_unit;
-  const std::string from = r.view < 0 ? (r.overridden ? "your own view" : "the start view")
+  const std::string from = r.view < 0 ? (r.overridden ? "your custom view" : "the start view")
                                       : fmt::format("candidate {}{}", r.view, r.overridden ? ", your choice" : "");
   table_row("taken from", from);
   table_row("predicted gain", r.view < 0 && !r.overridden ? "none" : fmt::format("{} {}", readable(r.gain), unit),
@@ -140,8 +140,8 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
   table_row("realised gain", fmt::format("{} nats", readable(r.realised_gain)),
             "Entropy that the map lost by this view (Eq. 12)");
   table_row("new voxels", fmt::format("{}", r.new_voxels), "Measured for the first time");
-  table_row("points", fmt::format("{} of {} returns", r.points, r.returns), "Left after the cleaning of the cloud");
-  table_row("beyond range", fmt::format("{} rays", r.passes));
+  table_row("points", fmt::format("{} of {} hits", r.points, r.hits), "Left after the cleaning of the cloud");
+  table_row("beyond range", fmt::format("{} rays", r.misses));
   table_row("way there",
             fmt::format("{:.2f} m, {:.0f}°", r.motion.distance, 180 / std::numbers::pi * r.motion.rotation));
 }
@@ -150,13 +150,13 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   const SessionSnapshot& s = context.snapshot;
   const std::string unit = s.gain_unit;
   const auto candidate =
-      view.view.kind == LookedAt::Kind::next ? s.next_candidate : context.window.selection.candidate();
+      view.view.kind == ViewSelection::Kind::next ? s.next_candidate : context.window.selection.candidate();
   if (view.explanation)
     table_row("expected gain", fmt::format("{} {}", readable(view.explanation->value), unit),
               "The sum of what its rays contribute");
   if (!candidate || s.records.empty()) return;
   const Candidate& c = s.records.back().candidates[*candidate];
-  if (!c.available) return table_row("", "visited");
+  if (!c.available) return table_row("", "taken");
   table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
   table_row("way there", fmt::format("{:.2f} m", c.cost));
   table_row("utility", fmt::format("{:.4f}", c.utility), "U = gain share - cost share, each with its weight (Eq. 13)");
@@ -168,7 +168,7 @@ void draw_numbers(const PanelContext& context, const ViewInspection& view) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   ImGui::PushFont(context.style.small);
   const auto& records = context.snapshot.records;
-  if (view.view.kind == LookedAt::Kind::taken && view.view.index < records.size()) {
+  if (view.view.kind == ViewSelection::Kind::taken && view.view.index < records.size()) {
     draw_taken_numbers(context, records[view.view.index]);
   } else {
     draw_candidate_numbers(context, view);
@@ -181,12 +181,12 @@ void draw_buttons(const PanelContext& context) {
   const float gap = context.style.px(6), width = (ImGui::GetContentRegionAvail().x - gap) / 2;
   command_button(context, command::look_through, Icon::none, "Look through it", false, width);
   ImGui::SameLine(0, gap);
-  command_button(context, command::own_view, Icon::none, "View as I look now", false, width);
-  const LookedAt::Kind kind = context.window.selection.view.kind;
-  if (kind == LookedAt::Kind::candidate)
+  command_button(context, command::custom_view, Icon::none, "View as I look now", false, width);
+  const ViewSelection::Kind kind = context.window.selection.view.kind;
+  if (kind == ViewSelection::Kind::candidate)
     command_button(context, command::take_view, Icon::none, "Take this view next", true, 2 * width + gap);
-  if (kind == LookedAt::Kind::own)
-    command_button(context, command::take_own_view, Icon::none, "Take my own view next", true, 2 * width + gap);
+  if (kind == ViewSelection::Kind::custom)
+    command_button(context, command::take_custom_view, Icon::none, "Take the custom view next", true, 2 * width + gap);
 }
 
 }  // namespace
@@ -197,7 +197,7 @@ void draw_view_panel(const PanelContext& context, const Rectangle& rectangle) {
   draw_choice(context);
   draw_buttons(context);
   const auto& view = context.inspection.view;
-  if (!context.snapshot.finished.empty() && context.window.selection.view.kind == LookedAt::Kind::next)
+  if (!context.snapshot.finished.empty() && context.window.selection.view.kind == ViewSelection::Kind::next)
     return small_text(context.style, "The scan is finished: there is no next view. Choose one that was taken above.");
   if (!view || view->view != context.window.selection.view) return small_text(context.style, "Looking …");
   if (!view->why_empty.empty()) small_text(context.style, fmt::format("Empty: {}.", view->why_empty), theme::chosen);

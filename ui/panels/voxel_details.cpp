@@ -66,7 +66,7 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
   ImGui::Dummy({float(place.width), float(place.height)});
   if (!ImGui::BeginTable("history", 4, ImGuiTableFlags_BordersInnerH)) return;
   ImGui::PushFont(context.style.small);
-  for (const auto& [name, width] : {std::pair{"view", 40.0f}, {"hits", 40.0f}, {"passes", 56.0f}})
+  for (const auto& [name, width] : {std::pair{"view", 40.0f}, {"hits", 40.0f}, {"misses", 56.0f}})
     ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, context.style.px(width));
   ImGui::TableSetupColumn("log-odds", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
@@ -80,7 +80,7 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
       context.post(command::panel(PanelName::view));
     }
     tooltip("Click to look at this view.");
-    for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.passes),
+    for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.misses),
                                     fmt::format("{:+.2f} to {:.2f}", u.log_odds_change, u.log_odds)}) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(text.c_str());

@@ -40,7 +40,7 @@ class Scene {
 
   void set_caption(const std::string& caption);
   void set_axes(bool axes, bool scale_bar);
-  /// Pixels of the display a pixel of the design: 2 on a HiDPI display, 1 unless told otherwise. Lines, points, text
+  /// Pixels of the display per pixel of the design: 2 on a HiDPI display, 1 unless told otherwise. Lines, points, text
   /// and legends become as much larger.
   void set_scale(double scale);
   /// While the camera moves, edges may be rough: drawing in software then takes a third of the time. Holds for the

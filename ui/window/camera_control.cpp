@@ -66,10 +66,10 @@ Pose camera_pose(vtkRenderer& renderer) {
 }
 
 void look_through(vtkRenderer& renderer, const Pose& T_world_camera, const Vector3& target, double vertical_angle) {
-  constexpr double least_distance = 0.1;  // [m]
+  constexpr double min_distance = 0.1;  // [m]
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
-  const Vector3 focus = position + std::max((target - position).dot(forward), least_distance) * forward;
+  const Vector3 focus = position + std::max((target - position).dot(forward), min_distance) * forward;
   const Vector3 up = -T_world_camera.linear().col(1);
   camera.SetPosition(position.data());
   camera.SetFocalPoint(focus.data());

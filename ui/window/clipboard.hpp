@@ -4,7 +4,7 @@
 
 namespace nextview {
 
-/// What a person copies and pastes.
+/// What the user copies and pastes.
 struct Clipboard {
   std::function<std::string()> get;
   std::function<void(const std::string&)> set;

@@ -20,7 +20,7 @@ constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA
                        gl_color_buffer_bit = 0x4000, gl_nearest = 0x2600;
 
 /// Each box costs a blit and draws its windows once more; a pixel too many costs little.
-constexpr std::size_t most_boxes = 8;
+constexpr std::size_t max_boxes = 8;
 constexpr int close = 32;  // [px]
 
 bool touch(const PixelBox& a, const PixelBox& b) {
@@ -64,7 +64,7 @@ PixelBox PixelBox::hull(const PixelBox& o) const {
 
 void PixelBoxes::add(PixelBox box) {
   if (box.empty()) return;
-  const auto takes = [&](const PixelBox& other) { return touch(box, other) || boxes_.size() >= most_boxes; };
+  const auto takes = [&](const PixelBox& other) { return touch(box, other) || boxes_.size() >= max_boxes; };
   for (auto other = boxes_.begin(); (other = std::find_if(boxes_.begin(), boxes_.end(), takes)) != boxes_.end();) {
     box = box.hull(*other);
     boxes_.erase(other);

@@ -20,7 +20,7 @@ class ImguiHost {
   const Style& style() const { return style_; }
   const ImGuiContext& context() const { return *context_; }
   void set_clipboard(Clipboard clipboard);
-  /// What a person did since the last frame; dropped files are nothing to ImGui.
+  /// What the user did since the last frame; dropped files are nothing to ImGui.
   void take(std::span<const InputEvent> events);
   /// Begins a frame of this size [px], `seconds` after the last one.
   void begin_frame(int width, int height, double seconds);

@@ -9,7 +9,7 @@ namespace nextview {
 
 enum class PointerButton { left, right, middle };
 
-/// What a person does, in the order in which it is done.
+/// What the user does, in the order in which it is done.
 namespace input {
 
 struct Move {
@@ -20,7 +20,7 @@ struct Button {
   bool down;
 };
 struct Wheel {
-  double steps;  ///< away from the person is positive
+  double steps;  ///< away from the user is positive
 };
 struct KeyChange {
   Key key;

@@ -67,7 +67,7 @@ void Interface::Parts::follow_session() {
     state.selection = {};
     camera_moved = false;
   }
-  if (state.selection.view.kind == LookedAt::Kind::taken && state.selection.view.index >= s.records.size())
+  if (state.selection.view.kind == ViewSelection::Kind::taken && state.selection.view.index >= s.records.size())
     state.selection.view = {};
 }
 

@@ -48,7 +48,7 @@ struct Interface::Parts {
   ScriptPlayer script;
   ScriptRecorder recorder{state.script};
   bool tooltip_is_due = false;  ///< in the last frame
-  bool camera_moved = false;    ///< by a person, since it was framed
+  bool camera_moved = false;    ///< by the user, since it was framed
   double motion_left = 0;       ///< until the camera is at rest [s]; 0: it is
   bool scene_is_old = true;
   std::size_t scene_drawings = 0;

@@ -18,7 +18,7 @@ namespace nextview {
 namespace {
 
 /// Points drawn at most: more do not show, and a software renderer feels each.
-constexpr std::size_t most_points = 60'000;
+constexpr std::size_t max_points = 60'000;
 /// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
 constexpr std::size_t rays_shown = 60;
 
@@ -33,7 +33,7 @@ bool same(const LayerChoice& a, const LayerChoice& b) {
 /// The explanation of the view that is looked at, if it is known.
 std::shared_ptr<const ScoreExplanation> explanation_of(const SessionSnapshot& s, const Selection& selection,
                                                        const Inspection& inspection) {
-  if (selection.view.kind == LookedAt::Kind::next) return s.explanation;
+  if (selection.view.kind == ViewSelection::Kind::next) return s.explanation;
   const bool answered = inspection.view && inspection.view->view == selection.view && inspection.session &&
                         inspection.session->session == s.session;
   return answered ? inspection.view->explanation : nullptr;
@@ -65,9 +65,9 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const auto explanation = explanation_of(*snapshot, window.selection, *inspection);
   const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
   const bool new_rays = explanation != explanation_;
-  const bool new_own_view = selection_.own_view.has_value() != window.selection.own_view.has_value();
+  const bool new_custom_view = selection_.custom_view.has_value() != window.selection.custom_view.has_value();
   const auto eye = eye_of_a_view(*snapshot, window);
-  if (!new_snapshot && !new_choice && !new_rays && !new_own_view && eye == eye_) return false;
+  if (!new_snapshot && !new_choice && !new_rays && !new_custom_view && eye == eye_) return false;
 
   const SessionSnapshot& s = *snapshot;
   const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
@@ -83,7 +83,7 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
   eye_ = eye;
-  if (const auto pose = looked_at_pose(s, window.selection); new_rays || new_snapshot)
+  if (const auto pose = selected_view_pose(s, window.selection); new_rays || new_snapshot)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
   show_views(s, window);
@@ -107,7 +107,7 @@ void SceneView::show_mesh(const SessionSnapshot& s, const LayerChoice& choice) {
 
 void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) {
   const SeenCloud& cloud = *s.cloud;
-  const std::size_t stride = cloud.points.size() / most_points + 1;
+  const std::size_t stride = cloud.points.size() / max_points + 1;
   SeenCloud thin;
   for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
     thin.points.push_back(cloud.points[i]);
@@ -140,11 +140,11 @@ void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice,
 void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) {
   ViewsPicture picture;
   std::vector<double> utilities;
-  std::vector<std::size_t> visited;
+  std::vector<std::size_t> taken;
   std::vector<Pose> path;
   for (const StepRecord& record : s.records) {
     path.push_back(record.T_world_camera);
-    if (record.view >= 0) visited.push_back(static_cast<std::size_t>(record.view));
+    if (record.view >= 0) taken.push_back(static_cast<std::size_t>(record.view));
   }
   ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   if (!s.records.empty()) {
@@ -159,16 +159,17 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   picture.camera = s.camera;
   picture.candidates = s.candidates;
   picture.scores = utilities;
-  picture.visited = visited;
+  picture.taken = taken;
   picture.path = path;
   picture.numbered_path = true;
   picture.score_name = "utility";
   if (choice_.ranges_locked && utilities_.first < utilities_.second) picture.range = utilities_;
   if (s.finished.empty()) {
     picture.chosen = s.next_candidate;
-    if (s.own_next_view) picture.own_view = s.next_view;
+    if (s.custom_next_view) picture.custom_view = s.next_view;
   }
-  if (!picture.own_view && !picture.chosen && window.selection.own_view) picture.own_view = window.selection.own_view;
+  if (!picture.custom_view && !picture.chosen && window.selection.custom_view)
+    picture.custom_view = window.selection.custom_view;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
   picture.eye = eye_;
   picture.reach = (s.next_view.translation() - target).norm();
@@ -179,7 +180,7 @@ std::optional<Vector3> SceneView::eye_of_a_view(const SessionSnapshot& s, const 
   const Vector3 eye = camera_pose().translation();
   const auto is_here = [&](const Pose& T_world_camera) { return stands_at(eye, T_world_camera.translation()); };
   const bool here = std::any_of(s.candidates.begin(), s.candidates.end(), is_here) || is_here(s.next_view) ||
-                    (window.selection.own_view && is_here(*window.selection.own_view)) ||
+                    (window.selection.custom_view && is_here(*window.selection.custom_view)) ||
                     std::any_of(s.records.begin(), s.records.end(),
                                 [&](const StepRecord& record) { return is_here(record.T_world_camera); });
   return here ? std::optional(eye) : std::nullopt;
@@ -190,9 +191,9 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
   if (explanation) rays_ = ray_segments(*explanation, origin, s.grid.resolution, rays_shown);
   double most = 0;
   for (const RaySegment& ray : rays_) most = std::max(most, ray.value);
-  if (!keep_ranges_ || most_contribution_ <= 0) most_contribution_ = most;
+  if (!keep_ranges_ || max_contribution_ <= 0) max_contribution_ = most;
   RayValues values{"contribution of a ray", s.gain_unit};
-  if (choice_.ranges_locked && most_contribution_ > 0) values.high = most_contribution_;
+  if (choice_.ranges_locked && max_contribution_ > 0) values.high = max_contribution_;
   scene_.rays().show(rays_, values);
 }
 

@@ -64,7 +64,7 @@ class SceneView {
 
   // Colour ranges, kept while they are locked.
   ValueRange utilities_{0, 1}, heights_{0, 1};
-  double most_contribution_ = 0;
+  double max_contribution_ = 0;
   bool keep_ranges_ = false;  ///< they were locked in the picture before, too
 };
 

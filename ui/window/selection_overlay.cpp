@@ -74,7 +74,7 @@ void draw_voxel(SceneView& view, const PanelContext& context, std::uint32_t voxe
         for (const VoxelRay& ray : inspected->rays[k])
           if (ray.hit == hit)
             draw_segment(view, s.records[k].T_world_camera.translation(), ray.end.cast<double>(),
-                         hit ? to_imgui_u32(theme::series[0], 0.7) : to_imgui_u32(theme::visited, 0.16), width);
+                         hit ? to_imgui_u32(theme::series[0], 0.7) : to_imgui_u32(theme::muted, 0.16), width);
   }
   const auto corners = corners_of(s.grid, voxel);
   for (int from = 0; from < 8; ++from)
@@ -102,7 +102,7 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
         (Vector3(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) + Vector3::Constant(0.5)) * edge;
     const Vector3 to = origin + ray.direction * ((centre - origin).dot(ray.direction) + 0.5 * edge);
     const double share = voxel.contribution / largest;
-    draw_segment(view, from, to, to_imgui_u32(share > 0 ? map.at(share) : theme::visited),
+    draw_segment(view, from, to, to_imgui_u32(share > 0 ? map.at(share) : theme::muted),
                  context.style.px(share > 0 ? 4.0f : 2.0f));
     from = to;
   }
@@ -122,15 +122,15 @@ void draw_selection_overlay(SceneView& view, const PanelContext& context) {
   const auto draw = [&](std::size_t candidate) {
     if (candidate >= s.candidates.size() || (candidate == s.next_candidate && s.finished.empty())) return;
     draw_frustum(view, context, s.candidates[candidate], fmt::format("view {}", candidate),
-                 s.available(candidate) || s.records.empty() ? theme::series[0] : theme::visited);
+                 s.available(candidate) || s.records.empty() ? theme::series[0] : theme::muted);
   };
   if (const auto candidate = selection.candidate()) draw(*candidate);
   if (context.hovered && context.hovered != selection.candidate()) draw(*context.hovered);
-  if (selection.view.kind == LookedAt::Kind::own && selection.own_view)
-    draw_frustum(view, context, *selection.own_view, "your own view", theme::series[0]);
-  if (selection.view.kind == LookedAt::Kind::taken && selection.view.index < s.records.size())
+  if (selection.view.kind == ViewSelection::Kind::custom && selection.custom_view)
+    draw_frustum(view, context, *selection.custom_view, "your custom view", theme::series[0]);
+  if (selection.view.kind == ViewSelection::Kind::taken && selection.view.index < s.records.size())
     draw_frustum(view, context, s.records[selection.view.index].T_world_camera,
-                 fmt::format("view {} as taken", selection.view.index + 1), theme::visited);
+                 fmt::format("view {} as taken", selection.view.index + 1), theme::muted);
   if (selection.voxel && *selection.voxel < s.grid.voxel_count()) draw_voxel(view, context, *selection.voxel);
   if (selection.ray) draw_ray(view, context, *selection.ray);
   ImGui::GetBackgroundDrawList()->PopClipRect();

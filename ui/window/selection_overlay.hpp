@@ -4,7 +4,7 @@
 
 namespace nextview {
 
-/// Draws over the scene what a person points at or has picked: frustums, a voxel and its rays, a ray and what its
+/// Draws over the scene what the user points at or has picked: frustums, a voxel and its rays, a ray and what its
 /// voxels contribute. It costs no new picture of the scene.
 void draw_selection_overlay(SceneView& view, const PanelContext& context);
 

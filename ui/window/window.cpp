@@ -15,8 +15,8 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 1280, height = 800, least_width = 480, least_height = 360;  // [screen coordinates]
-constexpr int exit_not_done = 2;                                                  // a call of the script was not done
+constexpr int width = 1280, height = 800, min_width = 480, min_height = 360;  // [screen coordinates]
+constexpr int exit_not_done = 2;                                              // a call of the script was not done
 /// The longest wait while nothing happens [s]; news and input end it at once.
 constexpr double longest_wait = 60.0;
 
@@ -169,7 +169,7 @@ int run_window(const Configuration& configuration, const Script& script) {
   const auto [first_width, first_height] = first_size();
   WindowTarget target("Nextview", first_width, first_height);
   GLFWwindow* window = target.handle();
-  glfwSetWindowSizeLimits(window, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSetWindowSizeLimits(window, min_width, min_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSwapInterval(1);
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);

@@ -7,10 +7,10 @@
 
 namespace nextview {
 
-/// The voxels that a person has chosen to see: the conventional map's, or the Gibbs map's if there is one.
+/// The voxels that the user has chosen to see: the conventional map's, or the Gibbs map's if there is one.
 std::span<const Voxel> chosen_voxels(const SessionSnapshot& snapshot, MapChoice map);
 
-/// One a voxel, for the colourings that need values: Gibbs minus conventional probability, or the chosen map's error.
+/// One per voxel, for the colourings that need values: Gibbs minus conventional probability, or the chosen map's error.
 /// Not a number where one of both says nothing; empty for other colourings, and without a truth.
 std::vector<float> chosen_values(const SessionSnapshot& snapshot, const LayerChoice& choice);
 

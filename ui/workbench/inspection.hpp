@@ -14,7 +14,7 @@ namespace nextview {
 
 /// What a view measured, or is expected to see, and what it is worth.
 struct ViewInspection {
-  LookedAt view;
+  ViewSelection view;
   Pose T_world_camera = Pose::Identity();
   ExpectedView expected;        ///< of the map that views are planned on
   std::vector<float> measured;  ///< depth [m] in the cells of `expected`, negative: nothing; empty: not taken yet
@@ -26,13 +26,14 @@ struct ViewInspection {
 /// Why a voxel is as it is.
 struct VoxelInspection {
   std::uint32_t voxel = 0;
-  std::vector<VoxelUpdate> history;              ///< one a view
-  std::vector<std::vector<VoxelRay>> rays;       ///< one a view: those that touch it, some of them if there are many
-  std::optional<FullConditional> conditional;    ///< given the rest of the sampler's last map; if there is a Gibbs map
-  std::vector<std::vector<std::uint8_t>> trace;  ///< its level after each sweep of the mean, one a chain; may be empty
+  std::vector<VoxelUpdate> history;            ///< one per view
+  std::vector<std::vector<VoxelRay>> rays;     ///< one per view: those that touch it, some of them if there are many
+  std::optional<FullConditional> conditional;  ///< given the rest of the sampler's last map; if there is a Gibbs map
+  std::vector<std::vector<std::uint8_t>>
+      trace;  ///< its level after each sweep of the mean, one per chain; may be empty
 };
 
-/// What is known of what a person has picked.
+/// What is known of what the user has picked.
 struct Inspection {
   std::uint64_t number = 0;                        ///< counts inspections, from 1
   std::shared_ptr<const SessionSnapshot> session;  ///< that it is of; null: nothing yet
@@ -42,6 +43,6 @@ struct Inspection {
 };
 
 /// Where the view that is looked at is taken from; nothing if there is none of that number.
-std::optional<Pose> looked_at_pose(const SessionSnapshot& session, const Selection& selection);
+std::optional<Pose> selected_view_pose(const SessionSnapshot& session, const Selection& selection);
 
 }  // namespace nextview

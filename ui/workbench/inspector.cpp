@@ -10,15 +10,15 @@
 namespace nextview {
 namespace {
 
-constexpr int expected_columns = 128;         ///< of the picture of a view
-constexpr std::size_t most_rays_a_view = 60;  ///< through a voxel: more would only hide each other
+constexpr int expected_columns = 128;          ///< of the picture of a view
+constexpr std::size_t max_rays_per_view = 60;  ///< through a voxel: more would only hide each other
 
 /// What the view measured, in the cells of the expected view: the nearest point of each.
 std::vector<float> measured_depth(const Scan& scan, const Pose& T_world_camera, const PinholeCamera& camera,
                                   const ExpectedView& cells) {
   std::vector<float> depth(cells.depth.size(), -1.0f);
   const Pose T_camera_world = T_world_camera.inverse();
-  for (const Eigen::Vector3f& point : scan.returns) {
+  for (const Eigen::Vector3f& point : scan.hits) {
     const Vector3 p = T_camera_world * point.cast<double>();
     if (p.z() <= 0) continue;
     const Eigen::Vector2d pixel = camera.project(p);
@@ -32,7 +32,7 @@ std::vector<float> measured_depth(const Scan& scan, const Pose& T_world_camera, 
 }
 
 std::vector<VoxelRay> thinned(const std::vector<VoxelRay>& rays) {
-  const std::size_t stride = std::max<std::size_t>(1, (rays.size() + most_rays_a_view - 1) / most_rays_a_view);
+  const std::size_t stride = std::max<std::size_t>(1, (rays.size() + max_rays_per_view - 1) / max_rays_per_view);
   std::vector<VoxelRay> result;
   for (std::size_t i = 0; i < rays.size(); i += stride) result.push_back(rays[i]);
   return result;
@@ -57,7 +57,7 @@ std::vector<std::vector<std::uint8_t>> trace_of(const GibbsPosterior& posterior,
 Inspection Inspector::inspect(std::shared_ptr<const SessionSnapshot> session, const Selection& selection) {
   Inspection result{++count_, session, selection, {}, {}};
   if (!session->loaded()) return result;
-  if (looked_at_pose(*session, selection)) result.view = inspect_view(*session, selection);
+  if (selected_view_pose(*session, selection)) result.view = inspect_view(*session, selection);
   if (selection.voxel && *selection.voxel < session->grid.voxel_count())
     result.voxel = inspect_voxel(*session, *selection.voxel);
   return result;
@@ -66,13 +66,13 @@ Inspection Inspector::inspect(std::shared_ptr<const SessionSnapshot> session, co
 ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection& selection) const {
   ViewInspection view;
   view.view = selection.view;
-  view.T_world_camera = *looked_at_pose(s, selection);
+  view.T_world_camera = *selected_view_pose(s, selection);
   const int rows = std::max(1, expected_columns * s.camera.height / s.camera.width);
   const double threshold = s.configuration.map.model.occupancy_threshold;
   const MapRays rays(s.grid, s.state.known.planning_voxels(), threshold, s.configuration.planner.ray_length);
   view.expected =
       expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
-  if (selection.view.kind == LookedAt::Kind::taken) {
+  if (selection.view.kind == ViewSelection::Kind::taken) {
     view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera, view.expected);
     view.no_explanation = "This view has been taken: its gain was predicted on the map before it.";
   } else {

@@ -4,7 +4,7 @@ namespace nextview {
 namespace {
 
 /// Points kept of a view, at most: more do not show, and a software renderer feels each.
-constexpr std::size_t points_a_view = 8'000;
+constexpr std::size_t points_per_view = 8'000;
 
 }  // namespace
 
@@ -19,13 +19,13 @@ SeenSurface::SeenSurface(const Session& session) {
 void SeenSurface::follow(const Session& session) {
   auto cloud = std::make_shared<SeenCloud>(*cloud_);
   for (; scans_ < session.scans().size(); ++scans_) {
-    const PointCloud& returns = session.scans()[scans_]->returns;
-    if (missed_) missed_->add(returns);
-    const std::size_t stride = returns.size() / points_a_view + 1;
-    for (std::size_t i = 0; i < returns.size(); i += stride) {
-      cloud->points.push_back(returns[i]);
+    const PointCloud& hits = session.scans()[scans_]->hits;
+    if (missed_) missed_->add(hits);
+    const std::size_t stride = hits.size() / points_per_view + 1;
+    for (std::size_t i = 0; i < hits.size(); i += stride) {
+      cloud->points.push_back(hits[i]);
       cloud->views.push_back(static_cast<std::uint16_t>(scans_));
-      if (surface_) cloud->distances.push_back(static_cast<float>((*surface_)(returns[i])));
+      if (surface_) cloud->distances.push_back(static_cast<float>((*surface_)(hits[i])));
     }
   }
   cloud_ = std::move(cloud);

@@ -7,28 +7,29 @@
 namespace nextview {
 
 /// The view that the view panel shows and that rays are drawn of.
-struct LookedAt {
-  enum class Kind { next, candidate, taken, own };
+struct ViewSelection {
+  enum class Kind { next, candidate, taken, custom };
   Kind kind = Kind::next;
   std::size_t index = 0;  ///< of the candidate, or of the step, from 0
 
-  bool operator==(const LookedAt&) const = default;
+  bool operator==(const ViewSelection&) const = default;
   bool is(Kind k, std::size_t i) const { return kind == k && index == i; }
 };
 
-/// What a person has picked.
+/// What the user has picked.
 struct Selection {
-  LookedAt view;
+  ViewSelection view;
   std::optional<std::uint32_t> voxel;
-  std::optional<std::size_t> ray;  ///< of the view that is looked at
-  std::optional<Pose> own_view;    ///< T_world_camera of a view of one's own, before it is taken
+  std::optional<std::size_t> ray;   ///< of the view that is looked at
+  std::optional<Pose> custom_view;  ///< T_world_camera of a custom view, before it is taken
 
   std::optional<std::size_t> candidate() const {
-    return view.kind == LookedAt::Kind::candidate ? std::optional(view.index) : std::nullopt;
+    return view.kind == ViewSelection::Kind::candidate ? std::optional(view.index) : std::nullopt;
   }
   bool operator==(const Selection& other) const {
-    const bool same_own_view = own_view ? other.own_view && own_view->isApprox(*other.own_view) : !other.own_view;
-    return view == other.view && voxel == other.voxel && ray == other.ray && same_own_view;
+    const bool same_custom_view =
+        custom_view ? other.custom_view && custom_view->isApprox(*other.custom_view) : !other.custom_view;
+    return view == other.view && voxel == other.voxel && ray == other.ray && same_custom_view;
   }
 };
 

@@ -33,8 +33,8 @@ struct Pause {};
 struct TakeView {
   std::size_t candidate;
 };
-/// Makes a view of one's own the next.
-struct TakeOwnView {
+/// Makes a custom view the next.
+struct TakeCustomView {
   Pose T_world_camera;
 };
 /// Goes back to before the last step or start; the scan is repeated up to there.
@@ -56,7 +56,7 @@ struct ForgetRuns {};
 
 using SessionRequest =
     std::variant<request::Load, request::OpenFile, request::SetTermination, request::Reset, request::Step,
-                 request::Play, request::Pause, request::TakeView, request::TakeOwnView, request::Undo, request::Redo,
-                 request::Refine, request::Export, request::ForgetRuns>;
+                 request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
+                 request::Redo, request::Refine, request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

@@ -16,7 +16,7 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t most_runs = 6;           ///< that stay for their curves
+constexpr std::size_t max_runs = 6;            ///< that stay for their curves
 constexpr std::size_t surface_points = 4'000;  ///< by which a view is judged before it is taken
 
 std::size_t history_limit(const Session& session) {
@@ -63,10 +63,10 @@ HistoryEntry SessionRunner::now() const {
   return {session_, session_->configuration().termination, session_->state(), *seen_};
 }
 
-void SessionRunner::load(Configuration configuration, const Told& told) {
+void SessionRunner::load(Configuration configuration, const JobControl& control) {
   configuration.validate();
   if (!session_) wanted_ = configuration;
-  auto session = std::make_shared<Session>(std::move(configuration), told.progress, told.stop);
+  auto session = std::make_shared<Session>(std::move(configuration), control.progress, control.stop);
   if (session_) history_.push(now(), history_limit(*session_));
   const TerminationConfig termination = session->configuration().termination;
   adopt({session, termination, session->state(), SeenSurface(*session)});
@@ -88,10 +88,10 @@ void SessionRunner::show_next() {
   publish(std::move(next));
 }
 
-void SessionRunner::step(const Told& told) {
+void SessionRunner::step(const JobControl& control) {
   if (!can_step()) return;
   HistoryEntry before = now();
-  if (!session_->step(told.progress, told.stop)) return;
+  if (!session_->step(control.progress, control.stop)) return;
   history_.push(std::move(before), history_limit(*session_));
   show_map(*snapshot_);
 }
@@ -102,18 +102,18 @@ void SessionRunner::take_view(std::size_t candidate) {
   show_next();
 }
 
-void SessionRunner::take_own_view(const Pose& T_world_camera) {
+void SessionRunner::take_custom_view(const Pose& T_world_camera) {
   if (!session_) return;
   session_->override_next_view(T_world_camera);
   show_next();
 }
 
-void SessionRunner::undo(const Told& told) {
-  if (history_.can_undo()) adopt(history_.undo(now(), history_limit(*session_), told.progress, told.stop));
+void SessionRunner::undo(const JobControl& control) {
+  if (history_.can_undo()) adopt(history_.undo(now(), history_limit(*session_), control.progress, control.stop));
 }
 
-void SessionRunner::redo(const Told& told) {
-  if (history_.can_redo()) adopt(history_.redo(now(), history_limit(*session_), told.progress, told.stop));
+void SessionRunner::redo(const JobControl& control) {
+  if (history_.can_redo()) adopt(history_.redo(now(), history_limit(*session_), control.progress, control.stop));
 }
 
 /// Goes on from there. The next view is the planner's choice again.
@@ -143,7 +143,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   show_map(std::move(next));
 }
 
-void SessionRunner::refine(int chains, int sweeps, const Told& told) {
+void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
   if (!session_ || session_->scans().empty()) return;
   PosteriorSamplerConfig config = posterior_sampler_config(session_->configuration());
   config.chains = chains;
@@ -152,34 +152,34 @@ void SessionRunner::refine(int chains, int sweeps, const Told& told) {
   config.validate();
   const bool same = refinement_ && refinement_->config().chains == chains && refinement_->config().sweeps == sweeps;
   if (!same) {
-    refinement_ = std::make_unique<MapRefinement>(session_->map().grid(), config, session_->map().model());
+    refinement_ = std::make_unique<GibbsState>(session_->map().grid(), config, session_->map().model());
     refined_scans_.clear();
   }
   const auto& scans = session_->scans();
   while (refined_scans_.size() < scans.size()) {
-    throw_if_stopped(told.stop);
-    told.progress(0.1 * double(refined_scans_.size()) / double(scans.size()), "joining the rays of each view");
+    throw_if_stopped(control.stop);
+    control.progress(0.1 * double(refined_scans_.size()) / double(scans.size()), "merging the rays of each view");
     refinement_->add(*scans[refined_scans_.size()]);
     refined_scans_.push_back(scans[refined_scans_.size()]);
   }
   const auto progress = [&](double fraction, std::string_view what, const SamplerDiagnostics& so_far) {
-    told.sampler(so_far);
-    told.progress(0.1 + 0.9 * fraction, what);
+    control.sampler(so_far);
+    control.progress(0.1 + 0.9 * fraction, what);
   };
-  refinement_->refine(probabilities(session_->map().voxels()), 0, progress, told.stop);
+  refinement_->refine(probabilities(session_->map().voxels()), 0, progress, control.stop);
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
   publish(std::move(next));
 }
 
-std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const Told& told) const {
+std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
   OutputFolder out(folder, input_files(session_->configuration()), "");
   out.begin("scan", session_->object_file());
-  told.progress(0.0, "writing the scan");
+  control.progress(0.0, "writing the scan");
   write_scan(*session_, out);
-  const auto surfaces = scan_surfaces(*session_, part(told.progress, 0.2, 0.9), told.stop);
-  if (told.stop.stop_requested()) throw Stopped();
+  const auto surfaces = scan_surfaces(*session_, part(control.progress, 0.2, 0.9), control.stop);
+  if (control.stop.stop_requested()) throw Stopped();
   write_surfaces(surfaces, out);
   std::vector<std::string> summaries;
   for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
@@ -200,7 +200,7 @@ void SessionRunner::remember_run(SessionSnapshot& snapshot) {
   std::vector<Run> runs;
   if (snapshot.earlier_runs) runs = *snapshot.earlier_runs;
   runs.push_back(std::move(run));
-  if (runs.size() > most_runs) runs.erase(runs.begin());
+  if (runs.size() > max_runs) runs.erase(runs.begin());
   snapshot.earlier_runs = std::make_shared<const std::vector<Run>>(std::move(runs));
 }
 
@@ -234,7 +234,7 @@ void SessionRunner::show_map(SessionSnapshot next) {
   publish(std::move(next));
 }
 
-void SessionRunner::show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement) {
+void SessionRunner::show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement) {
   ++snapshot.map;
   auto voxels = std::make_shared<const std::vector<Voxel>>(refinement.voxels().dense());
   const MapChange change = map_change(*snapshot.voxels, *voxels);
@@ -246,9 +246,9 @@ void SessionRunner::show_refinement(SessionSnapshot& snapshot, const MapRefineme
 void SessionRunner::show_next_view(SessionSnapshot& snapshot) const {
   snapshot.next_candidate = session_->next_candidate();
   snapshot.next_view = session_->next_view();
-  snapshot.own_next_view = session_->next_view_is_own();
+  snapshot.custom_next_view = session_->next_view_is_custom();
   snapshot.explanation = nullptr;
-  if (!snapshot.finished.empty() || (!snapshot.next_candidate && !snapshot.own_next_view)) return;
+  if (!snapshot.finished.empty() || (!snapshot.next_candidate && !snapshot.custom_next_view)) return;
   if (auto explanation = session_->explain(snapshot.next_view))
     snapshot.explanation = std::make_shared<const ScoreExplanation>(std::move(*explanation));
 }

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/gibbs/map_refinement.hpp"
+#include "core/gibbs/gibbs_state.hpp"
 #include "core/session/session.hpp"
 #include "ui/workbench/scan_history.hpp"
 #include "ui/workbench/seen_surface.hpp"
@@ -16,7 +16,7 @@ namespace nextview {
 /// going back, refining. What came of it is in snapshot().
 class SessionRunner {
  public:
-  struct Told {
+  struct JobControl {
     Progress progress;                                       ///< of the job
     std::function<void(const SamplerDiagnostics&)> sampler;  ///< how the refinement goes
     std::stop_token stop;
@@ -28,19 +28,19 @@ class SessionRunner {
   Configuration configuration() const { return session_ ? session_->configuration() : wanted_; }
 
   /// The session before stays if this one cannot be made. @throws std::exception, Stopped
-  void load(Configuration configuration, const Told& told);
+  void load(Configuration configuration, const JobControl& control);
   /// The scan stays; what it has taken so far may be all there is to it, or it may go on.
   /// @throws std::invalid_argument if it is not valid
   void set_termination(const TerminationConfig& termination);
   /// Nothing without a session that can step.
-  void step(const Told& told);
+  void step(const JobControl& control);
   void take_view(std::size_t candidate);
-  void take_own_view(const Pose& T_world_camera);
-  void undo(const Told& told);
-  void redo(const Told& told);
-  void refine(int chains, int sweeps, const Told& told);
+  void take_custom_view(const Pose& T_world_camera);
+  void undo(const JobControl& control);
+  void redo(const JobControl& control);
+  void refine(int chains, int sweeps, const JobControl& control);
   /// Writes what `nextview scan` writes. Returns a line for people on each surface.
-  std::vector<std::string> write(const std::filesystem::path& folder, const Told& told) const;
+  std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
   void forget_runs();
   /// Shown until the next thing that works.
   void set_message(const std::string& message);
@@ -53,12 +53,12 @@ class SessionRunner {
   /// Fills what of a snapshot is the session's.
   void show_session(SessionSnapshot& snapshot) const;
   void show_map(SessionSnapshot next);
-  void show_refinement(SessionSnapshot& snapshot, const MapRefinement& refinement);
+  void show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement);
   void show_next_view(SessionSnapshot& snapshot) const;
   void publish(SessionSnapshot snapshot);
 
   std::shared_ptr<Session> session_;
-  std::unique_ptr<MapRefinement> refinement_;  ///< the window's own; null if the planner has one, or none was asked for
+  std::unique_ptr<GibbsState> refinement_;  ///< the window's own; null if the planner has one, or none was asked for
   std::vector<std::shared_ptr<const Scan>> refined_scans_;  ///< that it holds
   std::optional<SeenSurface> seen_;
   Configuration wanted_;  ///< of the last session that could not be made; while there is none

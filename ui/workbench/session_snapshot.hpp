@@ -51,7 +51,7 @@ struct SurfacePoints {
 /// The object with its surface marked as measured or missed.
 struct MissedPicture {
   std::shared_ptr<const TriangleMesh> mesh;  ///< the object in small triangles
-  std::vector<std::uint8_t> observed;        ///< one a vertex
+  std::vector<std::uint8_t> observed;        ///< one per vertex
 };
 
 /// An earlier scan of this window, for its curves.
@@ -74,12 +74,12 @@ struct SessionSnapshot {
   std::string object_name;                              ///< for people
   std::shared_ptr<const TriangleMesh> mesh;             ///< null without a session; so are the next two
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread; null without a session
-  std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one a voxel of the grid
+  std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one per voxel of the grid
   std::shared_ptr<const SeenCloud> cloud;
   std::shared_ptr<const GibbsMap> gibbs;     ///< null if there is none
   std::shared_ptr<const GroundTruth> truth;  ///< null without evaluation; so is the next
   std::shared_ptr<const MissedPicture> missed;
-  std::vector<std::shared_ptr<const Scan>> scans;  ///< one a step
+  std::vector<std::shared_ptr<const Scan>> scans;  ///< one per step
   VoxelGrid grid;
   PinholeCamera camera;
   std::vector<Pose> candidates;  ///< T_world_camera
@@ -89,8 +89,8 @@ struct SessionSnapshot {
   std::shared_ptr<const std::vector<Run>> earlier_runs;  ///< oldest first; may be null
 
   Pose next_view = Pose::Identity();                    ///< T_world_camera
-  std::optional<std::size_t> next_candidate;            ///< none: the start view, an own view, or nothing is left
-  bool own_next_view = false;                           ///< the next view is the operator's own
+  std::optional<std::size_t> next_candidate;            ///< none: the start view, a custom view, or nothing is left
+  bool custom_next_view = false;                        ///< the next view is a custom one
   std::shared_ptr<const ScoreExplanation> explanation;  ///< of the next view's score; null if its gain has no rays
   std::string finished;                                 ///< why the scan is done; empty while it is not
   bool can_undo = false, can_redo = false;
@@ -110,7 +110,7 @@ struct WorkerProgress {
   bool busy = false;
   bool playing = false;
   bool refining = false;
-  bool paused = false;    ///< refining is held
+  bool paused = false;    ///< refining is paused
   double fraction = 0.0;  ///< of the job, 0 to 1
   std::string what;
   std::size_t waiting = 0;                            ///< requests behind it

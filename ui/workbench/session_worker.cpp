@@ -14,9 +14,9 @@ namespace nextview {
 namespace {
 
 /// Smaller steps of progress are no news.
-constexpr double least_progress = 0.01;
+constexpr double min_progress = 0.01;
 /// Nobody needs to be told how long a shorter job will take [s].
-constexpr double least_to_estimate = 1.0;
+constexpr double min_to_estimate = 1.0;
 
 template <class Request>
 bool is(const SessionRequest& request) {
@@ -69,7 +69,7 @@ WorkerProgress SessionWorker::progress() const {
   progress.busy = running_ || progress_.playing || !queue_.empty();
   progress.waiting = queue_.size();
   const double elapsed = std::chrono::duration<double>(Clock::now() - job_start_).count();
-  if (running_ && !progress.paused && progress.fraction > 0.02 && elapsed > least_to_estimate)
+  if (running_ && !progress.paused && progress.fraction > 0.02 && elapsed > min_to_estimate)
     progress.seconds_left = std::ceil(elapsed * (1 - progress.fraction) / progress.fraction);
   return progress;
 }
@@ -89,10 +89,10 @@ void SessionWorker::cancel() {
   news();
 }
 
-void SessionWorker::hold_refinement(bool hold) {
+void SessionWorker::pause_refinement(bool pause) {
   {
     const std::lock_guard lock(mutex_);
-    progress_.paused = hold && progress_.refining;
+    progress_.paused = pause && progress_.refining;
   }
   wake_.notify_all();
   news();
@@ -179,36 +179,37 @@ void SessionWorker::attempt(const SessionRequest& request) {
 }
 
 void SessionWorker::execute(const SessionRequest& request) {
-  std::visit(Overloaded{
-                 [&](const request::Load& r) { runner_.load(r.configuration, told()); },
-                 [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), told()); },
-                 [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
-                 [&](request::Reset) { runner_.load(runner_.configuration(), told()); },
-                 [&](request::Step) { runner_.step(told()); },
-                 [&](request::Play) {
-                   const std::lock_guard lock(mutex_);
-                   progress_.playing = runner_.can_step();
-                   next_play_ = Clock::now();
-                 },
-                 [](request::Pause) {},  // done when it was posted
-                 [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
-                 [&](const request::TakeOwnView& r) { runner_.take_own_view(r.T_world_camera); },
-                 [&](request::Undo) { runner_.undo(told()); },
-                 [&](request::Redo) { runner_.redo(told()); },
-                 [&](const request::Refine& r) {
-                   {
-                     const std::lock_guard lock(mutex_);
-                     progress_.refining = true;
-                   }
-                   runner_.refine(r.chains, r.sweeps, told());
-                 },
-                 [&](const request::Export& r) {
-                   for (const std::string& line : runner_.write(r.folder, told()))
-                     log_.add(LogEntry::Level::note, line);
-                 },
-                 [&](request::ForgetRuns) { runner_.forget_runs(); },
-             },
-             request);
+  std::visit(
+      Overloaded{
+          [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
+          [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), job_control()); },
+          [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
+          [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
+          [&](request::Step) { runner_.step(job_control()); },
+          [&](request::Play) {
+            const std::lock_guard lock(mutex_);
+            progress_.playing = runner_.can_step();
+            next_play_ = Clock::now();
+          },
+          [](request::Pause) {},  // done when it was posted
+          [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
+          [&](const request::TakeCustomView& r) { runner_.take_custom_view(r.T_world_camera); },
+          [&](request::Undo) { runner_.undo(job_control()); },
+          [&](request::Redo) { runner_.redo(job_control()); },
+          [&](const request::Refine& r) {
+            {
+              const std::lock_guard lock(mutex_);
+              progress_.refining = true;
+            }
+            runner_.refine(r.chains, r.sweeps, job_control());
+          },
+          [&](const request::Export& r) {
+            for (const std::string& line : runner_.write(r.folder, job_control()))
+              log_.add(LogEntry::Level::note, line);
+          },
+          [&](request::ForgetRuns) { runner_.forget_runs(); },
+      },
+      request);
 }
 
 /// Tells the log what was done.
@@ -230,7 +231,7 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   } else if (s.records.size() > before.records.size()) {
     const StepRecord& r = s.records.back();
     const std::string from =
-        r.view < 0 ? r.overridden ? "your own view" : "the start view" : fmt::format("candidate {}", r.view);
+        r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
     log_.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
                                       r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
     if (!r.ranking.degenerate.empty())
@@ -244,30 +245,30 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
   }
   if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs) {
-    auto [level, text] = refined(*s.gibbs, told().stop.stop_requested());
+    auto [level, text] = refined(*s.gibbs, job_control().stop.stop_requested());
     log_.add(level, std::move(text));
   }
   if (const auto* e = std::get_if<request::Export>(&request))
     log_.add(Level::success, "Scan written to " + e->folder.string());
 }
 
-SessionRunner::Told SessionWorker::told() {
+SessionRunner::JobControl SessionWorker::job_control() {
   const std::lock_guard lock(mutex_);
-  return {[this](double fraction, std::string_view what) { tell(fraction, what); },
-          [this](const SamplerDiagnostics& so_far) { tell_sampler(so_far); }, job_.get_token()};
+  return {[this](double fraction, std::string_view what) { report_progress(fraction, what); },
+          [this](const SamplerDiagnostics& so_far) { report_sampler(so_far); }, job_.get_token()};
 }
 
-void SessionWorker::tell(double fraction, std::string_view what) {
+void SessionWorker::report_progress(double fraction, std::string_view what) {
   {
     const std::lock_guard lock(mutex_);
-    if (progress_.what == what && std::abs(fraction - progress_.fraction) < least_progress) return;
+    if (progress_.what == what && std::abs(fraction - progress_.fraction) < min_progress) return;
     progress_.fraction = fraction;
     progress_.what = what;
   }
   news();
 }
 
-void SessionWorker::tell_sampler(const SamplerDiagnostics& so_far) {
+void SessionWorker::report_sampler(const SamplerDiagnostics& so_far) {
   auto copy = std::make_shared<const SamplerDiagnostics>(so_far);
   std::unique_lock lock(mutex_);
   progress_.sampler = std::move(copy);

@@ -28,8 +28,8 @@ class SessionWorker {
   /// Drops what waits and stops what runs as soon as that is possible; a step that is not complete is taken back, a
   /// refinement keeps its sweeps so far.
   void cancel();
-  /// Holds a refinement between two sweeps, or lets it go on.
-  void hold_refinement(bool hold);
+  /// Pauses a refinement between two sweeps, or resumes it.
+  void pause_refinement(bool pause);
   /// Waits this long before each view but the first while playing [s].
   void set_pause_between_views(double seconds);
 
@@ -47,9 +47,9 @@ class SessionWorker {
   void attempt(const SessionRequest& request);
   void finish(const SessionRequest& request, const SessionSnapshot& before);
   void drop_all();  ///< of the queue and the job; the mutex must be held
-  void tell(double fraction, std::string_view what);
-  void tell_sampler(const SamplerDiagnostics& so_far);
-  SessionRunner::Told told();
+  void report_progress(double fraction, std::string_view what);
+  void report_sampler(const SamplerDiagnostics& so_far);
+  SessionRunner::JobControl job_control();
   void news() const;
 
   const std::function<void()> on_news_;

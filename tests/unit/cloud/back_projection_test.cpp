@@ -25,10 +25,10 @@ TEST(BackProjection, EveryPixelProjectsBackToItselfAtItsRange) {
   const Pose T_world_camera = tilted_pose();
   const Scan scan = back_project(image, T_world_camera, 1.5);
   EXPECT_EQ(scan.origin, T_world_camera.translation());
-  EXPECT_TRUE(scan.passes.empty());
-  ASSERT_EQ(scan.returns.size(), image.range.size());
+  EXPECT_TRUE(scan.misses.empty());
+  ASSERT_EQ(scan.hits.size(), image.range.size());
   for (std::size_t i = 0; i < image.range.size(); ++i) {
-    const Vector3 in_camera = T_world_camera.inverse() * scan.returns[i].cast<double>();
+    const Vector3 in_camera = T_world_camera.inverse() * scan.hits[i].cast<double>();
     EXPECT_NEAR(in_camera.norm(), image.range[i], 1e-6);  // along the ray, not along z
     ASSERT_GT(in_camera.z(), 0.0);
     const Eigen::Vector2d pixel = image.camera.project(in_camera);
@@ -42,11 +42,11 @@ TEST(BackProjection, BeyondRangePassesAtMaximumRangeAndInvalidSaysNothing) {
   image.range[0] = 0.7f;
   image.range[2] = DepthImage::beyond_range;
   const Scan scan = back_project(image, tilted_pose(), 1.25);
-  ASSERT_EQ(scan.returns.size(), 1u);
-  ASSERT_EQ(scan.passes.size(), 1u);
-  EXPECT_NEAR((scan.returns[0].cast<double>() - scan.origin).norm(), 0.7, 1e-6);
-  EXPECT_NEAR((scan.passes[0].cast<double>() - scan.origin).norm(), 1.25, 1e-6);
-  const Vector3 in_camera = tilted_pose().inverse() * scan.passes[0].cast<double>();
+  ASSERT_EQ(scan.hits.size(), 1u);
+  ASSERT_EQ(scan.misses.size(), 1u);
+  EXPECT_NEAR((scan.hits[0].cast<double>() - scan.origin).norm(), 0.7, 1e-6);
+  EXPECT_NEAR((scan.misses[0].cast<double>() - scan.origin).norm(), 1.25, 1e-6);
+  const Vector3 in_camera = tilted_pose().inverse() * scan.misses[0].cast<double>();
   EXPECT_NEAR(image.camera.project(in_camera).x(), 2.0, 1e-4);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using Kind = LookedAt::Kind;
+using Kind = ViewSelection::Kind;
 
 /// All of the state that scene commands change, to be compared.
 auto scene_state(const WindowState& w) {
@@ -50,7 +50,7 @@ class CommandEffects : public testing::Test {
     return "no error";
   }
 
-  LookedAtScan scan_;
+  InspectedScan scan_;
   SessionWorker worker_;
   WindowState window_;
 };
@@ -158,23 +158,23 @@ TEST_F(CommandEffects, SelectionFollowsItsRules) {
   EXPECT_EQ(s.ray, 7u);
   EXPECT_FALSE(s.voxel);
   run("select-next");
-  EXPECT_TRUE(s.view == LookedAt{});
+  EXPECT_TRUE(s.view == ViewSelection{});
   run("inspect-voxel 0 0 0");
   run("clear-selection");
   EXPECT_EQ(s, Selection{});
 }
 
-TEST_F(CommandEffects, AnOwnViewStandsWhereItIsSaidAndLooksThere) {
-  run("own-view 0.6 -0.5 0.4 0.1 0.2 0.3");
+TEST_F(CommandEffects, AnCustomViewStandsWhereItIsSaidAndLooksThere) {
+  run("custom-view 0.6 -0.5 0.4 0.1 0.2 0.3");
   const Vector3 from(0.6, -0.5, 0.4), to(0.1, 0.2, 0.3);
-  const Pose pose = window_.selection.own_view.value();
+  const Pose pose = window_.selection.custom_view.value();
   EXPECT_LT((pose.translation() - from).norm(), 1e-12);
   EXPECT_LT((pose.linear().col(2) - (to - from).normalized()).norm(), 1e-9) << "z is forward";
-  EXPECT_TRUE(window_.selection.view.is(Kind::own, 0));
+  EXPECT_TRUE(window_.selection.view.is(Kind::custom, 0));
   EXPECT_EQ(window_.in_front(Side::right), PanelName::view);
   window_.scene_camera = look_at(Vector3(1, 1, 1), Vector3::Zero());
-  run("own-view");
-  EXPECT_TRUE(window_.selection.own_view->isApprox(window_.scene_camera));
+  run("custom-view");
+  EXPECT_TRUE(window_.selection.custom_view->isApprox(window_.scene_camera));
   run("look-through");
   run("select-taken 1");
   run("look-through");
@@ -228,16 +228,16 @@ TEST_F(AskedOfTheWorker, ViewsAreTakenAsAsked) {
   window_.selection.ray = 3;
   run("take-view");
   EXPECT_EQ(now()->next_candidate, other) << "the selected one";
-  EXPECT_TRUE(window_.selection.view == LookedAt{}) << "it is the next view now";
+  EXPECT_TRUE(window_.selection.view == ViewSelection{}) << "it is the next view now";
   EXPECT_FALSE(window_.selection.ray);
   run("take-proposal");
   EXPECT_EQ(now()->next_candidate, proposed);
   run("take-view " + std::to_string(third));
   EXPECT_EQ(now()->next_candidate, third);
-  window_.selection.own_view = own_view();
-  run("take-own-view");
-  EXPECT_TRUE(now()->own_next_view);
-  EXPECT_TRUE(now()->next_view.isApprox(own_view()));
+  window_.selection.custom_view = custom_view();
+  run("take-custom-view");
+  EXPECT_TRUE(now()->custom_next_view);
+  EXPECT_TRUE(now()->next_view.isApprox(custom_view()));
   run("step");
   EXPECT_EQ(now()->records.size(), 2u);
   EXPECT_THROW(run("take-view"), std::invalid_argument) << "nothing is selected";

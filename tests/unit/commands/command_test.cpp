@@ -121,7 +121,7 @@ TEST(Commands, AKeyNeverMeansTwoThingsAtOnce) {
     progress.paused = progress.refining && bit(5);
     progress.busy = progress.playing || progress.refining;
     WindowState window;
-    if (bit(6)) window.selection.own_view = Pose::Identity();
+    if (bit(6)) window.selection.custom_view = Pose::Identity();
     for (const auto& [key, sharing] : keys) {
       const auto can = [&](const Command* c) { return c->available(state_of(session, progress, window)); };
       EXPECT_LE(std::count_if(sharing.begin(), sharing.end(), can), 1)

@@ -17,7 +17,7 @@ Configuration with_views(int views) {
 using TerminationChange = SessionRunnerTest;
 
 TEST_F(TerminationChange, AFinishedScanGoesOn) {
-  runner_.load(with_views(3), told());
+  runner_.load(with_views(3), job_control());
   steps(3);
   ASSERT_FALSE(now().finished.empty());
   const std::uint64_t session = now().session;
@@ -34,7 +34,7 @@ TEST_F(TerminationChange, AFinishedScanGoesOn) {
 }
 
 TEST_F(TerminationChange, AScanEndsAtOnceIfItHasEnough) {
-  runner_.load(with_views(5), told());
+  runner_.load(with_views(5), job_control());
   steps(3);
   runner_.set_termination(with_views(2).termination);
   EXPECT_EQ(now().records.size(), 3u);
@@ -47,7 +47,7 @@ TEST_F(TerminationChange, AScanEndsAtOnceIfItHasEnough) {
 }
 
 TEST_F(TerminationChange, IsUndoneAndRedone) {
-  runner_.load(with_views(3), told());
+  runner_.load(with_views(3), job_control());
   steps(3);
   const auto before = runner_.snapshot();
   runner_.set_termination(with_views(6).termination);
@@ -55,17 +55,17 @@ TEST_F(TerminationChange, IsUndoneAndRedone) {
   const auto all = runner_.snapshot();
   runner_.set_termination(with_views(4).termination);
   EXPECT_FALSE(now().finished.empty());
-  runner_.undo(told());
+  runner_.undo(job_control());
   expect_same_scan(now(), *all);
-  for (int i = 0; i < 3; ++i) runner_.undo(told());
+  for (int i = 0; i < 3; ++i) runner_.undo(job_control());
   expect_same_scan(now(), *before);
   EXPECT_EQ(now().session, before->session);
-  runner_.undo(told());
+  runner_.undo(job_control());
   expect_same_scan(now(), *fresh(2, with_views(3)));
-  for (int i = 0; i < 5; ++i) runner_.redo(told());
+  for (int i = 0; i < 5; ++i) runner_.redo(job_control());
   EXPECT_EQ(now().finished, "5 views taken") << "the last change is the end of the way";
   EXPECT_FALSE(now().can_redo);
-  runner_.undo(told());
+  runner_.undo(job_control());
   expect_same_scan(now(), *all);
 }
 

@@ -26,12 +26,12 @@ VoxelGrid row() {
 
 Eigen::Vector3f at(double x) { return {static_cast<float>(x), 0.05f, 0.05f}; }
 
-Scan scan(const std::vector<double>& returns, const std::vector<double>& passes = {}) {
+Scan scan(const std::vector<double>& hits, const std::vector<double>& misses = {}) {
   Scan result;
   result.origin = {-0.35, 0.05, 0.05};
   result.max_range = max_range;
-  for (const double x : returns) result.returns.push_back(at(x));
-  for (const double x : passes) result.passes.push_back(at(x));
+  for (const double x : hits) result.hits.push_back(at(x));
+  for (const double x : misses) result.misses.push_back(at(x));
   return result;
 }
 
@@ -48,7 +48,7 @@ double hits_and_misses(int hits, int misses) {
 
 TEST(BaselineMaps, RaysAreCountedPerRayAndPerScan) {
   const std::vector<Scan> scans = {
-      scan({0.45, 0.43, 0.55}, {0.25}),  // a pass given up in voxel 2
+      scan({0.45, 0.43, 0.55}, {0.25}),  // a miss given up in voxel 2
       scan({0.25, 9.0, 0.95}),           // beyond range, and beyond the grid: both carve only
       scan({0.45}),
   };
@@ -59,7 +59,7 @@ TEST(BaselineMaps, RaysAreCountedPerRayAndPerScan) {
   ASSERT_EQ(maps.counts().size(), 8u);
   for (std::size_t v = 0; v < 8; ++v) {
     const RayCounts& c = maps.counts()[v];
-    EXPECT_EQ((std::array<unsigned, 4>{c.hits, c.passes, c.scan_hits, c.scan_passes}), expected[v]) << v;
+    EXPECT_EQ((std::array<unsigned, 4>{c.hits, c.misses, c.scan_hits, c.scan_misses}), expected[v]) << v;
   }
 }
 
@@ -99,7 +99,7 @@ TEST(BaselineMaps, PerRayUpdatesWithEveryRay) {
 }
 
 TEST(BaselineMaps, PerRayIsClampedAfterEachRayInTheirOrder) {
-  // One scan: voxel 2 is hit seven times, to the clamp, then passed once; voxel 3 is hit, then passed by a pass.
+  // One scan: voxel 2 is hit seven times, to the clamp, then passed once; voxel 3 is hit, then missed.
   const std::vector<Scan> scans = {
       scan({0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.35}, {0.45}),
       scan({0.35, 0.25}),
@@ -124,9 +124,9 @@ TEST(BaselineMaps, HitRatioIsTheShareOfRaysThatEnded) {
 TEST(BaselineMaps, BetaBinomialMapIsMadeOfTheRaysCounts) {
   const std::vector<Scan> scans = {scan({0.45, 0.43, 0.55}, {0.25}), scan({0.25, 9.0, 0.95}), scan({0.45})};
   std::vector<double> expected;  // the posterior itself is tested beside this file
-  for (const auto& [hits, passes] :
+  for (const auto& [hits, misses] :
        std::vector<std::pair<unsigned, unsigned>>{{0, 8}, {0, 8}, {1, 6}, {0, 6}, {3, 3}, {1, 2}, {0, 2}, {0, 2}})
-    expected.push_back(beta_binomial({hits, passes, 0, 0}));
+    expected.push_back(beta_binomial({hits, misses, 0, 0}));
   expect_near(BaselineMaps(row(), scans).make(BaselineMap::beta_binomial), expected);
 }
 
@@ -207,7 +207,7 @@ TEST(BaselineMaps, CountsAreOfTheRaysAsTheOccupancyMapTakesThem) {
   for (std::size_t v = 0; v < hits.size(); ++v) {
     const RayCounts& c = maps.counts()[v];
     ASSERT_EQ(c.scan_hits, hits[v]) << v;
-    ASSERT_EQ(c.scan_passes, misses[v]) << v;
+    ASSERT_EQ(c.scan_misses, misses[v]) << v;
     ASSERT_GE(c.hits, c.scan_hits);
     visited += c.any();
     hit += c.hits > 0;

@@ -8,12 +8,12 @@ namespace nextview {
 namespace {
 
 /// The posterior by summing the likelihood over the share of rays that a voxel stops, free or occupied (midpoints).
-double integrated_posterior(int hits, int passes) {
+double integrated_posterior(int hits, int misses) {
   constexpr int steps = 2'000'000;
   double occupied = 0.0, free = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double q = (i + 0.5) / steps, log_q = std::log(q), log_rest = std::log1p(-q);
-    const double likelihood = std::exp(hits * log_q + passes * log_rest);
+    const double likelihood = std::exp(hits * log_q + misses * log_rest);
     occupied += likelihood * 2.0 * (1.0 - q);                 // Beta(1, 2)
     free += likelihood * 999.0 * std::exp(998.0 * log_rest);  // Beta(1, 999)
   }
@@ -22,7 +22,7 @@ double integrated_posterior(int hits, int passes) {
 
 TEST(BetaBinomial, IsTheIntegralOverTheShare) {
   EXPECT_NEAR(beta_binomial({}), 0.05, 1e-12);  // no ray: its prior; the map says 0.5 and not measured
-  for (const auto& [hits, passes] : std::vector<std::pair<int, int>>{{0, 1},
+  for (const auto& [hits, misses] : std::vector<std::pair<int, int>>{{0, 1},
                                                                      {1, 0},
                                                                      {1, 1},
                                                                      {0, 10},
@@ -35,8 +35,8 @@ TEST(BetaBinomial, IsTheIntegralOverTheShare) {
                                                                      {3, 1000},
                                                                      {0, 3000},
                                                                      {0, 6000}}) {
-    const RayCounts counts{std::uint32_t(hits), std::uint32_t(passes), 0, 0};
-    EXPECT_NEAR(beta_binomial(counts), integrated_posterior(hits, passes), 1e-7) << hits << ' ' << passes;
+    const RayCounts counts{std::uint32_t(hits), std::uint32_t(misses), 0, 0};
+    EXPECT_NEAR(beta_binomial(counts), integrated_posterior(hits, misses), 1e-7) << hits << ' ' << misses;
   }
   // 1 hit: 0.05 / 3 against 0.95 / 1000. By hand, E[q] is 1/3 and 1/1000.
   EXPECT_NEAR(beta_binomial({1, 0, 0, 0}), 0.05 / 3 / (0.05 / 3 + 0.95 / 1000), 1e-12);
@@ -51,15 +51,15 @@ TEST(BetaBinomial, ManyRaysNeitherOverflowNorLeaveTheUnitInterval) {
     }
 }
 
-// By hand: without a hit the likelihoods are 2 / (2 + passes) and 999 / (999 + passes). With a false-hit rate of
-// exactly 0.001, from about 11,700 passes on a lower share of hits would fit better, and be called occupied.
+// By hand: without a hit the likelihoods are 2 / (2 + misses) and 999 / (999 + misses). With a false-hit rate of
+// exactly 0.001, from about 11,700 misses on a lower share of hits would fit better, and be called occupied.
 TEST(BetaBinomial, PassesWithoutAHitSayFreeHoweverManyThereAre) {
   double before = 0.05;
-  for (const std::uint32_t passes : {1u, 10u, 100u, 1'000u, 11'000u, 12'000u, 100'000u, 1'000'000u}) {
-    const double p = beta_binomial({0, passes, 0, 0}), n = passes;
+  for (const std::uint32_t misses : {1u, 10u, 100u, 1'000u, 11'000u, 12'000u, 100'000u, 1'000'000u}) {
+    const double p = beta_binomial({0, misses, 0, 0}), n = misses;
     const double odds = 0.05 / 0.95 * (2.0 / (2.0 + n)) * (999.0 + n) / 999.0;
-    EXPECT_NEAR(p / (odds / (1.0 + odds)), 1.0, 1e-7) << passes;
-    EXPECT_LT(p, before) << passes;
+    EXPECT_NEAR(p / (odds / (1.0 + odds)), 1.0, 1e-7) << misses;
+    EXPECT_LT(p, before) << misses;
     before = p;
   }
   EXPECT_NEAR(beta_binomial({0, 4'000'000'000, 0, 0}), 1.0535e-4, 1e-7);  // the limit, 2 / 999 of the prior's odds

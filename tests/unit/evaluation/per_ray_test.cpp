@@ -49,7 +49,7 @@ void take(BruteForce& voxel, const VoxelGrid& grid, std::uint32_t index, const V
     ++voxel.counts.hits;
     factor = 7.0 / 3.0;
   } else if (way > 0.0) {
-    ++voxel.counts.passes;
+    ++voxel.counts.misses;
     factor = 2.0 / 3.0;
   }
   if (factor != 1.0) voxel.odds = std::clamp(voxel.odds * factor, 0.12 / 0.88, 0.97 / 0.03);
@@ -63,7 +63,7 @@ TEST(PerRayMap, AgreesWithABruteForceOverAllRaysAndVoxels) {
     Scan scan{origin.cast<float>().cast<double>(), {}, {}, 1.499};
     for (int n = 0; n < 300; ++n) {  // of a sphere, and on beyond the range
       const double reach = n % 10 == 0 ? 2.0 : 0.2;
-      scan.returns.push_back((reach * random_scans::direction(random)).cast<float>());
+      scan.hits.push_back((reach * random_scans::direction(random)).cast<float>());
     }
     random_scans::add_passes(scan, random, 100);
     scan.max_range = max_range;  // passes end within it, clear of its rounding
@@ -76,12 +76,12 @@ TEST(PerRayMap, AgreesWithABruteForceOverAllRaysAndVoxels) {
   for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
     BruteForce expected;
     for (const Scan& scan : scans)
-      for (const auto* ends : {&scan.returns, &scan.passes})
-        for (const auto& end : *ends) take(expected, grid, v, scan.origin, end.cast<double>(), ends == &scan.returns);
+      for (const auto* ends : {&scan.hits, &scan.misses})
+        for (const auto& end : *ends) take(expected, grid, v, scan.origin, end.cast<double>(), ends == &scan.hits);
     if (expected.doubtful) continue;
     ++compared;
     ASSERT_EQ(maps.counts()[v].hits, expected.counts.hits) << v;
-    ASSERT_EQ(maps.counts()[v].passes, expected.counts.passes) << v;
+    ASSERT_EQ(maps.counts()[v].misses, expected.counts.misses) << v;
     ASSERT_NEAR(per_ray[v].probability, expected.odds / (1.0 + expected.odds), 1e-6) << v;
     ASSERT_EQ(per_ray[v].measured, expected.counts.any());
     hit += expected.counts.hits > 0;

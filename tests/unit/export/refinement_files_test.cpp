@@ -69,7 +69,7 @@ class RefinementFiles : public InTemporaryFolder {
     d.log_posterior = {{-9, -8, -7}, {-6, -5, -4}};
     d.changed_voxels = {{90, 80, 70}, {60, 50, 40}};
     d.burn_in = 1;
-    for (std::size_t* n : {&d.measured_rays, &d.joined_rays, &d.observed_voxels, &d.informed_voxels, &d.incidences,
+    for (std::size_t* n : {&d.measured_rays, &d.merged_rays, &d.observed_voxels, &d.informed_voxels, &d.incidences,
                            &d.list_bytes, &d.chain_bytes, &d.disagreeing_voxels})
       *n = next.whole();
     for (double* x : {&d.r_hat, &d.effective_samples, &d.trend, &d.voxel_r_hat, &d.voxel_effective_samples,
@@ -129,7 +129,7 @@ TEST_F(RefinementFiles, MetricsHaveEachNumberUnderItsName) {
   const auto& found = json["diagnostics"];
   for (const auto& [name, value] :
        std::vector<std::pair<const char*, std::size_t>>{{"measured_rays", d.measured_rays},
-                                                        {"joined_rays", d.joined_rays},
+                                                        {"merged_rays", d.merged_rays},
                                                         {"observed_voxels", d.observed_voxels},
                                                         {"informed_voxels", d.informed_voxels},
                                                         {"incidences", d.incidences},

@@ -84,9 +84,9 @@ TEST_F(ScanFiles, StepsHaveTheRecordsNumbersUnderTheirNames) {
          std::vector<std::pair<std::string, double>>{{"gain[voxels]", r.gain},
                                                      {"utility", r.utility},
                                                      {"realised_gain[nats]", r.realised_gain},
-                                                     {"returns", double(r.returns)},
+                                                     {"hits", double(r.hits)},
                                                      {"points", double(r.points)},
-                                                     {"passes", double(r.passes)},
+                                                     {"misses", double(r.misses)},
                                                      {"new_voxels", double(r.new_voxels)},
                                                      {"entropy[bits]", r.entropy},
                                                      {"total_entropy[bits]", r.total_entropy},
@@ -169,7 +169,7 @@ TEST_F(ScanFiles, MetricsAreOfTheWholeScan) {
   std::vector<double> distances;  // every point of every view
   const MeshDistance surface(*session->mesh());
   for (const auto& scan : session->scans())
-    for (const Eigen::Vector3f& p : scan->returns) distances.push_back(surface(p));
+    for (const Eigen::Vector3f& p : scan->hits) distances.push_back(surface(p));
   std::sort(distances.begin(), distances.end());
   double sum = 0.0, squares = 0.0;
   for (const double d : distances) sum += d, squares += d * d;
@@ -225,7 +225,7 @@ TEST_F(ScanFiles, RefinementsHaveARowAStep) {
     const SamplerDiagnostics& d = r.diagnostics;
     for (const auto& [column, value] :
          std::vector<std::pair<std::string, double>>{{"step", double(i + 1)},
-                                                     {"joined_rays", double(d.joined_rays)},
+                                                     {"merged_rays", double(d.merged_rays)},
                                                      {"informed_voxels", double(d.informed_voxels)},
                                                      {"changed_class", double(r.changed_class)},
                                                      {"sweeps", double(d.sweeps)},

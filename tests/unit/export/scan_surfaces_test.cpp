@@ -53,9 +53,9 @@ void expect_near_the_sphere(const ScanSurface& s, double limit) {
   ASSERT_FALSE(s.surface.empty()) << s.surface.why_empty;
   const double distance = distance_to_sphere(s.surface);
   EXPECT_LT(distance, limit);
-  ASSERT_TRUE(s.inspection.has_value());
-  EXPECT_NEAR(s.inspection->percentile_95, distance, 0.0003) << "the part's facets are 0.1 mm off a sphere";
-  EXPECT_GT(s.inspection->area_seen, 0.95 * s.surface.mesh.surface_area());
+  ASSERT_TRUE(s.surface_error.has_value());
+  EXPECT_NEAR(s.surface_error->percentile_95, distance, 0.0003) << "the part's facets are 0.1 mm off a sphere";
+  EXPECT_GT(s.surface_error->area_seen, 0.95 * s.surface.mesh.surface_area());
   EXPECT_EQ(s.openings.size(), 0u);
 }
 
@@ -90,7 +90,7 @@ TEST(ScanSurfaces, BeforeTheFirstStepThereAreReasons) {
     EXPECT_TRUE(s.surface.empty());
     EXPECT_FALSE(s.surface.why_empty.empty());
     EXPECT_TRUE(s.openings.empty());
-    EXPECT_FALSE(s.inspection);
+    EXPECT_FALSE(s.surface_error);
     EXPECT_THAT(summary(s), HasSubstr(s.surface.why_empty));
     EXPECT_THAT(summary(s), Not(HasSubstr("\n")));
   }
@@ -121,8 +121,8 @@ TEST(ScanSurfaces, WithoutEvaluationNothingIsHeldAgainstTheTruth) {
   const auto known = scan_surfaces(a), unknown = scan_surfaces(b);
   ASSERT_EQ(known.size(), unknown.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
-    EXPECT_TRUE(known[k].inspection);
-    EXPECT_FALSE(unknown[k].inspection);
+    EXPECT_TRUE(known[k].surface_error);
+    EXPECT_FALSE(unknown[k].surface_error);
     EXPECT_TRUE(known[k].surface.mesh.vertices == unknown[k].surface.mesh.vertices);
   }
 }
@@ -167,8 +167,8 @@ TEST(ScanSurfaces, TheSameOnOneThreadAndTwo) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_TRUE(one[k].surface.mesh.vertices == two[k].surface.mesh.vertices);
     EXPECT_TRUE(one[k].surface.uncertainty == two[k].surface.uncertainty);
-    EXPECT_TRUE(one[k].inspection->at_vertices == two[k].inspection->at_vertices);
-    EXPECT_EQ(one[k].inspection->rms, two[k].inspection->rms);
+    EXPECT_TRUE(one[k].surface_error->at_vertices == two[k].surface_error->at_vertices);
+    EXPECT_EQ(one[k].surface_error->rms, two[k].surface_error->rms);
   }
 }
 
@@ -249,8 +249,8 @@ TEST_F(ScanSurfaceFiles, AStrayPointBeyondTheRegionCostsNothing) {
   RefinementJob job = refinement_job(c, std::vector<Pose>{candidate_views(c.views, Vector3::Zero()).front()});
   const Refinement refinement = refine(job);
   const auto without = scan_surfaces(job, refinement);
-  job.scans[0].returns.push_back({900.0f, 800.0f, 700.0f});
-  job.scans[0].returns.push_back({NAN, 0.0f, 0.0f});
+  job.scans[0].hits.push_back({900.0f, 800.0f, 700.0f});
+  job.scans[0].hits.push_back({NAN, 0.0f, 0.0f});
   const auto with = scan_surfaces(job, refinement);
   ASSERT_EQ(with.size(), 2u);
   ASSERT_FALSE(without[1].surface.empty()) << without[1].surface.why_empty;
@@ -283,7 +283,7 @@ TEST_F(ScanSurfaceFiles, ATruthThatNobodyCanSeeIsStillJson) {
   OutputFolder out = begun(folder_ / "out");
   write_surfaces(surfaces, out);
   const auto score =
-      nlohmann::json::parse(read_file(out.path() / "surfaces.json"))["surface_cloud"]["inspection"]["thresholds"][0];
+      nlohmann::json::parse(read_file(out.path() / "surfaces.json"))["surface_cloud"]["surface_error"]["thresholds"][0];
   EXPECT_TRUE(score["completeness_visible"].is_null()) << "unknown, which JSON has no number for";
   EXPECT_TRUE(score["completeness_all"].is_number());
   std::filesystem::remove_all(out.path());

@@ -6,7 +6,7 @@
 
 #include "tests/unit/gibbs/marginal_comparison.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
@@ -14,20 +14,20 @@ namespace {
 using plain::Conditional;
 using plain::Levels;
 
-/// A toy with outliers, no-returns and rays that cross.
+/// A test problem with outliers, misses and rays that cross.
 struct Problem {
-  random_toys::Toy toy;
+  random_problems::Problem problem;
   ForwardSensorModel model;
   double prior = 0.2;
 
-  explicit Problem(ForwardModel kind) : toy(random_toys::make({"oblong", {4, 2, 1}, 2, 9, 0.7}, 12)) {
+  explicit Problem(ForwardModel kind) : problem(random_problems::make({"oblong", {4, 2, 1}, 2, 9, 0.7}, 12)) {
     model.kind = kind;
-    model.sigma = toy.sigma;
+    model.sigma = problem.sigma;
     model.angular_sigma = 0.3;
     model.random_weight = 0.1;
     model.attenuations = {0.3, 2.0};
   }
-  plain::Posterior posterior() const { return {toy.grid, toy.measurements, model, prior}; }
+  plain::Posterior posterior() const { return {problem.grid, problem.measurements, model, prior}; }
 };
 
 /// Samples with this conditional in place of the right one and compares as the bar does.
@@ -107,13 +107,13 @@ TEST_P(Conditionals, oneThatCountsThePriorTwiceIsCaught) {
 
 TEST_P(Conditionals, oneThatForgetsARayIsCaught) {
   Problem wrong = right;
-  wrong.toy.measurements.rays.erase(wrong.toy.measurements.rays.begin() + 8);
+  wrong.problem.measurements.rays.erase(wrong.problem.measurements.rays.begin() + 8);
   expect_caught(wrong);
 }
 
 TEST_P(Conditionals, oneThatIgnoresNoReturnsIsCaught) {
   Problem wrong = right;
-  EXPECT_GT(std::erase_if(wrong.toy.measurements.rays, [](const auto& ray) { return ray.beyond_range; }), 0u);
+  EXPECT_GT(std::erase_if(wrong.problem.measurements.rays, [](const auto& ray) { return ray.beyond_range; }), 0u);
   expect_caught(wrong);
 }
 

@@ -6,19 +6,19 @@
 #include <set>
 
 #include "core/gibbs/posterior_sampler.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
-using random_toys::Toy;
+using random_problems::Problem;
 
-Toy room() { return random_toys::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
+Problem room() { return random_problems::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
 
-PosteriorSamplerConfig config_for(const Toy& toy, ForwardModel kind) {
+PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind) {
   PosteriorSamplerConfig config;
   config.model.kind = kind;
-  config.model.sigma = toy.sigma;
+  config.model.sigma = problem.sigma;
   config.model.angular_sigma = 0.3;
   config.model.attenuations = {0.3, 2.0};
   config.prior = 0.3;
@@ -38,15 +38,15 @@ bool all_differ(const std::vector<std::vector<std::uint8_t>>& states) {
 
 // From one start: what differs is what each chain drew.
 TEST(Chains, FromOneStartDifferAfterASweep) {
-  const Toy toy = room();
+  const Problem problem = room();
   for (const ForwardModel kind :
        {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation})
     for (const StartMap start : {StartMap::free, StartMap::occupied})
       for (const Sampler sampler : {Sampler::exact, Sampler::algorithm1}) {
-        PosteriorSamplerConfig config = config_for(toy, kind);
+        PosteriorSamplerConfig config = config_for(problem, kind);
         config.start = start;
         config.sampler = sampler;
-        const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config);
+        const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
         const SamplerDiagnostics& d = posterior.diagnostics;
         std::set<double> after_one_sweep;
         for (const auto& trace : d.log_posterior) after_one_sweep.insert(trace.at(0));
@@ -57,20 +57,20 @@ TEST(Chains, FromOneStartDifferAfterASweep) {
 
 // Chains that start from the same warm map part at once, too.
 TEST(Chains, FromOneWarmMapDifferAfterASweep) {
-  const Toy toy = room();
-  const PosteriorSamplerConfig config = config_for(toy, ForwardModel::attenuation);
-  const std::vector<std::vector<std::uint8_t>> warm(4, std::vector<std::uint8_t>(toy.grid.voxel_count(), 1));
-  const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config, {}, warm);
+  const Problem problem = room();
+  const PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
+  const std::vector<std::vector<std::uint8_t>> warm(4, std::vector<std::uint8_t>(problem.grid.voxel_count(), 1));
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, {}, warm);
   EXPECT_TRUE(all_differ(posterior.states));
 }
 
 // A chain draws the same whatever chains run beside it, and every sweep anew.
 TEST(Chains, DoNotDependOnTheirNumber) {
-  const Toy toy = room();
-  PosteriorSamplerConfig config = config_for(toy, ForwardModel::attenuation);
-  const GibbsPosterior four = sample_posterior(toy.grid, toy.measurements, config);
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
+  const GibbsPosterior four = sample_posterior(problem.grid, problem.measurements, config);
   config.chains = 2;
-  const GibbsPosterior two = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior two = sample_posterior(problem.grid, problem.measurements, config);
   for (int c = 0; c < 2; ++c) {
     EXPECT_EQ(two.states[c], four.states[c]);
     EXPECT_EQ(two.diagnostics.log_posterior[c], four.diagnostics.log_posterior[c]);
@@ -79,15 +79,15 @@ TEST(Chains, DoNotDependOnTheirNumber) {
 
 // The posterior is the mean over all chains, each with the same weight.
 TEST(Chains, AllCountInTheMean) {
-  const Toy toy = room();
-  PosteriorSamplerConfig config = config_for(toy, ForwardModel::beam);
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem, ForwardModel::beam);
   config.sweeps = 40, config.start = StartMap::random;
   config.chains = 1;
-  const GibbsPosterior one = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior one = sample_posterior(problem.grid, problem.measurements, config);
   config.chains = 2;
-  const GibbsPosterior two = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior two = sample_posterior(problem.grid, problem.measurements, config);
   config.chains = 3;
-  const GibbsPosterior three = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior three = sample_posterior(problem.grid, problem.measurements, config);
   double second = 0.0, third = 0.0;  // what each alone must have had, taken apart
   std::size_t differing = 0;
   for (std::size_t v = 0; v < one.occupied.size(); ++v) {

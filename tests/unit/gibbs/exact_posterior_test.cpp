@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "tests/unit/gibbs/plain_model.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
@@ -16,11 +16,11 @@ namespace {
 constexpr ForwardModel every_model[] = {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
                                         ForwardModel::attenuation};
 
-ForwardSensorModel model_for(const random_toys::Toy& toy, ForwardModel kind, VoxelRange range) {
+ForwardSensorModel model_for(const random_problems::Problem& problem, ForwardModel kind, VoxelRange range) {
   ForwardSensorModel model;
   model.kind = kind;
   model.voxel_range = range;
-  model.sigma = toy.sigma;
+  model.sigma = problem.sigma;
   model.angular_sigma = 0.3;
   model.attenuations = {0.3, 2.0};
   return model;
@@ -36,20 +36,20 @@ void expect_equal(const ExactPosterior& exact, const plain::Marginals& plain) {
   EXPECT_NEAR(exact.log_evidence, plain.log_evidence, 1e-6);
 }
 
-void expect_equal(const random_toys::Toy& toy, const ForwardSensorModel& model, double prior) {
-  expect_equal(exact_posterior(toy.grid, toy.measurements, model, prior),
-               plain::enumerate(plain::Posterior(toy.grid, toy.measurements, model, prior)));
+void expect_equal(const random_problems::Problem& problem, const ForwardSensorModel& model, double prior) {
+  expect_equal(exact_posterior(problem.grid, problem.measurements, model, prior),
+               plain::enumerate(plain::Posterior(problem.grid, problem.measurements, model, prior)));
 }
 
 TEST(ExactPosterior, isThePlainEnumeration) {
   std::uint64_t seed = 0;
-  for (const random_toys::Shape& shape : random_toys::small()) {
+  for (const random_problems::Shape& shape : random_problems::small()) {
     bool centre = ++seed % 2;
     for (const ForwardModel kind : every_model) {
       centre = !centre;
       SCOPED_TRACE(shape.name + ", " + std::string(name(kind)) + (centre ? ", centre" : ", segment"));
-      const random_toys::Toy toy = random_toys::make(shape, seed);
-      expect_equal(toy, model_for(toy, kind, centre ? VoxelRange::centre : VoxelRange::segment),
+      const random_problems::Problem problem = random_problems::make(shape, seed);
+      expect_equal(problem, model_for(problem, kind, centre ? VoxelRange::centre : VoxelRange::segment),
                    seed % 3 == 0   ? 0.5
                    : seed % 3 == 1 ? 0.1
                                    : 0.02);
@@ -58,9 +58,9 @@ TEST(ExactPosterior, isThePlainEnumeration) {
 }
 
 TEST(ExactPosterior, isThePlainEnumerationOfAMillionMaps) {
-  const random_toys::Toy toy = random_toys::make(random_toys::large()[1], 101);
-  ASSERT_EQ(toy.grid.voxel_count(), 20u);
-  expect_equal(toy, model_for(toy, ForwardModel::beam, VoxelRange::segment), 0.1);
+  const random_problems::Problem problem = random_problems::make(random_problems::large()[1], 101);
+  ASSERT_EQ(problem.grid.voxel_count(), 20u);
+  expect_equal(problem, model_for(problem, ForwardModel::beam, VoxelRange::segment), 0.1);
 }
 
 TEST(ExactPosterior, aVoxelOfNoRayKeepsThePrior) {
@@ -104,16 +104,16 @@ TEST(ExactPosterior, oneReturnInTwoVoxelsByHand) {
 }
 
 TEST(ExactPosterior, weightsCountRays) {
-  random_toys::Toy toy = random_toys::make(random_toys::small()[4], 5);
+  random_problems::Problem problem = random_problems::make(random_problems::small()[4], 5);
   for (const ForwardModel kind : every_model) {
-    const ForwardSensorModel model = model_for(toy, kind, VoxelRange::segment);
-    RangeMeasurements thrice = toy.measurements, weighted = toy.measurements;
+    const ForwardSensorModel model = model_for(problem, kind, VoxelRange::segment);
+    RangeMeasurements thrice = problem.measurements, weighted = problem.measurements;
     for (int copy = 0; copy < 2; ++copy)
-      thrice.rays.insert(thrice.rays.end(), toy.measurements.rays.begin(), toy.measurements.rays.end());
+      thrice.rays.insert(thrice.rays.end(), problem.measurements.rays.begin(), problem.measurements.rays.end());
     for (RangeMeasurement& ray : weighted.rays) ray.weight = 3;
-    const ExactPosterior a = exact_posterior(toy.grid, thrice, model, 0.1);
-    const ExactPosterior b = exact_posterior(toy.grid, weighted, model, 0.1);
-    for (std::size_t voxel = 0; voxel < toy.grid.voxel_count(); ++voxel) {
+    const ExactPosterior a = exact_posterior(problem.grid, thrice, model, 0.1);
+    const ExactPosterior b = exact_posterior(problem.grid, weighted, model, 0.1);
+    for (std::size_t voxel = 0; voxel < problem.grid.voxel_count(); ++voxel) {
       EXPECT_NEAR(a.occupied[voxel], b.occupied[voxel], 1e-9);
       EXPECT_NEAR(a.reach[voxel], b.reach[voxel], 1e-9);
     }

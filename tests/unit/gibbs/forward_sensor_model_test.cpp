@@ -10,7 +10,7 @@
 
 #include "core/random/counter_random.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
@@ -112,11 +112,11 @@ TEST(ForwardSensorModel, transmissionFollowsTheLawOfBeer) {
 
 TEST(RaySegments, areTheVoxelsOfASlabTest) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const random_toys::Toy toy = random_toys::make({"box", {5, 4, 3}, 4, 25, 0.5}, seed);
-    const ForwardSensorModel model = of_kind(ForwardModel::beam, toy.sigma);
-    const plain::Posterior plain(toy.grid, toy.measurements, model, 0.1);
-    for (std::size_t i = 0; i < toy.measurements.rays.size(); ++i) {
-      const auto segments = ray_segments(toy.grid, toy.measurements, toy.measurements.rays[i], model);
+    const random_problems::Problem problem = random_problems::make({"box", {5, 4, 3}, 4, 25, 0.5}, seed);
+    const ForwardSensorModel model = of_kind(ForwardModel::beam, problem.sigma);
+    const plain::Posterior plain(problem.grid, problem.measurements, model, 0.1);
+    for (std::size_t i = 0; i < problem.measurements.rays.size(); ++i) {
+      const auto segments = ray_segments(problem.grid, problem.measurements, problem.measurements.rays[i], model);
       const auto& steps = plain.rays()[i].steps;
       ASSERT_EQ(segments.size(), steps.size()) << "seed " << seed << ", ray " << i;
       for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -150,17 +150,18 @@ TEST(LogLikelihood, isThePlainModelOnRandomMaps) {
   for (const ForwardModel kind : every_model)
     for (const VoxelRange range : {VoxelRange::segment, VoxelRange::centre})
       for (int repeat = 0; repeat < 10; ++repeat) {
-        const random_toys::Toy toy = random_toys::make({"box", {5, 4, 3}, 4, 25, 0.3 + 0.1 * repeat}, ++seed);
-        ForwardSensorModel model = of_kind(kind, toy.sigma);
+        const random_problems::Problem problem =
+            random_problems::make({"box", {5, 4, 3}, 4, 25, 0.3 + 0.1 * repeat}, ++seed);
+        ForwardSensorModel model = of_kind(kind, problem.sigma);
         model.voxel_range = range;
         model.angular_sigma = 0.2;
         model.eta_hit = 0.7;
-        const plain::Posterior plain(toy.grid, toy.measurements, model, 0.1);
-        plain::Levels map(toy.grid.voxel_count());
+        const plain::Posterior plain(problem.grid, problem.measurements, model, 0.1);
+        plain::Levels map(problem.grid.voxel_count());
         for (std::uint8_t& level : map)
           level = random.uniform(++draw)[0] < 0.2 ? 1 + (random.uniform(draw)[1] < 0.5 && model.levels() > 2) : 0;
-        for (std::size_t i = 0; i < toy.measurements.rays.size(); ++i)
-          ASSERT_NEAR(log_likelihood(toy.grid, model, toy.measurements, toy.measurements.rays[i], map),
+        for (std::size_t i = 0; i < problem.measurements.rays.size(); ++i)
+          ASSERT_NEAR(log_likelihood(problem.grid, model, problem.measurements, problem.measurements.rays[i], map),
                       plain.log_likelihood(plain.rays()[i], map), 1e-5)
               << name(kind) << ", seed " << seed << ", ray " << i;
       }

@@ -13,28 +13,28 @@
 #include "core/gibbs/first_hit_state.hpp"
 #include "core/gibbs/survival_state.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
-using random_toys::Toy;
+using random_problems::Problem;
 
 constexpr double prior = 0.2;
 
-ForwardSensorModel model_for(const Toy& toy, ForwardModel kind, VoxelRange range = VoxelRange::segment) {
+ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRange range = VoxelRange::segment) {
   ForwardSensorModel model;
   model.kind = kind;
   model.voxel_range = range;
-  model.sigma = toy.sigma;
+  model.sigma = problem.sigma;
   model.angular_sigma = 0.3;
   model.random_weight = 0.1;
   model.attenuations = {0.3, 2.0};
   return model;
 }
 
-plain::Levels random_map(const Toy& toy, const ForwardSensorModel& model, std::mt19937& random) {
-  plain::Levels map(toy.grid.voxel_count());
+plain::Levels random_map(const Problem& problem, const ForwardSensorModel& model, std::mt19937& random) {
+  plain::Levels map(problem.grid.voxel_count());
   for (auto& level : map) level = random() % 3 == 0 ? std::uint8_t(1 + random() % (model.levels() - 1)) : 0;
   return map;
 }
@@ -52,19 +52,20 @@ INSTANTIATE_TEST_SUITE_P(every, FullConditionals,
                                            ForwardModel::attenuation),
                          [](const auto& kind) { return std::string(name(kind.param)); });
 
-// Against the equations written down once more, with rays of their own: every voxel of random maps of every toy.
+// Against the equations written down once more, with rays of their own: every voxel of random maps of every test
+// problem.
 TEST_P(FullConditionals, AreThoseOfTheEquations) {
   std::mt19937 random(1);
   std::size_t undecided = 0;
   for (const VoxelRange range : {VoxelRange::segment, VoxelRange::centre})
-    for (const random_toys::Shape& shape : random_toys::small()) {
-      const Toy toy = random_toys::make(shape, 3);
-      const ForwardSensorModel model = model_for(toy, GetParam(), range);
-      const plain::Posterior plain(toy.grid, toy.measurements, model, prior);
+    for (const random_problems::Shape& shape : random_problems::small()) {
+      const Problem problem = random_problems::make(shape, 3);
+      const ForwardSensorModel model = model_for(problem, GetParam(), range);
+      const plain::Posterior plain(problem.grid, problem.measurements, model, prior);
       for (int map_number = 0; map_number < 4; ++map_number) {
-        const plain::Levels map = random_map(toy, model, random);
+        const plain::Levels map = random_map(problem, model, random);
         for (std::uint32_t v = 0; v < map.size(); ++v) {
-          const FullConditional found = full_conditional(toy.grid, toy.measurements, model, prior, map, v);
+          const FullConditional found = full_conditional(problem.grid, problem.measurements, model, prior, map, v);
           const auto expected = plain.log_conditional(map, v);
           ASSERT_EQ(found.probability.size(), expected.size());
           for (int q = 0; q < model.levels(); ++q)
@@ -78,12 +79,12 @@ TEST_P(FullConditionals, AreThoseOfTheEquations) {
 
 // All other voxels known: what is left to enumerate is the voxel itself. The joint is the definition's.
 TEST_P(FullConditionals, FollowFromTheJointProbabilityOfAllMaps) {
-  const Toy toy = random_toys::make({"square", {3, 2, 1}, 2, 6, 0.8}, 5);
-  const ForwardSensorModel model = model_for(toy, GetParam());
-  const plain::Posterior plain(toy.grid, toy.measurements, model, prior);
+  const Problem problem = random_problems::make({"square", {3, 2, 1}, 2, 6, 0.8}, 5);
+  const ForwardSensorModel model = model_for(problem, GetParam());
+  const plain::Posterior plain(problem.grid, problem.measurements, model, prior);
   // p(m_v) = sum over the other voxels of p(m_v | others) p(others): the marginals come out of the conditionals.
-  std::vector<plain::Levels> maps(1, plain::Levels(toy.grid.voxel_count()));
-  for (std::size_t v = 0; v < toy.grid.voxel_count(); ++v)
+  std::vector<plain::Levels> maps(1, plain::Levels(problem.grid.voxel_count()));
+  for (std::size_t v = 0; v < problem.grid.voxel_count(); ++v)
     for (std::size_t n = 0, count = maps.size(); n < count; ++n)
       for (int q = 1; q < model.levels(); ++q) {
         maps.push_back(maps[n]);
@@ -92,24 +93,24 @@ TEST_P(FullConditionals, FollowFromTheJointProbabilityOfAllMaps) {
   std::vector<double> joint;
   for (const plain::Levels& map : maps) joint.push_back(plain.log_joint(map));
   const double evidence = log_sum(joint);
-  const ExactPosterior exact = exact_posterior(toy.grid, toy.measurements, model, prior);
-  for (std::uint32_t v = 0; v < toy.grid.voxel_count(); ++v) {
+  const ExactPosterior exact = exact_posterior(problem.grid, problem.measurements, model, prior);
+  for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
     double occupied = 0.0;
     for (std::size_t n = 0; n < maps.size(); ++n)
       occupied += std::exp(joint[n] - evidence) *
-                  (1.0 - full_conditional(toy.grid, toy.measurements, model, prior, maps[n], v).probability[0]);
+                  (1.0 - full_conditional(problem.grid, problem.measurements, model, prior, maps[n], v).probability[0]);
     EXPECT_NEAR(occupied, exact.occupied[v], 1e-7) << v;
   }
 }
 
 TEST_P(FullConditionals, AddUpRayByRay) {
   std::mt19937 random(2);
-  const Toy toy = random_toys::make({"room", {8, 6, 4}, 4, 300, 0.4, true}, 7);
-  const ForwardSensorModel model = model_for(toy, GetParam());
-  const plain::Levels map = random_map(toy, model, random);
+  const Problem problem = random_problems::make({"room", {8, 6, 4}, 4, 300, 0.4, true}, 7);
+  const ForwardSensorModel model = model_for(problem, GetParam());
+  const plain::Levels map = random_map(problem, model, random);
   std::size_t rays = 0, for_it = 0, against_it = 0;
   for (std::uint32_t v = 0; v < map.size(); ++v) {
-    const FullConditional found = full_conditional(toy.grid, toy.measurements, model, prior, map, v);
+    const FullConditional found = full_conditional(problem.grid, problem.measurements, model, prior, map, v);
     EXPECT_NEAR(std::accumulate(found.probability.begin(), found.probability.end(), 0.0), 1.0, 1e-12);
     for (int q = 1; q < model.levels(); ++q) EXPECT_LE(found.probability[q], found.probability[found.level]);
     double sum = found.log_prior_odds;
@@ -119,10 +120,10 @@ TEST_P(FullConditionals, AddUpRayByRay) {
       for_it += e.log_ratio > 1e-6, against_it += e.log_ratio < -1e-6;
       EXPECT_LT(e.enter, e.exit);
       EXPECT_TRUE(k == 0 || found.rays[k - 1].ray < e.ray);
-      const RangeMeasurement& ray = toy.measurements.rays[e.ray];
+      const RangeMeasurement& ray = problem.measurements.rays[e.ray];
       const Vector3 middle =
-          toy.measurements.origins[ray.origin] + 0.5 * (e.enter + e.exit) * toy.measurements.direction(ray);
-      EXPECT_LT((middle - toy.grid.centre(v)).cwiseAbs().maxCoeff(), 0.5 * toy.grid.resolution + 1e-9);
+          problem.measurements.origins[ray.origin] + 0.5 * (e.enter + e.exit) * problem.measurements.direction(ray);
+      EXPECT_LT((middle - problem.grid.centre(v)).cwiseAbs().maxCoeff(), 0.5 * problem.grid.resolution + 1e-9);
     }
     if (found.probability[0] > 1e-12 && found.probability[found.level] > 1e-12) {
       EXPECT_NEAR(sum, std::log(found.probability[found.level] / found.probability[0]), 1e-6);
@@ -131,8 +132,8 @@ TEST_P(FullConditionals, AddUpRayByRay) {
   }
   // No ray is forgotten.
   std::size_t crossings = 0;
-  for (const RangeMeasurement& ray : toy.measurements.rays)
-    crossings += ray_segments(toy.grid, toy.measurements, ray, model).size();
+  for (const RangeMeasurement& ray : problem.measurements.rays)
+    crossings += ray_segments(problem.grid, problem.measurements, ray, model).size();
   EXPECT_EQ(rays, crossings);
   EXPECT_GT(for_it, 100u);
   EXPECT_GT(against_it, 100u);
@@ -140,9 +141,9 @@ TEST_P(FullConditionals, AddUpRayByRay) {
 
 /// The sampler's own conditional, from its lists and state: p of each level.
 template <class State>
-std::vector<double> sampled_from(const Toy& toy, const ForwardSensorModel& model, const plain::Levels& map,
+std::vector<double> sampled_from(const Problem& problem, const ForwardSensorModel& model, const plain::Levels& map,
                                  std::uint32_t v) {
-  const RayLists lists(toy.grid, toy.measurements, model);
+  const RayLists lists(problem.grid, problem.measurements, model);
   State state(lists, model);
   state.reset(map);
   std::vector<double> logs(model.levels() - 1, std::log(prior / (model.levels() - 1) / (1.0 - prior)));
@@ -155,14 +156,14 @@ std::vector<double> sampled_from(const Toy& toy, const ForwardSensorModel& model
 
 TEST_P(FullConditionals, AreWhatTheSamplerDrawsFrom) {
   std::mt19937 random(4);
-  const Toy toy = random_toys::make({"oblong", {6, 5, 2}, 3, 60, 0.6, true}, 11);
-  const ForwardSensorModel model = model_for(toy, GetParam());
+  const Problem problem = random_problems::make({"oblong", {6, 5, 2}, 3, 60, 0.6, true}, 11);
+  const ForwardSensorModel model = model_for(problem, GetParam());
   for (int map_number = 0; map_number < 5; ++map_number) {
-    const plain::Levels map = random_map(toy, model, random);
+    const plain::Levels map = random_map(problem, model, random);
     for (std::uint32_t v = 0; v < map.size(); ++v) {
-      const FullConditional found = full_conditional(toy.grid, toy.measurements, model, prior, map, v);
-      const auto expected = model.is_first_hit() ? sampled_from<FirstHitState>(toy, model, map, v)
-                                                 : sampled_from<SurvivalState>(toy, model, map, v);
+      const FullConditional found = full_conditional(problem.grid, problem.measurements, model, prior, map, v);
+      const auto expected = model.is_first_hit() ? sampled_from<FirstHitState>(problem, model, map, v)
+                                                 : sampled_from<SurvivalState>(problem, model, map, v);
       for (int q = 0; q < model.levels(); ++q)  // the lists round chords and densities
         ASSERT_NEAR(found.probability[q], expected[q], 5e-3) << "voxel " << v << " level " << q;
     }
@@ -193,11 +194,11 @@ TEST(FullConditional, WithoutARayIsThePrior) {
 }
 
 TEST(FullConditional, RefusesWhatIsOfAnotherGrid) {
-  const Toy toy = random_toys::make({"square", {3, 3, 1}, 2, 6, 0.8}, 1);
+  const Problem problem = random_problems::make({"square", {3, 3, 1}, 2, 6, 0.8}, 1);
   const ForwardSensorModel model;
   const std::vector<std::uint8_t> map(9), short_map(8), unknown_level(9, 3);
   const auto call = [&](const auto& levels, double p, std::uint32_t v) {
-    return full_conditional(toy.grid, toy.measurements, model, p, levels, v);
+    return full_conditional(problem.grid, problem.measurements, model, p, levels, v);
   };
   EXPECT_NO_THROW(call(map, prior, 8));
   EXPECT_THROW(call(map, prior, 9), std::invalid_argument);

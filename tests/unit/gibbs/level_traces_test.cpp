@@ -4,19 +4,19 @@
 #include <algorithm>
 
 #include "core/gibbs/posterior_sampler.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
-using random_toys::Toy;
+using random_problems::Problem;
 
-Toy room() { return random_toys::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
+Problem room() { return random_problems::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
 
-PosteriorSamplerConfig config_for(const Toy& toy, ForwardModel kind = ForwardModel::attenuation) {
+PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind = ForwardModel::attenuation) {
   PosteriorSamplerConfig config;
   config.model.kind = kind;
-  config.model.sigma = toy.sigma;
+  config.model.sigma = problem.sigma;
   config.model.attenuations = {0.3, 2.0};
   config.sweeps = 60, config.burn_in = 7, config.chains = 3;
   config.until_stationary = false;
@@ -25,12 +25,12 @@ PosteriorSamplerConfig config_for(const Toy& toy, ForwardModel kind = ForwardMod
 }
 
 TEST(LevelTraces, ChangeNoResult) {
-  const Toy toy = room();
+  const Problem problem = room();
   for (const ForwardModel kind : {ForwardModel::beam, ForwardModel::attenuation, ForwardModel::cone}) {
-    PosteriorSamplerConfig config = config_for(toy, kind);
-    const GibbsPosterior without = sample_posterior(toy.grid, toy.measurements, config);
+    PosteriorSamplerConfig config = config_for(problem, kind);
+    const GibbsPosterior without = sample_posterior(problem.grid, problem.measurements, config);
     config.keep_traces = true;
-    const GibbsPosterior with = sample_posterior(toy.grid, toy.measurements, config);
+    const GibbsPosterior with = sample_posterior(problem.grid, problem.measurements, config);
     EXPECT_EQ(with.occupied, without.occupied);
     EXPECT_EQ(with.upper, without.upper);
     EXPECT_EQ(with.informed, without.informed);
@@ -42,11 +42,11 @@ TEST(LevelTraces, ChangeNoResult) {
 }
 
 TEST(LevelTraces, AreTheChainsLevelsOfTheMeansSweeps) {
-  const Toy toy = room();
-  PosteriorSamplerConfig config = config_for(toy);
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem);
   config.keep_traces = true;
   config.sweeps = 2007;
-  const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
   const LevelTraces& traces = posterior.traces;
   EXPECT_EQ(traces.dropped, 0u);
   ASSERT_TRUE(std::is_sorted(traces.voxels.begin(), traces.voxels.end()));
@@ -69,12 +69,12 @@ TEST(LevelTraces, AreTheChainsLevelsOfTheMeansSweeps) {
 }
 
 TEST(LevelTraces, DropTheOldestSweepsBeyondTheirMemory) {
-  const Toy toy = room();
-  PosteriorSamplerConfig config = config_for(toy);
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem);
   config.keep_traces = true;
-  const LevelTraces all = sample_posterior(toy.grid, toy.measurements, config).traces;
-  config.most_trace_bytes = 20 * 3 * all.voxels.size() + 5;
-  const LevelTraces some = sample_posterior(toy.grid, toy.measurements, config).traces;
+  const LevelTraces all = sample_posterior(problem.grid, problem.measurements, config).traces;
+  config.max_trace_bytes = 20 * 3 * all.voxels.size() + 5;
+  const LevelTraces some = sample_posterior(problem.grid, problem.measurements, config).traces;
   EXPECT_EQ(all.dropped, 0u);
   ASSERT_EQ(all.levels[0].size(), 53u);
   EXPECT_EQ(some.dropped, 33u);
@@ -82,25 +82,25 @@ TEST(LevelTraces, DropTheOldestSweepsBeyondTheirMemory) {
     ASSERT_EQ(some.levels[c].size(), 20u);
     EXPECT_TRUE(std::equal(some.levels[c].begin(), some.levels[c].end(), all.levels[c].begin() + 33));
   }
-  config.most_trace_bytes = 10;
-  const LevelTraces none = sample_posterior(toy.grid, toy.measurements, config).traces;
+  config.max_trace_bytes = 10;
+  const LevelTraces none = sample_posterior(problem.grid, problem.measurements, config).traces;
   EXPECT_EQ(none.dropped, 53u);
   EXPECT_TRUE(none.levels[0].empty());
 }
 
 TEST(LevelTraces, OfAStationaryRunAreThoseOfItsLastMean) {
-  const Toy toy = room();
-  PosteriorSamplerConfig config = config_for(toy);
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem);
   config.keep_traces = config.until_stationary = true;
   config.sweeps = 4000;
-  const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
   const SamplerDiagnostics& d = posterior.diagnostics;
   EXPECT_EQ(posterior.traces.levels[0].size() + posterior.traces.dropped, std::size_t(d.sweeps - d.burn_in));
 }
 
 TEST(SamplerProgress, ShowsTheTracesUpToNow) {
-  const Toy toy = room();
-  const PosteriorSamplerConfig config = config_for(toy);
+  const Problem problem = room();
+  const PosteriorSamplerConfig config = config_for(problem);
   std::vector<int> sweeps;
   std::vector<double> trace;
   const auto look = [&](double fraction, std::string_view, const SamplerDiagnostics& so_far) {
@@ -112,11 +112,11 @@ TEST(SamplerProgress, ShowsTheTracesUpToNow) {
       ASSERT_EQ(so_far.log_posterior[c].size(), std::size_t(so_far.sweeps));
       ASSERT_EQ(so_far.changed_voxels[c].size(), std::size_t(so_far.sweeps));
     }
-    EXPECT_GT(so_far.joined_rays, 500u);
+    EXPECT_GT(so_far.merged_rays, 500u);
     EXPECT_EQ(so_far.burn_in, so_far.sweeps > 7 ? 7 : so_far.burn_in);
     trace = so_far.log_posterior[1];
   };
-  const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config, {}, {}, look);
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, {}, {}, look);
   EXPECT_TRUE(std::is_sorted(sweeps.begin(), sweeps.end()));
   EXPECT_EQ(sweeps.front(), 0);
   EXPECT_EQ(sweeps.back(), 60) << "the last call has all of it";

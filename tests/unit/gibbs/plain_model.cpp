@@ -13,7 +13,7 @@ double gaussian(double x, double sigma) {
 }
 double gaussian_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-/// SCIENCE 4.1: the range density of a ray that ends in a voxel.
+/// The range density of a ray that ends in a voxel.
 double range_density(const ForwardSensorModel& model, const Step& step, double centre_range, double z) {
   if (model.voxel_range == VoxelRange::centre) return gaussian(z - centre_range, model.sigma);
   return (gaussian_cdf((step.exit - z) / model.sigma) - gaussian_cdf((step.enter - z) / model.sigma)) /
@@ -102,9 +102,9 @@ double Posterior::log_likelihood(const Ray& ray, const Levels& map) const {
   }
   double survival = 1.0, density = 0.0;
   for (const Step& step : ray.steps) {
-    const double passes = step.transmission[map[step.voxel]];
-    density += survival * (1.0 - passes) * step.density;
-    survival *= passes;
+    const double misses = step.transmission[map[step.voxel]];
+    density += survival * (1.0 - misses) * step.density;
+    survival *= misses;
   }
   const double w_hit = 1.0 - model_.random_weight - model_.max_weight;
   return std::log(ray.beyond_range ? model_.max_weight * (1.0 - survival) + (1.0 - model_.random_weight) * survival

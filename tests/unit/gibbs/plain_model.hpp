@@ -36,7 +36,7 @@ struct Ray {
 /// voxel of the grid, sorted by where it is entered.
 std::vector<Step> voxels_on_line(const VoxelGrid& grid, const Vector3& origin, const Vector3& direction, double limit);
 
-/// The posterior of a toy: everything that has to do with p(z | m) and p(m).
+/// The posterior of a test problem: everything that has to do with p(z | m) and p(m).
 class Posterior {
  public:
   Posterior(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model,
@@ -73,7 +73,7 @@ struct Marginals {
 /// Adds up all maps (Eqs. 3-4).
 Marginals enumerate(const Posterior& posterior);
 
-/// The distribution that a voxel's new level is drawn from, given the map: weights, one a level, of any sum.
+/// The distribution that a voxel's new level is drawn from, given the map: weights, one per level, of any sum.
 using Conditional = std::function<std::vector<double>(const Levels& map, std::uint32_t voxel)>;
 
 /// The full conditional.

@@ -10,20 +10,20 @@
 #include "core/gibbs/posterior_sampler.hpp"
 #include "tests/unit/gibbs/marginal_comparison.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
-using random_toys::Toy;
+using random_problems::Problem;
 
 constexpr ForwardModel every_model[] = {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
                                         ForwardModel::attenuation};
 
-PosteriorSamplerConfig config_for(const Toy& toy, ForwardModel kind) {
+PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind) {
   PosteriorSamplerConfig config;
   config.model.kind = kind;
-  config.model.sigma = toy.sigma;
+  config.model.sigma = problem.sigma;
   config.model.angular_sigma = 0.3;
   config.model.attenuations = {0.3, 2.0};
   config.sweeps = 2'000, config.burn_in = 100;
@@ -32,18 +32,18 @@ PosteriorSamplerConfig config_for(const Toy& toy, ForwardModel kind) {
   return config;
 }
 
-/// 400 voxels: more than a toy, so that threads have something to share.
-Toy room() { return random_toys::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
+/// 400 voxels: more than a test problem, so that threads have something to share.
+Problem room() { return random_problems::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
 
 TEST(PosteriorSampler, theSameBytesOnAnyNumberOfThreads) {
-  const Toy toy = room();
+  const Problem problem = room();
   for (const ForwardModel kind : every_model) {
-    PosteriorSamplerConfig config = config_for(toy, kind);
+    PosteriorSamplerConfig config = config_for(problem, kind);
     config.sweeps = 40, config.burn_in = 5, config.chains = 4;
     std::vector<GibbsPosterior> posteriors;
     for (const std::size_t threads : {1, 2, 2}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      posteriors.push_back(sample_posterior(toy.grid, toy.measurements, config));
+      posteriors.push_back(sample_posterior(problem.grid, problem.measurements, config));
     }
     for (const GibbsPosterior& other : posteriors) {
       EXPECT_EQ(other.occupied, posteriors[0].occupied) << name(kind);
@@ -53,7 +53,8 @@ TEST(PosteriorSampler, theSameBytesOnAnyNumberOfThreads) {
       EXPECT_EQ(other.diagnostics.log_posterior, posteriors[0].diagnostics.log_posterior);
     }
     config.seed = 2;
-    EXPECT_NE(sample_posterior(toy.grid, toy.measurements, config).occupied, posteriors[0].occupied) << name(kind);
+    EXPECT_NE(sample_posterior(problem.grid, problem.measurements, config).occupied, posteriors[0].occupied)
+        << name(kind);
   }
 }
 
@@ -67,31 +68,32 @@ double difference(const GibbsPosterior& a, const GibbsPosterior& b) {
 }
 
 TEST(PosteriorSampler, everyStartLeadsToTheSamePosterior) {
-  const Toy toy = random_toys::make({"oblong", {4, 3, 1}, 2, 8, 0.8}, 21);
-  const std::vector<float> start_map(toy.grid.voxel_count(), 0.7f);
+  const Problem problem = random_problems::make({"oblong", {4, 3, 1}, 2, 8, 0.8}, 21);
+  const std::vector<float> start_map(problem.grid.voxel_count(), 0.7f);
   for (const ForwardModel kind : {ForwardModel::beam, ForwardModel::attenuation}) {
-    PosteriorSamplerConfig config = config_for(toy, kind);
+    PosteriorSamplerConfig config = config_for(problem, kind);
     config.sweeps = 20'000;
     config.start = StartMap::free;
-    const GibbsPosterior cold = sample_posterior(toy.grid, toy.measurements, config);
+    const GibbsPosterior cold = sample_posterior(problem.grid, problem.measurements, config);
     EXPECT_GT(std::count(cold.informed.begin(), cold.informed.end(), 1), 4);
     for (const StartMap start : {StartMap::octree, StartMap::occupied, StartMap::random}) {
       config.start = start;
       config.seed = 10 + static_cast<int>(start);
-      EXPECT_LT(difference(cold, sample_posterior(toy.grid, toy.measurements, config, start_map)), 0.02) << name(kind);
+      EXPECT_LT(difference(cold, sample_posterior(problem.grid, problem.measurements, config, start_map)), 0.02)
+          << name(kind);
     }
-    const GibbsPosterior warm = sample_posterior(toy.grid, toy.measurements, config, {}, cold.states);
+    const GibbsPosterior warm = sample_posterior(problem.grid, problem.measurements, config, {}, cold.states);
     EXPECT_LT(difference(cold, warm), 0.02) << name(kind);
   }
 }
 
 TEST(PosteriorSampler, aWarmStartTakesThePlaceOfTheBurnIn) {
-  const Toy toy = room();
-  PosteriorSamplerConfig config = config_for(toy, ForwardModel::attenuation);
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
   config.sweeps = 60, config.burn_in = 30;
-  const GibbsPosterior cold = sample_posterior(toy.grid, toy.measurements, config);
+  const GibbsPosterior cold = sample_posterior(problem.grid, problem.measurements, config);
   ASSERT_EQ(cold.states.size(), 2u);
-  const GibbsPosterior warm = sample_posterior(toy.grid, toy.measurements, config, {}, cold.states);
+  const GibbsPosterior warm = sample_posterior(problem.grid, problem.measurements, config, {}, cold.states);
   ASSERT_FALSE(warm.diagnostics.log_posterior.empty());
   // The warm chain begins at the level at which the cold one ended, far from where that began.
   const std::vector<double>& before = cold.diagnostics.log_posterior[0];
@@ -100,16 +102,16 @@ TEST(PosteriorSampler, aWarmStartTakesThePlaceOfTheBurnIn) {
 }
 
 TEST(PosteriorSampler, updatingOccupiedVoxelsLeavesFreeOnesAlone) {
-  const Toy toy = random_toys::make({"oblong", {4, 3, 1}, 2, 10, 0.8}, 22);
-  std::vector<float> start_map(toy.grid.voxel_count(), 0.2f);
+  const Problem problem = random_problems::make({"oblong", {4, 3, 1}, 2, 10, 0.8}, 22);
+  std::vector<float> start_map(problem.grid.voxel_count(), 0.2f);
   for (const int voxel : {1, 5, 6, 10}) start_map[voxel] = 0.9f;
   for (const ForwardModel kind : every_model) {
-    PosteriorSamplerConfig config = config_for(toy, kind);
+    PosteriorSamplerConfig config = config_for(problem, kind);
     config.updated = UpdatedVoxels::occupied;
     config.prior = 0.5;
     config.sweeps = 500;
     config.start = StartMap::octree;
-    const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config, start_map);
+    const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, start_map);
     for (const auto& state : posterior.states)
       for (std::size_t voxel = 0; voxel < state.size(); ++voxel)
         ASSERT_TRUE(start_map[voxel] > 0.5f || state[voxel] == 0) << name(kind) << ", voxel " << voxel;
@@ -122,14 +124,14 @@ TEST(PosteriorSampler, updatingOccupiedVoxelsLeavesFreeOnesAlone) {
 /// Both as in Algorithm 1; the order in which voxels are drawn, and so the chain, need not be the same, but is here.
 TEST(PosteriorSampler, algorithm1IsThePlainAlgorithm1) {
   for (const ForwardModel kind : {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam}) {
-    const Toy toy = random_toys::make({"oblong", {4, 3, 1}, 2, 8, 0.8}, 23);
-    PosteriorSamplerConfig config = config_for(toy, kind);
+    const Problem problem = random_problems::make({"oblong", {4, 3, 1}, 2, 8, 0.8}, 23);
+    PosteriorSamplerConfig config = config_for(problem, kind);
     config.sampler = Sampler::algorithm1;
     config.prior = 0.5;
     config.swaps = config.plaquettes = 0;
     config.sweeps = 20'000;
-    const GibbsPosterior sampled = sample_posterior(toy.grid, toy.measurements, config);
-    const plain::Posterior posterior(toy.grid, toy.measurements, config.model, config.prior);
+    const GibbsPosterior sampled = sample_posterior(problem.grid, problem.measurements, config);
+    const plain::Posterior posterior(problem.grid, problem.measurements, config.model, config.prior);
     const plain::Marginals plain =
         plain::gibbs_sampler(posterior, plain::thresholded_conditional(posterior), 200'000, 1, 4)[0];
     const MarginalComparison comparison =
@@ -141,18 +143,18 @@ TEST(PosteriorSampler, algorithm1IsThePlainAlgorithm1) {
 }
 
 TEST(PosteriorSampler, aVoxelThatNoRayReachesReadsAHalf) {
-  Toy toy = random_toys::make({"box", {4, 4, 3}, 1, 1, 0.5}, 1);
-  toy.measurements.origins = {toy.grid.lower() + Vector3(-0.2, 0.05, 0.05)};  // along the lowest row
-  toy.measurements.rays.clear();
+  Problem problem = random_problems::make({"box", {4, 4, 3}, 1, 1, 0.5}, 1);
+  problem.measurements.origins = {problem.grid.lower() + Vector3(-0.2, 0.05, 0.05)};  // along the lowest row
+  problem.measurements.rays.clear();
   for (int i = 0; i < 5; ++i)
-    toy.measurements.rays.push_back({(toy.measurements.origins[0] + Vector3(0.35, 0, 0)).cast<float>()});
+    problem.measurements.rays.push_back({(problem.measurements.origins[0] + Vector3(0.35, 0, 0)).cast<float>()});
   for (const ForwardModel kind : every_model)
     for (const double prior : {0.05, 0.5, 0.9}) {
-      PosteriorSamplerConfig config = config_for(toy, kind);
+      PosteriorSamplerConfig config = config_for(problem, kind);
       config.prior = prior;
       config.sweeps = 300;
-      const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config);
-      for (std::size_t voxel = 4; voxel < toy.grid.voxel_count(); ++voxel) {
+      const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
+      for (std::size_t voxel = 4; voxel < problem.grid.voxel_count(); ++voxel) {
         EXPECT_EQ(posterior.occupied[voxel], 0.5f) << name(kind) << ", voxel " << voxel;
         EXPECT_EQ(posterior.upper[voxel], 0.5f);
         EXPECT_EQ(posterior.informed[voxel], 0);

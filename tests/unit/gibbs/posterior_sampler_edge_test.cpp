@@ -29,11 +29,11 @@ PosteriorSamplerConfig quick(ForwardModel kind) {
   return config;
 }
 
-RangeMeasurements rays(std::initializer_list<float> returns, int passes = 0) {
+RangeMeasurements rays(std::initializer_list<float> hits, int misses = 0) {
   RangeMeasurements measurements;
   measurements.origins = {{-0.1, 0.05, 0.05}};
-  for (const float x : returns) measurements.rays.push_back({{x, 0.05f, 0.05f}});
-  for (int i = 0; i < passes; ++i) measurements.rays.push_back({{1.4f, 0.05f, 0.05f}, 0, 1, true});
+  for (const float x : hits) measurements.rays.push_back({{x, 0.05f, 0.05f}});
+  for (int i = 0; i < misses; ++i) measurements.rays.push_back({{1.4f, 0.05f, 0.05f}, 0, 1, true});
   return measurements;
 }
 

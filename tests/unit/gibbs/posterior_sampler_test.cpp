@@ -1,4 +1,4 @@
-// The bar: on every toy the sampler's marginals are those of the exact posterior, whatever the moves.
+// The bar: on every test problem the sampler's marginals are those of the exact posterior, whatever the moves.
 #include "core/gibbs/posterior_sampler.hpp"
 
 #include <fmt/format.h>
@@ -10,29 +10,29 @@
 
 #include "tests/unit/gibbs/marginal_comparison.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
-using random_toys::Shape;
-using random_toys::Toy;
+using random_problems::Problem;
+using random_problems::Shape;
 
 constexpr double largest_standard_error = 0.003;  // far below the bar
 
-ForwardSensorModel model_for(const Toy& toy, ForwardModel kind, bool centre_ranges) {
+ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, bool centre_ranges) {
   ForwardSensorModel model;
   model.kind = kind;
   model.voxel_range = centre_ranges ? VoxelRange::centre : VoxelRange::segment;
-  model.sigma = toy.sigma;
+  model.sigma = problem.sigma;
   model.angular_sigma = 0.3;
   model.random_weight = 0.1;
   model.attenuations = {0.3, 2.0};
   return model;
 }
 
-Estimate sample(const Toy& toy, const PosteriorSamplerConfig& config) {
-  const GibbsPosterior posterior = sample_posterior(toy.grid, toy.measurements, config);
+Estimate sample(const Problem& problem, const PosteriorSamplerConfig& config) {
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
   return {{posterior.occupied.begin(), posterior.occupied.end()},
           {posterior.upper.begin(), posterior.upper.end()},
           posterior.informed};
@@ -40,12 +40,12 @@ Estimate sample(const Toy& toy, const PosteriorSamplerConfig& config) {
 
 /// Compares the mean of runs that differ in their seed alone: their spread shows the Monte-Carlo error, whatever the
 /// sampler says of itself. As many sweeps as it takes to have the error far below the bar.
-MarginalComparison compare_runs(const plain::Marginals& exact, const Toy& toy, PosteriorSamplerConfig config) {
+MarginalComparison compare_runs(const plain::Marginals& exact, const Problem& problem, PosteriorSamplerConfig config) {
   MarginalComparison comparison;
   for (config.sweeps = 4'000; config.sweeps <= 128'000; config.sweeps *= 2) {
     config.burn_in = config.sweeps / 20;
     std::vector<Estimate> runs;
-    for (config.seed = 1; config.seed <= 8; ++config.seed) runs.push_back(sample(toy, config));
+    for (config.seed = 1; config.seed <= 8; ++config.seed) runs.push_back(sample(problem, config));
     comparison = compare(exact, runs);
     if (comparison.standard_error < largest_standard_error) break;
   }
@@ -62,30 +62,30 @@ struct Case {
   friend void PrintTo(const Case& c, std::ostream* out) { *out << c.shape.name << ", " << name(c.model); }
 };
 
-/// Every toy with every model; priors and ranges go round. A prior of 0.5 is the paper's zero log-odds.
+/// Every test problem with every model; priors and ranges go round. A prior of 0.5 is the paper's zero log-odds.
 std::vector<Case> cases() {
   std::vector<Case> list;
   std::uint64_t seed = 0;
-  for (const Shape& shape : random_toys::small())
+  for (const Shape& shape : random_problems::small())
     for (const ForwardModel model :
          {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation}) {
       ++seed;
       list.push_back({shape, model, std::array{0.1, 0.5, 0.03, 0.25}[(seed + seed / 4) % 4], seed % 3 == 0, seed});
     }
-  for (const Shape& shape : random_toys::large()) {
+  for (const Shape& shape : random_problems::large()) {
     list.push_back({shape, ForwardModel::beam, 0.1, false, ++seed});
     list.push_back({shape, ForwardModel::paper, 0.3, true, ++seed});
   }
   return list;
 }
 
-class SamplerOnToys : public ::testing::TestWithParam<Case> {};
+class SamplerOnProblems : public ::testing::TestWithParam<Case> {};
 
-TEST_P(SamplerOnToys, marginalsAreThoseOfTheExactPosterior) {
+TEST_P(SamplerOnProblems, marginalsAreThoseOfTheExactPosterior) {
   const Case& c = GetParam();
-  const Toy toy = random_toys::make(c.shape, c.seed);
-  const ForwardSensorModel model = model_for(toy, c.model, c.centre_ranges);
-  const plain::Marginals exact = plain::enumerate(plain::Posterior(toy.grid, toy.measurements, model, c.prior));
+  const Problem problem = random_problems::make(c.shape, c.seed);
+  const ForwardSensorModel model = model_for(problem, c.model, c.centre_ranges);
+  const plain::Marginals exact = plain::enumerate(plain::Posterior(problem.grid, problem.measurements, model, c.prior));
   for (const int swaps : {0, 1})
     for (const int plaquettes : {0, 1}) {
       if (plaquettes == 1 && c.shape.size.y() == 1) continue;  // a corridor has none
@@ -97,7 +97,7 @@ TEST_P(SamplerOnToys, marginalsAreThoseOfTheExactPosterior) {
       config.chains = 2;
       config.until_stationary = false;
       config.ray_spacing = 0.0;
-      const MarginalComparison comparison = compare_runs(exact, toy, config);
+      const MarginalComparison comparison = compare_runs(exact, problem, config);
       const std::string what = fmt::format("swaps {}, plaquettes {}: {}", swaps, plaquettes, comparison.text());
       fmt::print("             {}\n", what);
       EXPECT_TRUE(comparison.agrees()) << what;
@@ -105,7 +105,7 @@ TEST_P(SamplerOnToys, marginalsAreThoseOfTheExactPosterior) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Toys, SamplerOnToys, ::testing::ValuesIn(cases()), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(Problems, SamplerOnProblems, ::testing::ValuesIn(cases()), [](const auto& parameter) {
   std::string text = parameter.param.shape.name + " " + std::string(name(parameter.param.model));
   std::replace(text.begin(), text.end(), ' ', '_');
   return text;

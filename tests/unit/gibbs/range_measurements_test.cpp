@@ -19,7 +19,7 @@ std::size_t total_weight(const RangeMeasurements& measurements) {
                          [](std::size_t sum, const RangeMeasurement& ray) { return sum + ray.weight; });
 }
 
-/// Two cameras that look at a bumpy wall, densely; every fifth ray misses it, some returns are outliers.
+/// Two cameras that look at a bumpy wall, densely; every fifth ray misses it, some hits are outliers.
 RangeMeasurements dense_rays() {
   RangeMeasurements measurements;
   measurements.origins = {{0.0, 0.0, 0.0}, {0.3, 0.1, -0.2}};
@@ -73,24 +73,24 @@ TEST(RangeMeasurements, addLeavesOutWhatHasNoDirection) {
   EXPECT_NEAR(measurements.range(measurements.rays[0]), 1.0, 1e-6);
 }
 
-TEST(JoinRays, noSpacingChangesNothing) {
+TEST(MergeRays, noSpacingChangesNothing) {
   const RangeMeasurements measurements = dense_rays();
-  const RangeMeasurements joined = join_rays(measurements, 0.0, 0.1);
-  ASSERT_EQ(joined.rays.size(), measurements.rays.size());
-  for (std::size_t i = 0; i < joined.rays.size(); ++i) {
-    EXPECT_EQ(joined.rays[i].end, measurements.rays[i].end);
-    EXPECT_EQ(joined.rays[i].origin, measurements.rays[i].origin);
-    EXPECT_EQ(joined.rays[i].weight, measurements.rays[i].weight);
-    EXPECT_EQ(joined.rays[i].beyond_range, measurements.rays[i].beyond_range);
+  const RangeMeasurements merged = merge_rays(measurements, 0.0, 0.1);
+  ASSERT_EQ(merged.rays.size(), measurements.rays.size());
+  for (std::size_t i = 0; i < merged.rays.size(); ++i) {
+    EXPECT_EQ(merged.rays[i].end, measurements.rays[i].end);
+    EXPECT_EQ(merged.rays[i].origin, measurements.rays[i].origin);
+    EXPECT_EQ(merged.rays[i].weight, measurements.rays[i].weight);
+    EXPECT_EQ(merged.rays[i].beyond_range, measurements.rays[i].beyond_range);
   }
-  EXPECT_EQ(joined.origins, measurements.origins);
-  EXPECT_EQ(joined.max_range, measurements.max_range);
+  EXPECT_EQ(merged.origins, measurements.origins);
+  EXPECT_EQ(merged.max_range, measurements.max_range);
 }
 
-TEST(JoinRays, keepsTheWeightOfEachOriginAndKind) {
+TEST(MergeRays, keepsTheWeightOfEachOriginAndKind) {
   const RangeMeasurements measurements = dense_rays();
-  const RangeMeasurements joined = join_rays(measurements, 0.05, 0.02);
-  EXPECT_LT(joined.rays.size(), measurements.rays.size() / 2) << "few were joined";
+  const RangeMeasurements merged = merge_rays(measurements, 0.05, 0.02);
+  EXPECT_LT(merged.rays.size(), measurements.rays.size() / 2) << "few were merged";
   const auto weight = [&](const RangeMeasurements& all, std::uint32_t origin, bool beyond_range) {
     std::size_t sum = 0;
     for (const RangeMeasurement& ray : all.rays)
@@ -100,82 +100,82 @@ TEST(JoinRays, keepsTheWeightOfEachOriginAndKind) {
   };
   for (const std::uint32_t origin : {0u, 1u})
     for (const bool beyond_range : {false, true})
-      EXPECT_EQ(weight(joined, origin, beyond_range), weight(measurements, origin, beyond_range));
-  EXPECT_EQ(total_weight(joined), total_weight(measurements));
+      EXPECT_EQ(weight(merged, origin, beyond_range), weight(measurements, origin, beyond_range));
+  EXPECT_EQ(total_weight(merged), total_weight(measurements));
 }
 
-TEST(JoinRays, everyRayHasAJoinedOneBesideIt) {
+TEST(MergeRays, everyRayHasAJoinedOneBesideIt) {
   constexpr double spacing = 0.03, spread = 0.02;
-  const RangeMeasurements measurements = dense_rays(), joined = join_rays(measurements, spacing, spread);
+  const RangeMeasurements measurements = dense_rays(), merged = merge_rays(measurements, spacing, spread);
   for (std::size_t i = 0; i < measurements.rays.size(); i += 7) {
     const RangeMeasurement& ray = measurements.rays[i];
-    const bool found = std::any_of(joined.rays.begin(), joined.rays.end(), [&](const RangeMeasurement& other) {
+    const bool found = std::any_of(merged.rays.begin(), merged.rays.end(), [&](const RangeMeasurement& other) {
       return other.beyond_range == ray.beyond_range &&
-             joined.origins[other.origin] == measurements.origins[ray.origin] &&
-             measurements.direction(ray).dot(joined.direction(other)) > std::cos(2.0 * spacing) &&
-             std::abs(joined.range(other) - measurements.range(ray)) <= spread;
+             merged.origins[other.origin] == measurements.origins[ray.origin] &&
+             measurements.direction(ray).dot(merged.direction(other)) > std::cos(2.0 * spacing) &&
+             std::abs(merged.range(other) - measurements.range(ray)) <= spread;
     });
     ASSERT_TRUE(found) << "range " << measurements.range(ray);
   }
 }
 
-TEST(JoinRays, theJoinedRayIsTheWeightedMean) {
+TEST(MergeRays, theMergedRayIsTheWeightedMean) {
   RangeMeasurements measurements;
   measurements.origins = {{0, 0, 0}};
   measurements.rays = {{{0.13f, 0.14f, 1.0f}, 0, 1},
                        {{0.1304f, 0.1404f, 1.004f}, 0, 3},
                        {{-0.83f, 0.37f, 0.61f}, 0, 9}};  // far from the two
-  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.01);
-  ASSERT_EQ(joined.rays.size(), 2u);
-  const RangeMeasurement& mean = joined.rays[joined.rays[0].weight == 9 ? 1 : 0];
+  const RangeMeasurements merged = merge_rays(measurements, 0.1, 0.01);
+  ASSERT_EQ(merged.rays.size(), 2u);
+  const RangeMeasurement& mean = merged.rays[merged.rays[0].weight == 9 ? 1 : 0];
   EXPECT_EQ(mean.weight, 4);
   EXPECT_NEAR(mean.end.x(), 0.1303, 1e-5);
   EXPECT_NEAR(mean.end.y(), 0.1403, 1e-5);
   EXPECT_NEAR(mean.end.z(), 1.003, 1e-5);
 }
 
-TEST(JoinRays, anOutlierIsNotAveragedIn) {
+TEST(MergeRays, anOutlierIsNotAveragedIn) {
   RangeMeasurements measurements;
   measurements.origins = {{0, 0, 0}};
   for (int i = 0; i < 10; ++i) measurements.rays.push_back({{0.0f, 0.0f, 1.0f}});
   measurements.rays.insert(measurements.rays.begin() + 4, {{0.0f, 0.0f, 0.5f}});
-  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.01);
-  ASSERT_EQ(joined.rays.size(), 2u);
-  for (const RangeMeasurement& ray : joined.rays) {
-    EXPECT_NEAR(joined.range(ray), ray.weight == 10 ? 1.0 : 0.5, 1e-6);
+  const RangeMeasurements merged = merge_rays(measurements, 0.1, 0.01);
+  ASSERT_EQ(merged.rays.size(), 2u);
+  for (const RangeMeasurement& ray : merged.rays) {
+    EXPECT_NEAR(merged.range(ray), ray.weight == 10 ? 1.0 : 0.5, 1e-6);
     EXPECT_TRUE(ray.weight == 10 || ray.weight == 1);
   }
 }
 
-TEST(JoinRays, rangesOfAJoinedRayAreWithinTheSpread) {
+TEST(MergeRays, rangesOfAJoinedRayAreWithinTheSpread) {
   RangeMeasurements measurements;  // a ladder: neighbours are near, ends are not
   measurements.origins = {{0, 0, 0}};
   for (int i = 0; i <= 100; ++i) measurements.rays.push_back({{0.0f, 0.0f, 1.0f + 0.001f * static_cast<float>(i)}});
-  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.0105);
-  EXPECT_GE(joined.rays.size(), 10u) << "11 steps of 1 mm fit into 10.5 mm";
-  EXPECT_LE(joined.rays.size(), 30u);
-  for (const RangeMeasurement& ray : joined.rays) EXPECT_LE(ray.weight, 11);
+  const RangeMeasurements merged = merge_rays(measurements, 0.1, 0.0105);
+  EXPECT_GE(merged.rays.size(), 10u) << "11 steps of 1 mm fit into 10.5 mm";
+  EXPECT_LE(merged.rays.size(), 30u);
+  for (const RangeMeasurement& ray : merged.rays) EXPECT_LE(ray.weight, 11);
 }
 
-TEST(JoinRays, opposedDirectionsStayApart) {
+TEST(MergeRays, opposedDirectionsStayApart) {
   RangeMeasurements measurements;
   measurements.origins = {{0, 0, 0}};
   for (const Eigen::Vector3f& end : {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(-1, 0, 0), Eigen::Vector3f(0, 1, 0),
                                      Eigen::Vector3f(0, -1, 0), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0, 0, -1)})
     measurements.rays.push_back({end});
-  EXPECT_EQ(join_rays(measurements, 0.5, 0.1).rays.size(), 6u);
+  EXPECT_EQ(merge_rays(measurements, 0.5, 0.1).rays.size(), 6u);
 }
 
-TEST(JoinRays, aHundredThousandRaysKeepTheirWeight) {
+TEST(MergeRays, aHundredThousandRaysKeepTheirWeight) {
   RangeMeasurements measurements;  // more than a weight of 16 bits can say
   measurements.origins = {{0, 0, 0}};
   measurements.rays.assign(100'000, {{0.0f, 0.0f, 1.0f}});
-  const RangeMeasurements joined = join_rays(measurements, 0.1, 0.01);
-  EXPECT_EQ(total_weight(joined), 100'000u);
-  EXPECT_LE(joined.rays.size(), 4u);
+  const RangeMeasurements merged = merge_rays(measurements, 0.1, 0.01);
+  EXPECT_EQ(total_weight(merged), 100'000u);
+  EXPECT_LE(merged.rays.size(), 4u);
 }
 
-TEST(JoinRays, ofNothingIsNothing) { EXPECT_TRUE(join_rays({}, 0.1, 0.01).rays.empty()); }
+TEST(MergeRays, ofNothingIsNothing) { EXPECT_TRUE(merge_rays({}, 0.1, 0.01).rays.empty()); }
 
 }  // namespace
 }  // namespace nextview

@@ -8,26 +8,26 @@
 
 #include "core/gibbs/posterior_sampler.hpp"
 #include "tests/unit/gibbs/plain_diagnostics.hpp"
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
-using random_toys::Toy;
+using random_problems::Problem;
 
-constexpr double r_hat_limit = 1.05, trend_limit = 2.576, disagreeing_limit = 1e-4;  // SCIENCE: diagnostics
+constexpr double r_hat_limit = 1.05, trend_limit = 2.576, disagreeing_limit = 1e-4;
 
-GibbsPosterior short_run(const Toy& toy, std::uint64_t seed, StartMap start) {
+GibbsPosterior short_run(const Problem& problem, std::uint64_t seed, StartMap start) {
   PosteriorSamplerConfig config;
   config.model.kind = ForwardModel::beam;
-  config.model.sigma = toy.sigma;
+  config.model.sigma = problem.sigma;
   config.prior = 0.3;
   config.seed = seed;
   config.start = start;
   config.sweeps = 48, config.burn_in = 8;
   config.until_stationary = false;
   config.ray_spacing = 0.0;
-  return sample_posterior(toy.grid, toy.measurements, config);
+  return sample_posterior(problem.grid, problem.measurements, config);
 }
 
 /// The z of largest magnitude, with its sign: below 0 if that chain's log-posterior rises, above if it falls.
@@ -42,12 +42,12 @@ double strongest_trend(const SamplerDiagnostics& d) {
 
 // Over runs of all sorts, among them some that each limit alone decides, on either side.
 TEST(Verdict, FollowsFromTheKeptTraces) {
-  const Toy toy = random_toys::make({"room", {6, 5, 4}, 3, 100, 0.4}, 7);
+  const Problem problem = random_problems::make({"room", {6, 5, 4}, 3, 100, 0.4}, 7);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);  // runs too short to share
   int stationary = 0, by_r_hat = 0, by_rise = 0, by_fall = 0, rising = 0, falling = 0;
   for (const StartMap start : {StartMap::free, StartMap::occupied})
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-      const SamplerDiagnostics d = short_run(toy, seed, start).diagnostics;
+      const SamplerDiagnostics d = short_run(problem, seed, start).diagnostics;
       ASSERT_EQ(d.sweeps, 48);
       ASSERT_EQ(d.burn_in, 8);
       const double r_hat = plain::split_r_hat(plain::of_the_mean(d)), z = strongest_trend(d);
@@ -76,7 +76,7 @@ struct Ambiguous {
   static constexpr int edge = 28, pairs = 2;
   VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.28, 0.01);
   RangeMeasurements measurements{1.5, {}, {}};
-  std::vector<std::uint32_t> nearer, farther;  ///< one a pair
+  std::vector<std::uint32_t> nearer, farther;  ///< one per pair
 
   Ambiguous() {
     for (int z = 0; z < edge; ++z)
@@ -116,11 +116,11 @@ struct Ambiguous {
 
 // Of 22,000 voxels 2 may differ between chains, 4 may not: one in ten thousand.
 TEST(Verdict, AVoxelInTenThousandMayDifferBetweenChains) {
-  const Ambiguous toy;
+  const Ambiguous problem;
   for (int disagreeing = 0; disagreeing <= Ambiguous::pairs; ++disagreeing) {
     int judged = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      const SamplerDiagnostics d = toy.run(disagreeing, seed);
+      const SamplerDiagnostics d = problem.run(disagreeing, seed);
       EXPECT_EQ(d.disagreeing_voxels, std::size_t(2 * disagreeing)) << "both voxels of a pair";
       EXPECT_GT(d.informed_voxels, 20'000u - 784u);
       if (!(d.r_hat < r_hat_limit && d.trend < trend_limit)) continue;  // another limit's word
@@ -140,17 +140,17 @@ double divergence(double p, double q) {
 
 /// The posteriors of 4 to 12 sweeps of one chain. It draws the same however many follow, so these are its running
 /// means.
-std::vector<GibbsPosterior> running_means(const Toy& toy) {
+std::vector<GibbsPosterior> running_means(const Problem& problem) {
   PosteriorSamplerConfig config;
   config.model.kind = ForwardModel::beam;
-  config.model.sigma = toy.sigma;
+  config.model.sigma = problem.sigma;
   config.prior = 0.3;
   config.chains = 1, config.burn_in = 0;
   config.until_stationary = false, config.keep_traces = true;
   config.ray_spacing = 0.0;
   std::vector<GibbsPosterior> means;
   for (config.sweeps = 4; config.sweeps <= 12; ++config.sweeps)
-    means.push_back(sample_posterior(toy.grid, toy.measurements, config));
+    means.push_back(sample_posterior(problem.grid, problem.measurements, config));
   return means;
 }
 
@@ -164,7 +164,7 @@ TEST(Verdict, TheDivergenceIsOfTheMeanNowFromTheMeanBefore) {
   double gap = 0.0;
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const auto means = running_means(random_toys::make({"oblong", {4, 3, 1}, 2, 12, 0.8}, seed));
+    const auto means = running_means(random_problems::make({"oblong", {4, 3, 1}, 2, 12, 0.8}, seed));
     const std::vector<double>& found = means.back().diagnostics.divergence;
     ASSERT_EQ(found.size(), 11u) << "from the second sweep on";
     for (std::size_t m = 1; m < means.size(); ++m) {
@@ -180,7 +180,7 @@ TEST(Verdict, TheDivergenceIsOfTheMeanNowFromTheMeanBefore) {
     }
   }
   EXPECT_GT(compared, 20);
-  EXPECT_GT(gap, 0.02) << "with these toys either direction would do";
+  EXPECT_GT(gap, 0.02) << "with these test problems either direction would do";
 }
 
 }  // namespace

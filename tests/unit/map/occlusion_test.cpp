@@ -35,12 +35,12 @@ std::optional<std::vector<Eigen::Vector3i>> voxels_behind(const Vector3& from, c
   return std::vector<Eigen::Vector3i>(voxels.begin() + 1, voxels.end() - 1);
 }
 
-/// Scans whose returns all lead to clear cases, with the smallest step count of each unmeasured voxel.
+/// Scans whose hits all lead to clear cases, with the smallest step count of each unmeasured voxel.
 struct Twin {
   explicit Twin(const VoxelGrid& region) : grid(region), steps(region.voxel_count()) {}
 
   void add(const OccupancyMap& map, const Scan& scan, double distance) {
-    for (const auto& p : scan.returns) {
+    for (const auto& p : scan.hits) {
       const Vector3 ray = p.cast<double>() - scan.origin;
       // Surfaces outside of the region are not in the map: nothing lies behind them.
       const bool in_region = grid.contains(grid.cell_at(p.cast<double>()));
@@ -60,7 +60,7 @@ struct Twin {
 
 Scan clear_scan(std::mt19937& random, const Vector3& origin, double distance, int count) {
   Scan scan = random_scans::scan(random, origin, resolution, count);
-  std::erase_if(scan.returns, [&](const Eigen::Vector3f& p) {
+  std::erase_if(scan.hits, [&](const Eigen::Vector3f& p) {
     const Vector3 ray = p.cast<double>() - scan.origin;
     return (ray.array().abs() < 1e-3).any() || std::abs(ray.norm() - 1.5) < margin ||
            !voxels_behind(p.cast<double>(), ray.normalized(), distance);
@@ -76,7 +76,7 @@ TEST(MarkOcclusions, AgreesWithSortedPlaneCrossings) {
     Twin twin(grid);
     for (const Vector3& origin : random_scans::origins()) {
       const Scan scan = clear_scan(random, origin.cast<float>().cast<double>(), distance, 150);
-      ASSERT_GT(scan.returns.size(), 60u);
+      ASSERT_GT(scan.hits.size(), 60u);
       map.insert(scan);
       map.mark_occlusions(scan, distance);
       twin.add(map, scan, distance);
@@ -123,7 +123,7 @@ TEST(MarkOcclusions, ChangesNeitherProbabilitiesNorWhatIsMeasured) {
   }
 }
 
-TEST(MarkOcclusions, ReturnsOutOfRangeMarkNothing) {
+TEST(MarkOcclusions, HitsOutOfRangeMarkNothing) {
   OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
   const Scan scan{Vector3(-0.25, 0.01, 0.01), {{0.05f, 0.01f, 0.01f}}, {{0.09f, 0.03f, 0.01f}}, 0.2};
   map.mark_occlusions(scan, 0.3);

@@ -26,12 +26,12 @@ bool same_bytes(const OccupancyMap& a, const OccupancyMap& b) {
                     });
 }
 
-std::vector<Scan> scans(double resolution, int rays, double max_range, int passes) {
+std::vector<Scan> scans(double resolution, int rays, double max_range, int misses) {
   std::mt19937 random(17);
   std::vector<Scan> result;
   for (const Vector3& origin : random_scans::origins()) {
     result.push_back(random_scans::scan(random, origin, resolution, rays, max_range));
-    random_scans::add_passes(result.back(), random, passes);
+    random_scans::add_passes(result.back(), random, misses);
   }
   return result;
 }
@@ -86,7 +86,7 @@ TEST(OccupancyMap, PassesCarveAsReturnsBeyondTheMaximumRange) {
   OccupancyMap with_passes(region(0.02), {}), with_returns(region(0.02), {});
   for (const Scan& scan : scans(0.02, 0, 1.5, 2000)) {
     Scan far{scan.origin, {}, {}, 1.5};
-    for (const auto& p : scan.passes) far.returns.push_back(2.0f * p - scan.origin.cast<float>());
+    for (const auto& p : scan.misses) far.hits.push_back(2.0f * p - scan.origin.cast<float>());
     with_passes.insert(scan);
     with_returns.insert(far);
   }
@@ -124,10 +124,10 @@ TEST(OccupancyMap, InvalidPixelsCarveNothing) {
   // One valid pixel among them: the same as that ray alone.
   image.range[615] = 0.8f;
   const Scan scan = back_project(image, pose, 1.5);
-  ASSERT_EQ(scan.returns.size() + scan.passes.size(), 1u);
+  ASSERT_EQ(scan.hits.size() + scan.misses.size(), 1u);
   map.insert(scan);
   OccupancyMap alone(region(0.01), {});
-  alone.insert({pose.translation(), {scan.returns[0]}, {}, 1.5});
+  alone.insert({pose.translation(), {scan.hits[0]}, {}, 1.5});
   EXPECT_TRUE(same_bytes(map, alone));
   EXPECT_GT(std::count_if(map.voxels().begin(), map.voxels().end(), [](auto& v) { return v.measured; }), 10);
 }
@@ -193,7 +193,7 @@ TEST(OccupancyMap, VoxelsAgreeWithTheirLogOdds) {
 TEST(OccupancyMap, AFirstHitIsNotYetOccupied) {
   OccupancyMap map(region(0.01), {});
   const Scan scan{Vector3(0.8, 0.003, 0.004), {{0.1f, 0.004f, 0.003f}}, {}, 1.5};
-  const std::uint32_t voxel = map.grid().index(map.grid().cell_at(scan.returns[0].cast<double>()));
+  const std::uint32_t voxel = map.grid().index(map.grid().cell_at(scan.hits[0].cast<double>()));
   map.insert(scan);
   EXPECT_EQ(map.voxels()[voxel].voxel_class, VoxelClass::unknown);
   EXPECT_NEAR(map.voxels()[voxel].probability, 0.7, 1e-6);

@@ -21,13 +21,13 @@ inline octomap::OcTree tree(double resolution, const InverseSensorModel& model) 
 inline void insert(octomap::OcTree& tree, const Scan& scan) {
   const octomap::point3d origin = to_octomap(scan.origin.cast<float>());
   octomap::Pointcloud cloud;
-  for (const auto& p : scan.returns) cloud.push_back(to_octomap(p));
-  if (scan.passes.empty()) return tree.insertPointCloud(cloud, origin, scan.max_range);
+  for (const auto& p : scan.hits) cloud.push_back(to_octomap(p));
+  if (scan.misses.empty()) return tree.insertPointCloud(cloud, origin, scan.max_range);
 
   octomap::KeySet free, occupied;
   tree.computeUpdate(cloud, origin, free, occupied, scan.max_range);
   octomap::KeyRay ray;
-  for (const auto& p : scan.passes) {
+  for (const auto& p : scan.misses) {
     tree.computeRayKeys(origin, to_octomap(p), ray);
     for (const auto& key : ray)
       if (!occupied.count(key)) free.insert(key);

@@ -30,7 +30,7 @@ struct MapAndTree {
     std::mt19937 random(23);
     for (const Vector3& origin : {Vector3(0.3, 0.1, 0.1), Vector3(-0.1, -0.2, -0.2), Vector3(0.3, 0.1, 0.1)}) {
       Scan scan{origin, {}, {}, 1.5};
-      for (int n = 0; n < 4000; ++n) scan.returns.push_back((0.15 * random_scans::direction(random)).cast<float>());
+      for (int n = 0; n < 4000; ++n) scan.hits.push_back((0.15 * random_scans::direction(random)).cast<float>());
       map.insert(scan);
       octomap_twin::insert(tree, scan);
     }

@@ -37,7 +37,7 @@ inline Scan scan(std::mt19937& random, const Vector3& origin, double resolution,
       default:
         point = (0.2 + noise(random)) * direction(random);
     }
-    result.returns.push_back(point.cast<float>());
+    result.hits.push_back(point.cast<float>());
   }
   return result;
 }
@@ -46,7 +46,7 @@ inline Scan scan(std::mt19937& random, const Vector3& origin, double resolution,
 inline void add_passes(Scan& scan, std::mt19937& random, int count) {
   for (int n = 0; n < count; ++n) {
     const Vector3 towards = point_in_box(random, 0.5) - scan.origin;
-    scan.passes.push_back((scan.origin + scan.max_range * towards.normalized()).cast<float>());
+    scan.misses.push_back((scan.origin + scan.max_range * towards.normalized()).cast<float>());
   }
 }
 

@@ -84,7 +84,7 @@ TEST(VoxelBricks, ForksOfOneMapGrowInSeveralThreads) {
   const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.64, 0.01);
   Scan scan;
   scan.origin = Vector3(0.9, 0.1, 0.2);
-  for (int i = 0; i < 2000; ++i) scan.returns.push_back({0.01f * float(i % 20), 0.005f * float(i % 40), -0.1f});
+  for (int i = 0; i < 2000; ++i) scan.hits.push_back({0.01f * float(i % 20), 0.005f * float(i % 40), -0.1f});
   OccupancyMap root(grid);
   root.insert(scan);
   std::vector<OccupancyMap> forks(4, root);

@@ -18,13 +18,13 @@ using Scans = std::vector<std::shared_ptr<const Scan>>;
 constexpr double max_range = 1.5;
 VoxelGrid region() { return region_of_interest(Vector3(0.013, -0.02, 0.04), 0.44, 0.04); }
 
-Scans random_views(int rays, int passes) {
+Scans random_views(int rays, int misses) {
   std::mt19937 random(23);
   Scans scans;
   for (int round = 0; round < 2; ++round)
     for (const Vector3& origin : random_scans::origins()) {
       Scan scan = random_scans::scan(random, origin, 0.04, rays, max_range);
-      random_scans::add_passes(scan, random, passes);
+      random_scans::add_passes(scan, random, misses);
       scans.push_back(std::make_shared<Scan>(std::move(scan)));
     }
   return scans;
@@ -75,7 +75,7 @@ TEST(VoxelHistory, CountsTheRaysThatOctoMapCasts) {
   const Scans scans = random_views(300, 100);
   std::size_t all_hits = 0, all_passes = 0;
   for (const auto& scan : scans) {
-    std::vector<std::size_t> hits(grid.voxel_count()), passes(grid.voxel_count());
+    std::vector<std::size_t> hits(grid.voxel_count()), misses(grid.voxel_count());
     const octomap::point3d origin = octomap_twin::to_octomap(scan->origin.cast<float>());
     const auto voxel = [&](const octomap::OcTreeKey& key) -> std::optional<std::uint32_t> {
       const int zero = 1 << (tree.getTreeDepth() - 1);
@@ -89,16 +89,16 @@ TEST(VoxelHistory, CountsTheRaysThatOctoMapCasts) {
       if (!in_range) end = origin + (end - origin).normalized() * float(max_range);
       tree.computeRayKeys(origin, end, keys);
       for (const auto& key : keys)
-        if (const auto v = voxel(key)) ++passes[*v];
+        if (const auto v = voxel(key)) ++misses[*v];
       if (const auto v = voxel(tree.coordToKey(end)); v && is_return && in_range) ++hits[*v];
     };
-    for (const auto& p : scan->returns) count(p, true);
-    for (const auto& p : scan->passes) count(p, false);
+    for (const auto& p : scan->hits) count(p, true);
+    for (const auto& p : scan->misses) count(p, false);
     for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
       const auto history = voxel_history(grid, {}, std::array{scan}, v);
       ASSERT_EQ(history[0].hits, hits[v]) << v;
-      ASSERT_EQ(history[0].passes, passes[v]) << v;
-      all_hits += hits[v], all_passes += passes[v];
+      ASSERT_EQ(history[0].misses, misses[v]) << v;
+      all_hits += hits[v], all_passes += misses[v];
     }
   }
   EXPECT_GT(all_hits, 1000u);
@@ -110,8 +110,8 @@ TEST(VoxelHistory, TellsAStory) {
   row.resolution = 0.1;
   row.size = {8, 1, 1};
   const Vector3 camera(-0.35, 0.05, 0.05);
-  const auto scan = [&](PointCloud returns, PointCloud passes = {}) {
-    return std::make_shared<const Scan>(Scan{camera, std::move(returns), std::move(passes), max_range});
+  const auto scan = [&](PointCloud hits, PointCloud misses = {}) {
+    return std::make_shared<const Scan>(Scan{camera, std::move(hits), std::move(misses), max_range});
   };
   const Eigen::Vector3f in_4(0.42f, 0.05f, 0.05f), in_6(0.62f, 0.05f, 0.05f), far(1.15f, 0.05f, 0.05f);
   const Eigen::Vector3f too_far(2.0f, 0.05f, 0.05f), away(-1.85f, 0.05f, 0.05f);
@@ -119,13 +119,13 @@ TEST(VoxelHistory, TellsAStory) {
   const auto history = voxel_history(row, {}, scans, 4);
   ASSERT_EQ(history.size(), 4u);
   EXPECT_EQ(history[0].hits, 2u);
-  EXPECT_EQ(history[0].passes, 1u);
+  EXPECT_EQ(history[0].misses, 1u);
   EXPECT_FLOAT_EQ(history[0].log_odds_change, float(log_odds(0.7))) << "once a scan, and a hit wins";
   EXPECT_FALSE(history[1].measured());
   EXPECT_EQ(history[1].log_odds_change, 0.0f);
   EXPECT_FLOAT_EQ(history[1].probability, 0.7f);
   EXPECT_EQ(history[2].hits, 0u);
-  EXPECT_EQ(history[2].passes, 3u) << "a return in front of its end, one out of range, a pass";
+  EXPECT_EQ(history[2].misses, 3u) << "a return in front of its end, one out of range, a pass";
   EXPECT_FLOAT_EQ(history[2].log_odds_change, float(log_odds(0.4)));
   EXPECT_NEAR(history[3].log_odds, 2 * log_odds(0.7) + log_odds(0.4), 1e-6);
 
@@ -151,7 +151,7 @@ TEST(VoxelHistory, TheSameOnOneThreadAndTwo) {
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
     EXPECT_EQ(one[k].hits, two[k].hits);
-    EXPECT_EQ(one[k].passes, two[k].passes);
+    EXPECT_EQ(one[k].misses, two[k].misses);
     EXPECT_EQ(one[k].log_odds, two[k].log_odds);
   }
 }

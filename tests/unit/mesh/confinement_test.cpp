@@ -153,21 +153,21 @@ TEST(SceneTransfer, whatComesIsNotBelieved) {
 }
 
 TEST(SceneTransfer, whatIsAnnouncedAndDoesNotComeTakesNoMemory) {
-  const auto most_memory = [] {  // at once, so far [KiB]
+  const auto peak_memory = [] {  // at once, so far [KiB]
     rusage usage;
     ::getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss;
   };
-  const long before = most_memory();
+  const long before = peak_memory();
   ReadingProcess process(
       [&](int pipe) {
-        const std::uint64_t header[] = {0, 0, 0, most_triangles};
+        const std::uint64_t header[] = {0, 0, 0, max_triangles};
         [[maybe_unused]] const ssize_t sent = ::write(pipe, header, sizeof(header));
         ::pause();
       },
       2s, {});
   EXPECT_THROW(receive_scene(process), ReadingProcess::TooSlow);
-  EXPECT_LT(most_memory() - before, 300 * 1024);  // announced are 768 MiB
+  EXPECT_LT(peak_memory() - before, 300 * 1024);  // announced are 768 MiB
 }
 
 }  // namespace

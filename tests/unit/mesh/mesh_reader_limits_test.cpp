@@ -33,7 +33,7 @@ std::string complaint(const fs::path& file) {
   }
 }
 
-long most_memory_of_children() {  // at once, so far [MiB]
+long peak_memory_of_children() {  // at once, so far [MiB]
   rusage usage;
   ::getrusage(RUSAGE_CHILDREN, &usage);
   return usage.ru_maxrss / 1024;
@@ -127,7 +127,7 @@ TEST(MeshReaderMemory, followsFromTheSizeOfTheFile) {
     EXPECT_NE(said, "no complaint") << name;
     EXPECT_THAT(said, HasSubstr("reading it takes more memory")) << name;
   }
-  EXPECT_LT(most_memory_of_children(), 1024);
+  EXPECT_LT(peak_memory_of_children(), 1024);
 }
 
 TEST(MeshReaderTime, isBounded) {

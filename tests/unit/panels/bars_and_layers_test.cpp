@@ -51,8 +51,8 @@ TEST_F(Bars, SaysWhatItIsReadyFor) {
   EXPECT_THAT(control_bar(), HasSubstr("Ready to take view 6"));
   scan_->next_candidate.reset();
   EXPECT_THAT(control_bar(), HasSubstr("No candidate is left"));
-  scan_->own_next_view = true;
-  EXPECT_THAT(control_bar(), HasSubstr("Ready to take your own view"));
+  scan_->custom_next_view = true;
+  EXPECT_THAT(control_bar(), HasSubstr("Ready to take your custom view"));
   scan_->finished = "the gain is small";
   EXPECT_THAT(control_bar(), HasSubstr("Finished: the gain is small"));
   desk_.snapshot = scanned(small_scan(), 0);
@@ -81,7 +81,7 @@ TEST_F(Bars, SaysWhatRunsWhatWaitsAndForHowLong) {
   }
   EXPECT_TRUE(found) << "there is no bar";
   desk_.progress.paused = true;
-  EXPECT_THAT(control_bar(), HasSubstr("held: scoring"));
+  EXPECT_THAT(control_bar(), HasSubstr("paused: scoring"));
   EXPECT_EQ(text_of(click_on(desk_, "Cancel", "Control bar")), "cancel");
   desk_.progress = {};
   desk_.progress.busy = desk_.progress.playing = true;

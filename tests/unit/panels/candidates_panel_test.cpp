@@ -42,7 +42,7 @@ class CandidatesPanel : public testing::Test {
 
 TEST_F(CandidatesPanel, EachNumberStandsInItsColumnWithItsUnit) {
   EXPECT_THAT(rows(), ElementsAre("6 160 0.75 0.2000", "1 40 0.25 0.0500", "3 20 2.00 0.0200", "0 10 0.50 0.0100",
-                                  "7 5 1.50 -0.0300", "4 80 1.00 -0.1000", "5 visited, view 2", "2 not reachable"));
+                                  "7 5 1.50 -0.0300", "4 80 1.00 -0.1000", "5 taken, view 2", "2 not reachable"));
   EXPECT_THAT(panel(), HasSubstr("view gain [nats] cost [m] utility"));
   EXPECT_THAT(panel(), HasSubstr("ranked by occlusion-aware"));
   scan_->gain_unit = "";
@@ -92,8 +92,8 @@ TEST_F(CandidatesPanel, BarsAreSharesOfTheLargestThatIsLeft) {
   expect_bar("160", theme::chosen, 0.7, 1);
   expect_bar("80", theme::series[0], 0.7, 0.5);
   expect_bar("40", theme::series[0], 0.7, 0.25);
-  expect_bar("2.00", theme::visited, 0.7, 1);
-  expect_bar("1.50", theme::visited, 0.7, 0.75);
+  expect_bar("2.00", theme::muted, 0.7, 1);
+  expect_bar("1.50", theme::muted, 0.7, 0.75);
   expect_bar("0.2000", theme::chosen, 0.7, 1);
   expect_bar("0.0500", theme::series[0], 0.7, 0.25);
   expect_bar("-0.1000", theme::series[0], 0.86, 0.5);
@@ -105,8 +105,8 @@ TEST_F(CandidatesPanel, SaysWhatIsNext) {
   EXPECT_THAT(panel(), HasSubstr("Next is your choice, view 1; proposed was view 6."));
   scan_->next_candidate.reset();
   EXPECT_THAT(panel(), HasSubstr("No candidate is left."));
-  scan_->own_next_view = true;
-  EXPECT_THAT(panel(), HasSubstr("Next is a view of your own; proposed was view 6."));
+  scan_->custom_next_view = true;
+  EXPECT_THAT(panel(), HasSubstr("Next is a custom view; proposed was view 6."));
   scan_->records[1].ranking.degenerate = "all are alike";
   EXPECT_THAT(panel(), HasSubstr("The ranking says little: all are alike."));
   scan_->finished = "enough";
@@ -125,13 +125,13 @@ TEST_F(CandidatesPanel, ProposalAndNextViewStandOut) {
   EXPECT_EQ(colours.at("6"), to_imgui_u32(theme::chosen)) << "the proposal";
   EXPECT_EQ(colours.at("1"), to_imgui_u32(theme::chosen)) << "the next view";
   EXPECT_EQ(colours.at("3"), to_imgui_u32(theme::ink));
-  EXPECT_EQ(colours.at("5"), to_imgui_u32(theme::soft_ink)) << "visited";
+  EXPECT_EQ(colours.at("5"), to_imgui_u32(theme::soft_ink)) << "taken";
 }
 
 TEST_F(CandidatesPanel, AClickOnARowLooksAtTheCandidateAndAnotherAtTheNextView) {
   desk_.frames();
   EXPECT_EQ(text_of(click_on(desk_, "0.0200", "Candidates")), "select-view 3");
-  desk_.window.selection.view = {LookedAt::Kind::candidate, 3};
+  desk_.window.selection.view = {ViewSelection::Kind::candidate, 3};
   for (int i = 0; i < 60; ++i) desk_.frame();  // so that the next click is no double click
   EXPECT_EQ(text_of(click_on(desk_, "0.0200", "Candidates")), "select-next");
   EXPECT_THAT(panel(), HasSubstr("Take view 3 next"));

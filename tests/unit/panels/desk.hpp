@@ -89,11 +89,11 @@ class Desk {
 /// A scan after some steps.
 inline std::shared_ptr<const SessionSnapshot> scanned(const Configuration& configuration, int steps,
                                                       bool refined = false) {
-  const SessionRunner::Told told{[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
+  const SessionRunner::JobControl control{[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
   SessionRunner runner;
-  runner.load(configuration, told);
-  for (int i = 0; i < steps; ++i) runner.step(told);
-  if (refined) runner.refine(2, 20, told);
+  runner.load(configuration, control);
+  for (int i = 0; i < steps; ++i) runner.step(control);
+  if (refined) runner.refine(2, 20, control);
   return runner.snapshot();
 }
 
@@ -104,12 +104,12 @@ inline void open_all_ways(Desk& desk) {
   s->earlier_runs = std::make_shared<const std::vector<Run>>(1, Run{"sphere, random", s->records});
   s->next_candidate = *s->proposal() == 0 ? 1 : 0;
   desk.snapshot = s;
-  desk.window.selection.view = {LookedAt::Kind::candidate, *s->proposal()};
-  desk.window.selection.own_view = Pose::Identity();
+  desk.window.selection.view = {ViewSelection::Kind::candidate, *s->proposal()};
+  desk.window.selection.custom_view = Pose::Identity();
   desk.window.layers.voxels.slice = Slice{0, -0.1, 0.1};
 }
 
-/// What may be under way: nothing, playing, refining, a refinement that is held.
+/// What may be under way: nothing, playing, refining, a refinement that is paused.
 inline std::vector<WorkerProgress> all_progress() {
   std::vector<WorkerProgress> all(4);
   for (std::size_t i = 1; i < 4; ++i) {

@@ -38,7 +38,7 @@ class GibbsPanelTest : public testing::Test {
     d.disagreeing_voxels = 7;
     d.informed_voxels = 5000;
     d.effective_samples = 222;
-    d.joined_rays = 400;
+    d.merged_rays = 400;
     d.measured_rays = 1000;
     d.build_seconds = 0.5;
     d.sample_seconds = 2;
@@ -85,7 +85,7 @@ TEST_F(GibbsPanelTest, EachDiagnosticStandsAtItsName) {
   const std::string text = panel(made_map());
   EXPECT_THAT(text, HasSubstr("Stationary after 3 sweeps of 2 chains."));
   EXPECT_THAT(text, HasSubstr("R-hat 1.012 (under 1.05) trend |z| 1.8 (under 2.58) voxels that differ 7 of 5000 "
-                              "effective samples 222 rays 400 joined of 1000 time 2.5 s"));
+                              "effective samples 222 rays 400 merged of 1000 time 2.5 s"));
   EXPECT_THAT(text, Not(HasSubstr("refine again")));
 }
 
@@ -138,13 +138,13 @@ TEST_F(GibbsPanelTest, ThePlotsHaveTheValuesOfTheChainsAndOfTheHistograms) {
   EXPECT_EQ(read_tooltip(), "sweep 3 chain 1: -1 knats chain 2: 0 knats");
 }
 
-TEST_F(GibbsPanelTest, HoldAndGoOnAreOneButton) {
+TEST_F(GibbsPanelTest, PauseAndResumeAreOneButton) {
   desk_.progress.busy = desk_.progress.refining = true;
   desk_.frames();
-  EXPECT_EQ(text_of(click_on(desk_, "Hold", "Gibbs")), "hold-refinement");
+  EXPECT_EQ(text_of(click_on(desk_, "Pause", "Gibbs")), "pause-refinement");
   desk_.progress.paused = true;
   desk_.frames();
-  EXPECT_EQ(text_of(click_on(desk_, "Go on", "Gibbs")), "continue-refinement");
+  EXPECT_EQ(text_of(click_on(desk_, "Resume", "Gibbs")), "resume-refinement");
   EXPECT_EQ(text_of(click_on(desk_, "Refine the map", "Gibbs")), "") << "while it runs";
 }
 

@@ -4,7 +4,7 @@
 namespace nextview {
 
 /// A scan after two views with numbers made by hand, no two alike: what shows one in another's place shows another
-/// text. Candidate 5 was visited and candidate 2 cannot be reached; their numbers are left over and larger than all.
+/// text. Candidate 5 was taken and candidate 2 cannot be reached; their numbers are left over and larger than all.
 inline std::shared_ptr<SessionSnapshot> made_scan() {
   static const auto scan = scanned(small_scan(), 2);
   auto s = std::make_shared<SessionSnapshot>(*scan);
@@ -16,8 +16,8 @@ inline std::shared_ptr<SessionSnapshot> made_scan() {
   r.gain = 12.5;
   r.utility = 0.375;
   r.realised_gain = 321;
-  r.returns = 600;
-  r.passes = 40;
+  r.hits = 600;
+  r.misses = 40;
   r.points = 500;
   r.new_voxels = 77;
   r.motion = {1.25, 1.5707963, 3};
@@ -33,7 +33,7 @@ inline std::shared_ptr<SessionSnapshot> made_scan() {
                   {true, 80, 1, -0.1},   {false, 8888, 98, 8},   {true, 160, 0.75, 0.2}, {true, 5, 1.5, -0.03}};
   r.ranking = {6, ""};
   s->next_candidate = 6;
-  s->own_next_view = false;
+  s->custom_next_view = false;
   s->finished.clear();
   return s;
 }

@@ -117,12 +117,13 @@ TEST_P(Panels, AreDrawnInTheirPlacesInEveryState) {
       desk.window.bring_to_front(PanelName(panel));
       desk.log.assign(3,
                       {LogEntry::Level::warning, "something that went wrong in a way that takes a line or two to say"});
-      for (const LookedAt view : {LookedAt{}, LookedAt{LookedAt::Kind::candidate, 0}, {LookedAt::Kind::taken, 0}}) {
+      for (const ViewSelection view :
+           {ViewSelection{}, ViewSelection{ViewSelection::Kind::candidate, 0}, {ViewSelection::Kind::taken, 0}}) {
         desk.window.selection.view = view;
-        desk.window.selection.voxel = view.kind == LookedAt::Kind::taken ? std::optional(500u) : std::nullopt;
+        desk.window.selection.voxel = view.kind == ViewSelection::Kind::taken ? std::optional(500u) : std::nullopt;
         desk.window.selection.ray =
-            view.kind == LookedAt::Kind::candidate ? std::optional<std::size_t>(3) : std::nullopt;
-        if (view.kind == LookedAt::Kind::taken && state.snapshot->records.empty()) continue;
+            view.kind == ViewSelection::Kind::candidate ? std::optional<std::size_t>(3) : std::nullopt;
+        if (view.kind == ViewSelection::Kind::taken && state.snapshot->records.empty()) continue;
         desk.inspection = inspector.inspect(desk.snapshot, desk.window.selection);
         EXPECT_TRUE(desk.frames().empty()) << "a panel did something by itself";
         expect_in_place(desk.layout());

@@ -10,7 +10,7 @@
 namespace nextview {
 
 /// Words that stand in the picture of a frame: read from its glyphs, so also what no widget of ImGui wrote, and only
-/// what a person can see.
+/// what the user can see.
 struct SeenText {
   std::string text;
   ImVec2 from, to;  ///< [px]

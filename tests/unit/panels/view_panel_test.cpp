@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using Kind = LookedAt::Kind;
+using Kind = ViewSelection::Kind;
 
 class ViewPanel : public testing::Test {
  protected:
@@ -20,7 +20,7 @@ class ViewPanel : public testing::Test {
   }
 
   /// What is expected of a view, or what it measured: 4 x 3 cells.
-  void look_at_view(LookedAt view, std::vector<float> measured = {}) {
+  void show_view(ViewSelection view, std::vector<float> measured = {}) {
     desk_.window.selection.view = view;
     ViewInspection inspected;
     inspected.view = view;
@@ -61,32 +61,32 @@ class ViewPanel : public testing::Test {
 };
 
 TEST_F(ViewPanel, ACandidatesNumbersAreThoseOfTheRanking) {
-  look_at_view({Kind::candidate, 3});
+  show_view({Kind::candidate, 3});
   EXPECT_THAT(panel(), HasSubstr("expected gain 1234 nats in the ranking 20 nats way there 2.00 m utility 0.0200"));
   EXPECT_THAT(panel(), HasSubstr("Candidate 3"));
-  look_at_view({});
+  show_view({});
   EXPECT_THAT(panel(), HasSubstr("in the ranking 160 nats way there 0.75 m utility 0.2000")) << "of the next view";
   EXPECT_THAT(panel(), HasSubstr("Next: candidate 6"));
-  look_at_view({Kind::candidate, 5});
-  EXPECT_THAT(panel(), HasSubstr("visited"));
+  show_view({Kind::candidate, 5});
+  EXPECT_THAT(panel(), HasSubstr("taken"));
   EXPECT_THAT(panel(), Not(HasSubstr("8888"))) << "a gain that is left over";
 }
 
 TEST_F(ViewPanel, ATakenViewsNumbersAreThoseOfItsRecord) {
-  look_at_view({Kind::taken, 1}, std::vector<float>(12, 0.5f));
+  show_view({Kind::taken, 1}, std::vector<float>(12, 0.5f));
   EXPECT_THAT(panel(), HasSubstr("View 2 as taken"));
   EXPECT_THAT(panel(), HasSubstr("taken from candidate 5 predicted gain 12.5 nats realised gain 321 nats new voxels 77 "
-                                 "points 500 of 600 returns beyond range 40 rays way there 1.25 m, 90°"));
+                                 "points 500 of 600 hits beyond range 40 rays way there 1.25 m, 90°"));
   scan_->records[1].overridden = true;
   EXPECT_THAT(panel(), HasSubstr("taken from candidate 5, your choice"));
   scan_->records[1].view = -1;
-  EXPECT_THAT(panel(), HasSubstr("taken from your own view predicted gain 12.5 nats"));
+  EXPECT_THAT(panel(), HasSubstr("taken from your custom view predicted gain 12.5 nats"));
   scan_->records[1].overridden = false;
   EXPECT_THAT(panel(), HasSubstr("taken from the start view predicted gain none realised gain 321 nats"));
 }
 
 TEST_F(ViewPanel, DepthsAreInMillimetres) {
-  look_at_view({});
+  show_view({});
   EXPECT_THAT(panel(), HasSubstr("Dark 250 mm, pale 1500 mm; white: nothing."));
   const ImVec2 corner = picture_beside("Depth as the");
   const float cell = 196.0f / 4;
@@ -101,7 +101,7 @@ TEST_F(ViewPanel, DepthsAreInMillimetres) {
   EXPECT_EQ(read_tooltip(), "nothing met");
   std::vector<float> measured(12, -1.0f);
   measured[5] = 0.75f;
-  look_at_view({Kind::taken, 1}, measured);
+  show_view({Kind::taken, 1}, measured);
   EXPECT_THAT(panel(), HasSubstr("Depth as measured."));
   const ImVec2 taken = picture_beside("Depth as");
   desk_.move(taken.x + 1.5 * cell, taken.y + 1.5 * cell);
@@ -110,7 +110,7 @@ TEST_F(ViewPanel, DepthsAreInMillimetres) {
 }
 
 TEST_F(ViewPanel, EachCellOfTheLowerPictureIsItsRay) {
-  look_at_view({});
+  show_view({});
   EXPECT_THAT(panel(), HasSubstr("What each of its 48 rays adds to the gain."));
   EXPECT_THAT(panel(), HasSubstr("Dark 47.5 nats, pale little"));
   const ImVec2 corner = picture_beside("What each");
@@ -124,37 +124,37 @@ TEST_F(ViewPanel, EachCellOfTheLowerPictureIsItsRay) {
 }
 
 TEST_F(ViewPanel, TheButtonsAreThoseOfTheViewThatIsLookedAt) {
-  look_at_view({});
+  show_view({});
   EXPECT_THAT(panel(), Not(HasSubstr("Take ")));
-  look_at_view({Kind::candidate, 3});
+  show_view({Kind::candidate, 3});
   EXPECT_THAT(panel(), HasSubstr("Take this view next"));
   EXPECT_EQ(text_of(click_on(desk_, "Take this view next")), "take-view");
   EXPECT_EQ(text_of(click_on(desk_, "Look through it")), "look-through");
-  desk_.window.selection.own_view = Pose::Identity();
-  look_at_view({Kind::own, 0});
+  desk_.window.selection.custom_view = Pose::Identity();
+  show_view({Kind::custom, 0});
   desk_.frames();
-  EXPECT_EQ(text_of(click_on(desk_, "Take my own view next")), "take-own-view");
+  EXPECT_EQ(text_of(click_on(desk_, "Take the custom view next")), "take-custom-view");
 }
 
 TEST_F(ViewPanel, AViewIsNeverShownWithTheNumbersOfAnother) {
-  look_at_view({Kind::candidate, 3});
+  show_view({Kind::candidate, 3});
   desk_.window.selection.view = {Kind::candidate, 4};
   EXPECT_THAT(panel(), HasSubstr("Candidate 4"));
   EXPECT_THAT(panel(), HasSubstr("Looking …"));
   EXPECT_THAT(panel(), Not(HasSubstr("gain")));
   scan_->finished = "enough";
-  look_at_view({});
+  show_view({});
   EXPECT_THAT(panel(), HasSubstr("The scan is finished: there is no next view."));
 }
 
 TEST_F(ViewPanel, TheListHasTheNextTheTakenAndTheCandidatesThatAreLeft) {
-  look_at_view({});
+  show_view({});
   desk_.frames();
   click_on(desk_, "Next: candidate 6", "View");
   const std::string all = read();
   for (const char* entry : {"The next view", "View 2 as taken", "View 1 as taken", "Candidate 0", "Candidate 7"})
     EXPECT_THAT(all, HasSubstr(entry));
-  EXPECT_THAT(all, Not(HasSubstr("Candidate 5"))) << "visited";
+  EXPECT_THAT(all, Not(HasSubstr("Candidate 5"))) << "taken";
   EXPECT_THAT(all, Not(HasSubstr("Candidate 2"))) << "out of reach";
   EXPECT_EQ(text_of(click_on(desk_, "View 2 as taken")), "select-taken 2");
 }

@@ -55,7 +55,7 @@ TEST(DepthCamera, aTiltedPlaneHasTheRangesOfTheFormula) {
   config.max_range = 100.0;
   const Vector3 point(0.3, 0.4, -0.5), normal = Vector3(1, 2, 5).normalized();
   const Pose T_world_camera = look_at({0.8, 1.1, 0.6}, point);
-  const DepthImage image = DepthCamera(config).sense_ideal(RayScene(plane(point, normal)), T_world_camera);
+  const DepthImage image = DepthCamera(config).sense_ideal(MeshRayCaster(plane(point, normal)), T_world_camera);
   ASSERT_EQ(image.range.size(), 37u * 23u);
   EXPECT_EQ(image.camera.width, 37);
   for_each_pixel(config, [&](std::size_t pixel, const Vector3& ray) {
@@ -70,7 +70,7 @@ TEST(DepthCamera, aSphereHasItsOutlineAndItsDepth) {
   config.width = 160, config.height = 121;
   const Pose T_world_camera = look_at({0.5, -0.6, 0.4}, Vector3::Zero());
   const double distance = T_world_camera.translation().norm();
-  const DepthImage image = DepthCamera(config).sense_ideal(RayScene(sphere_part().mesh), T_world_camera);
+  const DepthImage image = DepthCamera(config).sense_ideal(MeshRayCaster(sphere_part().mesh), T_world_camera);
   int hits = 0, misses = 0;
   for_each_pixel(config, [&](std::size_t pixel, const Vector3& ray) {
     const double towards = distance * ray.z(), off_axis = distance * std::hypot(ray.x(), ray.y());
@@ -98,7 +98,7 @@ TEST(DepthCamera, theSameBytesOnAnyNumberOfThreads) {
   std::vector<DepthImage> images;
   for (const std::size_t threads : {1, 2, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    images.push_back(DepthCamera(config).sense(RayScene(mesh), T_world_camera, 42, 7));
+    images.push_back(DepthCamera(config).sense(MeshRayCaster(mesh), T_world_camera, 42, 7));
   }
   EXPECT_TRUE(same_bytes(images[0], images[1]));
   EXPECT_TRUE(same_bytes(images[0], images[2]));
@@ -109,7 +109,7 @@ TEST(DepthCamera, surfacesMetAtMoreThanTheGrazingLimitAreInvalid) {
   config.width = 320, config.height = 240;
   config.grazing_limit = 70.0, config.range_noise = 0.0, config.max_range = 100.0;
   const Vector3 normal(0, std::sin(55 * degree), -std::cos(55 * degree));  // met at 33 to 77 degrees over the height
-  const RayScene scene(plane({0, 0, 2}, normal));
+  const MeshRayCaster scene(plane({0, 0, 2}, normal));
   const DepthImage image = DepthCamera(config).sense(scene, Pose::Identity(), 1, 0);
   const DepthImage ideal = DepthCamera(config).sense_ideal(scene, Pose::Identity());
   int valid = 0, invalid = 0;
@@ -129,7 +129,7 @@ TEST(DepthCamera, rangesBeyondTheLimitsAreBeyondRangeOrInvalid) {
   config.range_noise = 0.0, config.min_range = 0.9, config.max_range = 1.2;
   const DepthCamera camera(config);
   const Vector3 normal = Vector3(0.5, 0, 1).normalized();
-  const RayScene scene(plane({0, 0, 1}, normal));
+  const MeshRayCaster scene(plane({0, 0, 1}, normal));
   std::array<int, 3> counts{};
   for (const DepthImage& image :
        {camera.sense(scene, Pose::Identity(), 1, 0), camera.sense_ideal(scene, Pose::Identity())})
@@ -148,10 +148,10 @@ TEST(DepthCamera, anInsideOutMeshLooksTheSame) {
   TriangleMesh mesh = slotted_housing().mesh;
   const DepthCamera camera{DepthCameraConfig{}};
   const Pose T_world_camera = look_at({0.5, 0.5, 0.6}, Vector3::Zero());
-  const DepthImage outside = camera.sense(RayScene(mesh), T_world_camera, 1, 1);
+  const DepthImage outside = camera.sense(MeshRayCaster(mesh), T_world_camera, 1, 1);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 1 + t % 2)
     std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
-  const DepthImage mixed = camera.sense(RayScene(mesh), T_world_camera, 1, 1);
+  const DepthImage mixed = camera.sense(MeshRayCaster(mesh), T_world_camera, 1, 1);
   for (std::size_t i = 0; i < outside.range.size(); ++i) {
     ASSERT_EQ(std::isnan(outside.range[i]), std::isnan(mixed.range[i]));
     if (!DepthImage::is_range(outside.range[i])) continue;

@@ -18,7 +18,7 @@ double below(double deviations) { return 0.5 * std::erfc(-deviations / std::sqrt
 /// What the noise of one view adds to every pixel, in standard deviations.
 std::vector<double> noise(const DepthCameraConfig& config, std::uint64_t seed, std::uint32_t view_index) {
   const DepthCamera camera(config);
-  const RayScene scene(plane({0, 0, 1}, {0.2, 0, 1}));
+  const MeshRayCaster scene(plane({0, 0, 1}, {0.2, 0, 1}));
   const DepthImage ideal = camera.sense_ideal(scene, Pose::Identity());
   const DepthImage noisy = camera.sense(scene, Pose::Identity(), seed, view_index);
   std::vector<double> deviations;
@@ -70,7 +70,7 @@ TEST(DepthNoise, noiseDecidesAtTheLimits) {
   for (const double deviations : {-1.0, 0.0, 1.0, 2.0}) {
     for (const bool at_max : {true, false}) {
       const double distance = (at_max ? config.max_range : config.min_range) + deviations * config.range_noise;
-      const RayScene scene(plane({0, 0, distance}, {0, 0, 1}));
+      const MeshRayCaster scene(plane({0, 0, distance}, {0, 0, 1}));
       const DepthImage image = DepthCamera(config).sense(scene, Pose::Identity(), 5, 0);
       double expected = 0, found = 0;
       for_each_pixel(config, [&](std::size_t pixel, const Vector3& ray) {
@@ -93,7 +93,7 @@ TEST(DepthNoise, noiseDecidesAtTheLimits) {
 TEST(DepthNoise, dropoutTakesItsShareAndLeavesTheRestAlone) {
   DepthCameraConfig config;
   config.width = 320, config.height = 240;
-  const RayScene scene(sphere_part().mesh);
+  const MeshRayCaster scene(sphere_part().mesh);
   const Pose T_world_camera = look_at({0.9, 0, 0}, Vector3::Zero());
   const DepthImage whole = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
   config.dropout = 0.3;
@@ -136,7 +136,7 @@ TEST(DepthNoise, outliersReplaceTheirShareOfEveryKindOfPixelAndLeaveTheRestAlone
   DepthCameraConfig config;
   config.width = 640, config.height = 480, config.grazing_limit = 60.0;  // so that many pixels are invalid
   config.min_range = 0.3, config.max_range = 1.3;
-  const RayScene scene(sphere_part().mesh);
+  const MeshRayCaster scene(sphere_part().mesh);
   const Pose T_world_camera = look_at({0.7, 0, 0}, Vector3::Zero());
   const DepthImage without = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
   config.outliers = 0.2;
@@ -164,7 +164,7 @@ TEST(DepthNoise, seedAndViewChooseTheOutliers) {
   DepthCameraConfig config;
   config.width = 100, config.height = 100, config.outliers = 0.5;
   const DepthCamera camera(config);
-  const RayScene nothing(plane({0, 0, 9}, {0, 0, 1}));
+  const MeshRayCaster nothing(plane({0, 0, 9}, {0, 0, 1}));
   const auto ranges = [&](std::uint64_t seed, std::uint32_t view) {
     return camera.sense(nothing, Pose::Identity(), seed, view).range;
   };
@@ -183,7 +183,7 @@ TEST(DepthNoise, seedAndViewChooseTheOutliers) {
 TEST(DepthNoise, aPixelThatDropsOutIsNoOutlier) {
   DepthCameraConfig config;
   config.width = 320, config.height = 240, config.dropout = 0.3;
-  const RayScene scene(sphere_part().mesh);
+  const MeshRayCaster scene(sphere_part().mesh);
   const Pose T_world_camera = look_at({0.9, 0, 0}, Vector3::Zero());
   config.grazing_limit = 90.0;  // only dropout makes pixels invalid
   const DepthImage dropped = DepthCamera(config).sense(scene, T_world_camera, 9, 2);

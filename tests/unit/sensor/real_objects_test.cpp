@@ -16,7 +16,7 @@ TEST_P(RealObjects, areSeenWithoutHoles) {
   if (!std::filesystem::exists(file))
     FAIL() << file << " is not there; it comes with Debian's package " << package << ", which app/setup installs";
   const TriangleMesh mesh = load_mesh(file);
-  const RayScene scene(mesh);
+  const MeshRayCaster scene(mesh);
   const DepthCamera camera{DepthCameraConfig{}};
   const auto start = std::chrono::steady_clock::now();
   const DepthImage image = camera.sense_ideal(scene, look_at({0.5, 0.6, 0.45}, Vector3::Zero()));

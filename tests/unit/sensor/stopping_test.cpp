@@ -11,10 +11,10 @@ TEST(StoppingTheCamera, NothingIsGivenByHalves) {
   std::stop_source stop;
   stop.request_stop();
   const TriangleMesh mesh = sphere_part().mesh;
-  EXPECT_THROW(RayScene(mesh, stop.get_token()), Stopped);
+  EXPECT_THROW(MeshRayCaster(mesh, stop.get_token()), Stopped);
   DepthCameraConfig config;
   EXPECT_THROW(DepthCamera(config, stop.get_token()), Stopped);
-  const RayScene scene(mesh);
+  const MeshRayCaster scene(mesh);
   const DepthCamera camera(config);
   const Pose view = look_at({0.9, 0.0, 0.0}, Vector3::Zero());
   EXPECT_THROW(camera.sense(scene, view, 1, 1, stop.get_token()), Stopped);

@@ -17,7 +17,7 @@ Scan expected_scan(const View& view, std::uint32_t number) {
   for (std::uint32_t i = 0; i < 12; ++i) {
     const double angle = 0.5 * i + 0.01 * number;
     const Vector3 offset = 0.2 * std::sin(angle) * across + 0.2 * std::cos(angle) * towards.cross(across);
-    scan.returns.push_back((offset - 0.1 * towards).cast<float>());
+    scan.hits.push_back((offset - 0.1 * towards).cast<float>());
   }
   return scan;
 }
@@ -57,7 +57,7 @@ class Tree {
   std::size_t bytes_over_root() const {
     std::size_t bytes = 0;
     for (const Node& node : nodes_) {
-      bytes += sizeof node + node.scan.returns.size() * sizeof node.scan.returns[0];
+      bytes += sizeof node + node.scan.hits.size() * sizeof node.scan.hits[0];
       if (node.parent && node.known) bytes += node.known->map.voxels().bytes_beside(nodes_[0].known->map.voxels());
     }
     return bytes;
@@ -91,7 +91,7 @@ TEST(ForkingPlanner, TenThousandForksTakeLittleMemory) {
   }
   EXPECT_EQ(tree.size(), 10'001u);
   EXPECT_LE(most, std::size_t{1} << 30);
-  RecordProperty("most_bytes_over_root", std::to_string(most));
+  RecordProperty("max_bytes_over_root", std::to_string(most));
   // A leaf whose maps were dropped, and its way back, is made again as it was.
   Knowledge expected = root;
   std::vector<std::uint32_t> way;

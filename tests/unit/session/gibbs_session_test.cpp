@@ -74,13 +74,13 @@ TEST(GibbsSession, AWarmStartAndAColdStartAgree) {
   Session session(warm);
   while (session.finished().empty()) session.step();
   // The same views at once, from nothing.
-  MapRefinement once(session.map().grid(), posterior_sampler_config(cold), cold.map.model);
+  GibbsState once(session.map().grid(), posterior_sampler_config(cold), cold.map.model);
   for (std::size_t k = 0; k < session.records().size(); ++k) {
     const DepthImage image = DepthCamera(cold.sensor)
-                                 .sense(RayScene(*session.mesh()), session.records()[k].T_world_camera, cold.seed,
+                                 .sense(MeshRayCaster(*session.mesh()), session.records()[k].T_world_camera, cold.seed,
                                         static_cast<std::uint32_t>(k + 1));
     Scan scan = back_project(image, session.records()[k].T_world_camera, cold.sensor.max_range);
-    scan.returns = clean(scan.returns, cold.cloud);
+    scan.hits = clean(scan.hits, cold.cloud);
     once.add(scan);
   }
   once.refine({}, 400, {}, {});

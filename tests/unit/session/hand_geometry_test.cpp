@@ -46,7 +46,7 @@ class HandGeometry : public InTemporaryFolder {
 
 /// Whether the line between two points passes the square of half an edge `half` at z = `height`; nothing if it comes
 /// too near its edge to say.
-std::optional<bool> passes(const Vector3& from, const Vector3& to, double height, double half) {
+std::optional<bool> misses(const Vector3& from, const Vector3& to, double height, double half) {
   if ((from.z() - height) * (to.z() - height) >= 0.0) return false;
   const Vector3 at = from + (to - from) * ((height - from.z()) / (to.z() - from.z()));
   const double farther = std::max(std::abs(at.x()), std::abs(at.y()));
@@ -70,7 +70,7 @@ std::optional<bool> sees(const DepthCameraConfig& camera, double gap, const Pose
   seen &= below(camera.min_range, range) & below(range, camera.max_range);
   seen &= below(slant, camera.grazing_limit * std::numbers::pi / 180.0);
   const bool on_large = point.z() < 0.0;
-  const auto hidden = on_large ? passes(eye, point, 0.5 * gap, half_small) : passes(eye, point, -0.5 * gap, half_large);
+  const auto hidden = on_large ? misses(eye, point, 0.5 * gap, half_small) : misses(eye, point, -0.5 * gap, half_large);
   if (close || !hidden) return std::nullopt;
   return seen && !*hidden;
 }
@@ -96,7 +96,7 @@ TEST_F(HandGeometry, SamplesAreSeenWhereNothingIsInBetween) {
         ASSERT_EQ(is_seen[s] != 0, *expected)
             << "gap " << gap << ", " << point.transpose() << " from " << eye.transpose();
         seen += *expected;
-        hidden_behind_the_small_one += point.z() < 0.0 && passes(eye, point, 0.5 * gap, half_small) == true;
+        hidden_behind_the_small_one += point.z() < 0.0 && misses(eye, point, 0.5 * gap, half_small) == true;
       }
     }
     EXPECT_GT(seen, 2000);

@@ -102,7 +102,7 @@ TEST(OwnParts, AFailureOfTheRobotOrTheSourceLosesNothing) {
   EXPECT_EQ(reason_of_step(), "it worked");
   EXPECT_NEAR(session.records().back().motion.distance, ShakyRobot::error.norm(), 1e-9) << "and goes on from there";
   std::size_t above = 0;
-  for (const Eigen::Vector3f& point : session.scans().back()->returns) above += std::abs(point.z()) > 1e-4f;
+  for (const Eigen::Vector3f& point : session.scans().back()->hits) above += std::abs(point.z()) > 1e-4f;
   EXPECT_EQ(above, 0u) << "all returns lie on the plane";
 }
 
@@ -146,7 +146,7 @@ TEST(OwnParts, ARecordingIsASourceLikeAnyOther) {
   for (std::size_t k = 0; k < simulated.scans().size(); ++k) {
     const Pose pose = simulated.records()[k].T_world_camera;
     recorded.push_back({pose, {}});
-    for (const Eigen::Vector3f& point : simulated.scans()[k]->returns)
+    for (const Eigen::Vector3f& point : simulated.scans()[k]->hits)
       recorded.back().points.push_back(pose.inverse() * point.cast<double>());
   }
   Configuration c = small_scan();
@@ -158,7 +158,7 @@ TEST(OwnParts, ARecordingIsASourceLikeAnyOther) {
   Session session(c, std::move(parts));
   EXPECT_EQ(session.candidates().size(), recorded.size()) << "the candidates are its frames";
   session.step();
-  EXPECT_EQ(session.scans().back()->returns.size(), recorded.front().points.size());
+  EXPECT_EQ(session.scans().back()->hits.size(), recorded.front().points.size());
   EXPECT_THAT(session.finished(), testing::IsEmpty());
 }
 

@@ -25,8 +25,8 @@ TEST(SessionEdge, AViewWithoutReturnsIsAView) {
   finish(session);
   ASSERT_EQ(session.records().size(), 4u);
   for (const StepRecord& r : session.records()) {
-    EXPECT_EQ(r.returns, 0u);
-    EXPECT_EQ(r.passes, 80u * 60u);
+    EXPECT_EQ(r.hits, 0u);
+    EXPECT_EQ(r.misses, 80u * 60u);
     EXPECT_EQ(r.coverage, 0.0);
   }
   for (const Voxel& v : session.map().voxels()) EXPECT_LE(v.probability, 0.5f);
@@ -40,7 +40,7 @@ TEST(SessionEdge, AViewOfInvalidPixelsAloneSaysNothing) {
   Session session(c);
   finish(session);
   for (const StepRecord& r : session.records()) {
-    EXPECT_LE(r.returns + r.passes, 2u);
+    EXPECT_LE(r.hits + r.misses, 2u);
     EXPECT_LE(r.new_voxels, 100u);
   }
 }

@@ -24,7 +24,7 @@ double coverage(const Session& session, std::size_t steps, double d_reg, std::sp
     ++counted;
     bool found = false;
     for (std::size_t k = 0; k < steps && !found; ++k)
-      for (const Eigen::Vector3f& p : session.scans()[k]->returns)
+      for (const Eigen::Vector3f& p : session.scans()[k]->hits)
         if ((p - points[s]).cast<double>().norm() <= d_reg) {
           found = true;
           break;
@@ -135,7 +135,7 @@ TEST(SessionRecords, QualityIsOfTheVisitedVoxels) {
   EXPECT_EQ(r.refinement->changed_class, changed);
 }
 
-// As many sweeps a view as are asked for; 0 means until stationary.
+// As many sweeps per view as are asked for; 0 means until stationary.
 TEST(SessionRecords, SweepsAreThoseThatWereAskedFor) {
   for (const int sweeps : {5, 12, 0}) {
     Configuration c = small_scan();

@@ -36,7 +36,7 @@ TEST(Session, RunsAlgorithm2ToItsTermination) {
     const Vector3 way = r.T_world_camera.translation() - before.T_world_camera.translation();
     EXPECT_NEAR(r.motion.distance, way.norm(), 1e-12);
     EXPECT_FALSE(r.overridden);
-    for (int v = 0; v < 10; ++v)  // visited candidates leave the list
+    for (int v = 0; v < 10; ++v)  // taken candidates leave the list
       EXPECT_EQ(r.candidates[v].available, !views.contains(v)) << "step " << r.step << " view " << v;
     EXPECT_GE(r.coverage, before.coverage);
     EXPECT_LE(r.entropy, before.entropy);
@@ -63,10 +63,10 @@ TEST(Session, RecordsAgreeWithTheMap) {
     EXPECT_NEAR(r.total_entropy * std::numbers::ln2, entropy, 1e-6 * entropy);
     EXPECT_NEAR(r.realised_gain, entropy_before - entropy, 1e-6 * entropy_before);  // Eq. 12
     EXPECT_EQ(r.realised_gain, realised_gain(before, session.planning_voxels()));
-    EXPECT_EQ(r.points, session.scans().back()->returns.size());
-    EXPECT_LE(r.points, r.returns);
+    EXPECT_EQ(r.points, session.scans().back()->hits.size());
+    EXPECT_LE(r.points, r.hits);
     EXPECT_GT(r.points, 100u);
-    EXPECT_LE(r.returns + r.passes, 80u * 60u);
+    EXPECT_LE(r.hits + r.misses, 80u * 60u);
     EXPECT_GT(r.seconds.sense + r.seconds.insert, 0.0);
     measured_before = measured, entropy_before = entropy;
     before = session.planning_voxels();
@@ -98,7 +98,7 @@ TEST(Session, TheSameBytesOnOneThreadAndTwo) {
   c.seed = 2;
   const auto other = run(2);
   EXPECT_FALSE(same_scan(*one, *other));
-  EXPECT_NE(one->scans()[0]->returns, other->scans()[0]->returns);
+  EXPECT_NE(one->scans()[0]->hits, other->scans()[0]->hits);
 }
 
 TEST(Session, LocalOctreesAndDirectInsertionGiveTheSameScan) {
@@ -170,7 +170,7 @@ TEST(Session, AnOperatorMayChooseAnotherView) {
   EXPECT_EQ(session.records()[1].view, int(other));
   EXPECT_TRUE(session.records()[1].overridden);
   EXPECT_EQ(session.records()[1].gain, session.records()[0].candidates[other].gain);
-  EXPECT_THROW(session.override_next_view(other), std::invalid_argument);  // visited
+  EXPECT_THROW(session.override_next_view(other), std::invalid_argument);  // taken
   EXPECT_THROW(session.override_next_view(10), std::invalid_argument);
   session.step();
   EXPECT_FALSE(session.records()[2].overridden);

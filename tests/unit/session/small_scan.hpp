@@ -41,8 +41,8 @@ inline bool same_record(const StepRecord& a, const StepRecord& b) {
   return a.step == b.step && a.view == b.view && a.overridden == b.overridden &&
          a.T_world_camera.matrix() == b.T_world_camera.matrix() && a.motion.distance == b.motion.distance &&
          a.motion.rotation == b.motion.rotation && a.motion.seconds == b.motion.seconds && a.gain == b.gain &&
-         a.utility == b.utility && a.realised_gain == b.realised_gain && a.returns == b.returns &&
-         a.passes == b.passes && a.points == b.points && a.new_voxels == b.new_voxels && a.entropy == b.entropy &&
+         a.utility == b.utility && a.realised_gain == b.realised_gain && a.hits == b.hits && a.misses == b.misses &&
+         a.points == b.points && a.new_voxels == b.new_voxels && a.entropy == b.entropy &&
          a.total_entropy == b.total_entropy && a.coverage == b.coverage && a.coverage_visible == b.coverage_visible &&
          a.coverage_paper == b.coverage_paper && same_quality(a.quality, b.quality) &&
          same_quality(a.quality_near_surface, b.quality_near_surface) && same_candidates(a.candidates, b.candidates) &&
@@ -64,11 +64,10 @@ inline bool same_map(const OccupancyMap& a, const OccupancyMap& b) {
 }
 
 inline bool same_scans(const Session& a, const Session& b) {
-  return std::equal(a.scans().begin(), a.scans().end(), b.scans().begin(), b.scans().end(),
-                    [](const auto& x, const auto& y) {
-                      return x->origin == y->origin && x->returns == y->returns && x->passes == y->passes &&
-                             x->max_range == y->max_range;
-                    });
+  return std::equal(
+      a.scans().begin(), a.scans().end(), b.scans().begin(), b.scans().end(), [](const auto& x, const auto& y) {
+        return x->origin == y->origin && x->hits == y->hits && x->misses == y->misses && x->max_range == y->max_range;
+      });
 }
 
 inline bool same_evaluation(const EvaluationState* a, const EvaluationState* b) {

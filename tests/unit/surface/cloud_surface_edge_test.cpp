@@ -22,7 +22,7 @@ constexpr double finest = 0.003;  // [m]
 Scan scan_of(PointCloud points) {
   Scan scan;
   scan.origin = {0, 0, 1};
-  scan.returns = std::move(points);
+  scan.hits = std::move(points);
   return scan;
 }
 
@@ -60,7 +60,7 @@ TEST(CloudSurfaceEdge, PointsOnALineAreSound) {
 /// Whether a sphere's scans with one more point give the sphere, or are refused.
 bool sound_with(const Eigen::Vector3f& point, bool first) {
   auto scans = sphere();
-  auto& points = scans[first ? 0 : 3].returns;
+  auto& points = scans[first ? 0 : 3].hits;
   points.insert(first ? points.begin() : points.end(), point);
   try {
     const Surface surface = cloud_surface(scans, finest);
@@ -86,7 +86,7 @@ TEST(CloudSurfaceEdge, PointsThatAreNoNumbersAreRefusedOrLeftOut) {
 
 TEST(CloudSurfaceEdge, AStrayPointAKilometreAwayIsRefused) {
   auto scans = sphere();
-  scans[2].returns.emplace_back(0.0f, 1000.0f, 0.0f);
+  scans[2].hits.emplace_back(0.0f, 1000.0f, 0.0f);
   try {
     cloud_surface(scans, finest);
     ADD_FAILURE() << "made a surface";
@@ -94,7 +94,7 @@ TEST(CloudSurfaceEdge, AStrayPointAKilometreAwayIsRefused) {
     EXPECT_THAT(error.what(), testing::HasSubstr("apart"));
     EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
   }
-  scans[2].returns.back() = {700.0f, 1000.0f, -800.0f};
+  scans[2].hits.back() = {700.0f, 1000.0f, -800.0f};
   EXPECT_THROW(cloud_surface(scans, finest), std::invalid_argument);
 }
 

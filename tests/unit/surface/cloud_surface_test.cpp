@@ -95,7 +95,7 @@ TEST(CloudSurface, IsOpenWhereACapIsMissingAndNowhereElse) {
   auto scans = views_of_sphere(radius, {}, true, 4);
   const Vector3 axis = Vector3(0.3, -0.5, 0.7).normalized();
   for (Scan& scan : scans)
-    std::erase_if(scan.returns, [&](const Eigen::Vector3f& p) { return p.cast<double>().dot(axis) > 0.085; });
+    std::erase_if(scan.hits, [&](const Eigen::Vector3f& p) { return p.cast<double>().dot(axis) > 0.085; });
   const Surface surface = cloud_surface(scans, 0.003);
   ASSERT_FALSE(surface.empty()) << surface.why_empty;
   EXPECT_EQ(surface_checks::piece_count(surface.mesh), 1u);

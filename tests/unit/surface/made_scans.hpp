@@ -33,7 +33,7 @@ inline Scan scan(const Vector3& origin, const Vector3& target, const Camera& cam
     for (int u = -camera.half_width; u <= camera.half_width; ++u) {
       const Vector3 direction = pose.linear() * Vector3(camera.pitch * u, camera.pitch * v, distance).normalized();
       if (const auto range = cast(origin, direction))
-        result.returns.push_back((origin + (*range + camera.noise * normal(random)) * direction).cast<float>());
+        result.hits.push_back((origin + (*range + camera.noise * normal(random)) * direction).cast<float>());
     }
   return result;
 }

@@ -6,13 +6,13 @@
 namespace nextview {
 namespace {
 
-using Kind = LookedAt::Kind;
+using Kind = ViewSelection::Kind;
 
 TEST(Explanation, ExplanationsAddUpToTheRanking) {
   for (const Gain& gain : gains())
     for (const Semantics semantics : {Semantics::published, Semantics::reference}) {
       if (gain.name == "gibbs" && semantics == Semantics::reference) continue;  // the reference knows no Gibbs map
-      LookedAtScan scan(scan_by(std::string(gain.name), semantics));
+      InspectedScan scan(scan_by(std::string(gain.name), semantics));
       double largest = 0;
       for (int step = 0; step < 2; ++step) {
         scan.step();
@@ -41,10 +41,10 @@ TEST(Explanation, ExplanationsAddUpToTheRanking) {
 }
 
 TEST(Explanation, TheReferenceMapFollowsUndo) {
-  LookedAtScan scan(scan_by("rear-side-entropy", Semantics::reference));
+  InspectedScan scan(scan_by("rear-side-entropy", Semantics::reference));
   for (int i = 0; i < 3; ++i) scan.step();
   scan.look_at({});
-  scan.runner.undo(told());
+  scan.runner.undo(job_control());
   scan.runner.take_view(scan.now().proposal() == 1u ? 2 : 1);
   scan.step();
   const auto& candidates = scan.now().records.back().candidates;
@@ -57,7 +57,7 @@ TEST(Explanation, TheReferenceMapFollowsUndo) {
 TEST(Explanation, WhatHasNoRaysSaysSo) {
   for (const PolicyEntry& policy : policies()) {
     const std::string& gain = policy.name;
-    LookedAtScan scan(scan_by(gain));
+    InspectedScan scan(scan_by(gain));
     EXPECT_EQ(scan.look_at({}).explanation, nullptr);
     EXPECT_THAT(scan.look_at({}).no_explanation, testing::HasSubstr("start view"));
     scan.step();
@@ -68,19 +68,19 @@ TEST(Explanation, WhatHasNoRaysSaysSo) {
   }
 }
 
-TEST(Explanation, AnOwnViewIsExplainedBeforeItIsTaken) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+TEST(Explanation, AnCustomViewIsExplainedBeforeItIsTaken) {
+  InspectedScan scan(scan_by("occlusion-aware"));
   scan.step();
   Selection selection;
-  selection.view = {Kind::own, 0};
-  EXPECT_FALSE(scan.look(selection).view) << "there is no own view yet";
-  selection.own_view = own_view();
+  selection.view = {Kind::custom, 0};
+  EXPECT_FALSE(scan.look(selection).view) << "there is no custom view yet";
+  selection.custom_view = custom_view();
   const ViewInspection view = scan.look(selection).view.value();
-  EXPECT_TRUE(view.T_world_camera.isApprox(own_view()));
+  EXPECT_TRUE(view.T_world_camera.isApprox(custom_view()));
   ASSERT_NE(view.explanation, nullptr);
-  expect_sum(*view.explanation, "own view");
+  expect_sum(*view.explanation, "custom view");
   EXPECT_GT(view.explanation->value, 0);
-  scan.runner.take_own_view(own_view());
+  scan.runner.take_custom_view(custom_view());
   scan.step();
   EXPECT_TRUE(equal(scan.now().records.back().gain, view.explanation->value));
 }

@@ -5,10 +5,10 @@ namespace nextview {
 namespace {
 
 TEST(InspectedChain, TheConditionalIsGivenTheLastMapOfTheFirst) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   scan.step();
   scan.step();
-  scan.runner.refine(2, 8, told());
+  scan.runner.refine(2, 8, job_control());
   const GibbsMap& gibbs = *scan.now().gibbs;
   std::size_t tell_chains_apart = 0;
   for (std::uint32_t v = 0; v < gibbs.voxels->size(); v += 7) {

@@ -10,11 +10,11 @@
 
 namespace nextview {
 
-inline SessionRunner::Told told() {
+inline SessionRunner::JobControl job_control() {
   return {[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
 }
 
-inline Pose own_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
+inline Pose custom_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
 
 inline Configuration scan_by(const std::string& gain, Semantics semantics = Semantics::published) {
   Configuration c = small_scan();
@@ -24,12 +24,12 @@ inline Configuration scan_by(const std::string& gain, Semantics semantics = Sema
 }
 
 /// A session that can be inspected after each step.
-struct LookedAtScan {
-  explicit LookedAtScan(const Configuration& configuration) { runner.load(configuration, told()); }
-  void step() { runner.step(told()); }
+struct InspectedScan {
+  explicit InspectedScan(const Configuration& configuration) { runner.load(configuration, job_control()); }
+  void step() { runner.step(job_control()); }
   const SessionSnapshot& now() { return *runner.snapshot(); }
   Inspection look(const Selection& selection) { return inspector.inspect(runner.snapshot(), selection); }
-  ViewInspection look_at(LookedAt view) {
+  ViewInspection look_at(ViewSelection view) {
     Selection selection;
     selection.view = view;
     return look(selection).view.value();
@@ -42,7 +42,7 @@ struct LookedAtScan {
 /// A voxel, and no view, which would take longer.
 inline Selection only_voxel(std::uint32_t voxel) {
   Selection selection;
-  selection.view = {LookedAt::Kind::own, 0};
+  selection.view = {ViewSelection::Kind::custom, 0};
   selection.voxel = voxel;
   return selection;
 }

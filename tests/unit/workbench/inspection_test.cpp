@@ -9,10 +9,10 @@
 namespace nextview {
 namespace {
 
-using Kind = LookedAt::Kind;
+using Kind = ViewSelection::Kind;
 
 TEST(Inspection, AVoxelsHistoryEndsAtTheMap) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   for (int i = 0; i < 3; ++i) scan.step();
   const auto& voxels = *scan.now().voxels;
   std::size_t measured = 0;
@@ -30,9 +30,9 @@ TEST(Inspection, AVoxelsHistoryEndsAtTheMap) {
       const auto& rays = voxel.rays[k];
       const auto hits = std::size_t(std::count_if(rays.begin(), rays.end(), [](const VoxelRay& r) { return r.hit; }));
       EXPECT_LE(rays.size(), 60u);
-      if (h[k].hits + h[k].passes <= 60) {
+      if (h[k].hits + h[k].misses <= 60) {
         EXPECT_EQ(hits, h[k].hits) << v;
-        EXPECT_EQ(rays.size(), h[k].hits + h[k].passes) << v;
+        EXPECT_EQ(rays.size(), h[k].hits + h[k].misses) << v;
       }
     }
     EXPECT_FALSE(voxel.conditional) << "there is no Gibbs map";
@@ -47,9 +47,9 @@ TEST(Inspection, TheConditionalSumsToOneAndItsRaysToTheOdds) {
     Configuration c = scan_by("occlusion-aware");
     for (Setting& s : settings(c))
       if (s.key == "gibbs.model") s.set(model);
-    LookedAtScan scan(c);
+    InspectedScan scan(c);
     for (int i = 0; i < 2; ++i) scan.step();
-    scan.runner.refine(2, 40, told());
+    scan.runner.refine(2, 40, job_control());
     const auto gibbs = scan.now().gibbs;
     std::size_t with_rays = 0, with_trace = 0;
     for (std::uint32_t v = 0; v < gibbs->voxels->size(); v += 13) {
@@ -67,7 +67,7 @@ TEST(Inspection, TheConditionalSumsToOneAndItsRaysToTheOdds) {
       with_rays += !f.rays.empty();
       if (voxel.trace.empty()) continue;
       ++with_trace;
-      ASSERT_EQ(voxel.trace.size(), 2u) << "one a chain";
+      ASSERT_EQ(voxel.trace.size(), 2u) << "one per chain";
       EXPECT_EQ(voxel.trace[0].size(), voxel.trace[1].size());
       for (std::size_t chain = 0; chain < 2; ++chain)
         EXPECT_EQ(voxel.trace[chain].back(), gibbs->posterior->states[chain][v]) << v << ": it does not end at its map";
@@ -78,7 +78,7 @@ TEST(Inspection, TheConditionalSumsToOneAndItsRaysToTheOdds) {
 }
 
 TEST(Inspection, ATakenViewShowsWhatItMeasured) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   for (int i = 0; i < 2; ++i) scan.step();
   for (const std::size_t taken : {0u, 1u}) {
     const ViewInspection view = scan.look_at({Kind::taken, taken});
@@ -94,12 +94,12 @@ TEST(Inspection, ATakenViewShowsWhatItMeasured) {
 
 /// Each depth, sent back along its cell's ray from where the view was taken, is at a point that was measured.
 TEST(Inspection, MeasuredDepthFitsThePose) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   for (int i = 0; i < 3; ++i) scan.step();
   const SessionSnapshot& s = scan.now();
   for (std::size_t taken = 0; taken < 3; ++taken) {
     const ViewInspection view = scan.look_at({Kind::taken, taken});
-    const auto& returns = s.scans[taken]->returns;
+    const auto& hits = s.scans[taken]->hits;
     const ExpectedView& cells = view.expected;
     const double cell_width = double(s.camera.width) / cells.columns,
                  cell_height = double(s.camera.height) / cells.rows;
@@ -113,7 +113,7 @@ TEST(Inspection, MeasuredDepthFitsThePose) {
         const Vector3 along = s.camera.direction((column + 0.5) * cell_width - 0.5, (row + 0.5) * cell_height - 0.5);
         const Vector3 point = s.records[taken].T_world_camera * Vector3(along * (depth / along.z()));
         double nearest = 1e9;
-        for (const auto& r : returns) nearest = std::min(nearest, (r.cast<double>() - point).norm());
+        for (const auto& r : hits) nearest = std::min(nearest, (r.cast<double>() - point).norm());
         longest = std::max(longest, nearest);
       }
     EXPECT_GT(seen, 100u);
@@ -124,7 +124,7 @@ TEST(Inspection, MeasuredDepthFitsThePose) {
 
 /// Where the map says that a surface is, what is measured there agrees within some voxels.
 TEST(Inspection, ExpectedAndMeasuredDepthAgreeWhereItWasSeen) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   scan.step();
   const ViewInspection view = scan.look_at({Kind::taken, 0});
   std::size_t both = 0, near = 0;
@@ -138,20 +138,20 @@ TEST(Inspection, ExpectedAndMeasuredDepthAgreeWhereItWasSeen) {
 }
 
 TEST(Inspection, WhatIsNotThereIsNotInspected) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   Inspector none;
   const Inspection empty = none.inspect(std::make_shared<SessionSnapshot>(), {});
   EXPECT_FALSE(empty.view || empty.voxel);
   scan.step();
   Selection selection;
-  for (const LookedAt view : {LookedAt{Kind::candidate, 8},
-                              {Kind::candidate, 1'000'000},
-                              {Kind::taken, 1},
-                              {Kind::taken, std::size_t(-1)},
-                              {Kind::own, 0}}) {
+  for (const ViewSelection view : {ViewSelection{Kind::candidate, 8},
+                                   {Kind::candidate, 1'000'000},
+                                   {Kind::taken, 1},
+                                   {Kind::taken, std::size_t(-1)},
+                                   {Kind::custom, 0}}) {
     selection.view = view;
     EXPECT_FALSE(scan.look(selection).view);
-    EXPECT_FALSE(looked_at_pose(scan.now(), selection));
+    EXPECT_FALSE(selected_view_pose(scan.now(), selection));
   }
   selection.view = {};
   selection.ray = 1'000'000;
@@ -167,7 +167,7 @@ TEST(Inspection, WhatIsNotThereIsNotInspected) {
 }
 
 TEST(Inspection, CountsAndKnowsItsSession) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   EXPECT_EQ(scan.look({}).number, 1u);
   const Inspection second = scan.look({});
   EXPECT_EQ(second.number, 2u);
@@ -175,7 +175,7 @@ TEST(Inspection, CountsAndKnowsItsSession) {
 }
 
 TEST(InspectionWorker, AnswersTheLatestQuestion) {
-  LookedAtScan scan(scan_by("occlusion-aware"));
+  InspectedScan scan(scan_by("occlusion-aware"));
   scan.step();
   std::atomic<int> news = 0;
   InspectionWorker worker([&] { ++news; });

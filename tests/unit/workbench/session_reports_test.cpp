@@ -39,9 +39,9 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   worker_.post(request::TakeView{other});
   step();
   expect_last(Level::note, fmt::format("View 2 from candidate {} (your choice)", other) + measured());
-  worker_.post(request::TakeOwnView{own_view()});
+  worker_.post(request::TakeCustomView{custom_view()});
   step();
-  expect_last(Level::note, "View 3 from your own view" + measured());
+  expect_last(Level::note, "View 3 from your custom view" + measured());
   worker_.post(request::TakeView{1000});
   wait_until_idle();
   EXPECT_EQ(last_entry().level, Level::warning);
@@ -93,13 +93,13 @@ TEST(SessionLog, KeepsTheLatestAndCountsAll) {
 TEST_F(SessionRunnerTest, TheNewestRunsAreTheOnesThatStay) {
   Configuration c = small_scan();
   std::vector<std::vector<double>> made;
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   for (std::size_t run = 0; run < 8; ++run) {
     steps(1 + int(run % 3));
     made.emplace_back();
     for (const StepRecord& r : now().records) made.back().push_back(r.entropy);
     c.views.radius = 0.8 + 0.02 * double(run);
-    runner_.load(c, told());
+    runner_.load(c, job_control());
     const auto& kept = *now().earlier_runs;
     const std::size_t count = std::min<std::size_t>(made.size(), 6);
     ASSERT_EQ(kept.size(), count);
@@ -114,21 +114,21 @@ TEST_F(SessionRunnerTest, TheNewestRunsAreTheOnesThatStay) {
 TEST_F(SessionRunnerTest, ARunIsNamedByItsOwnObjectAndGain) {
   Configuration c = small_scan();
   c.planner.gain = "average-entropy";
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   steps(1);
   c.planner.gain = "random";
   c.object.file = "box";
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   EXPECT_EQ(now().earlier_runs->back().name, "sphere, average-entropy");
   EXPECT_EQ(now().gain_unit, "");
 }
 
 /// What is asked for is what is done, also when only one of the two numbers is another than the last time.
 TEST_F(SessionRunnerTest, RefiningTakesNewNumbersOfChainsAndSweeps) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(1);
   for (const auto& [chains, sweeps] : {std::pair{2, 8}, {2, 12}, {3, 12}, {1, 12}, {1, 8}}) {
-    runner_.refine(chains, sweeps, told());
+    runner_.refine(chains, sweeps, job_control());
     const GibbsMap& gibbs = *now().gibbs;
     EXPECT_EQ(gibbs.config.chains, chains);
     EXPECT_EQ(gibbs.config.sweeps, sweeps);
@@ -143,14 +143,14 @@ TEST_F(SessionRunnerTest, RefiningTakesNewNumbersOfChainsAndSweeps) {
 TEST_F(SessionRunnerTest, TheCloudHasEachPointsViewAndItsDistance) {
   Configuration c = small_scan();
   c.sensor.range_noise = 0.01;
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   steps(2);
   const SeenCloud& cloud = *now().cloud;
   const double radius = 0.5 * c.object.longest_side;
   std::size_t at = 0;
   double largest = 0;
   for (std::size_t view = 0; view < 2; ++view)
-    for (const Eigen::Vector3f& point : now().scans[view]->returns) {
+    for (const Eigen::Vector3f& point : now().scans[view]->hits) {
       ASSERT_LT(at, cloud.points.size());
       ASSERT_EQ(cloud.points[at], point);
       ASSERT_EQ(cloud.views[at], view);
@@ -167,18 +167,18 @@ TEST_F(SessionRunnerTest, OfALargeScanEvenlyManyPointsAreKept) {
   c.sensor.height = 180;
   c.sensor.field_of_view = 35;
   c.evaluation.enabled = false;
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   steps(1);
-  const auto& returns = now().scans[0]->returns;
+  const auto& hits = now().scans[0]->hits;
   const auto& points = now().cloud->points;
-  ASSERT_GT(returns.size(), 8000u) << "the scan tells nothing of this";
-  const std::size_t stride = returns.size() / 8000 + 1;
-  ASSERT_EQ(points.size(), (returns.size() + stride - 1) / stride);
-  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_EQ(points[i], returns[i * stride]);
+  ASSERT_GT(hits.size(), 8000u) << "the scan tells nothing of this";
+  const std::size_t stride = hits.size() / 8000 + 1;
+  ASSERT_EQ(points.size(), (hits.size() + stride - 1) / stride);
+  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_EQ(points[i], hits[i * stride]);
 }
 
 TEST_F(SessionRunnerTest, WhatIsMissedIsWhatNoPointIsNear) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(2);
   const MissedPicture& missed = *now().missed;
   const double d_reg = now().configuration.evaluation.d_reg;
@@ -186,7 +186,7 @@ TEST_F(SessionRunnerTest, WhatIsMissedIsWhatNoPointIsNear) {
   for (std::size_t v = 0; v < missed.mesh->vertices.size(); v += 11) {
     double nearest = 1e9;
     for (const auto& scan : now().scans)
-      for (const auto& p : scan->returns)
+      for (const auto& p : scan->hits)
         nearest = std::min(nearest, double((p - missed.mesh->vertices[v].cast<float>()).norm()));
     if (std::abs(nearest - d_reg) < 1e-5) continue;
     EXPECT_EQ(bool(missed.observed[v]), nearest < d_reg) << v;

@@ -10,18 +10,18 @@ namespace nextview {
 namespace {
 
 TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
-  runner_.load(small_scan(), told());
-  runner_.refine(2, 8, told());
+  runner_.load(small_scan(), job_control());
+  runner_.refine(2, 8, job_control());
   EXPECT_EQ(now().gibbs, nullptr) << "there was no view";
   steps(2);
   const auto before = runner_.snapshot();
-  int told_of_sampler = 0;
-  SessionRunner::Told listening = told();
-  listening.sampler = [&](const SamplerDiagnostics&) { ++told_of_sampler; };
+  int sampler_reports = 0;
+  SessionRunner::JobControl listening = job_control();
+  listening.sampler = [&](const SamplerDiagnostics&) { ++sampler_reports; };
   runner_.refine(2, 40, listening);
   const auto first = now().gibbs;
   ASSERT_NE(first, nullptr);
-  EXPECT_GT(told_of_sampler, 0);
+  EXPECT_GT(sampler_reports, 0);
   EXPECT_EQ(first->views, 2u);
   EXPECT_EQ(first->voxels->size(), now().voxels->size());
   EXPECT_EQ(now().voxels, before->voxels) << "the conventional map is another";
@@ -31,42 +31,42 @@ TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
   EXPECT_EQ(now().gibbs, first) << "it stays until it is made again";
   EXPECT_LT(now().gibbs->views, now().records.size());
   expect_same_scan(now(), *fresh(3));
-  runner_.refine(2, 40, told());
+  runner_.refine(2, 40, job_control());
   EXPECT_EQ(now().gibbs->views, 3u);
   EXPECT_EQ(first->views, 2u);
-  runner_.refine(1, 12, told());
+  runner_.refine(1, 12, job_control());
   EXPECT_EQ(now().gibbs->config.chains, 1);
   EXPECT_EQ(now().gibbs->views, 3u);
   EXPECT_EQ(now().gibbs->posterior->traces.levels.size(), 1u);
-  runner_.undo(told());
+  runner_.undo(job_control());
   EXPECT_EQ(now().gibbs, nullptr) << "a map of views that are no more";
-  EXPECT_THROW(runner_.refine(0, 8, told()), std::invalid_argument);
+  EXPECT_THROW(runner_.refine(0, 8, job_control()), std::invalid_argument);
 }
 
 TEST_F(SessionRunnerTest, RefiningTwiceIsAsOnceAnew) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(2);
-  runner_.refine(2, 20, told());
+  runner_.refine(2, 20, job_control());
   SessionRunner other;
-  other.load(small_scan(), told());
-  other.step(told());
-  other.step(told());
-  other.refine(2, 20, told());
+  other.load(small_scan(), job_control());
+  other.step(job_control());
+  other.step(job_control());
+  other.refine(2, 20, job_control());
   const auto probability = [](const SessionRunner& runner) {
     std::vector<float> p;
     for (const Voxel& v : *runner.snapshot()->gibbs->voxels) p.push_back(v.probability);
     return p;
   };
   EXPECT_EQ(probability(runner_), probability(other));
-  runner_.refine(2, 20, told());
-  other.refine(2, 20, told());
+  runner_.refine(2, 20, job_control());
+  other.refine(2, 20, job_control());
   EXPECT_EQ(probability(runner_), probability(other));
 }
 
 TEST_F(SessionRunnerTest, TheChangeCountsWhatTheMapsSay) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(2);
-  runner_.refine(2, 40, told());
+  runner_.refine(2, 40, job_control());
   const auto& before = *now().voxels;
   const auto& after = *now().gibbs->voxels;
   std::size_t classes = 0, both = 0, in_bins = 0, in_bins_after = 0;
@@ -89,43 +89,43 @@ TEST_F(SessionRunnerTest, TheChangeCountsWhatTheMapsSay) {
 }
 
 TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(2);
   std::stop_source stop;
-  SessionRunner::Told stopping = told();
+  SessionRunner::JobControl stopping = job_control();
   stopping.stop = stop.get_token();
   stopping.sampler = [&](const SamplerDiagnostics&) { stop.request_stop(); };
   runner_.refine(2, 100'000, stopping);
   ASSERT_NE(now().gibbs, nullptr);
   EXPECT_LT(now().gibbs->posterior->diagnostics.sweeps, 1000);
-  runner_.refine(2, 30, told());
+  runner_.refine(2, 30, job_control());
   EXPECT_EQ(now().gibbs->views, 2u);
   std::stop_source stopped;
   stopped.request_stop();
   steps(1);
   const auto before = runner_.snapshot();
-  SessionRunner::Told never = told();
+  SessionRunner::JobControl never = job_control();
   never.stop = stopped.get_token();
   EXPECT_THROW(runner_.refine(2, 30, never), Stopped);
   EXPECT_EQ(runner_.snapshot(), before);
-  runner_.refine(2, 30, told());
+  runner_.refine(2, 30, job_control());
   EXPECT_EQ(now().gibbs->views, 3u);
 }
 
 TEST_F(SessionRunnerTest, ExportsWhatAScanWrites) {
-  runner_.load(small_scan(), told());
-  EXPECT_THROW(runner_.write(folder_ / "none", told()), std::invalid_argument);
+  runner_.load(small_scan(), job_control());
+  EXPECT_THROW(runner_.write(folder_ / "none", job_control()), std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
   steps(2);
-  runner_.take_own_view(own_view());
+  runner_.take_custom_view(custom_view());
   steps(1);
-  runner_.undo(told());
-  runner_.redo(told());
-  runner_.write(folder_ / "window", told());
+  runner_.undo(job_control());
+  runner_.redo(job_control());
+  runner_.write(folder_ / "window", job_control());
   Session session(small_scan());
   session.step();
   session.step();
-  session.override_next_view(own_view());
+  session.override_next_view(custom_view());
   session.step();
   OutputFolder out(folder_ / "scan", {});
   out.begin("scan", session.object_file());
@@ -152,10 +152,10 @@ TEST_F(SessionRunnerTest, AnExportReplacesNothingThatTheScanWasReadFrom) {
   std::filesystem::copy_file(resolve_object(c.object.file), copy);
   const std::string bytes = read_file(copy);
   c.object.file = copy.string();
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   steps(1);
   try {
-    runner_.write(folder_ / "export", told());
+    runner_.write(folder_ / "export", job_control());
     ADD_FAILURE() << "no error";
   } catch (const std::exception& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr(copy.string()));
@@ -165,19 +165,19 @@ TEST_F(SessionRunnerTest, AnExportReplacesNothingThatTheScanWasReadFrom) {
 }
 
 TEST_F(SessionRunnerTest, AnExportTellsHowMuchOfEachSurfaceWasSeen) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(1);
-  const auto lines = runner_.write(folder_ / "export", told());
+  const auto lines = runner_.write(folder_ / "export", job_control());
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_THAT(lines[0], testing::HasSubstr("% of it was seen: "));
 }
 
 TEST_F(SessionRunnerTest, AnExportThatCannotBeWrittenSaysSo) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   steps(1);
   write_file(folder_ / "file", "x");
   try {
-    runner_.write(folder_ / "file", told());
+    runner_.write(folder_ / "file", job_control());
     ADD_FAILURE() << "no error";
   } catch (const std::exception& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr((folder_ / "file").string()));
@@ -186,13 +186,13 @@ TEST_F(SessionRunnerTest, AnExportThatCannotBeWrittenSaysSo) {
 
 TEST_F(SessionRunnerTest, EarlierRunsStayForTheirCurves) {
   Configuration c = small_scan();
-  runner_.load(c, told());
-  runner_.load(c, told());
+  runner_.load(c, job_control());
+  runner_.load(c, job_control());
   EXPECT_EQ(now().earlier_runs, nullptr) << "a run without views has no curve";
   for (int run = 0; run < 8; ++run) {
     steps(1 + run % 2);
     c.seed = std::uint64_t(run + 2);
-    runner_.load(c, told());
+    runner_.load(c, job_control());
   }
   ASSERT_NE(now().earlier_runs, nullptr);
   const auto& runs = *now().earlier_runs;
@@ -212,7 +212,7 @@ TEST_F(SessionRunnerTest, EarlierRunsStayForTheirCurves) {
 TEST_F(SessionRunnerTest, WithoutEvaluationThereIsNoTruth) {
   Configuration c = small_scan();
   c.evaluation.enabled = false;
-  runner_.load(c, told());
+  runner_.load(c, job_control());
   steps(2);
   EXPECT_EQ(now().truth, nullptr);
   EXPECT_EQ(now().missed, nullptr);
@@ -222,7 +222,7 @@ TEST_F(SessionRunnerTest, WithoutEvaluationThereIsNoTruth) {
 }
 
 TEST_F(SessionRunnerTest, AMessageGoesWithWhatWorksNext) {
-  runner_.load(small_scan(), told());
+  runner_.load(small_scan(), job_control());
   runner_.set_message("no");
   EXPECT_EQ(now().message, "no");
   EXPECT_TRUE(now().loaded());

@@ -7,11 +7,11 @@
 
 namespace nextview {
 
-inline SessionRunner::Told told() {
+inline SessionRunner::JobControl job_control() {
   return {[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
 }
 
-inline Pose own_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
+inline Pose custom_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
 
 inline bool same_candidates(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Candidate& x, const Candidate& y) {
@@ -26,7 +26,7 @@ inline void expect_same_scan(const SessionSnapshot& a, const SessionSnapshot& b)
   EXPECT_EQ(a.finished, b.finished);
   EXPECT_EQ(a.next_candidate, b.next_candidate);
   EXPECT_EQ(a.next_view.matrix(), b.next_view.matrix());
-  EXPECT_EQ(a.own_next_view, b.own_next_view);
+  EXPECT_EQ(a.custom_next_view, b.custom_next_view);
   EXPECT_EQ(a.explanation != nullptr, b.explanation != nullptr);
   if (a.explanation && b.explanation) {
     EXPECT_EQ(a.explanation->value, b.explanation->value);
@@ -42,8 +42,8 @@ inline void expect_same_scan(const SessionSnapshot& a, const SessionSnapshot& b)
     EXPECT_EQ(x.coverage, y.coverage) << k;
     EXPECT_EQ(x.realised_gain, y.realised_gain) << k;
     EXPECT_TRUE(same_candidates(x.candidates, y.candidates)) << k;
-    EXPECT_EQ(a.scans[k]->returns, b.scans[k]->returns) << k;
-    EXPECT_EQ(a.scans[k]->passes, b.scans[k]->passes) << k;
+    EXPECT_EQ(a.scans[k]->hits, b.scans[k]->hits) << k;
+    EXPECT_EQ(a.scans[k]->misses, b.scans[k]->misses) << k;
   }
   EXPECT_TRUE(std::equal(a.voxels->begin(), a.voxels->end(), b.voxels->begin(), b.voxels->end(),
                          [](const Voxel& x, const Voxel& y) {
@@ -69,13 +69,13 @@ class SessionRunnerTest : public InTemporaryFolder {
  protected:
   const SessionSnapshot& now() { return *runner_.snapshot(); }
   void steps(int count) {
-    for (int i = 0; i < count; ++i) runner_.step(told());
+    for (int i = 0; i < count; ++i) runner_.step(job_control());
   }
-  /// What a person sees who never did anything else than this.
+  /// What the user sees who never did anything else than this.
   static std::shared_ptr<const SessionSnapshot> fresh(int steps, const Configuration& configuration = small_scan()) {
     SessionRunner runner;
-    runner.load(configuration, told());
-    for (int i = 0; i < steps; ++i) runner.step(told());
+    runner.load(configuration, job_control());
+    for (int i = 0; i < steps; ++i) runner.step(job_control());
     return runner.snapshot();
   }
 

@@ -106,7 +106,7 @@ TEST_F(SessionWorkerTest, DoesWhatASessionDoes) {
   std::size_t points = 0;
   for (int i = 0; i < 3; ++i) {
     session.step();
-    points += session.scans().back()->returns.size();
+    points += session.scans().back()->hits.size();
   }
   const auto s = worker_.snapshot();
   ASSERT_EQ(s->records.size(), 3u);

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 std::shared_ptr<const SessionSnapshot> ball() {
   SessionRunner runner;
-  runner.load(small_scan(), told());
+  runner.load(small_scan(), job_control());
   return runner.snapshot();
 }
 

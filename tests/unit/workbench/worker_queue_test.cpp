@@ -53,7 +53,7 @@ TEST_F(WorkerQueue, ALoadEmptiesItAndStopsWhatRuns) {
 TEST_F(WorkerQueue, WhatWaitsIsDoneInItsOrder) {
   load();
   begin_step();
-  worker_.post(request::TakeOwnView{look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03))});
+  worker_.post(request::TakeCustomView{look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03))});
   worker_.post(request::Step{});
   worker_.post(request::Undo{});
   worker_.post(request::Step{});
@@ -61,7 +61,7 @@ TEST_F(WorkerQueue, WhatWaitsIsDoneInItsOrder) {
   open_gate();
   wait_until_idle();
   EXPECT_THAT(log(), ElementsAre(StartsWith("sphere: "), StartsWith("View 1 from the start view"),
-                                 StartsWith("View 2 from your own view"), "Back at view 1",
+                                 StartsWith("View 2 from your custom view"), "Back at view 1",
                                  StartsWith("View 2 from candidate ")));
 }
 
@@ -93,8 +93,8 @@ TEST_F(WorkerQueue, CancelEndsPlaying) {
 
 TEST_F(WorkerQueue, TellsWhatRunsAndForgetsItAfterwards) {
   load();
-  worker_.hold_refinement(true);
-  EXPECT_FALSE(worker_.progress().paused) << "there is nothing to hold";
+  worker_.pause_refinement(true);
+  EXPECT_FALSE(worker_.progress().paused) << "there is nothing to pause";
   begin_step();
   EXPECT_EQ(worker_.progress().what, "taking the view");
   EXPECT_FALSE(worker_.progress().refining);
@@ -117,7 +117,7 @@ TEST_F(WorkerQueue, ARefinementIsHeldAndCancelled) {
   wait_at_gate();
   EXPECT_TRUE(worker_.progress().refining);
   EXPECT_NE(worker_.progress().sampler, nullptr);
-  worker_.hold_refinement(true);
+  worker_.pause_refinement(true);
   EXPECT_TRUE(worker_.progress().paused);
   worker_.post(request::Step{});
   open_gate();
@@ -139,9 +139,9 @@ TEST_F(WorkerQueue, ARefinementThatGoesOnEndsByItself) {
   close_gate("refining the map");
   worker_.post(request::Refine{2, 12});
   wait_at_gate();
-  worker_.hold_refinement(true);
+  worker_.pause_refinement(true);
   open_gate();
-  worker_.hold_refinement(false);
+  worker_.pause_refinement(false);
   wait_until_idle();
   ASSERT_NE(now()->gibbs, nullptr);
   EXPECT_EQ(now()->gibbs->posterior->diagnostics.sweeps, 12);

@@ -11,15 +11,15 @@ namespace nextview {
 
 /// Somebody in front of the window, who needs no display: input goes in, pictures come out. Time is what the frames
 /// say.
-class Person {
+class User {
  public:
-  explicit Person(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
+  explicit User(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
       : target_(width, height), interface_(target_, worker_, inspector_, scale) {
     interface_.open(configuration);
     wait();
   }
 
-  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is held.
+  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is paused.
   void wait() {
     constexpr auto pause = std::chrono::milliseconds(2);
     constexpr double frame = 1.0 / 60;  // [s]

@@ -25,7 +25,7 @@ void check(RTCDevice device, const char* what) {
 
 }  // namespace
 
-struct RayScene::Impl {
+struct MeshRayCaster::Impl {
   explicit Impl(const TriangleMesh& source) : mesh(source), device(rtcNewDevice(nullptr)) {}
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
@@ -73,8 +73,8 @@ struct RayScene::Impl {
 
 /// Embree finds the triangle, and its range differs in the last digits between processors (fused multiply-add); this
 /// one does not.
-RayScene::Hit RayScene::Impl::hit(const Vector3& origin, const Eigen::Vector3f& direction, std::uint32_t triangle,
-                                  float range) const {
+MeshRayCaster::Hit MeshRayCaster::Impl::hit(const Vector3& origin, const Eigen::Vector3f& direction,
+                                            std::uint32_t triangle, float range) const {
   const auto& [a, b, c] = mesh.triangles[triangle];
   const Vector3 corner = mesh.vertices[a].cast<double>(), d = direction.cast<double>();
   const Vector3 normal = (mesh.vertices[b].cast<double>() - corner).cross(mesh.vertices[c].cast<double>() - corner);
@@ -86,15 +86,16 @@ RayScene::Hit RayScene::Impl::hit(const Vector3& origin, const Eigen::Vector3f& 
   return {static_cast<float>(plane_range), static_cast<float>(std::min(cosine, 1.0)), triangle};
 }
 
-RayScene::RayScene(const TriangleMesh& mesh, const std::stop_token& stop) : impl_(std::make_unique<Impl>(mesh)) {
+MeshRayCaster::MeshRayCaster(const TriangleMesh& mesh, const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(mesh)) {
   impl_->build(stop);
 }
-RayScene::~RayScene() = default;
-RayScene::RayScene(RayScene&&) noexcept = default;
-RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+MeshRayCaster::~MeshRayCaster() = default;
+MeshRayCaster::MeshRayCaster(MeshRayCaster&&) noexcept = default;
+MeshRayCaster& MeshRayCaster::operator=(MeshRayCaster&&) noexcept = default;
 
-void RayScene::cast(const Vector3& origin, std::span<const Eigen::Vector3f> directions, float max_range,
-                    std::span<Hit> hits) const {
+void MeshRayCaster::cast(const Vector3& origin, std::span<const Eigen::Vector3f> directions, float max_range,
+                         std::span<Hit> hits) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

@@ -10,9 +10,9 @@
 namespace nextview {
 namespace {
 
-using Hit = RayScene::Hit;
+using Hit = MeshRayCaster::Hit;
 
-std::vector<Hit> cast(const RayScene& scene, const Vector3& origin, const std::vector<Eigen::Vector3f>& directions,
+std::vector<Hit> cast(const MeshRayCaster& scene, const Vector3& origin, const std::vector<Eigen::Vector3f>& directions,
                       float max_range = 10.0f) {
   std::vector<Hit> hits(directions.size());
   scene.cast(origin, directions, max_range, hits);
@@ -46,9 +46,9 @@ BruteForceHit brute_force(const TriangleMesh& mesh, const Vector3& origin, const
   return nearest;
 }
 
-TEST(RayScene, agreesWithBruteForce) {
+TEST(MeshRayCaster, agreesWithBruteForce) {
   const TriangleMesh mesh = slotted_housing().mesh;
-  const RayScene scene(mesh);
+  const MeshRayCaster scene(mesh);
   const CounterRandom random(5, 0);
   int hits = 0, misses = 0;
   for (int view = 0; view < 20; ++view) {
@@ -78,8 +78,8 @@ TEST(RayScene, agreesWithBruteForce) {
   EXPECT_GT(misses, 100);
 }
 
-TEST(RayScene, aSphereIsMetWhereTheFormulaSays) {
-  const RayScene scene(sphere_part().mesh);
+TEST(MeshRayCaster, aSphereIsMetWhereTheFormulaSays) {
+  const MeshRayCaster scene(sphere_part().mesh);
   const CounterRandom random(6, 0);
   for (int i = 0; i < 5000; ++i) {
     const Vector3 origin = 0.9 * random_direction(random, 2 * i);
@@ -95,12 +95,12 @@ TEST(RayScene, aSphereIsMetWhereTheFormulaSays) {
   }
 }
 
-TEST(RayScene, surfacesHaveTwoSidesAndRangeEndsWhereAsked) {
+TEST(MeshRayCaster, surfacesHaveTwoSidesAndRangeEndsWhereAsked) {
   TriangleMesh mesh;
   mesh.vertices = {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};
   mesh.triangles = {{0, 1, 2}};
   for (int turned = 0; turned < 2; ++turned) {
-    const RayScene scene(mesh);
+    const MeshRayCaster scene(mesh);
     for (const double side : {-1.0, 1.0}) {
       const Vector3 origin(0, 0, 2 + 1.25 * side);
       const Eigen::Vector3f d(0, 0, static_cast<float>(-side));
@@ -116,12 +116,12 @@ TEST(RayScene, surfacesHaveTwoSidesAndRangeEndsWhereAsked) {
   }
 }
 
-TEST(RayScene, nothingAndNoRays) {
-  const RayScene empty{TriangleMesh{}};
+TEST(MeshRayCaster, nothingAndNoRays) {
+  const MeshRayCaster empty{TriangleMesh{}};
   EXPECT_TRUE(DepthImage::is_beyond_range(cast(empty, Vector3::Zero(), {Eigen::Vector3f::UnitX()})[0].range));
   EXPECT_TRUE(cast(empty, Vector3::Zero(), {}).empty());
-  RayScene scene(box_part().mesh);
-  const RayScene moved = std::move(scene);
+  MeshRayCaster scene(box_part().mesh);
+  const MeshRayCaster moved = std::move(scene);
   EXPECT_NEAR(cast(moved, Vector3::Zero(), {Eigen::Vector3f::UnitX()})[0].range, 0.25, 1e-6);
 }
 
@@ -135,7 +135,7 @@ struct Solid {
 template <class Targets>
 std::pair<int, int> leaks_of(const Solid& solid, const Targets& targets) {
   const CounterRandom random(8, 0);
-  const RayScene scene(solid.mesh);
+  const MeshRayCaster scene(solid.mesh);
   int leaks = 0, rays = 0;
   for (int place = 0; place < 8; ++place) {
     const Vector3 origin = solid.centre + (place == 0 ? 0.0 : solid.reach) * random_direction(random, place);
@@ -159,7 +159,7 @@ const std::vector<Solid>& solids() {
 }
 
 /// Without RTC_SCENE_FLAG_ROBUST one such ray in ten gets out of the sphere.
-TEST(RayScene, noRayLeaksThroughSharedEdges) {
+TEST(MeshRayCaster, noRayLeaksThroughSharedEdges) {
   for (const Solid& solid : solids()) {
     const auto [leaks, rays] = leaks_of(solid, [](const Vector3& a, const Vector3& b) {
       return std::array<Vector3, 3>{0.5 * (a + b), 0.9 * a + 0.1 * b, 0.3 * a + 0.7 * b};
@@ -171,7 +171,7 @@ TEST(RayScene, noRayLeaksThroughSharedEdges) {
 /// Embree judges every edge alike for both its triangles, but where many edges meet, rounding may still put a ray
 /// outside of all triangles: of rays aimed exactly at a corner of the sphere 0.4 % get out (18 % if the scene is not
 /// robust).
-TEST(RayScene, hardlyARayLeaksThroughCorners) {
+TEST(MeshRayCaster, hardlyARayLeaksThroughCorners) {
   for (const Solid& solid : solids()) {
     const auto [leaks, rays] =
         leaks_of(solid, [](const Vector3& a, const Vector3&) { return std::array<Vector3, 1>{a}; });

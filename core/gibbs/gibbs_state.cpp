@@ -1,11 +1,10 @@
-#include "core/gibbs/map_refinement.hpp"
+#include "core/gibbs/gibbs_state.hpp"
 
 #include <algorithm>
 
 namespace nextview {
 
-MapRefinement::MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config,
-                             const InverseSensorModel& classes)
+GibbsState::GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes)
     : config_(config),
       classes_(classes),
       measurements_(std::make_shared<const RangeMeasurements>()),
@@ -14,20 +13,20 @@ MapRefinement::MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig
   config_.validate();
 }
 
-void MapRefinement::add(const Scan& scan) {
+void GibbsState::add(const Scan& scan) {
   auto all = std::make_shared<RangeMeasurements>(*measurements_);
   if (all->origins.empty()) all->max_range = scan.max_range;
   RangeMeasurements view{all->max_range, {}, {}};
   view.add(scan);
-  all->append(join_rays(view, posterior_->grid, config_.ray_spacing));
+  all->append(merge_rays(view, posterior_->grid, config_.ray_spacing));
   measured_rays_ += view.rays.size();
   measurements_ = std::move(all);
 }
 
-void MapRefinement::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
-                           std::stop_token stop) {
+void GibbsState::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
+                        std::stop_token stop) {
   PosteriorSamplerConfig config = config_;
-  config.ray_spacing = 0.0;             // they are joined
+  config.ray_spacing = 0.0;             // they are merged
   config.seed += refinements_++ << 32;  // other numbers than the last time
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
@@ -39,7 +38,7 @@ void MapRefinement::refine(std::span<const float> conventional, int sweeps, cons
   posterior_ = std::move(posterior);
 }
 
-std::size_t MapRefinement::bytes(const MapRefinement* other) const {
+std::size_t GibbsState::bytes(const GibbsState* other) const {
   std::size_t bytes = other ? voxels_.bytes_beside(other->voxels_) : voxels_.bytes();
   if (!other || measurements_ != other->measurements_) bytes += measurements_->rays.size() * sizeof(RangeMeasurement);
   if (other && posterior_ == other->posterior_) return bytes;

@@ -1,4 +1,4 @@
-#include "core/gibbs/map_refinement.hpp"
+#include "core/gibbs/gibbs_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,17 +15,17 @@ Configuration gibbs_scan() {
 }
 
 /// Two views of the box, not refined yet.
-MapRefinement two_views() {
+GibbsState two_views() {
   const Configuration c = gibbs_scan();
   Session session(small_scan());
   session.step();
   session.step();
-  MapRefinement refinement(session.map().grid(), posterior_sampler_config(c), c.map.model);
+  GibbsState refinement(session.map().grid(), posterior_sampler_config(c), c.map.model);
   for (const auto& scan : session.scans()) refinement.add(*scan);
   return refinement;
 }
 
-void expect_consistent(const MapRefinement& refinement) {
+void expect_consistent(const GibbsState& refinement) {
   const GibbsPosterior& posterior = refinement.posterior();
   ASSERT_EQ(posterior.occupied.size(), refinement.voxels().size());
   for (std::size_t v = 0; v < posterior.occupied.size(); ++v) {
@@ -41,11 +41,11 @@ void expect_consistent(const MapRefinement& refinement) {
   EXPECT_GT(d.informed_voxels, 1000u);
 }
 
-TEST(MapRefinement, AStopAtAnyMomentLeavesThePosteriorSoFar) {
-  const MapRefinement fresh = two_views();
+TEST(GibbsState, AStopAtAnyMomentLeavesThePosteriorSoFar) {
+  const GibbsState fresh = two_views();
   int moments = 0;
   {
-    MapRefinement whole = fresh;
+    GibbsState whole = fresh;
     whole.refine({}, 24, [&](double, std::string_view, const SamplerDiagnostics&) { ++moments; }, {});
     expect_consistent(whole);
     EXPECT_EQ(whole.posterior().diagnostics.sweeps, 24);
@@ -53,7 +53,7 @@ TEST(MapRefinement, AStopAtAnyMomentLeavesThePosteriorSoFar) {
   ASSERT_GE(moments, 6);
   int last_sweeps = 0;
   for (int moment = 0; moment < moments; ++moment) {
-    MapRefinement refinement = fresh;
+    GibbsState refinement = fresh;
     std::stop_source stop;
     int calls = 0;
     const auto stop_there = [&](double, std::string_view, const SamplerDiagnostics&) {
@@ -71,10 +71,10 @@ TEST(MapRefinement, AStopAtAnyMomentLeavesThePosteriorSoFar) {
   }
 }
 
-TEST(MapRefinement, ACopySharesWhatIsLargeAndGoesItsOwnWay) {
-  MapRefinement refinement = two_views();
+TEST(GibbsState, ACopySharesWhatIsLargeAndGoesItsOwnWay) {
+  GibbsState refinement = two_views();
   refinement.refine({}, 8, {}, {});
-  MapRefinement copy = refinement;
+  GibbsState copy = refinement;
   EXPECT_EQ(&copy.posterior(), &refinement.posterior());
   EXPECT_EQ(&copy.measurements(), &refinement.measurements());
   EXPECT_EQ(copy.voxels().bytes_beside(refinement.voxels()), 0u);
@@ -91,23 +91,23 @@ TEST(MapRefinement, ACopySharesWhatIsLargeAndGoesItsOwnWay) {
   EXPECT_EQ(posterior->occupied, occupied) << "who holds it keeps it as it was";
 }
 
-TEST(MapRefinement, TellsWhatItWasMadeOf) {
-  const MapRefinement refinement = two_views();
+TEST(GibbsState, TellsWhatItWasMadeOf) {
+  const GibbsState refinement = two_views();
   EXPECT_EQ(refinement.measurements().origins.size(), 2u);
   EXPECT_EQ(refinement.measurements().max_range, gibbs_scan().sensor.max_range);
   std::uint64_t weight = 0;
   for (const RangeMeasurement& ray : refinement.measurements().rays) weight += ray.weight;
-  EXPECT_GT(weight, 2 * refinement.measurements().rays.size()) << "they are joined";
+  EXPECT_GT(weight, 2 * refinement.measurements().rays.size()) << "they are merged";
   Session session(gibbs_scan());
   session.step();
-  const std::size_t in_region = session.records()[0].refinement->diagnostics.joined_rays;
+  const std::size_t in_region = session.records()[0].refinement->diagnostics.merged_rays;
   EXPECT_GE(session.refinement()->measurements().rays.size(), in_region);
   EXPECT_GT(in_region, 100u);
   EXPECT_EQ(session.refinement()->config().model.sigma, posterior_sampler_config(gibbs_scan()).model.sigma);
 }
 
-TEST(MapRefinement, KeepsTracesIfTold) {
-  MapRefinement plain = two_views(), traced = plain;
+TEST(GibbsState, KeepsTracesIfTold) {
+  GibbsState plain = two_views(), traced = plain;
   plain.refine({}, 12, {}, {});
   traced.keep_traces(true);
   traced.refine({}, 12, {}, {});

@@ -1,4 +1,4 @@
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "tests/unit/evaluation/distance_oracle.hpp"
-#include "tests/unit/evaluation/inspected.hpp"
+#include "tests/unit/evaluation/surface_error_of.hpp"
 #include "tests/unit/map/closed_meshes.hpp"
 
 namespace nextview {
@@ -27,7 +27,7 @@ double flattest_face(const TriangleMesh& sphere, double radius) {
   return nearest / radius;
 }
 
-TEST(Inspection, ofConcentricSpheresIsTheDifferenceOfTheirRadii) {
+TEST(SurfaceError, ofConcentricSpheresIsTheDifferenceOfTheirRadii) {
   constexpr double radius = 0.1;
   const TriangleMesh truth = closed_meshes::sphere(Vector3::Zero(), radius, 5);
   // The surface is the true one made larger or smaller, so every face lies off its own by the offset times its plane's
@@ -36,7 +36,7 @@ TEST(Inspection, ofConcentricSpheresIsTheDifferenceOfTheirRadii) {
   ASSERT_GT(least, 0.999);
   for (const double offset : {2 * mm, -2 * mm}) {
     const TriangleMesh mesh = closed_meshes::sphere(Vector3::Zero(), radius + offset, 5);
-    const SurfaceInspection result = inspected(seen_surface(mesh), truth);
+    const SurfaceError result = surface_error_of(seen_surface(mesh), truth);
     const double sign = offset > 0 ? 1.0 : -1.0, tolerance = 1e-7;
     for (const double distance : {sign * result.bias, result.rms, result.percentile_50, result.percentile_95,
                                   result.percentile_99, result.largest}) {
@@ -58,13 +58,13 @@ TEST(Inspection, ofConcentricSpheresIsTheDifferenceOfTheirRadii) {
   }
 }
 
-TEST(Inspection, ofABoxGrownByAMillimetre) {
+TEST(SurfaceError, ofABoxGrownByAMillimetre) {
   const Vector3 half(0.05, 0.03, 0.02);
   const TriangleMesh truth = closed_meshes::box(-half, half);
   const Vector3 grown = half + Vector3::Constant(1 * mm), shrunk = half - Vector3::Constant(1 * mm);
   const auto area = [](const Vector3& h) { return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x()); };
-  const InspectionOptions options{.thresholds = {0.9 * mm, 1.0001 * mm, 1.75 * mm}};
-  const SurfaceInspection larger = inspected(seen_surface(closed_meshes::box(-grown, grown)), truth, options);
+  const SurfaceErrorOptions options{.thresholds = {0.9 * mm, 1.0001 * mm, 1.75 * mm}};
+  const SurfaceError larger = surface_error_of(seen_surface(closed_meshes::box(-grown, grown)), truth, options);
   EXPECT_NEAR(larger.percentile_50, 1 * mm, 1e-8);
   EXPECT_NEAR(larger.area_seen, area(grown), 1e-8);
   EXPECT_EQ(larger.scores[0].accuracy, 0.0);
@@ -75,7 +75,7 @@ TEST(Inspection, ofABoxGrownByAMillimetre) {
   EXPECT_EQ(larger.scores[0].completeness_all, 0.0);
   EXPECT_EQ(larger.scores[1].completeness_all, 1.0);
 
-  const SurfaceInspection smaller = inspected(seen_surface(closed_meshes::box(-shrunk, shrunk)), truth, options);
+  const SurfaceError smaller = surface_error_of(seen_surface(closed_meshes::box(-shrunk, shrunk)), truth, options);
   EXPECT_NEAR(smaller.bias, -1 * mm, 1e-8);
   EXPECT_NEAR(smaller.rms, 1 * mm, 1e-8);
   EXPECT_NEAR(smaller.largest, 1 * mm, 1e-8);
@@ -85,7 +85,7 @@ TEST(Inspection, ofABoxGrownByAMillimetre) {
   EXPECT_DOUBLE_EQ(smaller.scores[1].f_score, 2 * completeness / (1 + completeness));
 }
 
-TEST(Inspection, ofHalfASphereFindsHalfOfIt) {
+TEST(SurfaceError, ofHalfASphereFindsHalfOfIt) {
   const TriangleMesh sphere = closed_meshes::sphere(Vector3::Zero(), 0.1, 4);
   Surface surface = seen_surface(sphere);
   for (std::size_t i = 0; i < surface.seen.size(); ++i) surface.seen[i] = sphere.vertices[i].z() > -1e-6f;
@@ -95,10 +95,10 @@ TEST(Inspection, ofHalfASphereFindsHalfOfIt) {
     upper.push_back(p.z() > 0.0f);
     lower.push_back(p.z() < -0.002f);
   }
-  const InspectionOptions options{.thresholds = {0.1 * mm}};
+  const SurfaceErrorOptions options{.thresholds = {0.1 * mm}};
   const SignedDistance truth(sphere);
-  const auto of_upper = inspect(surface, truth, samples, upper, options);
-  const auto of_lower = inspect(surface, truth, samples, lower, options);
+  const auto of_upper = surface_error(surface, truth, samples, upper, options);
+  const auto of_lower = surface_error(surface, truth, samples, lower, options);
   EXPECT_NEAR(of_upper->area_seen, of_upper->area_unseen, 1e-9);
   EXPECT_EQ(of_upper->scores[0].accuracy, 1.0);
   EXPECT_NEAR(of_upper->scores[0].completeness_all, 0.5, 2e-3);
@@ -126,14 +126,14 @@ Blobs random_blobs(unsigned seed) {
   return blobs;
 }
 
-TEST(Inspection, agreesWithEveryTriangleTriedInTurn) {
+TEST(SurfaceError, agreesWithEveryTriangleTriedInTurn) {
   for (const unsigned seed : {1u, 2u}) {
     const auto& [truth, surface] = random_blobs(seed);
-    const InspectionOptions options{.thresholds = {1 * mm, 3 * mm, 0.0, 1.0}, .samples = 300, .seed = seed};
+    const SurfaceErrorOptions options{.thresholds = {1 * mm, 3 * mm, 0.0, 1.0}, .samples = 300, .seed = seed};
     const SurfaceSamples samples = sample_surface(truth, 257, seed);
     std::vector<std::uint8_t> visible;
     for (const auto& p : samples.points) visible.push_back(p.x() > 0.0f);
-    const SurfaceInspection result = inspect(surface, SignedDistance(truth), samples, visible, options).value();
+    const SurfaceError result = surface_error(surface, SignedDistance(truth), samples, visible, options).value();
 
     for (std::size_t i = 0; i < surface.mesh.vertices.size(); ++i)
       ASSERT_NEAR(result.at_vertices[i],
@@ -176,13 +176,13 @@ TEST(Inspection, agreesWithEveryTriangleTriedInTurn) {
   }
 }
 
-TEST(Inspection, isTheSameOnAnyNumberOfThreads) {
+TEST(SurfaceError, isTheSameOnAnyNumberOfThreads) {
   const auto& [truth, surface] = random_blobs(5);
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return inspected(surface, truth);
+    return surface_error_of(surface, truth);
   };
-  const SurfaceInspection one = run(1), four = run(4);
+  const SurfaceError one = run(1), four = run(4);
   EXPECT_EQ(one.at_vertices, four.at_vertices);
   EXPECT_EQ(one.bias, four.bias);
   EXPECT_EQ(one.rms, four.rms);
@@ -194,38 +194,38 @@ TEST(Inspection, isTheSameOnAnyNumberOfThreads) {
   }
 }
 
-TEST(Inspection, ofNothingSeenIsNone) {
+TEST(SurfaceError, ofNothingSeenIsNone) {
   const TriangleMesh sphere = closed_meshes::sphere(Vector3::Zero(), 0.1, 2);
   const SignedDistance truth(sphere);
   const SurfaceSamples samples = sample_surface(sphere, 100, 1);
   const std::vector<std::uint8_t> none(100, 0);
   Surface surface = seen_surface(sphere);
-  const auto nothing_visible = inspect(surface, truth, samples, none);
+  const auto nothing_visible = surface_error(surface, truth, samples, none);
   ASSERT_TRUE(nothing_visible);
   EXPECT_TRUE(std::isnan(nothing_visible->scores[0].completeness_visible));
   EXPECT_TRUE(std::isnan(nothing_visible->scores[0].f_score));
   EXPECT_EQ(nothing_visible->scores[0].completeness_all, 1.0);
 
-  EXPECT_FALSE(inspect({}, truth, samples, none));
+  EXPECT_FALSE(surface_error({}, truth, samples, none));
   surface.seen.assign(surface.seen.size(), 0);
-  EXPECT_FALSE(inspect(surface, truth, samples, none));
+  EXPECT_FALSE(surface_error(surface, truth, samples, none));
   surface.seen[0] = surface.seen[1] = 1;  // two corners do not make a triangle
-  EXPECT_FALSE(inspect(surface, truth, samples, none));
+  EXPECT_FALSE(surface_error(surface, truth, samples, none));
 }
 
-TEST(Inspection, refusesWhatDoesNotFit) {
+TEST(SurfaceError, refusesWhatDoesNotFit) {
   const TriangleMesh sphere = closed_meshes::sphere(Vector3::Zero(), 0.1, 1);
   const SignedDistance truth(sphere);
   const SurfaceSamples samples = sample_surface(sphere, 100, 1);
   const std::vector<std::uint8_t> visible(100, 1), too_few(99, 1);
   Surface surface = seen_surface(sphere);
-  EXPECT_THROW(inspect(surface, truth, {}, {}), std::invalid_argument);
-  EXPECT_THROW(inspect(surface, truth, samples, too_few), std::invalid_argument);
-  EXPECT_THROW(inspect(surface, truth, samples, visible, {.samples = 0}), std::invalid_argument);
+  EXPECT_THROW(surface_error(surface, truth, {}, {}), std::invalid_argument);
+  EXPECT_THROW(surface_error(surface, truth, samples, too_few), std::invalid_argument);
+  EXPECT_THROW(surface_error(surface, truth, samples, visible, {.samples = 0}), std::invalid_argument);
   for (const double threshold : {-1.0, double(NAN), double(INFINITY)})
-    EXPECT_THROW(inspect(surface, truth, samples, visible, {.thresholds = {threshold}}), std::invalid_argument);
+    EXPECT_THROW(surface_error(surface, truth, samples, visible, {.thresholds = {threshold}}), std::invalid_argument);
   surface.seen.pop_back();
-  EXPECT_THROW(inspect(surface, truth, samples, visible), std::invalid_argument);
+  EXPECT_THROW(surface_error(surface, truth, samples, visible), std::invalid_argument);
 }
 
 }  // namespace

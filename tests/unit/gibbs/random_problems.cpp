@@ -1,10 +1,10 @@
-#include "tests/unit/gibbs/random_toys.hpp"
+#include "tests/unit/gibbs/random_problems.hpp"
 
 #include <random>
 
 #include "tests/unit/gibbs/plain_model.hpp"
 
-namespace nextview::random_toys {
+namespace nextview::random_problems {
 namespace {
 
 constexpr double resolution = 0.1;
@@ -48,32 +48,32 @@ double noise(Uniform& uniform) { return 2.0 * (uniform(-0.5, 0.5) + uniform(-0.5
 
 }  // namespace
 
-Toy make(const Shape& shape, std::uint64_t seed) {
+Problem make(const Shape& shape, std::uint64_t seed) {
   Uniform uniform(seed);
-  Toy toy{{resolution, {-3, 2, 1}, shape.size}, {}, shape.sigma * resolution};
-  const VoxelGrid& grid = toy.grid;
+  Problem problem{{resolution, {-3, 2, 1}, shape.size}, {}, shape.sigma * resolution};
+  const VoxelGrid& grid = problem.grid;
   plain::Levels truth(grid.voxel_count());
   for (std::uint8_t& level : truth) level = uniform(0.0, 1.0) < 0.25;
-  for (int i = 0; i < shape.origins; ++i) toy.measurements.origins.push_back(random_origin(grid, uniform));
-  const double max_range = toy.measurements.max_range = (grid.upper() - grid.lower()).norm() + 3.0 * resolution;
+  for (int i = 0; i < shape.origins; ++i) problem.measurements.origins.push_back(random_origin(grid, uniform));
+  const double max_range = problem.measurements.max_range = (grid.upper() - grid.lower()).norm() + 3.0 * resolution;
   for (int i = 0; i < shape.rays; ++i) {
     RangeMeasurement ray;
     ray.origin = static_cast<std::uint32_t>(i % shape.origins);
-    const Vector3& origin = toy.measurements.origins[ray.origin];
+    const Vector3& origin = problem.measurements.origins[ray.origin];
     const Vector3 direction = (random_target(grid, uniform) - origin).normalized();
     double range = 2.0 * max_range;
     for (const plain::Step& step : plain::voxels_on_line(grid, origin, direction, max_range)) {
       if (truth[step.voxel] == 0) continue;
-      range = uniform(step.enter, step.exit) + toy.sigma * noise(uniform);
+      range = uniform(step.enter, step.exit) + problem.sigma * noise(uniform);
       break;
     }
     if (uniform(0.0, 1.0) < 0.15) range = uniform(0.5 * resolution, max_range);  // an outlier
     ray.beyond_range = range > max_range;
     ray.end = (origin + (ray.beyond_range ? max_range : std::max(range, 0.1 * resolution)) * direction).cast<float>();
     if (shape.weights) ray.weight = static_cast<std::uint16_t>(uniform(1.0, 4.0));
-    toy.measurements.rays.push_back(ray);
+    problem.measurements.rays.push_back(ray);
   }
-  return toy;
+  return problem;
 }
 
 std::vector<Shape> small() {
@@ -94,4 +94,4 @@ std::vector<Shape> large() {
           {"large brick", {3, 3, 2}, 3, 12, 1.2}};
 }
 
-}  // namespace nextview::random_toys
+}  // namespace nextview::random_problems

@@ -1,4 +1,4 @@
-#include "ui/figures/inspection_figure.hpp"
+#include "ui/figures/surface_error_figure.hpp"
 
 #include <fmt/format.h>
 #include <vtkContext2D.h>
@@ -74,7 +74,7 @@ double paint_numbers(Painter& painter, const PageArea& panel, double y, const st
   return y;
 }
 
-/// A row a threshold; returns where it ends.
+/// A row per threshold; returns where it ends.
 double paint_scores(Painter& painter, const PageArea& panel, double y, const std::vector<ThresholdScore>& scores) {
   const double left = panel.left + page_margin, right = panel.right() - page_margin;
   const double column = (right - left - 70) / 4;
@@ -130,8 +130,8 @@ Curve upright(const std::string& name, double at, const CurvePlot& plot, const C
   return {name, {}, {per_mm * at, per_mm * at}, {plot.y_low, plot.y_high}, colour};
 }
 
-CurvePlot distance_plot(const SurfaceInspection& inspection) {
-  const DistanceHistogram& histogram = inspection.histogram;
+CurvePlot distance_plot(const SurfaceError& error) {
+  const DistanceHistogram& histogram = error.histogram;
   std::size_t samples = histogram.below + histogram.above;
   for (const std::size_t count : histogram.counts) samples += count;
   std::vector<double> shares;
@@ -141,10 +141,9 @@ CurvePlot distance_plot(const SurfaceInspection& inspection) {
                                   ColourMap::deviation());
   if (const std::size_t beyond = histogram.below + histogram.above; beyond > 0)
     plot.remark = fmt::format("{:.2g} % lie farther off", 1e2 * double(beyond) / double(samples));
-  plot.curves = {
-      upright("mean " + signed_mm(inspection.bias), inspection.bias, plot, theme::ink),
-      upright("95 % within ±" + mm(inspection.percentile_95), inspection.percentile_95, plot, theme::series[3]),
-      upright("", -inspection.percentile_95, plot, theme::series[3])};
+  plot.curves = {upright("mean " + signed_mm(error.bias), error.bias, plot, theme::ink),
+                 upright("95 % within ±" + mm(error.percentile_95), error.percentile_95, plot, theme::series[3]),
+                 upright("", -error.percentile_95, plot, theme::series[3])};
   return plot;
 }
 
@@ -152,8 +151,8 @@ std::string seen_share(double seen, double unseen) {
   return fmt::format("{:.3g} m² seen, {:.3g} m² not", seen, unseen);
 }
 
-void paint_inspection(Painter& painter, const PageArea& panel, const SurfacePicture& picture,
-                      const SurfaceInspection& i) {
+void paint_surface_error(Painter& painter, const PageArea& panel, const SurfacePicture& picture,
+                         const SurfaceError& i) {
   paint_panel(painter, panel, "Accuracy and completeness");
   double y = paint_scores(painter, panel, panel.top() - heading_height, i.scores) - 14;
   paint_numbers(painter, panel, y,
@@ -201,11 +200,10 @@ const Surface& surface_of(const SurfacePicture& picture, std::size_t values) {
 
 }  // namespace
 
-Image draw_inspection_figure(const SurfacePicture& picture, const SurfaceInspection& inspection, int width,
-                             int height) {
-  const Surface& surface = surface_of(picture, inspection.at_vertices.size());
-  const std::vector<float> values = in_mm(inspection.at_vertices);
-  const double limit = per_mm * inspection.histogram.limit;
+Image draw_surface_error_figure(const SurfacePicture& picture, const SurfaceError& error, int width, int height) {
+  const Surface& surface = surface_of(picture, error.at_vertices.size());
+  const std::vector<float> values = in_mm(error.at_vertices);
+  const double limit = per_mm * error.histogram.limit;
   const MeshPaint paint{values,   surface.seen, ColourMap::deviation(), -limit, limit, "signed distance", "mm",
                         "inside", "outside"};
   const Layout layout(picture, 0.56, width, height);
@@ -215,8 +213,8 @@ Image draw_inspection_figure(const SurfacePicture& picture, const SurfaceInspect
     Painter painter(context);
     paint_title(painter, width, height, picture.title, picture.remark, picture.caption);
     views.paint(context);
-    paint_curve_plot(context, layout.chart, distance_plot(inspection));
-    paint_inspection(painter, layout.numbers, picture, inspection);
+    paint_curve_plot(context, layout.chart, distance_plot(error));
+    paint_surface_error(painter, layout.numbers, picture, error);
   });
 }
 

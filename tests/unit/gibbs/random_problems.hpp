@@ -5,9 +5,9 @@
 #include "core/gibbs/range_measurements.hpp"
 #include "core/map/voxel_grid.hpp"
 
-namespace nextview::random_toys {
+namespace nextview::random_problems {
 
-/// What a toy is made from. Lengths count in voxel edges.
+/// What a test problem is made from. Lengths count in voxel edges.
 struct Shape {
   std::string name;
   Eigen::Vector3i size = {10, 1, 1};
@@ -17,17 +17,17 @@ struct Shape {
   bool weights = false;  ///< rays that stand for several
 };
 
-/// A grid and rays through a random map: returns with noise, no-returns, outliers. The same seed, the same toy.
-struct Toy {
+/// A grid and rays through a random map: hits with noise, misses, outliers. The same seed, the same test problem.
+struct Problem {
   VoxelGrid grid;
   RangeMeasurements measurements;
   double sigma = 0.0;  ///< [m]
 };
-Toy make(const Shape& shape, std::uint64_t seed);
+Problem make(const Shape& shape, std::uint64_t seed);
 
 /// One-dimensional corridors, two- and three-dimensional grids; none has over 12 voxels, so that three levels can be
 /// enumerated too, but those of `large`, for two levels.
 std::vector<Shape> small();
 std::vector<Shape> large();
 
-}  // namespace nextview::random_toys
+}  // namespace nextview::random_problems

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 #include "core/surface/surface.hpp"
 #include "ui/render_target/image.hpp"
 
@@ -16,12 +16,12 @@ struct SurfacePicture {
   const Surface* surface = nullptr;
 };
 
-/// A reconstructed surface held against the true one, as for a paper: painted by its signed distance, from three sides;
-/// how the distances are spread; accuracy, completeness and what else sums it up. Drawn headless (ensure_headless).
-/// Made for 1600 x 1000 pixels.
-/// @throws std::invalid_argument if there is no surface or the inspection is not one of it.
-Image draw_inspection_figure(const SurfacePicture& picture, const SurfaceInspection& inspection, int width = 1600,
-                             int height = 1000);
+/// A reconstructed surface compared with the true one, as for a paper: painted by its signed distance, from three
+/// sides; how the distances are spread; accuracy, completeness and what else sums it up. Drawn headless
+/// (ensure_headless). Made for 1600 x 1000 pixels.
+/// @throws std::invalid_argument if there is no surface or the error is not one of it.
+Image draw_surface_error_figure(const SurfacePicture& picture, const SurfaceError& error, int width = 1600,
+                                int height = 1000);
 
 /// The same of a surface whose truth nobody knows, by its uncertainty.
 /// @throws std::invalid_argument if there is no surface or there is not for every vertex an uncertainty and a mark

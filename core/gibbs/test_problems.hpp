@@ -9,7 +9,7 @@
 namespace nextview {
 
 /// A map small enough to add up all of its states, with measurements that show where independent voxels go wrong.
-struct GibbsToy {
+struct TestProblem {
   std::string_view name;
   std::string_view summary;
   std::string_view look_at;  ///< two lines: which voxels tell the story
@@ -18,9 +18,9 @@ struct GibbsToy {
   std::vector<Scan> scans;
 };
 
-std::span<const GibbsToy> gibbs_toys();
+std::span<const TestProblem> test_problems();
 
-/// @throws std::invalid_argument naming the toys that there are.
-const GibbsToy& gibbs_toy(std::string_view name);
+/// @throws std::invalid_argument naming the test problems that there are.
+const TestProblem& test_problem(std::string_view name);
 
 }  // namespace nextview

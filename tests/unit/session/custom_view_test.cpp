@@ -1,4 +1,4 @@
-// Views of the operator's own, which are no candidates.
+// Custom views: the operator's own, which are no candidates.
 #include <gtest/gtest.h>
 
 #include "core/export/scan_files.hpp"
@@ -10,17 +10,17 @@
 namespace nextview {
 namespace {
 
-Pose own_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
+Pose custom_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
 
-TEST(OwnView, IsTakenAndRecorded) {
+TEST(CustomView, IsTakenAndRecorded) {
   Session session(small_scan());
   session.step();
-  EXPECT_FALSE(session.next_view_is_own());
-  const ScoreExplanation expected = session.explain(own_view()).value();
-  session.override_next_view(own_view());
-  EXPECT_TRUE(session.next_view_is_own());
+  EXPECT_FALSE(session.next_view_is_custom());
+  const ScoreExplanation expected = session.explain(custom_view()).value();
+  session.override_next_view(custom_view());
+  EXPECT_TRUE(session.next_view_is_custom());
   EXPECT_FALSE(session.next_candidate());
-  EXPECT_TRUE(session.next_view().isApprox(own_view(), 1e-12));
+  EXPECT_TRUE(session.next_view().isApprox(custom_view(), 1e-12));
   session.step();
   const StepRecord r = session.records()[1];
   EXPECT_EQ(r.view, -1);
@@ -28,17 +28,17 @@ TEST(OwnView, IsTakenAndRecorded) {
   EXPECT_GT(r.gain, 0.0);
   EXPECT_NEAR(r.gain, expected.value, 1e-9 * expected.value);
   EXPECT_EQ(r.utility, 0.0);
-  EXPECT_TRUE(r.T_world_camera.isApprox(own_view(), 1e-12));
-  EXPECT_EQ(session.scans()[1]->origin, own_view().translation());
+  EXPECT_TRUE(r.T_world_camera.isApprox(custom_view(), 1e-12));
+  EXPECT_EQ(session.scans()[1]->origin, custom_view().translation());
   EXPECT_GT(r.points, 100u);
-  for (const Candidate& c : r.candidates) EXPECT_TRUE(c.available) << "no candidate was visited";
-  EXPECT_FALSE(session.next_view_is_own());
+  for (const Candidate& c : r.candidates) EXPECT_TRUE(c.available) << "no candidate was taken";
+  EXPECT_FALSE(session.next_view_is_custom());
   session.step();
   EXPECT_FALSE(session.records()[2].overridden);
   EXPECT_EQ(session.records()[2].view, int(r.ranking.best.value()));
 }
 
-TEST(OwnView, ThatIsACandidatesPoseIsScoredAsThatCandidate) {
+TEST(CustomView, ThatIsACandidatesPoseIsScoredAsThatCandidate) {
   Session session(small_scan());
   session.step();
   for (const std::size_t v : {0u, 5u}) {
@@ -47,36 +47,37 @@ TEST(OwnView, ThatIsACandidatesPoseIsScoredAsThatCandidate) {
   }
 }
 
-TEST(OwnView, ACandidateMayTakeItsPlaceAgain) {
+TEST(CustomView, ACandidateMayTakeItsPlaceAgain) {
   Session session(small_scan());
   session.step();
   const std::size_t proposal = session.next_candidate().value();
-  session.override_next_view(own_view());
+  session.override_next_view(custom_view());
   session.override_next_view(proposal);
-  EXPECT_FALSE(session.next_view_is_own());
+  EXPECT_FALSE(session.next_view_is_custom());
   session.step();
   EXPECT_EQ(session.records()[1].view, int(proposal));
   EXPECT_FALSE(session.records()[1].overridden);
 }
 
-TEST(OwnView, StaysTheNextOneWhenTakingItIsCancelled) {
+TEST(CustomView, StaysTheNextOneWhenTakingItIsCancelled) {
   Session session(small_scan());
   session.step();
-  session.override_next_view(own_view());
+  session.override_next_view(custom_view());
   std::stop_source stop;
   stop.request_stop();
   EXPECT_FALSE(session.step({}, stop.get_token()));
-  EXPECT_TRUE(session.next_view_is_own());
+  EXPECT_TRUE(session.next_view_is_custom());
   EXPECT_TRUE(session.step());
   EXPECT_EQ(session.records()[1].view, -1);
 }
 
-TEST(OwnView, BadOnesAreRefusedAndChangeNothing) {
+TEST(CustomView, BadOnesAreRefusedAndChangeNothing) {
   Session session(small_scan()), untouched(small_scan());
-  EXPECT_THROW(session.override_next_view(own_view()), std::invalid_argument) << "before the first step";
+  EXPECT_THROW(session.override_next_view(custom_view()), std::invalid_argument) << "before the first step";
   session.step();
   untouched.step();
-  Pose nan = own_view(), infinite = own_view(), scaled = own_view(), mirrored = own_view(), sheared = own_view();
+  Pose nan = custom_view(), infinite = custom_view(), scaled = custom_view(), mirrored = custom_view(),
+       sheared = custom_view();
   nan.translation().y() = std::nan("");
   infinite.translation().x() = INFINITY;
   scaled.linear() *= 1.01;
@@ -84,31 +85,31 @@ TEST(OwnView, BadOnesAreRefusedAndChangeNothing) {
   sheared.linear().col(0) += 0.01 * sheared.linear().col(1);
   for (const Pose& bad : {nan, infinite, scaled, mirrored, sheared})
     EXPECT_THROW(session.override_next_view(bad), std::invalid_argument);
-  EXPECT_FALSE(session.next_view_is_own());
+  EXPECT_FALSE(session.next_view_is_custom());
   session.step();
   untouched.step();
   EXPECT_TRUE(same_scan(session, untouched));
 }
 
-TEST(OwnView, GainsThatAreNotOfSingleViewsExpectNothing) {
+TEST(CustomView, GainsThatAreNotOfSingleViewsExpectNothing) {
   for (const char* gain : {"random", "combined"}) {
     Configuration c = small_scan();
     c.planner.gain = gain;
     Session session(c);
     session.step();
-    EXPECT_FALSE(session.explain(own_view()));
-    session.override_next_view(own_view());
+    EXPECT_FALSE(session.explain(custom_view()));
+    session.override_next_view(custom_view());
     session.step();
     EXPECT_EQ(session.records()[1].gain, 0.0);
     EXPECT_EQ(session.records()[1].view, -1);
   }
 }
 
-using OwnViewFiles = InTemporaryFolder;
-TEST_F(OwnViewFiles, AreTakenAgainExactly) {
+using CustomViewFiles = InTemporaryFolder;
+TEST_F(CustomViewFiles, AreTakenAgainExactly) {
   Session session(small_scan());
   session.step();
-  session.override_next_view(own_view());
+  session.override_next_view(custom_view());
   session.step();
   session.step();
   session.override_next_view(look_at(Vector3(-0.5, 0.4, -0.6), Vector3(0.05, 0, 0)));
@@ -120,9 +121,9 @@ TEST_F(OwnViewFiles, AreTakenAgainExactly) {
   OccupancyMap map(job.grid, job.model);
   for (std::size_t k = 0; k < job.scans.size(); ++k) {
     EXPECT_EQ(job.scans[k].origin, session.scans()[k]->origin) << k;
-    ASSERT_EQ(job.scans[k].returns.size(), session.scans()[k]->returns.size()) << k;
-    for (std::size_t i = 0; i < job.scans[k].returns.size(); ++i)
-      ASSERT_TRUE(job.scans[k].returns[i].isApprox(session.scans()[k]->returns[i], 1e-5f)) << k;
+    ASSERT_EQ(job.scans[k].hits.size(), session.scans()[k]->hits.size()) << k;
+    for (std::size_t i = 0; i < job.scans[k].hits.size(); ++i)
+      ASSERT_TRUE(job.scans[k].hits[i].isApprox(session.scans()[k]->hits[i], 1e-5f)) << k;
     map.insert(job.scans[k]);
     map.mark_occlusions(job.scans[k], 0.3);  // as the default gain wants
   }

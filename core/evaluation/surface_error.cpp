@@ -1,4 +1,4 @@
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -17,18 +17,18 @@ constexpr std::size_t bins = 50;
 constexpr double smallest_scale = 1e-5;  // [m]
 
 void check(const Surface& surface, const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
-           const InspectionOptions& options) {
+           const SurfaceErrorOptions& options) {
   if (surface.seen.size() != surface.mesh.vertices.size())
-    throw std::invalid_argument(fmt::format("inspection: {} vertices, but {} marks of seen",
+    throw std::invalid_argument(fmt::format("surface error: {} vertices, but {} marks of seen",
                                             surface.mesh.vertices.size(), surface.seen.size()));
-  if (samples.points.empty()) throw std::invalid_argument("inspection: there are no samples of the true surface");
+  if (samples.points.empty()) throw std::invalid_argument("surface error: there are no samples of the true surface");
   if (visible.size() != samples.points.size())
     throw std::invalid_argument(
-        fmt::format("inspection: {} samples, but visibility for {}", samples.points.size(), visible.size()));
-  if (options.samples == 0) throw std::invalid_argument("inspection: at least 1 sample must be taken");
+        fmt::format("surface error: {} samples, but visibility for {}", samples.points.size(), visible.size()));
+  if (options.samples == 0) throw std::invalid_argument("surface error: at least 1 sample must be taken");
   for (const double threshold : options.thresholds)
     if (!(threshold >= 0.0 && std::isfinite(threshold)))
-      throw std::invalid_argument(fmt::format("inspection: a threshold must be at least 0 m, not {}", threshold));
+      throw std::invalid_argument(fmt::format("surface error: a threshold must be at least 0 m, not {}", threshold));
 }
 
 template <class Value, class Measure>
@@ -71,7 +71,7 @@ DistanceHistogram histogram_of(std::span<const double> distances, double limit) 
 }
 
 /// Everything that the distances of the samples say.
-void summarise(std::span<const double> distances, const std::vector<double>& magnitudes, SurfaceInspection& result) {
+void summarise(std::span<const double> distances, const std::vector<double>& magnitudes, SurfaceError& result) {
   double sum = 0.0, squares = 0.0;
   for (const double d : distances) {
     sum += d;
@@ -95,12 +95,12 @@ double scale_end(double length) {
   return 10.0 * power;
 }
 
-std::optional<SurfaceInspection> inspect(const Surface& surface, const SignedDistance& truth,
-                                         const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
-                                         const InspectionOptions& options) {
+std::optional<SurfaceError> surface_error(const Surface& surface, const SignedDistance& truth,
+                                          const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
+                                          const SurfaceErrorOptions& options) {
   check(surface, samples, visible, options);
   const TriangleMesh seen = seen_part(surface);
-  SurfaceInspection result;
+  SurfaceError result;
   result.area_seen = seen.surface_area();
   if (!(result.area_seen > 0.0)) return std::nullopt;
   result.area_unseen = surface.mesh.surface_area() - result.area_seen;

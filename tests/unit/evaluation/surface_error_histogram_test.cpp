@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "tests/unit/evaluation/inspected.hpp"
+#include "tests/unit/evaluation/surface_error_of.hpp"
 #include "tests/unit/map/closed_meshes.hpp"
 
 namespace nextview {
@@ -26,12 +26,12 @@ double share_of_shifted_cube(double shift, double low, double high) {
          (6 * edge * edge);
 }
 
-TEST(InspectionHistogram, ofAShiftedCubeIsKnown) {
+TEST(SurfaceErrorHistogram, ofAShiftedCubeIsKnown) {
   constexpr double shift = 1.5 * mm;
   const Vector3 half = Vector3::Constant(0.05), along(shift, 0, 0);
-  const InspectionOptions options{.samples = 200'000};
-  const SurfaceInspection result =
-      inspected(seen_surface(closed_meshes::box(along - half, along + half)), closed_meshes::box(-half, half), options);
+  const SurfaceErrorOptions options{.samples = 200'000};
+  const SurfaceError result = surface_error_of(seen_surface(closed_meshes::box(along - half, along + half)),
+                                               closed_meshes::box(-half, half), options);
   const DistanceHistogram& histogram = result.histogram;
   EXPECT_DOUBLE_EQ(histogram.limit, 2 * mm);
   ASSERT_EQ(histogram.counts.size(), 50u);
@@ -45,11 +45,11 @@ TEST(InspectionHistogram, ofAShiftedCubeIsKnown) {
   }
 }
 
-TEST(InspectionHistogram, countsWhatIsBeyondItsRange) {
+TEST(SurfaceErrorHistogram, countsWhatIsBeyondItsRange) {
   TriangleMesh mesh = closed_meshes::box(Vector3::Constant(-0.05), Vector3::Constant(0.05));
   const TriangleMesh truth = mesh;
   closed_meshes::append(mesh, closed_meshes::box({0.3, 0.3, 0.3}, {0.305, 0.305, 0.305}));  // 0.25 % of the area
-  const SurfaceInspection result = inspected(seen_surface(mesh), truth);
+  const SurfaceError result = surface_error_of(seen_surface(mesh), truth);
   EXPECT_DOUBLE_EQ(result.histogram.limit, 1e-5);  // 99 % lie on the surface
   EXPECT_NEAR(double(result.histogram.above), 50'000 * 0.0025, 3);
   EXPECT_EQ(result.histogram.counts[25] + result.histogram.above, 50'000u);
@@ -57,7 +57,7 @@ TEST(InspectionHistogram, countsWhatIsBeyondItsRange) {
   EXPECT_EQ(result.percentile_99, 0.0);
 }
 
-TEST(InspectionHistogram, endsAtARoundNumber) {
+TEST(SurfaceErrorHistogram, endsAtARoundNumber) {
   EXPECT_DOUBLE_EQ(scale_end(0.001), 0.001);
   EXPECT_DOUBLE_EQ(scale_end(0.00101), 0.002);
   EXPECT_DOUBLE_EQ(scale_end(0.0021), 0.003);

@@ -1,4 +1,4 @@
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "tests/render/render_test.hpp"
-#include "ui/figures/inspection_figure.hpp"
+#include "ui/figures/surface_error_figure.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
 
 namespace nextview {
@@ -70,12 +70,12 @@ Surface scanned_torus() {
   return surface;
 }
 
-SurfaceInspection inspection_of(const Surface& surface) {
+SurfaceError surface_error_of(const Surface& surface) {
   const TriangleMesh truth = true_torus();
   const SurfaceSamples samples = sample_surface(truth, 20'000, 1);
   std::vector<std::uint8_t> visible;
   for (const Eigen::Vector3f& p : samples.points) visible.push_back(p.z() > -0.2f);
-  return inspect(surface, SignedDistance(truth), samples, visible, {.samples = 20'000}).value();
+  return surface_error(surface, SignedDistance(truth), samples, visible, {.samples = 20'000}).value();
 }
 
 SurfacePicture picture_of(const Surface& surface) {
@@ -86,11 +86,11 @@ SurfacePicture picture_of(const Surface& surface) {
   return picture;
 }
 
-TEST(InspectionFigure, RefusesWhatDoesNotBelongTogether) {
+TEST(SurfaceErrorFigure, RefusesWhatDoesNotBelongTogether) {
   const Surface surface = scanned_torus();
-  SurfaceInspection inspection;
-  inspection.at_vertices.assign(surface.mesh.vertices.size() - 1, 0.0f);
-  EXPECT_THROW(draw_inspection_figure(picture_of(surface), inspection), std::invalid_argument);
+  SurfaceError error;
+  error.at_vertices.assign(surface.mesh.vertices.size() - 1, 0.0f);
+  EXPECT_THROW(draw_surface_error_figure(picture_of(surface), error), std::invalid_argument);
   EXPECT_THROW(draw_surface_figure({}), std::invalid_argument);
   Surface without_marks = surface;
   without_marks.seen.clear();
@@ -107,7 +107,7 @@ Surface two_squares() {
   return surface;
 }
 
-TEST(InspectionFigure, DrawsASurfaceThatNobodySaw) {
+TEST(SurfaceErrorFigure, DrawsASurfaceThatNobodySaw) {
   Surface surface = two_squares();
   surface.uncertainty.assign(6, 0.01f);
   surface.seen.assign(6, 0);
@@ -219,9 +219,9 @@ TEST(ColourMaps, DeviationIsPalestOnTheSurfaceAndAsDarkOnBothSides) {
 
 RENDER_TEST(mesh_painted, 960, 600, {
   const Surface surface = scanned_torus();
-  const SurfaceInspection inspection = inspection_of(surface);
+  const SurfaceError error = surface_error_of(surface);
   std::vector<float> values;
-  for (const float metres : inspection.at_vertices) values.push_back(1e3f * metres);
+  for (const float metres : error.at_vertices) values.push_back(1e3f * metres);
   scene.mesh().show(surface.mesh, {values, surface.seen, ColourMap::deviation(), -5.0, 5.0, "signed distance", "mm",
                                    "inside", "outside"});
   scene.frame();

@@ -10,7 +10,7 @@
 
 namespace nextview {
 
-struct InspectionOptions {
+struct SurfaceErrorOptions {
   std::vector<double> thresholds = {0.0005, 0.001, 0.002, 0.005, 0.01};  ///< [m], finite, at least 0
   std::size_t samples = 50'000;  ///< spread over the seen part of the reconstructed surface; over 0
   std::uint64_t seed = 1;        ///< of these samples
@@ -33,7 +33,7 @@ double scale_end(double length);
 /// Bins of equal width from -limit to +limit; a value between two bins belongs to the upper one, +limit to the last.
 struct DistanceHistogram {
   double limit = 0.0;               ///< [m] scale_end of what 99 % of the distances do not exceed
-  std::vector<std::size_t> counts;  ///< one a bin
+  std::vector<std::size_t> counts;  ///< one per bin
   std::size_t below = 0, above = 0;
 
   double lower(std::size_t bin) const { return limit * (2.0 * double(bin) / double(counts.size()) - 1.0); }  ///< [m]
@@ -42,7 +42,7 @@ struct DistanceHistogram {
 /// How far a reconstructed surface lies from the true one. Distances are signed, positive outside of the true object.
 /// Except for `at_vertices` they are taken at samples spread evenly by area over the seen part of the surface: the
 /// triangles whose three corners are seen.
-struct SurfaceInspection {
+struct SurfaceError {
   std::vector<float> at_vertices;             ///< of each vertex, seen or not [m]
   double area_seen = 0.0, area_unseen = 0.0;  ///< of the reconstructed surface [m^2]
   double bias = 0.0;                          ///< mean of the signed distances [m]
@@ -50,17 +50,17 @@ struct SurfaceInspection {
   /// Of distances without their sign: the smallest that at least so many percent of the samples do not exceed [m].
   double percentile_50 = 0.0, percentile_95 = 0.0, percentile_99 = 0.0, largest = 0.0;
   DistanceHistogram histogram;
-  std::vector<ThresholdScore> scores;  ///< one a threshold, in the order given
+  std::vector<ThresholdScore> scores;  ///< one per threshold, in the order given
 };
 
-/// Holds a surface against the true one. Completeness is taken at `samples`, samples of the true surface; `visible[i]`:
+/// Compares a surface with the true one. Completeness is taken at `samples`, samples of the true surface; `visible[i]`:
 /// some candidate can see sample i. The same input gives the same bytes on any number of threads. None if no triangle
-/// with an area is seen: there is nothing to inspect.
+/// with an area is seen: there is nothing to compare.
 /// @throws std::invalid_argument if there are no samples, `visible` is not as long, there is not for every vertex a
 /// mark
 ///         whether it was seen, a threshold is below 0 or not finite, or there are no samples to be taken.
-std::optional<SurfaceInspection> inspect(const Surface& surface, const SignedDistance& truth,
-                                         const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
-                                         const InspectionOptions& options = {});
+std::optional<SurfaceError> surface_error(const Surface& surface, const SignedDistance& truth,
+                                          const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
+                                          const SurfaceErrorOptions& options = {});
 
 }  // namespace nextview

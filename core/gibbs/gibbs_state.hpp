@@ -9,11 +9,11 @@ namespace nextview {
 
 /// The Gibbs map of a scan that is under way: it grows view by view, and each refinement starts from the last one's
 /// maps. A value: a copy shares what is large, which never changes once it is made.
-class MapRefinement {
+class GibbsState {
  public:
-  MapRefinement(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes);
+  GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes);
 
-  /// Adds a view's rays, joined at once: only what the voxels can tell apart is kept. All views have the maximum range
+  /// Adds a view's rays, merged at once: only what the voxels can tell apart is kept. All views have the maximum range
   /// of the first.
   void add(const Scan& scan);
   /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps; `conventional` is where the first
@@ -25,12 +25,12 @@ class MapRefinement {
   const VoxelBricks& voxels() const { return voxels_; }
   const GibbsPosterior& posterior() const { return *posterior_; }
   std::shared_ptr<const GibbsPosterior> shared_posterior() const { return posterior_; }
-  /// The rays of all views so far, joined.
+  /// The rays of all views so far, merged.
   const RangeMeasurements& measurements() const { return *measurements_; }
   std::shared_ptr<const RangeMeasurements> shared_measurements() const { return measurements_; }
   const PosteriorSamplerConfig& config() const { return config_; }
   /// What its maps take that another of the same scan, if given, does not share [bytes].
-  std::size_t bytes(const MapRefinement* other = nullptr) const;
+  std::size_t bytes(const GibbsState* other = nullptr) const;
   /// Whether the posteriors of refinements to come keep their traces.
   void keep_traces(bool keep) { config_.keep_traces = keep; }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/evaluation/inspection.hpp"
+#include "core/evaluation/surface_error.hpp"
 
 namespace nextview {
 
@@ -13,11 +13,11 @@ inline Surface seen_surface(const TriangleMesh& mesh) {
 }
 
 /// Against all of the true mesh, of which everything can be seen.
-inline SurfaceInspection inspected(const Surface& surface, const TriangleMesh& truth,
-                                   const InspectionOptions& options = {}) {
+inline SurfaceError surface_error_of(const Surface& surface, const TriangleMesh& truth,
+                                     const SurfaceErrorOptions& options = {}) {
   const SurfaceSamples samples = sample_surface(truth, 20'000, 7);
   const std::vector<std::uint8_t> visible(samples.points.size(), 1);
-  return inspect(surface, SignedDistance(truth), samples, visible, options).value();
+  return surface_error(surface, SignedDistance(truth), samples, visible, options).value();
 }
 
 }  // namespace nextview
