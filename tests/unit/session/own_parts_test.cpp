@@ -64,6 +64,32 @@ TEST(OwnParts, ARobotIsAskedOnceForAllCandidates) {
   EXPECT_EQ(asked.exchanges, 2) << "what the move costs, and where it could go from there";
 }
 
+TEST(OwnParts, WhatTheRobotCannotReachIsNotTaken) {
+  SessionParts parts;
+  parts.robot = std::make_unique<ShakyRobot>(start());
+  Configuration c = small_scan();
+  c.termination.views = 20;
+  Session session(c, std::move(parts));
+  session.step();
+  std::size_t below = 0;
+  for (std::size_t v = 0; v < session.candidates().size(); ++v) {
+    const bool reachable = session.candidates()[v].translation().z() >= -0.5;
+    EXPECT_EQ(session.records()[0].candidates[v].available, reachable) << v;
+    if (reachable) continue;
+    ++below;
+    EXPECT_THROW(session.override_next_view(v), std::invalid_argument);
+    try {
+      session.override_next_view(session.candidates()[v]);
+      ADD_FAILURE() << v;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr("it is below the table"));
+    }
+  }
+  ASSERT_GT(below, 0u);
+  finish(session);
+  EXPECT_EQ(session.records().size(), 1 + session.candidates().size() - below) << "all others";
+}
+
 TEST(OwnParts, AFailureOfTheRobotOrTheSourceLosesNothing) {
   SessionParts parts;
   auto robot = std::make_unique<ShakyRobot>(start());
