@@ -71,8 +71,8 @@ struct Text {
 /// Whether a value is within the bounds of its setting.
 struct Allowed {
   const std::optional<Bounds>& bounds;
-  bool operator()(const int* v) const { return !bounds || bounds->allow(*v); }
-  bool operator()(const double* v) const { return !bounds || bounds->allow(*v); }
+  bool operator()(int* v) const { return !bounds || bounds->allow(*v); }
+  bool operator()(double* v) const { return !bounds || bounds->allow(*v); }
   bool operator()(const auto&) const { return true; }
 };
 

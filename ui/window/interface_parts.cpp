@@ -43,15 +43,15 @@ void Interface::Parts::take_input() {
 }
 
 bool Interface::Parts::layout_is_old() const {
-  return layout.width != surface.width() || layout.height != surface.height() || layout_open != state.open;
+  return layout.width != target.width() || layout.height != target.height() || layout_open != state.open;
 }
 
 void Interface::Parts::follow_size() {
   if (!layout_is_old()) return;
   const Rectangle scene = layout.scene;
-  const bool resized = layout.width != surface.width() || layout.height != surface.height();
+  const bool resized = layout.width != target.width() || layout.height != target.height();
   layout_open = state.open;
-  layout = Layout(surface.width(), surface.height(), host.style().scale, state.open);
+  layout = Layout(target.width(), target.height(), host.style().scale, state.open);
   settling = frames_to_settle;
   if (!resized && layout.scene == scene) return;
   view.place(layout.scene);
@@ -103,9 +103,9 @@ void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
 
 /// What cannot be done now is told in the log.
 void Interface::Parts::do_call(const CommandCall& call) {
-  CommandTarget target{worker, state, *news.snapshot, news.progress};
+  CommandTarget acted_on{worker, state, *news.snapshot, news.progress};
   try {
-    execute(call, target);
+    execute(call, acted_on);
   } catch (const std::exception& error) {
     script.refused(call, error.what());
     return worker.log().add(LogEntry::Level::warning, error.what());
@@ -149,7 +149,7 @@ void Interface::Parts::ask_inspector() {
 bool Interface::Parts::draw_scene() {
   scene_is_old |= view.show(news.snapshot, state, news.inspection);
   if (!scene_is_old) return false;
-  surface.render();
+  target.render();
   ++scene_drawings;
   scene_is_old = false;
   return true;
@@ -161,7 +161,7 @@ void Interface::Parts::write_picture() {
   PanelsAlone alone(*ImGui::GetDrawData());
   composer.compose(alone.data(), std::nullopt, false);
   composer.fill_back_buffer();
-  const Image picture = surface.read_back();
+  const Image picture = target.read_back();
   composer.compose(*ImGui::GetDrawData(), std::nullopt, false);
   composer.fill_back_buffer();
   try {
