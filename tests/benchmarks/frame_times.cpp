@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "ui/commands/script.hpp"
 #include "ui/render_target/headless.hpp"
 #include "ui/render_target/offscreen_target.hpp"
 #include "ui/window/interface.hpp"

@@ -24,7 +24,7 @@ void number(Painter& painter, double right, double y, const std::string& text) {
 
 }  // namespace
 
-vtkStandardNewMacro(Ranking);
+vtkStandardNewMacro(RankingItem);
 
 std::vector<std::size_t> ranked(const RankingContent& content) {
   std::vector<std::size_t> order;
@@ -36,7 +36,7 @@ std::vector<std::size_t> ranked(const RankingContent& content) {
   return order;
 }
 
-bool Ranking::Paint(vtkContext2D* context) {
+bool RankingItem::Paint(vtkContext2D* context) {
   Painter painter(*context);
   double at = y + height - 30;
   painter.text(x + margin, at, content.title, theme::caption, theme::ink, TextWeight::semi_bold);
@@ -71,7 +71,7 @@ bool Ranking::Paint(vtkContext2D* context) {
   return true;
 }
 
-std::pair<double, double> Ranking::score_range(const std::vector<std::size_t>& candidates) const {
+std::pair<double, double> RankingItem::score_range(const std::vector<std::size_t>& candidates) const {
   double low = content.scores[candidates.front()], high = low;
   for (const std::size_t candidate : candidates) {
     low = std::min(low, content.scores[candidate]);

@@ -22,10 +22,10 @@ struct RankingContent {
 std::vector<std::size_t> ranked(const RankingContent& content);
 
 /// Draws a ranking into a rectangle of the picture [px].
-class Ranking : public vtkContextItem {
+class RankingItem : public vtkContextItem {
  public:
-  static Ranking* New();
-  vtkTypeMacro(Ranking, vtkContextItem)
+  static RankingItem* New();
+  vtkTypeMacro(RankingItem, vtkContextItem)
 
       bool Paint(vtkContext2D* context) override;
 

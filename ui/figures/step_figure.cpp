@@ -96,7 +96,7 @@ struct StepFigure::Parts {
   vtkNew<vtkRenderer> sheet_renderer;
   vtkNew<vtkContextActor> sheet_actor;
   vtkNew<Sheet> sheet;
-  vtkNew<Ranking> ranking;
+  vtkNew<RankingItem> ranking;
   Scene views, map;
   Chart entropy, coverage;
 };
