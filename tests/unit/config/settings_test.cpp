@@ -140,7 +140,9 @@ TEST(Validate, EachNumberHasItsBoundsAndTheMessageNamesThem) {
               s.bounds->or_zero && low == 0 ? "" : refused(s.bounds->low_included ? below(low) : low));
     EXPECT_EQ(refusal(s.bounds->high_included ? above(high) : high),
               refused(s.bounds->high_included ? above(high) : high));
-    if (s.bounds->or_zero) EXPECT_EQ(refusal(0.0), "");
+    if (s.bounds->or_zero) {
+      EXPECT_EQ(refusal(0.0), "");
+    }
   }
 }
 
