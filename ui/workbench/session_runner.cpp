@@ -130,7 +130,9 @@ void SessionRunner::adopt(HistoryEntry entry) {
   const auto& scans = session_->scans();
   const bool refined_before = same_session && refined_scans_.size() <= scans.size() &&
                               std::equal(refined_scans_.begin(), refined_scans_.end(), scans.begin());
-  if (!refined_before) {  // what was refined since does not belong to these views
+  if (session_->refinement()) {  // the planner's own, which show_map shows where there is one
+    next.gibbs = nullptr;
+  } else if (!refined_before) {  // what was refined since does not belong to these views
     refinement_.reset();
     refined_scans_.clear();
     next.gibbs = nullptr;

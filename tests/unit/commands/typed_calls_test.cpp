@@ -85,7 +85,7 @@ TEST_F(TypedCallsOnAWindow, WhatIsOutOfRangeIsRefusedAsInAScript) {
   EXPECT_EQ(window_.layers.voxels.unknown_from, WindowState().layers.voxels.unknown_from);
   EXPECT_EQ(error_of(command::open("")), "open: FILE must be given, not ''");
   snapshot_.records.resize(1);
-  EXPECT_EQ(error_of(command::refine(17, 20)), "refine: CHAINS must be a whole number from 1 to 16, not '17'");
+  EXPECT_EQ(error_of(command::refine(65, 20)), "refine: CHAINS must be a whole number from 1 to 64, not '65'");
 }
 
 TEST(SetAsIn, GivesOneSettingAndNoOther) {
