@@ -128,15 +128,15 @@ void SessionRunner::adopt(HistoryEntry entry) {
   seen_ = std::move(entry.seen);
   if (same_scan) return show_next();
   const auto& scans = session_->scans();
-  const bool refined_before = same_session && refined_scans_.size() <= scans.size() &&
-                              std::equal(refined_scans_.begin(), refined_scans_.end(), scans.begin());
-  if (session_->refinement()) {  // the planner's own, which show_map shows where there is one
-    next.gibbs = nullptr;
-  } else if (!refined_before) {  // what was refined since does not belong to these views
+  // What was refined of views that are no more belongs to nothing.
+  const auto begin_with = [&](const std::vector<std::shared_ptr<const Scan>>& first, std::size_t views) {
+    return same_session && views <= scans.size() && std::equal(first.begin(), first.begin() + views, scans.begin());
+  };
+  if (!begin_with(refined_scans_, refined_scans_.size())) {
     refinement_.reset();
     refined_scans_.clear();
-    next.gibbs = nullptr;
   }
+  if (next.gibbs && !begin_with(next.scans, next.gibbs->views)) next.gibbs = nullptr;
   if (!same_session) {
     ++next.session;
     remember_run(next);

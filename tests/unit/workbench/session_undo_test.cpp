@@ -249,6 +249,45 @@ TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShown) {
   EXPECT_EQ(now().gibbs->views, 1u);
 }
 
+/// Nor if a later refinement was cancelled before it had all of them.
+TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShownAfterACancelledRefinement) {
+  runner_.load(small_scan(), job_control());
+  steps(3);
+  runner_.refine(2, 8, job_control());
+  std::stop_source stop;
+  SessionRunner::JobControl cancelled = job_control();
+  cancelled.stop = stop.get_token();
+  cancelled.progress = [&](double fraction, std::string_view) {
+    if (fraction > 0) stop.request_stop();
+  };
+  EXPECT_ANY_THROW(runner_.refine(1, 8, cancelled));
+  EXPECT_EQ(now().gibbs->views, 3u) << "the one before is still there";
+  runner_.undo(job_control());
+  EXPECT_EQ(now().gibbs, nullptr);
+}
+
+/// What the window refined beside the planner's own map is made anew of other views.
+TEST_F(SessionRunnerTest, RefiningBesideThePlannersMapIsOfTheViewsThatThereAre) {
+  Configuration c = small_scan();
+  c.planner.gain = "gibbs";
+  c.gibbs.view_sweeps = 8;
+  runner_.load(c, job_control());
+  steps(2);
+  runner_.refine(2, 8, job_control());
+  runner_.undo(job_control());
+  const auto candidate = now().proposal() == 0u ? 1u : 0u;
+  runner_.take_view(candidate);
+  runner_.step(job_control());
+  runner_.refine(2, 8, job_control());
+  SessionRunner other;
+  other.load(c, job_control());
+  other.step(job_control());
+  other.take_view(candidate);
+  other.step(job_control());
+  other.refine(2, 8, job_control());
+  EXPECT_EQ(now().gibbs->posterior->occupied, other.snapshot()->gibbs->posterior->occupied);
+}
+
 TEST_F(SessionRunnerTest, ALoadThatFailsLeavesAllAsItWas) {
   runner_.load(small_scan(), job_control());
   steps(2);
