@@ -13,8 +13,8 @@
 namespace nextview {
 namespace {
 
-constexpr const char* coarser_map = "use coarser voxels (--map.resolution) or a smaller region (--map.region_edge)";
-constexpr const char* fewer_pixels = "use fewer pixels (--sensor.width, --sensor.height) or views (--views)";
+constexpr const char* coarser_map = "use coarser voxels (map.resolution) or a smaller region (map.region_edge)";
+constexpr const char* fewer_pixels = "use fewer pixels (sensor.width, sensor.height) or views (termination.views)";
 
 std::string map_text(const VoxelGrid& grid) {
   return fmt::format("a map of {} x {} x {} voxels", grid.size.x(), grid.size.y(), grid.size.z());
@@ -48,7 +48,7 @@ std::uint64_t image_bytes(const Configuration& c) {
 
 }  // namespace
 
-Configuration affordable(Configuration c) {
+Configuration affordable(Configuration c) try {
   const std::uint64_t map = map_bytes(c), images = image_bytes(c);
   if (map >= images) {
     require_memory(map, map_text(configured_region(c)), coarser_map);
@@ -59,12 +59,14 @@ Configuration affordable(Configuration c) {
     require_memory(map + images, fmt::format("a scan of {} {}", max_views(c), image_text(c.sensor)), fewer_pixels);
   }
   return c;
+} catch (const OutOfMemory& error) {
+  throw OutOfMemory(c.as_given(error.what()));
 }
 
 std::string not_enough_memory(const Configuration& c) {
-  return fmt::format("out of memory with {} and {}, {:.1f} GB are left: {}", map_text(configured_region(c)),
-                     image_text(c.sensor), double(available_memory()) / 1e9,
-                     map_bytes(c) >= image_bytes(c) ? coarser_map : fewer_pixels);
+  return c.as_given(fmt::format("out of memory with {} and {}, {:.1f} GB are left: {}", map_text(configured_region(c)),
+                                image_text(c.sensor), double(available_memory()) / 1e9,
+                                map_bytes(c) >= image_bytes(c) ? coarser_map : fewer_pixels));
 }
 
 Pose configured_start_view(const Configuration& c) {

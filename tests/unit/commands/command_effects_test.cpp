@@ -261,7 +261,12 @@ TEST_F(AskedOfTheWorker, SettingsAndSpeed) {
   EXPECT_EQ(worker_.progress().pause_between_views, 1.5);
   run("open box");
   EXPECT_EQ(now()->object_name, "box");
-  EXPECT_THROW(run("set map.resolution -1"), std::invalid_argument);
+  try {
+    run("set map.resolution -1");
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "resolution (map.resolution) must be from 0.0001 to 1 m, not -1") << "label and key";
+  }
   EXPECT_EQ(now()->object_name, "box");
 }
 

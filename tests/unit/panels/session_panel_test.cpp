@@ -47,6 +47,14 @@ TEST_F(SessionPanelTest, WhatIsWrittenIsSet) {
   EXPECT_EQ(write_into("77", "12"), "set seed 12");
 }
 
+TEST_F(SessionPanelTest, ANumberOutOfItsBoundsComesToTheNearestWithin) {
+  scan_->configuration.map.resolution = 0.0275;
+  scan_->configuration.termination.views = 13;
+  desk_.frames();
+  EXPECT_EQ(write_into("0.0275", "99"), "set map.resolution 1");
+  EXPECT_EQ(write_into("13", "-5"), "set termination.views 1");
+}
+
 TEST_F(SessionPanelTest, AChoiceIsSetToo) {
   desk_.frames();
   click_on(desk_, "occlusion-aware", "Session");
