@@ -31,6 +31,7 @@ class RayCaster {
 /// The rays that score a view: unit directions in the camera frame, through a regular grid of its pixels.
 struct RayBundle {
   std::vector<Vector3> directions;
+  std::vector<double> solid_angles;  ///< of each ray's part of the image [sr]
 
   /// `columns` x `rows` rays through the middles of equal cells of the whole image.
   static RayBundle regular(const PinholeCamera& camera, int columns = 38, int rows = 25);

@@ -32,6 +32,11 @@ std::vector<double> GainPolicy::values(const PlanningState& state, std::span<con
   return gain_values(state, available, {&one, 1}, stop).front();
 }
 
+std::optional<ScoreExplanation> GainPolicy::explain(const PlanningState& state, const Pose& T_world_camera) const {
+  return explain_score(state.caster, T_world_camera, state.bundle, gain_,
+                       {state.config.semantics, state.occlusion_reach});
+}
+
 CombinedPolicy::CombinedPolicy(const std::string& weights) {
   if (weights.empty())
     for (const WeightedGain& w : prerelease_weights()) {

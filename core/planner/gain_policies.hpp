@@ -13,6 +13,7 @@ class GainPolicy : public Policy {
                              std::stop_token stop) const override;
   const Gain* gain() const override { return &gain_; }
   std::string no_explanation() const override { return ""; }
+  std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
 
  private:
   const Gain& gain_;

@@ -6,7 +6,8 @@ namespace {
 
 PlanningState state_of(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
                        const RayCaster& rays) {
-  return {setup.config, setup.seed, setup.occlusion_reach, rays, setup.bundle, setup.true_surface, views, known.taken};
+  return {setup.config, setup.seed, setup.occlusion_reach, known, rays, setup.bundle, setup.true_surface,
+          views,        known.taken};
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
 std::optional<ScoreExplanation> OneStepPlanner::explain(const PlanningSetup& setup, const Knowledge& known,
                                                         const Pose& T_world_camera) const {
   const auto rays = planning_rays(known, setup.config.ray_length);
-  return nextview::explain(*policy_, state_of(setup, known, {}, *rays), T_world_camera);
+  return policy_->explain(state_of(setup, known, {}, *rays), T_world_camera);
 }
 
 }  // namespace nextview

@@ -22,7 +22,7 @@ Setting::Choice gain_choice(std::string& gain) {
 }  // namespace
 
 std::vector<Setting> settings(PlannerConfig& c) {
-  return {
+  std::vector<Setting> all = {
       {"planner.gain", "", "what ranks the candidate views", gain_choice(c.gain)},
       {"planner.semantics", "", "published, or what the reference code computes",
        choice(c.semantics, {"published", "reference"})},
@@ -36,6 +36,8 @@ std::vector<Setting> settings(PlannerConfig& c) {
       {"planner.start_azimuth", "deg", "start view, seen from the object", &c.start_azimuth, from_to(-360, 360)},
       {"planner.start_elevation", "deg", "start view, seen from the object", &c.start_elevation, from_to(-90, 90)},
   };
+  std::ranges::move(settings(c.new_surface), std::back_inserter(all));
+  return all;
 }
 
 void PlannerConfig::validate() const {

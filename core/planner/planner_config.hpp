@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/gain/new_surface_model.hpp"
 #include "core/gain/ray.hpp"
 #include "core/planner/next_best_view.hpp"
 #include "core/setting/setting.hpp"
@@ -9,7 +10,7 @@
 namespace nextview {
 
 struct PlannerConfig {
-  std::string gain = "proximity-count";  ///< the name of a policy (policy_names)
+  std::string gain = "new-surface";  ///< the name of a policy (policy_names)
   Semantics semantics = Semantics::published;
   UtilityWeights weights = {1.0, 0.3};  ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
   std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
@@ -18,6 +19,7 @@ struct PlannerConfig {
   double ray_length = 1.5;        ///< [m]
   double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
   double start_elevation = 20.0;  ///< [deg]
+  NewSurfaceModel new_surface = NewSurfaceModel::fitted();
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;

@@ -7,6 +7,7 @@
 
 #include "core/planner/baseline_policies.hpp"
 #include "core/planner/gain_policies.hpp"
+#include "core/planner/new_surface_policy.hpp"
 
 namespace nextview {
 namespace {
@@ -18,6 +19,8 @@ std::unique_ptr<Policy> make(const PlannerConfig&) {
 
 std::vector<PolicyEntry> all_policies() {
   std::vector<PolicyEntry> all;
+  all.push_back({"new-surface", "the surface that a view is expected to see first, learned from simulated scans", false,
+                 [](const PlannerConfig& c) { return std::make_unique<NewSurfacePolicy>(c.new_surface); }});
   for (const Gain& gain : gains())
     all.push_back({std::string(gain.name), std::string(gain.summary), false,
                    [&gain](const PlannerConfig&) { return std::make_unique<GainPolicy>(gain); }});
@@ -54,11 +57,5 @@ const PolicyEntry& policy_entry(const std::string& name) {
 }
 
 std::unique_ptr<Policy> make_policy(const PlannerConfig& config) { return policy_entry(config.gain).make(config); }
-
-std::optional<ScoreExplanation> explain(const Policy& policy, const PlanningState& state, const Pose& T_world_camera) {
-  if (!policy.gain()) return std::nullopt;
-  return explain_score(state.caster, T_world_camera, state.bundle, *policy.gain(),
-                       {state.config.semantics, state.occlusion_reach});
-}
 
 }  // namespace nextview

@@ -36,7 +36,8 @@ struct PlanningState {
   const PlannerConfig& config;
   std::uint64_t seed;
   double occlusion_reach;  ///< d_max of proximity count [voxels]
-  const RayCaster& caster;
+  const Knowledge& known;
+  const RayCaster& caster;  ///< through what is known
   const RayBundle& bundle;
   const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
   std::span<const View> candidates;
@@ -59,6 +60,8 @@ class Policy {
   virtual const Gain* gain() const { return nullptr; }
   /// Why no rays explain it, to be read behind its name; empty if they do.
   virtual std::string no_explanation() const { return "ranks views without rays"; }
+  /// Why a view would have its value; nothing if no rays explain it.
+  virtual std::optional<ScoreExplanation> explain(const PlanningState&, const Pose&) const { return std::nullopt; }
 };
 
 /// A policy as it is offered.
@@ -76,8 +79,5 @@ std::vector<std::string> policy_names();
 const PolicyEntry& policy_entry(const std::string& name);
 /// @throws std::invalid_argument for an unknown name, or settings that the policy cannot do with.
 std::unique_ptr<Policy> make_policy(const PlannerConfig& config);
-
-/// Why a view would have its value; nothing if no rays explain the policy's.
-std::optional<ScoreExplanation> explain(const Policy& policy, const PlanningState& state, const Pose& T_world_camera);
 
 }  // namespace nextview

@@ -32,6 +32,9 @@ inline constexpr std::uint32_t surface_samples = 3;
 inline constexpr std::uint32_t random_planner = 4;
 inline constexpr std::uint32_t covering_order = 5;
 inline constexpr std::uint32_t outliers = 6;
+inline constexpr std::uint32_t training_parts = 7;
+inline constexpr std::uint32_t training_views = 8;
+inline constexpr std::uint32_t adaptive_views = 9;
 inline constexpr std::uint32_t gibbs = 1024;  ///< and on: chains and moves have streams of their own
 }  // namespace random_stream
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/memory/available_memory.hpp"
+#include "core/planner/adaptive_candidates.hpp"
 #include "core/planner/policy.hpp"
 
 namespace nextview {
@@ -94,8 +95,16 @@ VoxelGrid configured_region(const Configuration& c, const SourceDescription& sou
 
 std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& c,
                                                                 const SourceDescription& source) {
-  return std::make_shared<FixedCandidates>(source.frames.empty() ? views_at(candidate_views(c.views, Vector3::Zero()))
-                                                                 : source.frames);
+  if (!source.frames.empty()) return std::make_shared<FixedCandidates>(source.frames);
+  std::vector<View> views = views_at(candidate_views(c.views, Vector3::Zero()));
+  // What a planner is compared with knows no views but these.
+  if (c.views.layout != ViewLayout::adaptive || policy_entry(c.planner.gain).baseline)
+    return std::make_shared<FixedCandidates>(std::move(views));
+  const RayBundle few =
+      RayBundle::regular(source.camera, (c.planner.ray_columns + 1) / 2, (c.planner.ray_rows + 1) / 2);
+  return std::make_shared<AdaptiveCandidates>(
+      std::move(views), few,
+      AdaptiveCandidatesConfig{c.views.adaptive, c.views.radius, c.planner.ray_length, c.planner.new_surface, c.seed});
 }
 
 void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {

@@ -71,11 +71,13 @@ std::vector<Vector3> equal_rings(int count, int rings) {
 std::vector<Setting> settings(CandidateViewsConfig& c) {
   return {
       {"views.layout", "", "how candidate views are laid out",
-       choice(c.layout, {"hemisphere", "sphere", "rings", "fibonacci", "file"})},
+       choice(c.layout, {"hemisphere", "sphere", "rings", "fibonacci", "file", "adaptive"})},
       {"views.count", "", "number of candidate views", &c.count, from_to(1, 10000)},
       {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(0.01, 100)},
       {"views.rings", "", "number of rings (layout rings)", &c.rings, from_to(1, 10000)},
       {"views.file", "", "views file (layout file): a count, then x y z qx qy qz qw a line", &c.file},
+      {"views.adaptive", "", "views made from the map at each step, beside those of a sphere (layout adaptive)",
+       &c.adaptive, from_to(1, 1000)},
   };
 }
 
@@ -91,9 +93,9 @@ std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vect
   config.validate();
   if (config.layout == ViewLayout::file) return read_views(config.file);
   const auto directions = config.layout == ViewLayout::hemisphere  ? latitude_rings(config.count, 0.0)
-                          : config.layout == ViewLayout::sphere    ? latitude_rings(config.count, -pi / 2)
+                          : config.layout == ViewLayout::rings     ? equal_rings(config.count, config.rings)
                           : config.layout == ViewLayout::fibonacci ? fibonacci(config.count)
-                                                                   : equal_rings(config.count, config.rings);
+                                                                   : latitude_rings(config.count, -pi / 2);
   std::vector<Pose> views;
   for (const Vector3& direction : directions) views.push_back(look_at(target + config.radius * direction, target));
   return views;

@@ -72,7 +72,7 @@ TEST_F(Paper, ScanTakesAllOfItAndOptionsOverrideIt) {
   EXPECT_THAT(configuration("paper").rest, ::testing::HasSubstr("\ncost_weight = 1 "));
   EXPECT_THAT(configuration("own").rest, ::testing::HasSubstr("\ncost_weight = 0.5 "));
   run(coarse + "--out " + in("default"));
-  EXPECT_THAT(configuration("default").rest, ::testing::HasSubstr("\ngain = 'proximity-count'"));
+  EXPECT_THAT(configuration("default").rest, ::testing::HasSubstr("\ngain = 'new-surface'"));
   EXPECT_THAT(configuration("default").rest, ::testing::HasSubstr("\ncost_weight = 0.3 "));
 }
 

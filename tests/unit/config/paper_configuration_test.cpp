@@ -130,7 +130,7 @@ TEST(PaperConfiguration, LeavesTheSeedTheObjectTheSensorsNameAndTheViewsFileAlon
 
 TEST(PaperConfiguration, TheDefaultPlanIsProximityCountWithALowerCost) {
   const Configuration defaults;
-  EXPECT_EQ(defaults.planner.gain, "proximity-count");
+  EXPECT_EQ(defaults.planner.gain, "new-surface");
   EXPECT_EQ(defaults.planner.weights.gain, 1.0);
   EXPECT_EQ(defaults.planner.weights.cost, 0.3);
   EXPECT_EQ(paper(defaults).planner.gain, "occlusion-aware");

@@ -33,7 +33,7 @@ struct KnownSurface : TrueSurface {
 
 struct Policies : ::testing::Test {
   std::vector<double> values(const Policy& policy) const { return policy.values(state(), available, {}); }
-  PlanningState state() const { return {config, seed, 60.0, rays, bundle, &surface, candidates, taken}; }
+  PlanningState state() const { return {config, seed, 60.0, known, rays, bundle, &surface, candidates, taken}; }
   std::unique_ptr<Policy> made(const std::string& name) {
     config.gain = name;
     return make_policy(config);
@@ -41,8 +41,9 @@ struct Policies : ::testing::Test {
 
   PlannerConfig config;
   std::uint64_t seed = 1;
+  Knowledge known;
   TwoVoxels rays;
-  RayBundle bundle{{Vector3::UnitZ(), Vector3(0, 0.6, 0.8)}};
+  RayBundle bundle{{Vector3::UnitZ(), Vector3(0, 0.6, 0.8)}, {0.01, 0.01}};
   KnownSurface surface;
   std::vector<View> candidates = {{at(1, 0, 0)}, {at(0, 1, 0)}, {at(0, 0, 1)}, {at(-1, 0, 0)}};
   std::vector<TakenView> taken = {{{}, at(1, 0, 0.1)}};
@@ -55,12 +56,14 @@ TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
     EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
     EXPECT_FALSE(entry.summary.empty()) << entry.name;
     const auto policy = made(entry.name);
-    EXPECT_EQ(policy->gain() == nullptr, !policy->no_explanation().empty()) << entry.name;
+    if (policy->gain()) EXPECT_EQ(policy->no_explanation(), "") << entry.name;
+    EXPECT_EQ(policy->explain(state(), candidates[1].T_world_camera).has_value(), policy->no_explanation().empty())
+        << entry.name;
     EXPECT_EQ(policy->weights(config).cost == 0.0, entry.baseline)
         << entry.name << ": the way has no say in a baseline";
     EXPECT_FALSE(entry.baseline && policy->needs().posterior) << entry.name;
   }
-  EXPECT_EQ(names.size(), gains().size() + 6);
+  EXPECT_EQ(names.size(), gains().size() + 7);
 }
 
 TEST_F(Policies, UnknownOnesAreRefusedWithTheNamesThereAre) {
@@ -114,12 +117,12 @@ TEST_F(Policies, AGainIsItsVolumetricInformationAndExplained) {
   const auto policy = made("occlusion-aware");
   const auto found = values(*policy);
   for (const double value : found) EXPECT_NEAR(value, 2.0 * (of_unmeasured + 0.5 * of_wall), 1e-6);
-  const auto why = explain(*policy, state(), candidates[1].T_world_camera);
+  const auto why = policy->explain(state(), candidates[1].T_world_camera);
   ASSERT_TRUE(why);
   EXPECT_DOUBLE_EQ(why->value, found[0]);
   EXPECT_EQ(values(*made("proximity-count")), (std::vector<double>{114, 114, 114}));  // 60 - 3 on each of two rays
   for (const char* without : {"combined", "random"})
-    EXPECT_FALSE(explain(*made(without), state(), candidates[1].T_world_camera));
+    EXPECT_FALSE(made(without)->explain(state(), candidates[1].T_world_camera));
 }
 
 TEST_F(Policies, CombinedWeighsSharesOfEachGain) {

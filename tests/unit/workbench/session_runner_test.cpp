@@ -199,7 +199,7 @@ TEST_F(SessionRunnerTest, EarlierRunsStayForTheirCurves) {
   ASSERT_EQ(runs.size(), 6u) << "the oldest ones go";
   EXPECT_EQ(runs.back().records.size(), 2u);
   EXPECT_EQ(runs.front().records.size(), 1u);
-  EXPECT_EQ(runs.front().name, "sphere, proximity-count");
+  EXPECT_EQ(runs.front().name, "sphere, new-surface");
   for (const nextview::Run& run : runs)
     for (const StepRecord& record : run.records) EXPECT_TRUE(record.candidates.empty());
   steps(1);

@@ -1,0 +1,44 @@
+#pragma once
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/gain/new_surface_model.hpp"
+#include "core/gain/ray.hpp"
+#include "core/gain/view_score.hpp"
+
+namespace nextview {
+
+/// A map as expected new surface sees it: what a ray that gets to a voxel is expected to find there.
+class NewSurfaceField {
+ public:
+  NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model);
+
+  const VoxelGrid& grid() const { return grid_; }                ///< no surface is expected outside
+  float at(std::size_t voxel) const { return chances_[voxel]; }  ///< NewSurfaceModel::chance
+
+ private:
+  VoxelGrid grid_;
+  std::vector<float> chances_;
+};
+
+/// How far rays are followed, and what an area across them is worth.
+struct NewSurfaceOptions {
+  double ray_length = 1.5;  ///< [m]
+  double slant = 1.7;       ///< NewSurfaceModel::slant
+};
+
+/// The new surface that each view is expected to see [cm^2]: over its rays of solid angle dOmega and over the voxels on
+/// them, at range r, slant r^2 dOmega reach q, where reach is the probability of getting there, 1 at first, and
+/// reach (1 - q) beyond a voxel. The same on any number of threads. A requested stop leaves the rest at 0.
+std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
+                                         const RayBundle& bundle, const NewSurfaceOptions& options,
+                                         std::stop_token stop = {});
+
+/// A view's expected new surface taken apart [cm^2]: the voxels with their probability of being occupied, which
+/// `voxels` of the whole `grid` say, and their visibility, which is reach.
+ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGrid& grid, const VoxelBricks& voxels,
+                                     const Pose& T_world_camera, const RayBundle& bundle,
+                                     const NewSurfaceOptions& options);
+
+}  // namespace nextview

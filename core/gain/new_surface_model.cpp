@@ -1,0 +1,71 @@
+#include "core/gain/new_surface_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nextview {
+namespace {
+
+template <std::size_t n>
+double linear(const std::array<double, n>& coefficients, const std::array<float, n>& features) {
+  return std::inner_product(coefficients.begin(), coefficients.end(), features.begin(), 0.0);
+}
+
+double logistic(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+}  // namespace
+
+NewSurfaceModel NewSurfaceModel::fitted() {
+  return {{6.677, -0.6386, 3.42, 0.4212, -0.1725, -0.5392, -4.786, -7.146, 5.408},
+          {-11.04, -0.7757, 3.084, 2.559, 0.0125},
+          {1.22, -0.5712, -0.1962, -0.4225, -0.3788},
+          1.712};
+}
+
+float NewSurfaceModel::chance(const SurfaceEvidence& evidence, std::size_t voxel) const {
+  if (!evidence.may_hold_surface(voxel)) return 0.0f;
+  switch (evidence.kind(voxel)) {
+    case SurfaceEvidence::Kind::unmeasured:  // a rate times the voxel's share of the object's size
+      return static_cast<float>(
+          -std::expm1(-std::exp(linear(unmeasured, evidence.unmeasured(voxel))) / evidence.size()));
+    case SurfaceEvidence::Kind::free:
+      return static_cast<float>(logistic(linear(free, evidence.measured(voxel))));
+    case SurfaceEvidence::Kind::occupied:  // never 0, whose sign would say nothing
+      return -std::max(1e-9f, static_cast<float>(logistic(linear(occupied, evidence.measured(voxel)))));
+  }
+  return 0.0f;
+}
+
+std::vector<Setting> settings(NewSurfaceModel& m) {
+  const auto any = from_to(-1000, 1000);
+  const auto setting = [&](const char* key, const char* help, double& value) {
+    return Setting{std::string("new_surface.") + key, "", help, &value, any};
+  };
+  return {
+      setting("unmeasured", "ln of the rate at which rays meet surface in unmeasured voxels, per object size",
+              m.unmeasured[0]),
+      setting("unmeasured_from_occupied", "... times ln(distance to occupied / size)", m.unmeasured[1]),
+      setting("unmeasured_from_free", "... times ln(distance to free / size)", m.unmeasured[2]),
+      setting("unmeasured_from_free_squared", "... times its square", m.unmeasured[3]),
+      setting("unmeasured_not_behind", "... where no surface was seen in front", m.unmeasured[4]),
+      setting("unmeasured_behind", "... times ln(distance behind a surface / size)", m.unmeasured[5]),
+      setting("unmeasured_root_outside", "... times the root of (distance outside the hull / size)", m.unmeasured[6]),
+      setting("unmeasured_outside", "... times (distance outside the hull / size)", m.unmeasured[7]),
+      setting("unmeasured_inside", "... times -(distance inside the hull / size)", m.unmeasured[8]),
+      setting("free", "log-odds of new surface in a free voxel beside unmeasured or occupied ones", m.free[0]),
+      setting("free_log_odds", "... times its log-odds", m.free[1]),
+      setting("free_unmeasured", "... times ln(1 + its unmeasured neighbours)", m.free[2]),
+      setting("free_beside_occupied", "... with an occupied neighbour", m.free[3]),
+      setting("free_occupied", "... times its occupied neighbours", m.free[4]),
+      setting("occupied", "log-odds of new surface in an occupied voxel", m.occupied[0]),
+      setting("occupied_log_odds", "... times its log-odds", m.occupied[1]),
+      setting("occupied_unmeasured", "... times ln(1 + its unmeasured neighbours)", m.occupied[2]),
+      setting("occupied_beside_occupied", "... with an occupied neighbour", m.occupied[3]),
+      setting("occupied_occupied", "... times its occupied neighbours", m.occupied[4]),
+      {"new_surface.slant", "", "area of the surface that rays meet, over the area across them", &m.slant,
+       from_to(1, 10)},
+  };
+}
+
+}  // namespace nextview

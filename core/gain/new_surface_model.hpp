@@ -1,0 +1,29 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/gain/surface_evidence.hpp"
+#include "core/setting/setting.hpp"
+
+namespace nextview {
+
+/// How likely a ray that reaches a voxel meets surface there that no view has covered: learned from simulated scans
+/// (`nextview calibrate --fit new-surface`). The coefficients stand in the order of SurfaceEvidence's features.
+struct NewSurfaceModel {
+  /// ln of the rate at which rays end in unmeasured voxels [1 / object size].
+  std::array<double, std::tuple_size_v<SurfaceEvidence::Unmeasured>> unmeasured{};
+  /// Log-odds of new surface in a free voxel, where a ray may end, and in an occupied one, where it does.
+  std::array<double, std::tuple_size_v<SurfaceEvidence::Measured>> free{}, occupied{};
+  double slant = 1.7;  ///< area of the surface that rays meet, over the area across them
+
+  bool operator==(const NewSurfaceModel&) const = default;
+  /// Fitted to simulated scans of parts that were made up for it.
+  static NewSurfaceModel fitted();
+
+  /// The probability that a ray which gets to a voxel meets new surface there. Negative, that with the other sign: it
+  /// goes no farther.
+  float chance(const SurfaceEvidence& evidence, std::size_t voxel) const;
+};
+std::vector<Setting> settings(NewSurfaceModel& model);
+
+}  // namespace nextview

@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/map/occupancy.hpp"
+#include "core/map/voxel_bricks.hpp"
+#include "core/map/voxel_grid.hpp"
+
+namespace nextview {
+
+/// What the map says of where the surface goes on: of each voxel around what is known of the object, the features from
+/// which a NewSurfaceModel makes a probability. Lengths are shares of the object's size as far as it is known (the
+/// diagonal of its box), so that a part of 80 mm and one of 10 m are alike.
+class SurfaceEvidence {
+ public:
+  enum class Kind : std::uint8_t { unmeasured, free, occupied };
+  /// Of an unmeasured voxel: 1; ln of the distance to the nearest occupied voxel; ln of that to the nearest free one,
+  /// and its square; 1 if no surface was seen in front of it, else 0; ln of how far it lies behind that surface, else
+  /// 0; how far outside the hull of the occupied voxels it lies: root, as it is, and negative if inside.
+  using Unmeasured = std::array<float, 9>;
+  /// Of a measured voxel: 1; its log-odds; ln(1 + its unmeasured neighbours); 1 if it has an occupied neighbour, else
+  /// 0; its occupied neighbours. Of 26 each.
+  using Measured = std::array<float, 5>;
+
+  /// `occlusions` knows how far voxels lie behind a surface; it is the conventional map where `voxels` are another's.
+  /// Up to a thousandth of the occupied voxels along any direction may be outliers, which the object's box leaves out.
+  SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
+                  double occupancy_threshold);
+
+  /// The part of the map that is looked at, in the same lattice; of no voxels if none is occupied.
+  const VoxelGrid& grid() const { return grid_; }
+  const Eigen::AlignedBox3d& object() const { return object_; }  ///< what is known of it [m, world]
+  double size() const { return size_; }                          ///< of the object as far as it is known [voxels]
+  Kind kind(std::size_t voxel) const { return kinds_[voxel]; }
+  /// @pre kind(voxel) == Kind::unmeasured
+  Unmeasured unmeasured(std::size_t voxel) const;
+  /// @pre kind(voxel) != Kind::unmeasured
+  Measured measured(std::size_t voxel) const;
+  /// Whether a measured voxel has an unmeasured or occupied one beside it, or is occupied: no surface is in any other.
+  bool may_hold_surface(std::size_t voxel) const {
+    return kinds_[voxel] != Kind::free || unmeasured_around_[voxel] + occupied_around_[voxel] > 0;
+  }
+
+ private:
+  /// The bounds of the occupied voxels along x, y, z and the six diagonals between two of them.
+  struct Hull {
+    static constexpr int directions = 9;
+    std::array<int, directions> lowest, highest;
+    /// How far outside of it a cell of the whole grid lies [voxels]; negative inside.
+    double outside(const Eigen::Vector3i& cell) const;
+  };
+  static Hull hull_of(const std::vector<Eigen::Vector3i>& occupied);
+  void set_region(const VoxelGrid& whole, const Hull& hull);
+  void read_voxels(const VoxelBricks& voxels, const VoxelBricks& occlusions, double occupancy_threshold);
+  void measure_distances();
+  float log_share(std::int32_t squared_distance) const;
+
+  VoxelGrid grid_;
+  Eigen::Vector3i offset_ = Eigen::Vector3i::Zero();  ///< of grid_ in the whole grid [voxels]
+  Eigen::AlignedBox3d object_;
+  double size_ = 1.0;
+  Hull hull_{};
+  std::vector<Kind> kinds_;
+  std::vector<float> log_odds_;
+  std::vector<std::uint16_t> behind_;
+  std::vector<std::uint8_t> unmeasured_around_, occupied_around_;
+  std::vector<std::int32_t> to_occupied_, to_free_;  ///< squared [voxels^2]
+  std::vector<float> log_shares_;                    ///< by squared distance
+};
+
+}  // namespace nextview

@@ -1,0 +1,99 @@
+#include "core/map/distance_transform.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+void require_as_many(std::size_t values, const Eigen::Vector3i& size) {
+  if ((size.array() < 0).any() || values != std::size_t(size.x()) * size.y() * size.z())
+    throw std::invalid_argument("distance transform: the values are not as many as the voxels");
+}
+
+/// Calls `visit(first, scratch)` for the first voxel of each line along an axis, several at once.
+template <class Scratch, class Visit>
+void for_each_line(const Eigen::Vector3i& size, int axis, Visit visit) {
+  const Eigen::Vector3<std::size_t> stride(1, size.x(), std::size_t(size.x()) * size.y());
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const std::size_t lines = std::size_t(size[u]) * size[v];
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines, 64), [&](const auto& range) {
+    Scratch scratch(size[axis]);
+    for (std::size_t line = range.begin(); line != range.end(); ++line)
+      visit(line % size[u] * stride[u] + line / size[u] * stride[v], stride[axis], scratch);
+  });
+}
+
+/// The lower envelope of the parabolas (x - i)^2 + height[i], in place.
+struct Envelope {
+  explicit Envelope(int length) : heights(length), sites(length), starts(length) {}
+
+  void lower(std::int32_t* values, std::size_t stride) {
+    const int length = static_cast<int>(heights.size());
+    for (int i = 0; i < length; ++i) heights[i] = values[i * stride];
+    int last = -1;
+    for (int i = 0; i < length; ++i) {
+      if (heights[i] >= infinitely_far) continue;
+      while (last >= 0 && at(sites[last], starts[last]) > at(i, starts[last])) --last;
+      if (last < 0) {
+        last = 0, sites[0] = i, starts[0] = 0;
+        continue;
+      }
+      const int start = 1 + overtakes(sites[last], i);
+      if (start < length) ++last, sites[last] = i, starts[last] = start;
+    }
+    if (last < 0) return;  // nothing is near this line
+    for (int x = length - 1; x >= 0; --x) {
+      values[x * stride] = static_cast<std::int32_t>(at(sites[last], x));
+      if (x == starts[last]) --last;
+    }
+  }
+
+ private:
+  std::int64_t at(int site, int x) const { return std::int64_t(x - site) * (x - site) + heights[site]; }
+  /// The last place where `left` is not above `right`.
+  int overtakes(int left, int right) const {
+    const std::int64_t above = std::int64_t(right) * right - std::int64_t(left) * left + heights[right] - heights[left];
+    const std::int64_t twice = 2 * (right - left);
+    return static_cast<int>(above >= 0 ? above / twice : -((-above + twice - 1) / twice));
+  }
+
+  std::vector<std::int32_t> heights;
+  std::vector<int> sites, starts;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> squared_distances(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size) {
+  require_as_many(is_feature.size(), size);
+  std::vector<std::int32_t> squared(is_feature.size());
+  for (std::size_t i = 0; i < squared.size(); ++i) squared[i] = is_feature[i] ? 0 : infinitely_far;
+  if (squared.empty()) return squared;
+  for (int axis = 0; axis < 3; ++axis)
+    for_each_line<Envelope>(size, axis, [&](std::size_t first, std::size_t stride, Envelope& envelope) {
+      envelope.lower(&squared[first], stride);
+    });
+  return squared;
+}
+
+std::vector<std::uint8_t> neighbour_counts(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size) {
+  require_as_many(is_feature.size(), size);
+  std::vector<std::uint8_t> counts(is_feature.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = is_feature[i] != 0;
+  if (counts.empty()) return counts;
+  for (int axis = 0; axis < 3; ++axis)  // a box's sum is three sums along lines
+    for_each_line<std::vector<std::uint8_t>>(
+        size, axis, [&](std::size_t first, std::size_t stride, std::vector<std::uint8_t>& line) {
+          for (std::size_t i = 0; i < line.size(); ++i) line[i] = counts[first + i * stride];
+          for (std::size_t i = 0; i < line.size(); ++i)
+            counts[first + i * stride] = static_cast<std::uint8_t>(line[i] + (i > 0 ? line[i - 1] : 0) +
+                                                                   (i + 1 < line.size() ? line[i + 1] : 0));
+        });
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] -= is_feature[i] != 0;
+  return counts;
+}
+
+}  // namespace nextview

@@ -1,0 +1,25 @@
+#pragma once
+#include "core/gain/new_surface.hpp"
+#include "core/planner/policy.hpp"
+
+namespace nextview {
+
+/// A view is worth the surface that it is expected to see first.
+class NewSurfacePolicy : public Policy {
+ public:
+  explicit NewSurfacePolicy(const NewSurfaceModel& model) : model_(model) {}
+  std::string unit() const override { return "cm²"; }
+  PolicyNeeds needs() const override { return {true, false, false}; }
+  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
+                             std::stop_token stop) const override;
+  std::string no_explanation() const override { return ""; }
+  std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
+
+ private:
+  NewSurfaceField field(const PlanningState& state) const;
+  NewSurfaceOptions options(const PlanningState& state) const { return {state.config.ray_length, model_.slant}; }
+
+  NewSurfaceModel model_;
+};
+
+}  // namespace nextview
