@@ -50,6 +50,7 @@ void print_step(const StepRecord& r) {
                r.refinement->quality_near_surface.log_loss, view(r.ranking.best), view(r.refinement->conventional_best),
                r.refinement->rank_correlation);
   }
+  if (!r.ranking.reason.empty()) fmt::print("       next: {}\n", r.ranking.reason);
   if (!r.ranking.degenerate.empty()) fmt::print("       ! no ranking: {}\n", r.ranking.degenerate);
   std::fflush(stdout);
 }

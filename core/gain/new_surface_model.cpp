@@ -17,10 +17,10 @@ double logistic(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 }  // namespace
 
 NewSurfaceModel NewSurfaceModel::fitted() {
-  return {{6.677, -0.6386, 3.42, 0.4212, -0.1725, -0.5392, -4.786, -7.146, 5.408},
-          {-11.04, -0.7757, 3.084, 2.559, 0.0125},
-          {1.22, -0.5712, -0.1962, -0.4225, -0.3788},
-          1.712};
+  return {{3.694, -0.6849, 1.459, 0.1135, -0.1162, -0.4108, -5.333, -5.231, 4.241},
+          {-12.24, -0.6266, 3.005, 3.149, 0.04534},
+          {-1.668, -0.3992, 0.1877, 0.2171, -0.2666},
+          1.694};
 }
 
 float NewSurfaceModel::chance(const SurfaceEvidence& evidence, std::size_t voxel) const {

@@ -12,6 +12,7 @@ class NewSurfacePolicy : public Policy {
   PolicyNeeds needs() const override { return {true, false, false}; }
   std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
                              std::stop_token stop) const override;
+  std::string promise(double value, const PlanningState& state, const Pose& T_world_camera) const override;
   std::string no_explanation() const override { return ""; }
   std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
 

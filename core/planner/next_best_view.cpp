@@ -29,6 +29,14 @@ std::string degeneracy_reason(const std::vector<double>& gains) {
 
 }  // namespace
 
+std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std::size_t best) {
+  std::optional<std::size_t> second;
+  for (std::size_t v = 0; v < candidates.size(); ++v)
+    if (v != best && candidates[v].available && (!second || candidates[v].utility > candidates[*second].utility))
+      second = v;
+  return second;
+}
+
 Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights) {
   double gain_sum = 0.0, cost_sum = 0.0;
   std::vector<double> gains;

@@ -24,7 +24,11 @@ struct Ranking {
   std::optional<std::size_t>
       best;                ///< Eq. 14; nothing if no candidate is available. Ties go to the first in list order
   std::string degenerate;  ///< why the gains do not tell the candidates apart; empty if they do
+  std::string reason;      ///< of the choice, in one sentence for people; empty without a best
 };
+
+/// The available candidate of largest utility but `best`; nothing if there is none.
+std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std::size_t best);
 
 /// Sets the utility of the available candidates, U = w_g G / sum G - w_c C / sum C (Eq. 13; a term whose sum is 0 is
 /// 0), and finds the next best view.

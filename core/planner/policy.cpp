@@ -37,6 +37,11 @@ std::vector<PolicyEntry> all_policies() {
 
 }  // namespace
 
+std::string Policy::promise(double value, const PlanningState&, const Pose&) const {
+  const std::string in = unit();
+  return fmt::format("gain {:.4g}{}{}", value, in.empty() ? "" : " ", in);
+}
+
 std::span<const PolicyEntry> policies() {
   static const std::vector<PolicyEntry> all = all_policies();
   return all;

@@ -58,6 +58,8 @@ class Policy {
                                      std::stop_token stop) const = 0;
   /// The gain that its value of a single view is, whose rays then explain it; null if it is none.
   virtual const Gain* gain() const { return nullptr; }
+  /// What a view of this value promises, for people: "gain 12.5 nats", "214 cm² of new surface, most of it at the top".
+  virtual std::string promise(double value, const PlanningState& state, const Pose& T_world_camera) const;
   /// Why no rays explain it, to be read behind its name; empty if they do.
   virtual std::string no_explanation() const { return "ranks views without rays"; }
   /// Why a view would have its value; nothing if no rays explain it.

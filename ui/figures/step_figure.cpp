@@ -132,7 +132,7 @@ void StepFigure::show(const StepPicture& picture) {
   ViewDirection direction = picture.direction.value_or(ViewDirection{});
   if (!picture.direction && picture.chosen) direction = beside(picture.candidates.at(*picture.chosen));
   p.sheet->title = step_title(picture);
-  p.sheet->subtitle = picture.object_name;
+  p.sheet->subtitle = picture.reason.empty() ? picture.object_name : picture.object_name + " · " + picture.reason;
 
   p.views.set_caption("Candidate views");
   if (picture.object) p.views.mesh().show(*picture.object, picture.object_style);

@@ -39,6 +39,7 @@ struct StepPicture {
   std::vector<Pose> path;             ///< views taken so far, the start view first; T_world_camera
   std::vector<RaySegment> rays;       ///< of the chosen view
   RayValues ray_values;
+  std::string reason;        ///< of the choice
   std::string ranking_note;  ///< for example that all candidates tie, and why
 
   ChartContent entropy{"Entropy of the map", "view", "", "entropy", "bits", {}, {}, true};

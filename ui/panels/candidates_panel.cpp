@@ -203,6 +203,7 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
   small_text(context.style,
              fmt::format("ranked by {}, U = {}gain share − {}cost share (Eq. 13)", s.configuration.planner.gain,
                          factor(s.configuration.planner.weights.gain), factor(s.configuration.planner.weights.cost)));
+  if (!s.records.empty() && s.finished.empty()) small_text(context.style, s.records.back().ranking.reason, theme::ink);
   if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty())
     draw_degenerate(context, s.records.back().ranking.degenerate);
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +

@@ -234,6 +234,7 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
         r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
     log_.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
                                       r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
+    if (!r.ranking.reason.empty()) log_.add(Level::note, "Next: " + r.ranking.reason);
     if (!r.ranking.degenerate.empty())
       log_.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
     if (!s.finished.empty()) log_.add(Level::success, "The scan is finished: " + s.finished);

@@ -56,7 +56,7 @@ TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
     EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
     EXPECT_FALSE(entry.summary.empty()) << entry.name;
     const auto policy = made(entry.name);
-    if (policy->gain()) EXPECT_EQ(policy->no_explanation(), "") << entry.name;
+    EXPECT_TRUE(!policy->gain() || policy->no_explanation().empty()) << entry.name;
     EXPECT_EQ(policy->explain(state(), candidates[1].T_world_camera).has_value(), policy->no_explanation().empty())
         << entry.name;
     EXPECT_EQ(policy->weights(config).cost == 0.0, entry.baseline)
