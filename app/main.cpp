@@ -25,6 +25,7 @@
 #include "core/progress/stopped.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
+#include "ui/panels/panel_table.hpp"
 #include "ui/render_target/headless.hpp"
 #include "ui/window/window.hpp"
 
@@ -110,6 +111,7 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
     return fail(fmt::format("{}; see nextview --help", error.what()));
   }
+  announce_panels(standard_panels());  // before there is a window: scripts name them
   if (list_commands) {
     fmt::print("{}", command_table());
     return 0;

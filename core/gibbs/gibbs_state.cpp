@@ -15,7 +15,7 @@ GibbsState::GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& conf
 
 void GibbsState::add(const Scan& scan) {
   auto all = std::make_shared<RangeMeasurements>(*measurements_);
-  if (all->origins.empty()) all->max_range = scan.max_range;
+  if (all->origins.empty()) all->max_range = measurements_of(std::span(&scan, 1)).max_range;  // refuses one without
   RangeMeasurements view{all->max_range, {}, {}};
   view.add(scan);
   all->append(merge_rays(view, posterior_->grid, config_.ray_spacing));

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -116,7 +117,11 @@ void RangeMeasurements::add(const Scan& scan) {
 }
 
 RangeMeasurements measurements_of(std::span<const Scan> scans) {
-  RangeMeasurements measurements{scans.front().max_range, {}, {}};
+  const double max_range = scans.front().max_range;
+  if (!std::isfinite(max_range))
+    throw std::invalid_argument(
+        "a Gibbs map needs the sensor's maximum range (Scan::max_range): up to there a ray that met nothing saw");
+  RangeMeasurements measurements{max_range, {}, {}};
   for (const Scan& scan : scans) measurements.add(scan);
   return measurements;
 }

@@ -2,6 +2,7 @@
 // them anew, and turning the map in the window's scene with OSMesa (llvmpipe).
 //   build/release/scene_benchmark                all of it
 //   build/release/scene_benchmark --frames 600   more frames for the distribution
+//   build/release/scene_benchmark --small        of a small map only: that it runs
 #include <fmt/format.h>
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
@@ -128,10 +129,16 @@ int main(int argc, char** argv) {
   nextview::ensure_headless(argc, argv);
   CLI::App app("What drawing the operator's scene costs");
   int frames = 180;
-  bool turning_only = false;
+  bool turning_only = false, small = false;
   app.add_option("--frames", frames, "frames of a turn around the map")->check(CLI::PositiveNumber);
   app.add_flag("--turning-only", turning_only, "leave out the making of faces");
+  app.add_flag("--small", small, "of a small map only");
   CLI11_PARSE(app, argc, argv);
+  if (small) {
+    nextview::measure_faces(64, 26);
+    nextview::measure_turning(64, 26, frames, true);
+    return 0;
+  }
   if (!turning_only) {
     nextview::measure_faces(128, 52);
     nextview::measure_faces(256, 56);

@@ -90,10 +90,10 @@ TEST_F(Comparison, PointerOverEverything) {
       user_.window().push(input::Wheel{steps});
       look("scrolling", 2);
     }
-    look("after scrolling", 15);
+    look("after scrolling", 8);
   }
   hover(50, layout_.control_bar.y + 25);
-  look("a tooltip", 60);
+  look("a tooltip", 36);  // it comes after 27
   for (double x = 10; x < 300; x += 40) {
     user_.click(x, 12);
     look("a menu", 5);

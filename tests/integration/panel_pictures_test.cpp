@@ -31,41 +31,28 @@ Vector3 nearest_voxel(User& user) {
 
 PictureBound bound() { return {0.03, 255, "times and progress differ from run to run"}; }
 
-TEST(PanelPictures, Candidates) {
+TEST(PanelPictures, CandidatesThenAViewThenARayOfIt) {
   User user(housing());
   user.run("step\nstep\nstep\nselect-view 12\n");
   expect_screenshot("panel_candidates", user.look(), bound());
-}
-
-TEST(PanelPictures, View) {
-  User user(housing());
-  user.run("step\nstep\nstep\nselect-view 32\npanel view\npanel layers\nzoom 3\n");
+  user.run("select-view 32\npanel view\npanel layers\nzoom 3\n");
   expect_screenshot("panel_view", user.look(), bound());
-}
-
-TEST(PanelPictures, InspectorOfARay) {
-  User user(housing());
-  user.run("step\nstep\nstep\nselect-view 32\ninspect-ray 470\npanel layers\nzoom 3\n");
+  user.run("inspect-ray 470\n");
   expect_screenshot("panel_ray", user.look(), bound());
 }
 
-TEST(PanelPictures, InspectorOfAVoxel) {
+TEST(PanelPictures, GibbsThenAVoxelOfIt) {
   User user(housing());
   user.run("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
   const auto pixel = user.window().scene().project(nearest_voxel(user));
+  user.run("voxel-map gibbs\nvoxel-colour difference\ntoggle-rays\ntoggle-cloud\n");
+  expect_screenshot("panel_gibbs", user.look(), bound());
+  user.run("voxel-map conventional\nvoxel-colour probability\ntoggle-rays\ntoggle-cloud\n");
   user.click(pixel->x(), pixel->y());
   user.move(5, 790);
   user.wait();
   ASSERT_TRUE(user.window().state().selection.voxel) << "there is no voxel where the object is";
   expect_screenshot("panel_voxel", user.look(), bound());
-}
-
-TEST(PanelPictures, Gibbs) {
-  User user(housing());
-  user.run(
-      "step\nstep\nstep\nrefine\nvoxel-map gibbs\nvoxel-colour difference\npanel "
-      "layers\ntoggle-rays\ntoggle-cloud\nzoom 5\n");
-  expect_screenshot("panel_gibbs", user.look(), bound());
 }
 
 TEST(PanelPictures, LogAndMissedSurface) {

@@ -74,7 +74,8 @@ inline void expect_valid(const WindowState& window, const SessionSnapshot& s) {
   if (window.selection.voxel) {
     EXPECT_LT(*window.selection.voxel, s.grid.voxel_count());
   }
-  for (const Side side : {Side::left, Side::right, Side::bottom}) EXPECT_EQ(side_of(window.in_front(side)), side);
+  for (const Side side : {Side::left, Side::right, Side::bottom})
+    EXPECT_EQ(panel_info(window.in_front(side)).side, side);
   if (const auto& slice = window.layers.voxels.slice) {
     EXPECT_TRUE(slice->axis >= 0 && slice->axis < 3);
     EXPECT_LE(slice->low, slice->high);

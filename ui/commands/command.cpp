@@ -32,7 +32,7 @@ Command::Command(CommandDeclaration declaration, std::vector<Argument> arguments
 
 std::string Command::keys() const {
   std::string result;
-  for (const Shortcut& shortcut : shortcuts)
+  for (const Shortcut& shortcut : shortcuts())
     if (shortcut.values.empty()) result += (result.empty() ? "" : ", ") + shortcut.text();
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -40,13 +41,28 @@ struct Shortcut {
   std::string text() const;  ///< "Ctrl+P"
 };
 
+/// The keys of a command: fixed, or made when asked for, of what is known only while the program runs.
+class Shortcuts {
+ public:
+  using Made = std::vector<Shortcut> (*)();
+
+  Shortcuts() = default;
+  Shortcuts(std::initializer_list<Shortcut> fixed) : fixed_(fixed) {}
+  Shortcuts(Made made) : made_(made) {}
+  std::vector<Shortcut> operator()() const { return made_ ? made_() : fixed_; }
+
+ private:
+  std::vector<Shortcut> fixed_;
+  Made made_ = nullptr;
+};
+
 /// What people see of a command, and when it can be done.
 struct CommandDeclaration {
   std::string name;  ///< in scripts: "take-view"
   std::string menu;  ///< where it stands: "Scan"
   std::string text;  ///< for people: "Take a view next"
   std::string help;  ///< one sentence: the tooltip
-  std::vector<Shortcut> shortcuts = {};
+  Shortcuts shortcuts = {};
   std::function<std::string(const CommandState&)> why_not = {};  ///< it cannot be done now; empty: it can
   std::function<bool(const WindowState&)> on = {};               ///< of what is switched on and off
   bool adds_up = false;                                          ///< doing it twice is more than doing the last alone

@@ -55,7 +55,7 @@ std::string command_table() {
   std::string table = "| command | key | does |\n|---|---|---|\n";
   for (const Command& command : commands()) {
     std::string keys;
-    for (const Shortcut& s : command.shortcuts)
+    for (const Shortcut& s : command.shortcuts())
       keys += fmt::format("{}{}{}", keys.empty() ? "" : ", ", s.text(),
                           s.values.empty() ? "" : fmt::format(" ({})", fmt::join(s.values, " ")));
     table += fmt::format("| `{}` | {} | {} |\n", command.usage(), keys, command.help);

@@ -33,7 +33,7 @@ const CommandOf<std::optional<int>, std::optional<int>> command::refine{
     [](CommandTarget& t, std::optional<int> chains, std::optional<int> sweeps) {
       const auto& sampler = t.session.configuration.gibbs.sampler;
       t.worker.post(request::Refine{chains.value_or(sampler.chains), sweeps.value_or(sampler.sweeps)});
-      t.window.bring_to_front(PanelName::gibbs);
+      t.window.bring_to_front(panel_name::gibbs);
     }};
 
 const CommandOf<> command::pause_refinement{

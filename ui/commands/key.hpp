@@ -30,6 +30,9 @@ enum class Key : int {
   f7,
   f8,
   f9,
+  f10,
+  f11,
+  f12,
   count
 };
 constexpr Key key(char character) { return static_cast<Key>(character); }

@@ -49,13 +49,13 @@ void inspect_voxel_at(CommandTarget& t, double x, double y, double z) {
   if (!grid.contains(cell)) throw std::invalid_argument("inspect-voxel: that is outside of the region of interest");
   t.window.selection.voxel = grid.index(cell);
   t.window.selection.ray.reset();
-  t.window.bring_to_front(PanelName::inspector);
+  t.window.bring_to_front(panel_name::inspector);
 }
 
 void inspect_ray_of(CommandTarget& t, std::size_t ray) {
   t.window.selection.ray = ray;
   t.window.selection.voxel.reset();
-  t.window.bring_to_front(PanelName::inspector);
+  t.window.bring_to_front(panel_name::inspector);
 }
 
 /// As the scene is looked at now, moved to where the sensor is of use.
@@ -85,7 +85,7 @@ void set_up_custom_view(CommandTarget& t, Metres x, Metres y, Metres z, Metres t
     t.worker.log().add(LogEntry::Level::warning, "Your view would measure nothing: " + reason);
   t.window.selection.custom_view = T_world_camera;
   show_view(t.window, {Kind::custom, 0});
-  t.window.bring_to_front(PanelName::view);
+  t.window.bring_to_front(panel_name::view);
 }
 
 ArgumentOf<double> metres(const char* name, const char* help) { return argument::number(name, help, -100, 100); }

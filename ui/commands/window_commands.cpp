@@ -5,27 +5,25 @@
 namespace nextview {
 namespace {
 
-// In the order of PanelName, CurveKind and CandidateColumn.
-const std::vector<std::string> panels = {"session",   "layers", "candidates", "view",
-                                         "inspector", "gibbs",  "curves",     "log"};
+// In the order of CurveKind and CandidateColumn.
 const std::vector<std::string> curve_kinds = {"entropy", "coverage", "divergence", "gain", "time"};
 const std::vector<std::string> columns = {"view", "gain", "cost", "utility"};
 
+/// F2 and on, as far as there are keys.
 std::vector<Shortcut> panel_keys() {
   std::vector<Shortcut> keys;
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    keys.push_back({static_cast<Key>(static_cast<int>(Key::f2) + static_cast<int>(i)), false, {panels[i]}});
+  int key = static_cast<int>(Key::f2);
+  for (const PanelInfo& panel : panel_list())
+    if (key <= static_cast<int>(Key::f12)) keys.push_back({static_cast<Key>(key++), false, {panel.name}});
   return keys;
 }
 
 }  // namespace
 
-std::span<const std::string> panel_names() { return panels; }
-
-const CommandOf<PanelName> command::panel{
-    {"panel", "Window", "Show a panel…", "Brings a panel to the front.", panel_keys()},
-    argument::choice<PanelName>("panel", "its name", panels),
-    [](CommandTarget& t, PanelName chosen) { t.window.bring_to_front(chosen); }};
+const CommandOf<std::string> command::panel{
+    {"panel", "Window", "Show a panel…", "Brings a panel to the front.", panel_keys},
+    argument::name("panel", "its name", [](const SessionSnapshot&) { return panel_names(); }),
+    [](CommandTarget& t, const std::string& chosen) { t.window.bring_to_front(chosen); }};
 
 const CommandOf<CurveKind, CurveKind> command::curves{
     {"curves", "Window", "Choose the curves…", "Chooses what the two plots show."},
@@ -33,7 +31,7 @@ const CommandOf<CurveKind, CurveKind> command::curves{
     argument::choice<CurveKind>("right", "of the right plot", curve_kinds),
     [](CommandTarget& t, CurveKind left, CurveKind right) {
       t.window.curves = {left, right};
-      t.window.bring_to_front(PanelName::curves);
+      t.window.bring_to_front(panel_name::curves);
     }};
 
 const CommandOf<> command::forget_runs{

@@ -7,7 +7,7 @@ enum class SortOrder { ascending, descending };
 
 namespace command {
 
-extern const CommandOf<PanelName> panel;
+extern const CommandOf<std::string> panel;            ///< its name
 extern const CommandOf<CurveKind, CurveKind> curves;  ///< of the left and of the right plot
 extern const CommandOf<> forget_runs, shortcuts;
 extern const CommandOf<CandidateColumn, SortOrder> sort;

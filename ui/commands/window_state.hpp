@@ -1,27 +1,17 @@
 #pragma once
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "core/view/pose.hpp"
+#include "ui/commands/panel_list.hpp"
 #include "ui/workbench/candidate_order.hpp"
 #include "ui/workbench/layer_choice.hpp"
 #include "ui/workbench/selection.hpp"
 
 namespace nextview {
-
-/// Panels; those of a side share its place, one in front.
-enum class PanelName { session, layers, candidates, view, inspector, gibbs, curves, log, count };
-enum class Side { left, right, bottom };
-constexpr Side side_of(PanelName panel) {
-  return panel <= PanelName::layers ? Side::left : panel <= PanelName::gibbs ? Side::right : Side::bottom;
-}
-
-/// As commands name them, in the order of PanelName.
-std::span<const std::string> panel_names();
 
 enum class CurveKind { entropy, coverage, divergence, gain, time };
 
@@ -45,7 +35,7 @@ using CameraMotion =
 struct WindowState {
   LayerChoice layers;
   Selection selection;
-  std::array<PanelName, 3> front = {PanelName::session, PanelName::candidates, PanelName::curves};  ///< by Side
+  std::array<std::string, 3> front;  ///< names of panels, by Side; empty: the first of its side
   Side open = Side::right;  ///< the side whose panels were asked for last: it is shown where there is room for one
   std::array<CurveKind, 2> curves = {CurveKind::entropy, CurveKind::coverage};  ///< left and right plot
   CandidateColumn sort_column = CandidateColumn::utility;
@@ -59,11 +49,10 @@ struct WindowState {
   std::optional<std::string> picture_file;   ///< the window's picture is to be written here
   std::vector<std::string> script;           ///< the commands so far, a line each
 
-  PanelName in_front(Side side) const { return front[static_cast<std::size_t>(side)]; }
-  void bring_to_front(PanelName panel) {
-    open = side_of(panel);
-    front[static_cast<std::size_t>(open)] = panel;
-  }
+  /// The name of the panel in front; empty if there is none on this side.
+  std::string in_front(Side side) const;
+  /// @throws std::invalid_argument if there is no panel of this name.
+  void bring_to_front(const std::string& panel);
 };
 
 }  // namespace nextview

@@ -4,16 +4,11 @@
 
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/window_commands.hpp"
-#include "ui/panels/candidates_panel.hpp"
 #include "ui/panels/control_bar.hpp"
-#include "ui/panels/curves_panel.hpp"
-#include "ui/panels/inspector_panel.hpp"
-#include "ui/panels/layers_panel.hpp"
 #include "ui/panels/menu_bar.hpp"
 #include "ui/panels/shortcut_sheet.hpp"
 #include "ui/panels/status_line.hpp"
 #include "ui/panels/tabs.hpp"
-#include "ui/panels/view_panel.hpp"
 
 namespace nextview {
 namespace {
@@ -30,30 +25,17 @@ void draw_hairlines(const Layout& layout) {
 
 }  // namespace
 
+AllPanels::AllPanels(const std::vector<PanelEntry>& panels) {
+  announce_panels(panels);
+  for (const PanelEntry& panel : panels) contents_[panel.info.name] = panel.make();
+}
+
 void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open) {
   if (rectangle.empty()) return;
   const Rectangle place = draw_tabs(context, side, rectangle, is_open);
   if (place.empty() || !is_open) return;
-  switch (context.window.in_front(side)) {
-    case PanelName::session:
-      return session_.draw(context, place);
-    case PanelName::layers:
-      return draw_layers_panel(context, place);
-    case PanelName::candidates:
-      return draw_candidates_panel(context, place);
-    case PanelName::view:
-      return draw_view_panel(context, place);
-    case PanelName::inspector:
-      return draw_inspector_panel(context, place);
-    case PanelName::gibbs:
-      return gibbs_.draw(context, place);
-    case PanelName::curves:
-      return draw_curves_panel(context, place);
-    case PanelName::log:
-      return log_.draw(context, place);
-    case PanelName::count:
-      break;
-  }
+  if (const auto front = contents_.find(context.window.in_front(side)); front != contents_.end())
+    front->second->draw(context, place);
 }
 
 void AllPanels::draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds) {
@@ -76,7 +58,7 @@ void obey_shortcuts(const PanelContext& context) {
   const bool control = ImGui::GetIO().KeyCtrl;
   for (const Command& command : commands()) {
     if (!command.available(context.state())) continue;
-    for (const Shortcut& shortcut : command.shortcuts) {
+    for (const Shortcut& shortcut : command.shortcuts()) {
       if (shortcut.control != control || !ImGui::IsKeyPressed(static_cast<int>(shortcut.key), false)) continue;
       if (shortcut.values.empty()) {
         context.invoke(command);

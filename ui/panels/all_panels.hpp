@@ -1,15 +1,20 @@
 #pragma once
-#include "ui/panels/gibbs_panel.hpp"
-#include "ui/panels/log_panel.hpp"
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "ui/panels/notifications.hpp"
 #include "ui/panels/palette.hpp"
-#include "ui/panels/session_panel.hpp"
+#include "ui/panels/panel_table.hpp"
 
 namespace nextview {
 
 /// Every panel in its place. Needs no pixels: tests drive it without a surface.
 class AllPanels {
  public:
+  /// Announces the panels to the commands.
+  explicit AllPanels(const std::vector<PanelEntry>& panels = standard_panels());
   /// `log_count`: of all entries ever; `seconds`: since the last frame.
   void draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds);
   /// How long the picture stays as it is if nothing happens [s].
@@ -18,9 +23,7 @@ class AllPanels {
  private:
   void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open);
 
-  SessionPanel session_;
-  GibbsPanel gibbs_;
-  LogPanel log_;
+  std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
   Notifications notifications_;
 };

@@ -86,7 +86,7 @@ void draw_row(const PanelContext& context, std::size_t candidate, const Largest&
   }
   if (ImGui::IsItemHovered()) {
     context.hovered = candidate;
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) context.post(command::panel(PanelName::view));
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) context.post(command::panel(panel_name::view));
   }
   if (next) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();

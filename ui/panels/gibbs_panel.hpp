@@ -1,12 +1,13 @@
 #pragma once
 #include "ui/panels/panel.hpp"
+#include "ui/panels/panel_table.hpp"
 
 namespace nextview {
 
 /// The Gibbs sampler: running and holding it, whether its chains are stationary, and what it changed.
-class GibbsPanel {
+class GibbsPanel : public PanelContent {
  public:
-  void draw(const PanelContext& context, const Rectangle& rectangle);
+  void draw(const PanelContext& context, const Rectangle& rectangle) override;
 
  private:
   void draw_controls(const PanelContext& context);

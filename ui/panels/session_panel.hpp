@@ -3,14 +3,15 @@
 #include <string>
 
 #include "ui/panels/panel.hpp"
+#include "ui/panels/panel_table.hpp"
 
 namespace nextview {
 
 /// Every setting with its unit, help, default and a way back to it: the ones that people change most, then all of them
 /// by group. A change starts the scan over.
-class SessionPanel {
+class SessionPanel : public PanelContent {
  public:
-  void draw(const PanelContext& context, const Rectangle& rectangle);
+  void draw(const PanelContext& context, const Rectangle& rectangle) override;
 
  private:
   void draw_setting(const PanelContext& context, Setting& setting, const char* name);

@@ -50,7 +50,7 @@ void draw_menus(const PanelContext& context, std::initializer_list<const char*> 
 void draw_panels_and_mouse(const PanelContext& context) {
   if (!ImGui::BeginTable("panels and mouse", 2, ImGuiTableFlags_SizingFixedFit)) return;
   draw_heading(context.style, "Panels");
-  for (const Shortcut& shortcut : command::panel.shortcuts) draw_row(shortcut.text(), shortcut.values.front());
+  for (const Shortcut& shortcut : command::panel.shortcuts()) draw_row(shortcut.text(), shortcut.values.front());
   draw_heading(context.style, "Mouse");
   for (const auto& [gesture, help] : mouse) draw_row(gesture, help);
   ImGui::EndTable();

@@ -77,7 +77,7 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
     ImGui::TableNextColumn();
     if (ImGui::Selectable(fmt::format("{}##history", k + 1).c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
       context.post(command::select_taken(k + 1));
-      context.post(command::panel(PanelName::view));
+      context.post(command::panel(panel_name::view));
     }
     tooltip("Click to look at this view.");
     for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.misses),

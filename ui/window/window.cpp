@@ -22,7 +22,7 @@ constexpr double longest_wait = 60.0;
 
 std::optional<Key> key_of(int glfw_key) {
   if (glfw_key >= GLFW_KEY_SPACE && glfw_key <= GLFW_KEY_Z) return static_cast<Key>(glfw_key);
-  if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F9)
+  if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12)
     return static_cast<Key>(static_cast<int>(Key::f1) + glfw_key - GLFW_KEY_F1);
   switch (glfw_key) {
     case GLFW_KEY_TAB:

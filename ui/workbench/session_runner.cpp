@@ -1,23 +1,16 @@
 #include "ui/workbench/session_runner.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <utility>
 
 #include "core/config/input_files.hpp"
-#include "core/config/known_objects.hpp"
-#include "core/evaluation/map_quality.hpp"
 #include "core/export/scan_files.hpp"
 #include "core/export/scan_surfaces.hpp"
-#include "core/mesh/surface_samples.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
 namespace {
-
-constexpr std::size_t max_runs = 6;            ///< that stay for their curves
-constexpr std::size_t surface_points = 4'000;  ///< by which a view is judged before it is taken
 
 std::size_t history_limit(const Session& session) {
   return static_cast<std::size_t>(session.configuration().history.memory * 1073741824.0);
@@ -30,34 +23,7 @@ Progress part(const Progress& whole, double begin, double end) {
   };
 }
 
-SurfacePoints points_of(const TriangleMesh& mesh, const MeshTopology& topology, std::uint64_t seed) {
-  SurfaceSamples samples = sample_surface(mesh, surface_points, seed);
-  SurfacePoints points{std::move(samples.points), {}};
-  if (!topology.watertight() || topology.misoriented_edges > 0) return points;
-  for (const std::uint32_t t : samples.triangles) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Eigen::Vector3f normal = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    points.outward.push_back(topology.inward ? -normal.normalized() : normal.normalized());
-  }
-  return points;
-}
-
 }  // namespace
-
-void SessionRunner::publish(SessionSnapshot snapshot) {
-  snapshot.message.clear();
-  snapshot.can_undo = history_.can_undo();
-  snapshot.can_redo = history_.can_redo();
-  snapshot_ = std::make_shared<const SessionSnapshot>(std::move(snapshot));
-}
-
-void SessionRunner::set_message(const std::string& message) {
-  SessionSnapshot next = *snapshot_;
-  next.message = message;
-  if (!session_) next.configuration = wanted_;
-  ++next.failures;
-  snapshot_ = std::make_shared<const SessionSnapshot>(std::move(next));
-}
 
 HistoryEntry SessionRunner::now() const {
   return {session_, session_->configuration().termination, session_->state(), *seen_};
@@ -192,67 +158,6 @@ void SessionRunner::forget_runs() {
   SessionSnapshot next = *snapshot_;
   next.earlier_runs = nullptr;
   publish(std::move(next));
-}
-
-/// What a new session takes the place of stays for its curves.
-void SessionRunner::remember_run(SessionSnapshot& snapshot) {
-  if (snapshot.records.empty()) return;
-  Run run{fmt::format("{}, {}", snapshot.object_name, snapshot.configuration.planner.gain), snapshot.records};
-  for (StepRecord& record : run.records) record.candidates.clear();
-  std::vector<Run> runs;
-  if (snapshot.earlier_runs) runs = *snapshot.earlier_runs;
-  runs.push_back(std::move(run));
-  if (runs.size() > max_runs) runs.erase(runs.begin());
-  snapshot.earlier_runs = std::make_shared<const std::vector<Run>>(std::move(runs));
-}
-
-void SessionRunner::show_session(SessionSnapshot& next) const {
-  next.setup = std::make_shared<const ScanSetup>(session_->setup());
-  next.mesh = session_->mesh();
-  next.surface_points = std::make_shared<const SurfacePoints>(
-      points_of(*next.mesh, session_->object_topology(), session_->configuration().seed));
-  next.truth = seen_->truth();
-  next.object_name = object_name(session_->object_file());
-  next.grid = session_->map().grid();
-  next.camera = session_->camera();
-  next.gain_unit = session_->planner().unit();
-  next.planned_on_posterior = session_->planner().needs().posterior;
-}
-
-void SessionRunner::show_map(SessionSnapshot next) {
-  ++next.map;
-  next.configuration = session_->configuration();
-  next.state = session_->state();
-  next.voxels = std::make_shared<const std::vector<Voxel>>(session_->map().voxels().dense());
-  next.candidates = session_->candidates();
-  next.records = session_->records();
-  next.finished = session_->finished();
-  next.scans = session_->scans();
-  seen_->follow(*session_);
-  next.cloud = seen_->cloud();
-  next.missed = seen_->missed();
-  if (session_->refinement() && !next.records.empty()) show_refinement(next, *session_->refinement());
-  show_next_view(next);
-  publish(std::move(next));
-}
-
-void SessionRunner::show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement) {
-  ++snapshot.map;
-  auto voxels = std::make_shared<const std::vector<Voxel>>(refinement.voxels().dense());
-  const MapChange change = map_change(*snapshot.voxels, *voxels);
-  snapshot.gibbs = std::make_shared<const GibbsMap>(GibbsMap{session_->scans().size(), refinement.shared_posterior(),
-                                                             std::move(voxels), refinement.shared_measurements(),
-                                                             refinement.config(), change});
-}
-
-void SessionRunner::show_next_view(SessionSnapshot& snapshot) const {
-  snapshot.next_candidate = session_->next_candidate();
-  snapshot.next_view = session_->next_view();
-  snapshot.custom_next_view = session_->next_view_is_custom();
-  snapshot.explanation = nullptr;
-  if (!snapshot.finished.empty() || (!snapshot.next_candidate && !snapshot.custom_next_view)) return;
-  if (auto explanation = session_->explain(snapshot.next_view))
-    snapshot.explanation = std::make_shared<const ScoreExplanation>(std::move(*explanation));
 }
 
 }  // namespace nextview

@@ -1,14 +1,12 @@
 #include "ui/workbench/session_worker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
 
 #include "core/progress/stopped.hpp"
-#include "core/session/setup_warnings.hpp"
 #include "ui/workbench/overloaded.hpp"
+#include "ui/workbench/request_kind.hpp"
 
 namespace nextview {
 namespace {
@@ -18,29 +16,10 @@ constexpr double min_progress = 0.01;
 /// Nobody needs to be told how long a shorter job will take [s].
 constexpr double min_to_estimate = 1.0;
 
-template <class Request>
-bool is(const SessionRequest& request) {
-  return std::holds_alternative<Request>(request);
-}
-
-bool starts_anew(const SessionRequest& r) {
-  return is<request::Load>(r) || is<request::OpenFile>(r) || is<request::Reset>(r);
-}
-
 Configuration with_file(Configuration configuration, const std::filesystem::path& file) {
   if (file.extension() == ".toml") return read_configuration(file, configuration);
   configuration.object.file = file.string();
   return configuration;
-}
-
-/// How a refinement went; of one that was cancelled, what is left of it.
-LogEntry refined(const GibbsMap& gibbs, bool cancelled) {
-  using Level = LogEntry::Level;
-  const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
-  const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
-  if (cancelled) return {Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps)};
-  if (d.stationary) return {Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps)};
-  return {Level::warning, fmt::format("{}: {}", map, d.warning)};
 }
 
 }  // namespace
@@ -210,47 +189,6 @@ void SessionWorker::execute(const SessionRequest& request) {
           [&](request::ForgetRuns) { runner_.forget_runs(); },
       },
       request);
-}
-
-/// Tells the log what was done.
-void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
-  using Level = LogEntry::Level;
-  const SessionSnapshot& s = *runner_.snapshot();
-  if (s.session != before.session) {
-    if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
-      log_.add(is<request::Load>(request) ? Level::warning : Level::note,
-               fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
-                           is<request::Load>(request)       ? "This setting"
-                           : is<request::OpenFile>(request) ? "Another file"
-                                                            : "Start over",
-                           views == 1 ? "view" : fmt::format("{} views", views)));
-    log_.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", s.object_name,
-                                      s.mesh->triangles.size(), s.candidates.size(), 1e3 * s.grid.resolution));
-    for (const std::string& warning : setup_warnings(s.configuration, *s.mesh, s.candidates))
-      log_.add(Level::warning, warning);
-  } else if (s.records.size() > before.records.size()) {
-    const StepRecord& r = s.records.back();
-    const std::string from =
-        r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
-    log_.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
-                                      r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
-    if (!r.ranking.reason.empty()) log_.add(Level::note, "Next: " + r.ranking.reason);
-    if (!r.ranking.degenerate.empty())
-      log_.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
-    if (!s.finished.empty()) log_.add(Level::success, "The scan is finished: " + s.finished);
-  } else if (is<request::SetTermination>(request)) {
-    if (s.finished != before.finished)
-      log_.add(s.finished.empty() ? Level::note : Level::success,
-               s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
-  } else if (s.map != before.map && !is<request::Refine>(request)) {
-    log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
-  }
-  if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs) {
-    auto [level, text] = refined(*s.gibbs, job_control().stop.stop_requested());
-    log_.add(level, std::move(text));
-  }
-  if (const auto* e = std::get_if<request::Export>(&request))
-    log_.add(Level::success, "Scan written to " + e->folder.string());
 }
 
 SessionRunner::JobControl SessionWorker::job_control() {

@@ -13,11 +13,10 @@ struct Turntable : FreeFlyingCamera {  // reaches what is not below the table
     return result;
   }
 };
-struct Scanner : SimulatedSource {  // one could talk to a device here
+struct Scanner : SimulatedSource {
   using SimulatedSource::SimulatedSource;
   Result<Capture> capture(const View& view, std::uint32_t step, std::stop_token stop) override {
-    std::printf("scan %u\n", step);
-    return SimulatedSource::capture(view, step, stop);
+    return SimulatedSource::capture(view, step, stop);  // one could talk to a device here
   }
 };
 struct NearestFirst : Planner {
@@ -29,17 +28,13 @@ struct NearestFirst : Planner {
   }
 };
 
-int main(int, char** argv) try {
-  Configuration configuration;
-  configuration.object.file = argv[1];
+int main(int, char** argv) {
+  const Configuration configuration{.object = {.file = argv[1]}};
   const auto object = std::make_shared<PlacedMesh>(load_placed_mesh(argv[1], {configuration.object.longest_side}));
   const auto world = std::make_shared<SimulatedWorld>(object, configuration.sensor);
-  Session session(configuration,
-                  {std::make_unique<Scanner>(world, 1), std::make_unique<Turntable>(look_at({0.9, 0, 0.3}, {0, 0, 0})),
-                   std::make_unique<NearestFirst>()});
+  const Pose start = look_at({0.9, 0.0, 0.3}, {0.0, 0.0, 0.0});
+  Session session(configuration, {std::make_unique<Scanner>(world, 1), std::make_unique<Turntable>(start),
+                                  std::make_unique<NearestFirst>()});
   for (int step = 0; step < 2; ++step) session.step();
   std::printf("%zu views, %.2f of the surface covered\n", session.records().size(), session.records().back().coverage);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "consumer: %s\n", error.what());
-  return 2;
 }

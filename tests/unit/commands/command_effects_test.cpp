@@ -89,12 +89,12 @@ TEST_F(CommandEffects, EachChoiceIsTheOneOfItsName) {
   expect_effect("voxel-colour error", [](WindowState& w) { w.layers.colouring = VoxelColouring::by_error; });
   expect_effect("threshold 0.4", [](WindowState& w) { w.layers.voxels.unknown_from = 0.4; });
   expect_effect("uncertain-from 0.3", [](WindowState& w) { w.layers.voxels.entropy_from = 0.3; });
-  expect_effect("panel gibbs", [](WindowState& w) { w.front = {w.front[0], PanelName::gibbs, w.front[2]}; });
-  expect_effect("panel layers", [](WindowState& w) { w.front = {PanelName::layers, w.front[1], w.front[2]}; });
-  expect_effect("panel log", [](WindowState& w) { w.front = {w.front[0], w.front[1], PanelName::log}; });
+  expect_effect("panel gibbs", [](WindowState& w) { w.front = {w.front[0], panel_name::gibbs, w.front[2]}; });
+  expect_effect("panel layers", [](WindowState& w) { w.front = {"layers", w.front[1], w.front[2]}; });
+  expect_effect("panel log", [](WindowState& w) { w.front = {w.front[0], w.front[1], "log"}; });
   expect_effect("curves gain time", [](WindowState& w) {
     w.curves = {CurveKind::gain, CurveKind::time};
-    w.front[2] = PanelName::curves;
+    w.front[2] = panel_name::curves;
   });
   expect_effect("curves divergence coverage", [](WindowState& w) {
     w.curves = {CurveKind::divergence, CurveKind::coverage};
@@ -152,7 +152,7 @@ TEST_F(CommandEffects, SelectionFollowsItsRules) {
   const VoxelGrid& grid = scan_.now().grid;
   EXPECT_LT((grid.centre(s.voxel.value()) - Vector3(0.01, -0.05, 0.1)).cwiseAbs().maxCoeff(), 0.5001 * grid.resolution);
   EXPECT_FALSE(s.ray);
-  EXPECT_EQ(window_.in_front(Side::right), PanelName::inspector);
+  EXPECT_EQ(window_.in_front(Side::right), panel_name::inspector);
   EXPECT_THAT(error_of("inspect-voxel 5 0 0"), HasSubstr("outside of the region"));
   run("inspect-ray 7");
   EXPECT_EQ(s.ray, 7u);
@@ -171,7 +171,7 @@ TEST_F(CommandEffects, AnCustomViewStandsWhereItIsSaidAndLooksThere) {
   EXPECT_LT((pose.translation() - from).norm(), 1e-12);
   EXPECT_LT((pose.linear().col(2) - (to - from).normalized()).norm(), 1e-9) << "z is forward";
   EXPECT_TRUE(window_.selection.view.is(Kind::custom, 0));
-  EXPECT_EQ(window_.in_front(Side::right), PanelName::view);
+  EXPECT_EQ(window_.in_front(Side::right), panel_name::view);
   window_.scene_camera = look_at(Vector3(1, 1, 1), Vector3::Zero());
   run("custom-view");
   EXPECT_TRUE(window_.selection.custom_view->isApprox(window_.scene_camera));
@@ -216,7 +216,7 @@ TEST_F(AskedOfTheWorker, RefineHasItsNumbersOrThoseOfTheSettings) {
     run(line);
     EXPECT_EQ(now()->gibbs->config.chains, chains) << line;
     EXPECT_EQ(now()->gibbs->config.sweeps, sweeps) << line;
-    EXPECT_EQ(window_.in_front(Side::right), PanelName::gibbs);
+    EXPECT_EQ(window_.in_front(Side::right), panel_name::gibbs);
   }
 }
 

@@ -34,7 +34,7 @@ TEST(TypedCalls, AScriptHasThemAsItsReaderWants) {
       {command::slice_axis(SliceAxis::y), "slice-axis y"},
       {command::slice_at(-0.05), "slice-at -0.05"},
       {command::slice_at(0.0, 0.25), "slice-at 0 0.25"},
-      {command::panel(PanelName::gibbs), "panel gibbs"},
+      {command::panel(panel_name::gibbs), "panel gibbs"},
       {command::curves(CurveKind::time, CurveKind::gain), "curves time gain"},
       {command::sort(CandidateColumn::cost, SortOrder::descending), "sort cost descending"},
       {command::open("a file.ply"), "open \"a file.ply\""},

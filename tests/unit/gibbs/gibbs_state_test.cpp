@@ -91,6 +91,21 @@ TEST(GibbsState, ACopySharesWhatIsLargeAndGoesItsOwnWay) {
   EXPECT_EQ(posterior->occupied, occupied) << "who holds it keeps it as it was";
 }
 
+TEST(GibbsState, AScanWithoutAMaximumRangeIsRefusedAndSaysWhy) {
+  GibbsState refinement = two_views();
+  GibbsState empty(refinement.posterior().grid, refinement.config(), {});
+  Scan endless;
+  endless.hits = {{0.0f, 0.0f, 1.0f}};
+  try {
+    empty.add(endless);
+    ADD_FAILURE() << "it has no maximum range";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("Scan::max_range"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(empty.shared_measurements()->origins.empty());
+  EXPECT_NO_THROW(refinement.add(endless)) << "all views have the maximum range of the first";
+}
+
 TEST(GibbsState, TellsWhatItWasMadeOf) {
   const GibbsState refinement = two_views();
   EXPECT_EQ(refinement.measurements().origins.size(), 2u);

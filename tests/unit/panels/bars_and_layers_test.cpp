@@ -114,7 +114,7 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
 
 class Layers : public Bars {
  protected:
-  Layers() { desk_.window.bring_to_front(PanelName::layers); }
+  Layers() { desk_.window.bring_to_front("layers"); }
   std::string panel() { return seen_in("Layers"); }
   LayerChoice& layers() { return desk_.window.layers; }
 };
@@ -180,7 +180,7 @@ TEST_F(Layers, ListsNameWhatTheyChoose) {
 }
 
 TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {
-  desk_.window.bring_to_front(PanelName::log);
+  desk_.window.bring_to_front("log");
   desk_.frames();
   desk_.log = {{LogEntry::Level::note, "a note"},
                {LogEntry::Level::success, "it is done"},

@@ -15,8 +15,9 @@ namespace nextview {
 /// All panels in front of somebody with a mouse and a keyboard, and no pixels.
 class Desk {
  public:
-  explicit Desk(int width = 1280, int height = 800, double scale = 1.0)
-      : host_(scale), layout_(width, height, scale), width_(width), height_(height), scale_(scale) {
+  explicit Desk(int width = 1280, int height = 800, double scale = 1.0,
+                const std::vector<PanelEntry>& panels = standard_panels())
+      : host_(scale), panels_(panels), layout_(width, height, scale), width_(width), height_(height), scale_(scale) {
     unsigned char* pixels = nullptr;
     int columns = 0, rows = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &columns, &rows);
@@ -67,6 +68,7 @@ class Desk {
   }
 
   CommandState state() const { return {*snapshot, progress, window}; }
+  SessionWorker& worker() { return worker_; }
   const Layout& layout() const { return layout_; }
 
   std::shared_ptr<const SessionSnapshot> snapshot = std::make_shared<SessionSnapshot>();

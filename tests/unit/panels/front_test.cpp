@@ -41,7 +41,7 @@ TEST(Front, NoShortcutFiresWhileAMenuIsOpen) {
   Desk desk;
   open_all_ways(desk);
   for (const Command& command : commands())
-    for (const Shortcut& shortcut : command.shortcuts) {
+    for (const Shortcut& shortcut : command.shortcuts()) {
       if (shortcut.key == Key::escape) continue;
       if (open_popups() == 0) open_menu(desk);
       desk.type_with(shortcut.key, shortcut.control);

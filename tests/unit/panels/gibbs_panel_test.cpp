@@ -14,7 +14,7 @@ class GibbsPanelTest : public testing::Test {
  protected:
   GibbsPanelTest() {
     desk_.snapshot = scan_;
-    desk_.window.bring_to_front(PanelName::gibbs);
+    desk_.window.bring_to_front(panel_name::gibbs);
   }
 
   static GibbsMap made_map() {

@@ -15,7 +15,7 @@ class InspectorPanel : public testing::Test {
  protected:
   InspectorPanel() {
     desk_.snapshot = scan_;
-    desk_.window.bring_to_front(PanelName::inspector);
+    desk_.window.bring_to_front(panel_name::inspector);
   }
   std::string panel() {
     desk_.frames();

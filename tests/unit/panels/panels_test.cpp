@@ -110,11 +110,11 @@ TEST_P(Panels, AreDrawnInTheirPlacesInEveryState) {
   Desk desk(width, height, scale);
   Inspector inspector;
   for (const State& state : states()) {
-    for (std::size_t panel = 0; panel < std::size_t(PanelName::count); ++panel) {
-      SCOPED_TRACE(std::string(state.name) + ", panel " + panel_names()[panel]);
+    for (const std::string& panel : panel_names()) {
+      SCOPED_TRACE(std::string(state.name) + ", panel " + panel);
       desk.snapshot = state.snapshot;
       desk.window = {};
-      desk.window.bring_to_front(PanelName(panel));
+      desk.window.bring_to_front(panel);
       desk.log.assign(3,
                       {LogEntry::Level::warning, "something that went wrong in a way that takes a line or two to say"});
       for (const ViewSelection view :
@@ -142,7 +142,7 @@ TEST_P(Panels, AreDrawnWhileSomethingRuns) {
     if (progress.refining)
       progress.sampler = std::make_shared<const SamplerDiagnostics>(desk.snapshot->gibbs->posterior->diagnostics);
     desk.progress = progress;
-    desk.window.bring_to_front(PanelName::gibbs);
+    desk.window.bring_to_front(panel_name::gibbs);
     EXPECT_TRUE(desk.frames().empty());
     expect_in_place(desk.layout());
     expect_nothing_cut_off();

@@ -130,7 +130,7 @@ TEST(Reach, EveryKeyDoesItsCommand) {
   open_all_ways(desk);
   const WindowState before = desk.window;
   for (const Command& command : commands())
-    for (const Shortcut& shortcut : command.shortcuts) {
+    for (const Shortcut& shortcut : command.shortcuts()) {
       desk.progress = progress_for(command, desk);
       desk.window = before;
       desk.frames();

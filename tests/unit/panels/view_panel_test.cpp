@@ -16,7 +16,7 @@ class ViewPanel : public testing::Test {
  protected:
   ViewPanel() {
     desk_.snapshot = scan_;
-    desk_.window.bring_to_front(PanelName::view);
+    desk_.window.bring_to_front(panel_name::view);
   }
 
   /// What is expected of a view, or what it measured: 4 x 3 cells.

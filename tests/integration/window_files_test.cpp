@@ -1,0 +1,75 @@
+// Pictures and scripts that the window writes and plays.
+#include <gtest/gtest.h>
+
+#include "core/file/atomic_file.hpp"
+#include "tests/integration/small_scan.hpp"
+#include "tests/integration/user.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
+
+namespace nextview {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) { return read_file(file); }
+
+/// What the window's script says, in a folder of its own.
+class WindowFiles : public InTemporaryFolder {
+ protected:
+  std::string file(const char* name) const { return (folder_ / name).string(); }
+};
+
+TEST_F(WindowFiles, APictureIsWithoutWhatIsInFront) {
+  User user(small_scan());
+  user.run("step\nsave-picture " + file("plain.png") + "\n");  // leaves a notice
+  const Layout layout = user.window().layout();
+  const Image before = user.look();
+  user.run("palette\n");
+  user.write("view");
+  user.wait();
+  ASSERT_NE(user.look(), before);
+  user.run("save-picture " + file("palette.png") + "\n");
+  user.run("palette\nshortcuts\nsave-picture " + file("sheet.png") + "\nshortcuts\n");
+  user.click(20, layout.menu.height / 2);
+  user.wait();
+  user.move(640, 5);  // off the menu's button
+  user.wait();
+  user.run("save-picture " + file("menu.png") + "\n");
+  for (const char* other : {"palette.png", "sheet.png"})
+    EXPECT_EQ(bytes_of(file(other)), bytes_of(file("plain.png"))) << other;
+  EXPECT_GT(std::filesystem::file_size(file("menu.png")), 10'000u);
+}
+
+TEST_F(WindowFiles, LinesOfAScriptThatFailAreToldAndTheOthersDone) {
+  User user(small_scan());
+  std::vector<std::string> failures;
+  user.window().script().set_on_failure(
+      [&](const ScriptFailure& f) { failures.push_back(std::to_string(f.line) + " " + f.reason); });
+  user.run("step\n\nexport /proc/no/such\nopen /no/such/file.ply\n# a comment\ntake-view 999\nstep\nsave-picture " +
+           file("no/picture.png") + "\nsave-script /proc/no/script\nundo\nset sensor.max_range -1\nstep\n");
+  ASSERT_EQ(failures.size(), 6u) << testing::PrintToString(failures);
+  EXPECT_EQ(failures[0].substr(0, 10), "3 export: ");
+  EXPECT_EQ(failures[1].substr(0, 8), "4 open: ");
+  EXPECT_NE(failures[1].find("/no/such/file.ply"), std::string::npos) << failures[1];
+  EXPECT_EQ(failures[2], "6 take-view: view 999 is not available");
+  EXPECT_EQ(failures[3].substr(0, 16), "8 save-picture: ");
+  EXPECT_EQ(failures[4].substr(0, 14), "9 save-script:");
+  EXPECT_EQ(failures[5].substr(0, 7), "11 set:");
+  EXPECT_EQ(user.session().records.size(), 2u);
+  EXPECT_TRUE(user.window().script_is_done());
+}
+
+TEST(Window, AScriptThatEndsTooEarlyHasFailed) {
+  User user(small_scan());
+  std::vector<int> lines;
+  user.window().script().set_on_failure([&](const ScriptFailure& f) { lines.push_back(f.line); });
+  user.window().run_script(parse_script("step\nstep\n\nstep\n"));
+  user.window().draw(1.0 / 60);
+  user.window().draw(1.0 / 60);
+  user.window().script().give_up("the window was closed");
+  EXPECT_FALSE(lines.empty());
+  EXPECT_LE(lines.size(), 2u);
+  EXPECT_TRUE(user.window().script_is_done());
+  user.wait();
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,142 @@
+// What the pointer does: it turns the scene, picks, and rests for a tooltip.
+#include <gtest/gtest.h>
+
+#include "tests/integration/small_scan.hpp"
+#include "tests/integration/user.hpp"
+#include "tests/integration/window_pixels.hpp"
+
+namespace nextview {
+namespace {
+
+TEST(Window, ADragThatBeganInTheSceneGoesOnOverPanels) {
+  User user(small_scan());
+  const Layout layout = user.window().layout();
+  const Point in_scene{layout.scene.x + 40, layout.scene.y + 200}, step = step_button(layout);
+  user.move(in_scene.x, in_scene.y);
+  user.press();
+  user.move(step.x + 1, step.y);
+  user.wait();
+  const std::size_t drawings = user.window().scene_drawings();
+  const Image on_panel = user.look();
+  user.move(step.x + 30, step.y + 5);
+  user.release();
+  user.wait();
+  EXPECT_GT(user.window().scene_drawings(), drawings);
+  EXPECT_NE(user.look(), on_panel);
+  EXPECT_TRUE(user.session().records.empty()) << "the release pressed a button";
+}
+
+TEST(Window, ADragThatBeganOnAPanelLeavesTheCameraAlone) {
+  User user(small_scan());
+  const Layout layout = user.window().layout();
+  const Point panel = middle(layout.left), scene = middle(layout.scene);
+  const std::size_t drawings = user.window().scene_drawings();
+  user.move(panel.x, layout.left.y + layout.left.height - 8);
+  user.press();
+  user.move(scene.x, scene.y);
+  user.release();
+  user.wait();
+  EXPECT_EQ(user.window().scene_drawings(), drawings);
+}
+
+TEST(Window, WhereAVoxelIsDrawnAClickInspectsIt) {
+  Configuration configuration = small_scan();
+  configuration.planner.gain = "occlusion-aware";  // goes to the nearest view: what both saw is occupied
+  configuration.planner.weights = {1.0, 1.0};
+  User user(configuration);
+  user.run("step\nstep\ntoggle-views\ntoggle-rays\ntoggle-cloud\ntoggle-object\n");
+  const Rectangle scene = user.window().layout().scene;
+  const Image image = user.look();
+  int blue = 0, voxels = 0, occupied = 0;
+  for (double y = scene.y + 5; y < scene.y + scene.height - 5; y += 7)
+    for (double x = scene.x + 5; x < scene.x + scene.width - 5; x += 7) {
+      if (count_blue(image, {x - 3, y - 3, 7, 7}) < 49) continue;
+      ++blue;
+      const auto picked = user.window().scene().pick(x, y);
+      voxels += picked.voxel.has_value();
+      if (voxels == 3) {
+        user.click(x, y);
+        user.wait();
+        EXPECT_EQ(user.window().state().selection.voxel, picked.voxel) << "the click did not inspect it";
+      }
+      if (picked.voxel) occupied += (*user.session().voxels)[*picked.voxel].voxel_class == VoxelClass::occupied;
+    }
+  EXPECT_GT(blue, 15);
+  EXPECT_GE(voxels, 0.95 * blue);
+  EXPECT_GE(occupied, 0.95 * blue);
+}
+
+/// As the window does between events: it sleeps until the next frame would be another one.
+void rest(User& user) {
+  for (int frames = 0; frames < 100; ++frames) {
+    const double seconds = user.window().seconds_to_next_frame();
+    if (std::isinf(seconds)) return;
+    user.window().draw(seconds + 1e-3);
+  }
+}
+
+/// How many pixels of a part differ.
+int differences(const Image& a, const Image& b, const Rectangle& r) {
+  int result = 0;
+  for (int y = int(r.y); y < int(r.y + r.height); ++y)
+    for (int x = int(r.x); x < int(r.x + r.width); ++x)
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t at = (std::size_t(y) * a.width + x) * 4 + c;
+        if (a.rgba[at] == b.rgba[at]) continue;
+        ++result;
+        break;
+      }
+  return result;
+}
+
+TEST(Window, ATooltipAppearsBesideAPointerThatRests) {
+  User user(small_scan());
+  const Layout layout = user.window().layout();
+  const Image before = user.look();
+  const Point step = step_button(layout), label{layout.left.x + 30, layout.left.y + 32 + 10 + 12};
+  for (const Point& place : {step, label}) {
+    user.move(place.x, place.y);
+    user.wait();
+    EXPECT_LT(differences(user.look(), before, layout.left), 100) << "it came at once";
+    rest(user);
+    EXPECT_GT(differences(user.look(), before, layout.left), 1000) << "no tooltip at " << place.x << ", " << place.y;
+    user.move(640, 790);
+    user.wait();
+    rest(user);
+  }
+}
+
+TEST(Window, AViewThatIsLookedThroughHidesItsOwnPyramid) {
+  User user(small_scan());
+  user.run("step\nselect-next\ntoggle-region\ntoggle-rays\n");
+  const Rectangle scene = user.window().layout().scene;
+  const auto red = [](const std::uint8_t* p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; };
+  user.run("look-through\n");
+  EXPECT_LT(count(user.look(), scene, red), 0.1 * scene.width * scene.height) << "the pyramid fills the picture";
+  EXPECT_GT(count_blue(user.look(), scene), 500) << "the map is not to be seen";
+  const Image through = user.look();
+  user.run("zoom -3\n");
+  EXPECT_NE(user.look(), through);
+  user.run("custom-view 0.6 -0.6 0.5 0 0 0\nlook-through\n");
+  EXPECT_GT(count_blue(user.look(), scene), 500) << "the map is not to be seen";
+}
+
+std::string log_of(User& user) {
+  std::string text;
+  for (const LogEntry& entry : *user.worker().log().entries()) text += entry.text + "\n";
+  return text;
+}
+
+TEST(Window, AViewOfOnesOwnSeesTheObject) {
+  User user(small_scan());
+  user.run("step\nzoom -4\ncustom-view\n");
+  EXPECT_NE(log_of(user).find("Your view is moved"), std::string::npos) << log_of(user);
+  user.run("take-custom-view\nstep\n");
+  EXPECT_GT(user.session().records.back().points, 100u);
+  EXPECT_EQ(log_of(user).find("would measure nothing"), std::string::npos);
+  user.run("custom-view 0.6 0 0 2 0 0\n");
+  EXPECT_NE(log_of(user).find("Your view would measure nothing: it looks past the object"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nextview

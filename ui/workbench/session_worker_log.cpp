@@ -1,0 +1,71 @@
+// What a session worker tells the log of what was done.
+#include <fmt/format.h>
+
+#include "core/session/setup_warnings.hpp"
+#include "ui/workbench/request_kind.hpp"
+#include "ui/workbench/session_worker.hpp"
+
+namespace nextview {
+namespace {
+
+using Level = LogEntry::Level;
+
+/// Another session took the place of the one before.
+void log_start(const SessionRequest& request, const SessionSnapshot& before, const SessionSnapshot& now,
+               SessionLog& log) {
+  if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
+    log.add(is<request::Load>(request) ? Level::warning : Level::note,
+            fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
+                        is<request::Load>(request)       ? "This setting"
+                        : is<request::OpenFile>(request) ? "Another file"
+                                                         : "Start over",
+                        views == 1 ? "view" : fmt::format("{} views", views)));
+  log.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", now.object_name,
+                                   now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
+  for (const std::string& warning : setup_warnings(now.configuration, *now.mesh, now.candidates))
+    log.add(Level::warning, warning);
+}
+
+void log_view(const SessionSnapshot& now, SessionLog& log) {
+  const StepRecord& r = now.records.back();
+  const std::string from =
+      r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
+  log.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
+                                   r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
+  if (!r.ranking.reason.empty()) log.add(Level::note, "Next: " + r.ranking.reason);
+  if (!r.ranking.degenerate.empty())
+    log.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
+  if (!now.finished.empty()) log.add(Level::success, "The scan is finished: " + now.finished);
+}
+
+/// How a refinement went; of one that was cancelled, what is left of it.
+void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
+  const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
+  const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
+  if (cancelled) return log.add(Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps));
+  if (d.stationary) return log.add(Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps));
+  log.add(Level::warning, fmt::format("{}: {}", map, d.warning));
+}
+
+}  // namespace
+
+void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
+  const SessionSnapshot& s = *runner_.snapshot();
+  if (s.session != before.session) {
+    log_start(request, before, s, log_);
+  } else if (s.records.size() > before.records.size()) {
+    log_view(s, log_);
+  } else if (is<request::SetTermination>(request)) {
+    if (s.finished != before.finished)
+      log_.add(s.finished.empty() ? Level::note : Level::success,
+               s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
+  } else if (s.map != before.map && !is<request::Refine>(request)) {
+    log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
+  }
+  if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs)
+    log_refinement(*s.gibbs, job_control().stop.stop_requested(), log_);
+  if (const auto* e = std::get_if<request::Export>(&request))
+    log_.add(Level::success, "Scan written to " + e->folder.string());
+}
+
+}  // namespace nextview
