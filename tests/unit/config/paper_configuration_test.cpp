@@ -128,7 +128,7 @@ TEST(PaperConfiguration, LeavesTheSeedTheObjectTheSensorsNameAndTheViewsFileAlon
   EXPECT_EQ(result.views.file, "mine.txt");
 }
 
-TEST(PaperConfiguration, TheDefaultPlanIsProximityCountWithALowerCost) {
+TEST(PaperConfiguration, TheDefaultPlanIsExpectedNewSurfaceWithALowerCost) {
   const Configuration defaults;
   EXPECT_EQ(defaults.planner.gain, "new-surface");
   EXPECT_EQ(defaults.planner.weights.gain, 1.0);

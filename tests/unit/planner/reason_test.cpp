@@ -1,0 +1,63 @@
+// The sentence that says why a view was chosen.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/planner/planner.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct GivenValues : Policy {
+  explicit GivenValues(std::vector<double> values) : all(std::move(values)) {}
+  std::string unit() const override { return "nats"; }
+  std::vector<double> values(const PlanningState&, std::span<const std::size_t> available,
+                             std::stop_token) const override {
+    std::vector<double> some;
+    for (const std::size_t v : available) some.push_back(all[v]);
+    return some;
+  }
+  std::vector<double> all;
+};
+
+Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candidates) {
+  const PlannerConfig config;
+  const RayBundle bundle;
+  const OneStepPlanner planner(std::make_unique<GivenValues>(values));
+  const std::vector<View> views(values.size());
+  return planner.plan({config, 1, 60.0, bundle, nullptr}, {}, views, std::move(candidates), {}).ranking;
+}
+
+Candidate at(double metres, bool available = true) { return {available, 0.0, metres, 0.0}; }
+
+TEST(Reason, NamesTheChoiceAndTheRunnerUp) {
+  const Ranking ranking = ranked({10, 300, 250, 999}, {at(0.5), at(0.9), at(0.4), at(0.1, false)});
+  EXPECT_EQ(ranking.best, 1u);
+  EXPECT_EQ(ranking.reason, "Candidate 1: gain 300 nats; 0.90 m away. Runner-up 2: 250 nats, 0.40 m.");
+}
+
+TEST(Reason, WithoutOthersNamesTheOneAndWithoutAnySaysNothing) {
+  EXPECT_EQ(ranked({10, 20}, {at(1, false), at(2)}).reason, "Candidate 1: gain 20 nats; 2.00 m away.");
+  EXPECT_EQ(ranked({10}, {at(1, false)}).reason, "");
+}
+
+TEST(Reason, SaysWhereTheGainHardlyTellsThemApart) {
+  const Ranking near_ties = ranked({1000.1, 1000.2, 1000.3, 500}, {at(0.2), at(1), at(2), at(3)});
+  EXPECT_EQ(near_ties.best, 0u) << "the nearest";
+  EXPECT_THAT(near_ties.reason, HasSubstr(" 3 of 4 gain the same within 0.1 %: the way there decides."));
+  EXPECT_EQ(near_ties.degenerate, "");
+  EXPECT_THAT(ranked({1000, 990, 980, 500}, {at(0.2), at(1), at(2), at(3)}).reason, Not(HasSubstr("decides")));
+}
+
+TEST(Reason, TheRunnerUpIsTheNextBestThatIsAvailable) {
+  const std::vector<Candidate> candidates = {
+      {true, 1, 1, 0.1}, {true, 1, 1, 0.3}, {false, 1, 1, 0.9}, {true, 1, 1, 0.2}};
+  EXPECT_EQ(runner_up(candidates, 1), 3u);
+  EXPECT_EQ(runner_up(candidates, 3), 1u);
+  EXPECT_EQ(runner_up(std::span(candidates).first(1), 0), std::nullopt);
+}
+
+}  // namespace
+}  // namespace nextview
