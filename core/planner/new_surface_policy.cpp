@@ -1,6 +1,7 @@
 #include "core/planner/new_surface_policy.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <array>
 
 namespace nextview {
 namespace {
@@ -41,7 +42,7 @@ std::vector<double> NewSurfacePolicy::values(const PlanningState& state, std::sp
 }
 
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {
-  std::string text = fmt::format("{:.3g} cm² of new surface", value);
+  std::string text = short_text(value) + " cm² of new surface";
   if (!(value > 0.0)) return text;
   const OccupancyMap& map = state.known.map;
   const SurfaceEvidence evidence(map.grid(), state.known.planning_voxels(), map.voxels(),

@@ -25,7 +25,7 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   const auto second = runner_up(candidates, best);
   if (!second) return text;
   const std::string unit = policy.unit();
-  text += fmt::format(" Runner-up {}: {:.3g}{}{}, {:.2f} m.", *second, candidates[*second].gain,
+  text += fmt::format(" Runner-up {}: {}{}{}, {:.2f} m.", *second, short_text(candidates[*second].gain),
                       unit.empty() ? "" : " ", unit, candidates[*second].cost);
   double largest = 0.0;
   for (const Candidate& c : candidates)

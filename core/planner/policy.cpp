@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/planner/baseline_policies.hpp"
@@ -37,9 +38,13 @@ std::vector<PolicyEntry> all_policies() {
 
 }  // namespace
 
+std::string short_text(double value) {
+  return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
 std::string Policy::promise(double value, const PlanningState&, const Pose&) const {
   const std::string in = unit();
-  return fmt::format("gain {:.4g}{}{}", value, in.empty() ? "" : " ", in);
+  return fmt::format("gain {}{}{}", short_text(value), in.empty() ? "" : " ", in);
 }
 
 std::span<const PolicyEntry> policies() {

@@ -66,6 +66,9 @@ class Policy {
   virtual std::optional<ScoreExplanation> explain(const PlanningState&, const Pose&) const { return std::nullopt; }
 };
 
+/// "214", "12.5", "0.083": three digits, and whole numbers in full.
+std::string short_text(double value);
+
 /// A policy as it is offered.
 struct PolicyEntry {
   std::string name;                                                   ///< what `planner.gain` takes

@@ -42,7 +42,7 @@ StepPicture step_picture(const Session& session) {
   picture.candidates = session.candidates();
   picture.chosen = session.next_candidate();
   picture.ranking_note = last.ranking.degenerate;
-  picture.reason = last.ranking.reason;
+  picture.reason = last.ranking.reason.substr(0, last.ranking.reason.find(" Runner-up"));
   for (const Candidate& candidate : last.candidates) {
     picture.scores.push_back(candidate.gain);
     picture.utilities.push_back(candidate.utility);
