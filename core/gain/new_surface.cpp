@@ -62,10 +62,12 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
                                      const Pose& T_world_camera, const RayBundle& bundle,
                                      const NewSurfaceOptions& options) {
   ScoreExplanation explanation;
+  double area = 0.0;  // added up as for the score, to round alike
   for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
     ScoreExplanation::RayPart& part = explanation.rays.emplace_back();
     part.direction = T_world_camera.linear() * bundle.directions[i];
     const double worth = square_centimetres * options.slant * bundle.solid_angles[i];
+    double of_ray = 0.0;
     follow(field, T_world_camera.translation(), part.direction, options.ray_length,
            [&](int x, int y, int z, double reach, double found) {
              const Eigen::Vector3i lattice = field.grid().first + Eigen::Vector3i(x, y, z), cell = lattice - grid.first;
@@ -76,9 +78,11 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
                                     reach,
                                     worth * found});
              part.contribution += worth * found;
+             of_ray += found;
            });
-    explanation.value += part.contribution;
+    area += of_ray * bundle.solid_angles[i];
   }
+  explanation.value = square_centimetres * options.slant * area;
   return explanation;
 }
 

@@ -101,6 +101,8 @@ Configuration configuration_of(std::size_t object, Configuration c, const NewSur
   choose(config.range_noises, object, c.sensor.range_noise);
   c.sensor.height = std::max(1, static_cast<int>(std::lround(ratio * c.sensor.width)));
   c.planner.gain = "new-surface";
+  // What all views would see is found out once: they must stay.
+  if (c.views.layout == ViewLayout::adaptive) c.views.layout = ViewLayout::sphere;
   c.planner.start_azimuth = 360.0 * CounterRandom(c.seed, random_stream::training_views).uniform(object)[0];
   c.termination = {};
   c.termination.views = config.views;

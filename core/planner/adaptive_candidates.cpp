@@ -24,11 +24,12 @@ bool alike(const Pose& a, const Pose& b, double distance) {
 
 }  // namespace
 
-std::vector<Pose> AdaptiveCandidates::drawn(const SurfaceEvidence& evidence, std::uint32_t step) const {
+std::vector<Pose> AdaptiveCandidates::drawn(const SurfaceEvidence& evidence, const VoxelGrid& region,
+                                            std::uint32_t step) const {
   const CounterRandom random(config_.seed, random_stream::adaptive_views, step);
   const double size = evidence.size() * evidence.grid().resolution;
   // The box grows towards where was not looked yet: half way to the middle of the region, where the object stands.
-  const Vector3 middle = 0.5 * evidence.object().center();
+  const Vector3 middle = 0.5 * (evidence.object().center() + 0.5 * (region.lower() + region.upper()));
   std::vector<Pose> poses;
   for (std::uint64_t i = 0; i < draws; ++i) {
     const auto where = random.uniform(3 * i);
@@ -48,7 +49,7 @@ std::vector<View> AdaptiveCandidates::candidates(const Knowledge& known) const {
   const OccupancyMap& map = known.map;
   const SurfaceEvidence evidence(map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold);
   if (evidence.grid().voxel_count() == 0) return views;
-  const std::vector<Pose> poses = drawn(evidence, static_cast<std::uint32_t>(known.taken.size()));
+  const std::vector<Pose> poses = drawn(evidence, map.grid(), static_cast<std::uint32_t>(known.taken.size()));
   const std::vector<double> areas =
       expected_new_surface({evidence, config_.model}, poses, rays_, {config_.ray_length, config_.model.slant});
   std::vector<std::size_t> order(poses.size());

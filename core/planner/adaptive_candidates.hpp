@@ -10,7 +10,7 @@ namespace nextview {
 /// Where views that fit the object are looked for.
 struct AdaptiveCandidatesConfig {
   int kept = 16;            ///< views made at each step, beside the fixed ones
-  double distance = 0.9;    ///< from which the object is looked at, give or take a quarter [m]
+  double distance = 0.9;    ///< from which the object is looked at: from two thirds of it to a tenth more [m]
   double ray_length = 1.5;  ///< [m]
   NewSurfaceModel model = NewSurfaceModel::fitted();
   std::uint64_t seed = 1;
@@ -26,7 +26,7 @@ class AdaptiveCandidates : public CandidateGenerator {
   std::vector<View> candidates(const Knowledge& known) const override;
 
  private:
-  std::vector<Pose> drawn(const SurfaceEvidence& evidence, std::uint32_t step) const;
+  std::vector<Pose> drawn(const SurfaceEvidence& evidence, const VoxelGrid& region, std::uint32_t step) const;
 
   std::vector<View> fixed_;
   RayBundle rays_;

@@ -66,5 +66,45 @@ TEST(RayBundle, ReferencePixelsAreTruncated) {
   for (int n = 0; n < 3; ++n) EXPECT_NEAR(camera.project(bundle.directions[n]).x(), expected[n], 1e-9);
 }
 
+/// Of a pyramid whose image is [left, right] x [top, bottom] at distance 1 [sr]: four corners, each atan(x y / r).
+double pyramid(double left, double right, double top, double bottom) {
+  const auto corner = [](double x, double y) { return std::atan2(x * y, std::sqrt(1.0 + x * x + y * y)); };
+  return corner(right, bottom) - corner(left, bottom) - corner(right, top) + corner(left, top);
+}
+
+TEST(RayBundle, SolidAnglesAddUpToThatOfTheImage) {
+  for (const double field_of_view : {0.2, 1.0, 2.0}) {
+    const PinholeCamera camera = PinholeCamera::from_field_of_view(640, 480, field_of_view);
+    const double a = field_of_view, b = 2 * std::atan(0.75 * std::tan(0.5 * a));
+    const double whole = 4 * std::asin(std::sin(0.5 * a) * std::sin(0.5 * b));
+    for (const auto& [columns, rows] : {std::pair(38, 25), std::pair(160, 120)}) {
+      const RayBundle bundle = RayBundle::regular(camera, columns, rows);
+      ASSERT_EQ(bundle.solid_angles.size(), bundle.directions.size());
+      double sum = 0.0;
+      for (const double angle : bundle.solid_angles) sum += angle;
+      EXPECT_NEAR(sum / whole, 1.0, columns > 100 ? 1e-4 : 1e-3) << field_of_view;
+    }
+  }
+}
+
+// Ray by ray, with a principal point that is not in the middle and pixels that are not square.
+TEST(RayBundle, EachSolidAngleIsThatOfItsPart) {
+  PinholeCamera camera = conformance_camera();
+  camera.fy = 390.0, camera.cx = 300.0;
+  const auto across = [&](double u) { return (u - camera.cx) / camera.fx; };
+  const auto down = [&](double v) { return (v - camera.cy) / camera.fy; };
+  const auto expect = [&](const RayBundle& bundle, double width, double height) {
+    ASSERT_EQ(bundle.solid_angles.size(), bundle.directions.size());
+    for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
+      const Eigen::Vector2d pixel = camera.project(bundle.directions[i]);
+      const double expected = pyramid(across(pixel.x() - width / 2), across(pixel.x() + width / 2),
+                                      down(pixel.y() - height / 2), down(pixel.y() + height / 2));
+      EXPECT_NEAR(bundle.solid_angles[i] / expected, 1.0, 1e-3);
+    }
+  };
+  expect(RayBundle::regular(camera, 47, 30), 16.0, 16.0);
+  expect(RayBundle::reference(camera, {0.25, 0.25}, {0.75, 0.75}, {10, 8}), 10.0, 8.0);
+}
+
 }  // namespace
 }  // namespace nextview

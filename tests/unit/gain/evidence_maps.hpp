@@ -1,0 +1,50 @@
+#pragma once
+#include <functional>
+#include <random>
+
+#include "core/gain/surface_evidence.hpp"
+#include "core/map/occupancy_map.hpp"
+
+/// Small maps to tell where surface goes on.
+namespace nextview::evidence_maps {
+
+using Eigen::Vector3i;
+
+struct MadeMap {
+  explicit MadeMap(const VoxelGrid& grid) : map(grid) {}
+  explicit MadeMap(const Vector3i& size, double resolution = 0.02) : map(VoxelGrid{resolution, -size / 2, size}) {}
+
+  void set(const Vector3i& cell, double log_odds) {
+    map.set_log_odds(map.grid().index(cell), static_cast<float>(log_odds));
+  }
+  /// All cells from `low` to `high`, inclusive.
+  void set_box(const Vector3i& low, const Vector3i& high, double log_odds) {
+    for_each(low, high, [&](const Vector3i& cell) { set(cell, log_odds); });
+  }
+  static void for_each(const Vector3i& low, const Vector3i& high, const std::function<void(const Vector3i&)>& visit) {
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int x = low.x(); x <= high.x(); ++x) visit({x, y, z});
+  }
+  SurfaceEvidence evidence(double threshold = 0.5) const { return {map.grid(), map.voxels(), map.voxels(), threshold}; }
+
+  OccupancyMap map;
+};
+
+/// Measured voxels of all kinds, and unmeasured ones.
+inline MadeMap random_map(std::mt19937& random, const Vector3i& size, double occupied, double unmeasured) {
+  MadeMap made(size);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0), log_odds(0.01, 1.9);
+  MadeMap::for_each(Vector3i::Zero(), size - Vector3i::Ones(), [&](const Vector3i& cell) {
+    if (uniform(random) < unmeasured) return;
+    made.set(cell, (uniform(random) < occupied ? 1.0 : -1.0) * log_odds(random));
+  });
+  return made;
+}
+
+/// The number that a voxel of the whole map has in the part of it that the evidence looks at.
+inline std::size_t in_evidence(const SurfaceEvidence& evidence, const VoxelGrid& whole, const Vector3i& cell) {
+  return evidence.grid().index(cell + whole.first - evidence.grid().first);
+}
+
+}  // namespace nextview::evidence_maps

@@ -1,0 +1,250 @@
+#include "core/gain/new_surface.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/gain/evidence_maps.hpp"
+#include "tests/unit/map/random_scans.hpp"
+#include "tests/unit/map/slab_test.hpp"
+
+namespace nextview {
+namespace {
+
+using Eigen::Vector3i;
+using evidence_maps::MadeMap;
+
+RayBundle bundle(int columns = 11, int rows = 8, double field_of_view = 0.6) {
+  return RayBundle::regular(PinholeCamera::from_field_of_view(110, 80, field_of_view), columns, rows);
+}
+
+/// Neither 0 nor 1 anywhere; other coefficients, other chances.
+NewSurfaceModel model_of(double unmeasured, double free, double occupied) {
+  NewSurfaceModel model;
+  model.unmeasured = {unmeasured, -0.3, 0.2, 0.05, -0.2, 0.0, -1.0, -0.5, 0.7};
+  model.free = {free, 0.4, 0.2, 0.5, -0.01};
+  model.occupied = {occupied, -0.5, 0.1, 0.2, 0.02};
+  return model;
+}
+
+std::vector<Pose> views_around(std::mt19937& random, int count, double distance = 0.6) {
+  std::vector<Pose> views;  // now and then from inside, or looking away
+  for (int n = 0; n < count; ++n) {
+    const Vector3 position = (n % 5 == 4 ? 0.05 : distance) * random_scans::direction(random);
+    views.push_back(look_at(position, n % 7 == 6 ? Vector3(2 * position) : random_scans::point_in_box(random, 0.05)));
+  }
+  return views;
+}
+
+/// A voxel on a ray, found by the slab test of all voxels.
+struct Met {
+  std::uint32_t voxel;
+  double enter, range;
+};
+std::vector<Met> met_by(const VoxelGrid& grid, const Vector3& origin, const Vector3& direction, double length) {
+  std::vector<Met> met;
+  for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
+    const auto chord = slab_test::overlap(grid, v, 0.0, origin, direction, 100.0);
+    if (chord.length() > 1e-12 && chord.enter < length)
+      met.push_back({v, chord.enter, 0.5 * (chord.enter + chord.leave)});
+  }
+  std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) { return a.enter < b.enter; });
+  return met;
+}
+
+struct Bounds {
+  double value = 0.0, negligible = 0.0;  ///< ... part of it, of rays that hardly get so far
+};
+Bounds twin_of(const NewSurfaceField& field, const Pose& view, const RayBundle& rays, const NewSurfaceOptions& o) {
+  Bounds result;
+  for (std::size_t i = 0; i < rays.directions.size(); ++i) {
+    double reach = 1.0;
+    for (const Met& met : met_by(field.grid(), view.translation(), view.linear() * rays.directions[i], o.ray_length)) {
+      const double q = std::abs(field.at(met.voxel));
+      const double part = 1e4 * o.slant * met.range * met.range * rays.solid_angles[i] * reach * q;
+      result.value += part;
+      if (reach < 2e-3) result.negligible += part;
+      reach *= 1.0 - q;
+      if (std::signbit(field.at(met.voxel))) break;
+    }
+  }
+  return result;
+}
+
+TEST(NewSurface, AgreesWithTheSlabTestOfAllVoxels) {
+  std::mt19937 random(1);
+  double most = 0.0;
+  for (const double unmeasured : {-3.0, 0.5, 3.0}) {
+    const MadeMap made = evidence_maps::random_map(random, {13, 11, 12}, 0.06, 0.5);
+    const NewSurfaceField field(made.evidence(), model_of(unmeasured, -3.0, -0.5));
+    const std::vector<Pose> views = views_around(random, 10);
+    for (const NewSurfaceOptions& options : {NewSurfaceOptions{1.5, 1.7}, NewSurfaceOptions{0.58, 1.0}}) {
+      const auto found = expected_new_surface(field, views, bundle(), options);
+      ASSERT_EQ(found.size(), views.size());
+      for (std::size_t v = 0; v < views.size(); ++v) {
+        const Bounds expected = twin_of(field, views[v], bundle(), options);
+        EXPECT_LE(found[v], expected.value * (1 + 1e-7) + 1e-12) << v;
+        EXPECT_GE(found[v], expected.value * (1 - 1e-7) - expected.negligible - 1e-12) << v;
+        EXPECT_LE(expected.negligible, 0.05 * expected.value) << "too little is told";
+        most = std::max(most, found[v]);
+      }
+    }
+  }
+  EXPECT_GT(most, 1.0);
+}
+
+// Worlds are drawn in which each voxel holds new surface or not; the mean of what rays meet first is what is expected.
+TEST(NewSurface, IsTheMeanOverWorlds) {
+  std::mt19937 random(2);
+  const MadeMap made = evidence_maps::random_map(random, {11, 12, 10}, 0.05, 0.6);
+  const NewSurfaceField field(made.evidence(), model_of(0.0, -2.5, -0.5));
+  const NewSurfaceOptions options{1.5, 1.3};
+  const RayBundle rays = bundle();
+  for (const Pose& view : views_around(random, 3)) {
+    std::vector<std::vector<Met>> met;
+    for (const Vector3& direction : rays.directions)
+      met.push_back(met_by(field.grid(), view.translation(), view.linear() * direction, options.ray_length));
+    constexpr int worlds = 3000;
+    double sum = 0.0, squares = 0.0;
+    std::vector<std::uint8_t> holds_surface(field.grid().voxel_count());
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (int world = 0; world < worlds; ++world) {
+      for (std::size_t v = 0; v < holds_surface.size(); ++v) holds_surface[v] = uniform(random) < std::abs(field.at(v));
+      double area = 0.0;
+      for (std::size_t i = 0; i < met.size(); ++i)
+        for (const Met& at : met[i]) {
+          if (holds_surface[at.voxel]) area += 1e4 * options.slant * rays.solid_angles[i] * at.range * at.range;
+          if (holds_surface[at.voxel] || field.at(at.voxel) < 0.0f) break;
+        }
+      sum += area, squares += area * area;
+    }
+    const double mean = sum / worlds, error = std::sqrt((squares / worlds - mean * mean) / worlds);
+    const double expected = expected_new_surface(field, {&view, 1}, rays, options)[0];
+    EXPECT_NEAR(expected, mean, 4 * error + 2e-3 * mean);
+    EXPECT_LT(error, 0.02 * mean) << "too few worlds to tell";
+  }
+}
+
+/// That only occupied voxels hold new surface, with this probability.
+NewSurfaceModel of_occupied_alone(double probability) {
+  NewSurfaceModel model;
+  model.unmeasured[0] = model.free[0] = -200.0;
+  model.occupied[0] = std::log(probability / (1.0 - probability));
+  return model;
+}
+
+TEST(NewSurface, OfAWallIsItsAreaTimesItsChance) {
+  MadeMap made({40, 60, 60}, 0.01);
+  made.set_box({20, 10, 15}, {20, 49, 44}, 1.0);                          // 40 x 30 cm, 0.5 cm behind the origin
+  const Pose view = look_at(Vector3(-1.195, 0.0, 0.0), Vector3::Zero());  // 1.2 m from its middle
+  const RayBundle rays = bundle(330, 240, 0.5);
+  // Rays aside see more of the wall than lies across them: the mean cosine, over the wall.
+  double cosine = 0.0;
+  for (int y = -20; y < 20; ++y)
+    for (int z = -15; z < 15; ++z) cosine += 1.2 / Vector3(1.2, (y + 0.5) / 100, (z + 0.5) / 100).norm() / 1200;
+  for (const double chance : {0.2, 0.9}) {
+    const NewSurfaceField field(made.evidence(), of_occupied_alone(chance));
+    for (const double slant : {1.0, 1.7}) {
+      const double found = expected_new_surface(field, {&view, 1}, rays, {1.5, slant})[0];
+      EXPECT_NEAR(found / (slant * 1200.0 * cosine * chance), 1.0, 0.015);
+    }
+    EXPECT_EQ(expected_new_surface(field, {&view, 1}, rays, {1.1, 1.0})[0], 0.0) << "out of reach";
+  }
+}
+
+TEST(NewSurface, BehindAnOccupiedVoxelThereIsNone) {
+  MadeMap made({40, 60, 60}, 0.01);
+  made.set_box({20, 10, 10}, {20, 49, 49}, 1.0);
+  made.set_box({25, 10, 10}, {25, 49, 49}, 1.0);  // as large, and hidden
+  const Pose view = look_at(Vector3(-1.0, 0.0, 0.0), Vector3::Zero());
+  const NewSurfaceField field(made.evidence(), of_occupied_alone(0.3));
+  for (const auto& ray : explain_new_surface(field, made.map.grid(), made.map.voxels(), view, bundle(), {}).rays) {
+    std::size_t occupied = 0;
+    for (const auto& voxel : ray.voxels) occupied += voxel.measured;
+    EXPECT_LE(occupied, 1u);
+  }
+}
+
+TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
+  std::mt19937 random(4);
+  const MadeMap made = evidence_maps::random_map(random, {16, 14, 15}, 0.05, 0.5);
+  const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
+  const NewSurfaceOptions options{1.4, 1.6};
+  const VoxelGrid& whole = made.map.grid();
+  for (const Pose& view : views_around(random, 8)) {
+    const ScoreExplanation why = explain_new_surface(field, whole, made.map.voxels(), view, bundle(), options);
+    EXPECT_EQ(why.value, expected_new_surface(field, {&view, 1}, bundle(), options)[0]);
+    ASSERT_EQ(why.rays.size(), bundle().directions.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < why.rays.size(); ++i) {
+      EXPECT_LT((why.rays[i].direction - view.linear() * bundle().directions[i]).norm(), 1e-12);
+      const auto met = met_by(field.grid(), view.translation(), why.rays[i].direction, options.ray_length);
+      double reach = 1.0, of_ray = 0.0;
+      std::size_t next = 0;
+      for (const auto& voxel : why.rays[i].voxels) {
+        const Vector3i lattice(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]);
+        const std::uint32_t number = field.grid().index(lattice - field.grid().first);
+        while (next < met.size() && met[next].voxel != number) EXPECT_EQ(field.at(met[next++].voxel), 0.0f);
+        ASSERT_LT(next, met.size()) << "not on the ray";
+        const Vector3i cell = lattice - whole.first;
+        EXPECT_EQ(voxel.measured, made.map.voxels().at(cell.x(), cell.y(), cell.z()).measured);
+        EXPECT_EQ(voxel.probability, made.map.voxels().at(cell.x(), cell.y(), cell.z()).probability);
+        EXPECT_NEAR(voxel.visibility, reach, 1e-9);
+        const double range = met[next].range, q = std::abs(field.at(number));
+        EXPECT_NEAR(voxel.contribution, 1e4 * 1.6 * range * range * bundle().solid_angles[i] * reach * q, 1e-7);
+        reach *= 1.0 - q;
+        of_ray += voxel.contribution;
+        ++next;
+      }
+      EXPECT_NEAR(why.rays[i].contribution, of_ray, 1e-9);
+      sum += of_ray;
+    }
+    EXPECT_NEAR(why.value, sum, 1e-9 * (1 + sum));
+  }
+}
+
+TEST(NewSurface, OfAMapWithNothingOccupiedIsZero) {
+  MadeMap made({20, 20, 20});
+  made.set_box({3, 3, 3}, {12, 12, 12}, -1.0);
+  const NewSurfaceField field(made.evidence(), NewSurfaceModel::fitted());
+  EXPECT_EQ(field.grid().voxel_count(), 0u);
+  std::mt19937 random(5);
+  std::vector<Pose> views = views_around(random, 12);
+  views.push_back(look_at(Vector3(1, 0, 0), Vector3::Zero()));  // along an axis
+  for (const double area : expected_new_surface(field, views, bundle(), {})) EXPECT_EQ(area, 0.0);
+  const auto why = explain_new_surface(field, made.map.grid(), made.map.voxels(), views[0], bundle(), {});
+  EXPECT_EQ(why.value, 0.0);
+  EXPECT_EQ(why.rays.size(), bundle().directions.size());
+  EXPECT_TRUE(expected_new_surface(field, {}, bundle(), {}).empty());
+}
+
+TEST(NewSurface, TheSameBytesOnOneThreadAndTwo) {
+  std::mt19937 random(6);
+  const MadeMap made = evidence_maps::random_map(random, {30, 28, 31}, 0.05, 0.5);
+  const std::vector<Pose> views = views_around(random, 40);
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return expected_new_surface({made.evidence(), NewSurfaceModel::fitted()}, views, bundle(), {});
+  };
+  const auto one = run(1);
+  EXPECT_EQ(one, run(2));
+  const NewSurfaceField field(made.evidence(), NewSurfaceModel::fitted());
+  for (std::size_t v = 0; v < views.size(); v += 7)
+    EXPECT_EQ(expected_new_surface(field, {&views[v], 1}, bundle(), {})[0], one[v]) << "alone as in company";
+}
+
+TEST(NewSurface, AStopLeavesTheRestAtZero) {
+  std::mt19937 random(7);
+  const MadeMap made = evidence_maps::random_map(random, {12, 12, 12}, 0.1, 0.5);
+  std::stop_source stop;
+  stop.request_stop();
+  const std::vector<Pose> views(20, look_at(Vector3(0.5, 0, 0), Vector3::Zero()));
+  const NewSurfaceField field(made.evidence(), NewSurfaceModel::fitted());
+  EXPECT_GT(expected_new_surface(field, views, bundle(), {})[0], 0.0);
+  EXPECT_EQ(expected_new_surface(field, views, bundle(), {}, stop.get_token()), std::vector<double>(20, 0.0));
+}
+
+}  // namespace
+}  // namespace nextview
