@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "core/config/configuration.hpp"
+#include "core/config/settings_file.hpp"
 #include "core/file/atomic_file.hpp"
 
 namespace nextview {
@@ -76,17 +75,12 @@ std::string calibration_json(const MapCalibration& calibration) {
 }  // namespace
 
 std::string sensor_model_toml(const InverseSensorModel& model, const std::string& remark) {
-  Configuration configuration;
-  configuration.map.model = model;
-  std::istringstream lines(remark);
-  std::string text;
-  for (std::string line; std::getline(lines, line);) text += "# " + line + "\n";
-  text += "[map]\n";
-  const std::string section = "map.";
-  for (const Setting& s : settings(configuration))
-    for (const char* fitted : {"hit", "miss", "hit_decay", "miss_decay", "clamp_min", "clamp_max"})
-      if (s.key == section + fitted) text += fmt::format("{} = {}  # {}\n", fitted, s.text(), s.help);
-  return text;
+  InverseSensorModel copy = model;
+  std::vector<Setting> fitted;
+  for (const Setting& s : settings(copy))
+    for (const char* key : {"map.hit", "map.miss", "map.hit_decay", "map.miss_decay", "map.clamp_min", "map.clamp_max"})
+      if (s.key == key) fitted.push_back(s);
+  return settings_file(fitted, remark);
 }
 
 void write_map_calibration(const MapCalibration& calibration, const std::string& remark, OutputFolder& out) {

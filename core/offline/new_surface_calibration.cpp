@@ -149,14 +149,16 @@ NewSurfaceObservations scan(const TrainingObject& object, const Configuration& c
 
 }  // namespace
 
-std::vector<TrainingObject> training_objects(int count, std::uint64_t seed) {
+std::vector<TrainingObject> training_objects(int count, std::uint64_t seed, std::stop_token stop) {
   std::vector<TrainingObject> objects(static_cast<std::size_t>(std::max(0, count)));
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
     TriangleMesh mesh = training_part(static_cast<std::uint32_t>(i), seed);
     const MeshTopology topology_of_it = topology(mesh);
     objects[i] = {fmt::format("part {}", i),
                   std::make_shared<const PlacedMesh>(PlacedMesh{std::move(mesh), {}, topology_of_it})};
   });
+  throw_if_stopped(stop);
   return objects;
 }
 

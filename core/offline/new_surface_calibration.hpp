@@ -32,8 +32,8 @@ struct NewSurfaceCalibration {
   std::size_t cells = 0;                                                  ///< of voxels with like features
 };
 
-/// Parts made up for it: training_part(0 … count - 1).
-std::vector<TrainingObject> training_objects(int count, std::uint64_t seed);
+/// Parts made up for it: training_part(0 … count - 1). @throws Stopped
+std::vector<TrainingObject> training_objects(int count, std::uint64_t seed, std::stop_token stop = {});
 
 /// Scans each object, every other view at random and the others by the gain as it is now, and fits the model to what
 /// the rays of all candidate views would have found after each view. The same on any number of threads.
