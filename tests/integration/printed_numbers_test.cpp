@@ -73,7 +73,7 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
     const auto cell = [&](const std::string& column) { return std::stod(steps[i].at(column)); };
     const std::vector<std::string> expected = {steps[i].at("step"),
                                                i == 0 ? "start" : steps[i].at("view"),
-                                               fmt::format("{:.5g}", cell("gain[voxels]")),
+                                               fmt::format("{:.5g}", cell("gain[cm²]")),
                                                fmt::format("{:.2f}", cell("distance[m]")),
                                                steps[i].at("hits"),
                                                steps[i].at("new_voxels"),

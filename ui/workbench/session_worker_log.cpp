@@ -32,7 +32,6 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
       r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
   log.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
                                    r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
-  if (!r.ranking.reason.empty()) log.add(Level::note, "Next: " + r.ranking.reason);
   if (!r.ranking.degenerate.empty())
     log.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
   if (!now.finished.empty()) log.add(Level::success, "The scan is finished: " + now.finished);

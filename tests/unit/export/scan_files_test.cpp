@@ -81,7 +81,7 @@ TEST_F(ScanFiles, StepsHaveTheRecordsNumbersUnderTheirNames) {
   for (std::size_t i = 0; i < 4; ++i) {
     const StepRecord& r = record(i);
     for (const auto& [column, value] :
-         std::vector<std::pair<std::string, double>>{{"gain[voxels]", r.gain},
+         std::vector<std::pair<std::string, double>>{{"gain[cm²]", r.gain},
                                                      {"utility", r.utility},
                                                      {"realised_gain[nats]", r.realised_gain},
                                                      {"hits", double(r.hits)},
@@ -115,7 +115,7 @@ TEST_F(ScanFiles, ScoresHaveEachCandidateOfEachStep) {
     EXPECT_EQ(scores.number(row, "step"), double(r.step));
     EXPECT_EQ(scores.number(row, "view"), double(row % 10));
     EXPECT_EQ(scores.number(row, "available"), c.available ? 1.0 : 0.0);
-    EXPECT_EQ(scores.number(row, "gain[voxels]"), c.gain);
+    EXPECT_EQ(scores.number(row, "gain[cm²]"), c.gain);
     EXPECT_EQ(scores.number(row, "utility"), c.utility);
     const double way = (session->candidates()[row % 10].translation() - r.T_world_camera.translation()).norm();
     EXPECT_NEAR(scores.number(row, "cost[m]"), way, 1e-12) << "from where the camera stands";
