@@ -64,7 +64,8 @@ class PrintedNumbers : public ::testing::Test {
 
 // step, view, gain, moved [m], hits, new [voxels], coverage [% visible], entropy [kbit], log loss [nats], seconds
 TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
-  const std::string out = run(quick + "--out " + in("out"));
+  // By this gain the two coverages differ at every step, so that they cannot be mixed up.
+  const std::string out = run(quick + "--gain proximity-count --out " + in("out"));
   EXPECT_THAT(out, HasSubstr("% visible"));
   const auto rows = numbered_rows(out.substr(out.find("% visible")));
   const Table steps = table("out/steps.csv");
@@ -73,7 +74,7 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
     const auto cell = [&](const std::string& column) { return std::stod(steps[i].at(column)); };
     const std::vector<std::string> expected = {steps[i].at("step"),
                                                i == 0 ? "start" : steps[i].at("view"),
-                                               fmt::format("{:.5g}", cell("gain[cm²]")),
+                                               fmt::format("{:.5g}", cell("gain[voxels]")),
                                                fmt::format("{:.2f}", cell("distance[m]")),
                                                steps[i].at("hits"),
                                                steps[i].at("new_voxels"),
