@@ -24,10 +24,10 @@ Likelihood of_rate(double score, double size, double weight, double found) {
   const double probability = std::max(-std::expm1(-rate), 1e-12);
   return {rate * (found * missed / probability - (weight - found)), weight * rate * rate * missed / probability};
 }
-/// Found with the probability 1 / (1 + exp(-score)).
+/// Found with the probability of which the score is the log-odds.
 Likelihood of_log_odds(double score, double, double weight, double found) {
-  const double probability = 1.0 / (1.0 + std::exp(-score));
-  return {found - weight * probability, weight * probability * (1.0 - probability)};
+  const double p = probability(score);
+  return {found - weight * p, weight * p * (1.0 - p)};
 }
 
 }  // namespace
@@ -74,14 +74,15 @@ template <std::size_t n>
 std::array<double, n> NewSurfaceObservations::fit_kind(Kind kind) const {
   constexpr double ridge = 1e-5;  // of the weight that was found
   constexpr int most_iterations = 100;
-  if (!(found(kind) > 0.0)) throw std::invalid_argument("new surface: nothing was found in voxels of some kind");
+  const double all_found = found(kind);
+  if (!(all_found > 0.0)) throw std::invalid_argument("new surface: nothing was found in voxels of some kind");
   const auto likelihood = kind == Kind::unmeasured ? of_rate : of_log_odds;
   using Vector = Eigen::Vector<double, static_cast<int>(n)>;
   using Matrix = Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n)>;
   Vector coefficients = Vector::Zero();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    Vector slope = -ridge * found(kind) * coefficients;
-    Matrix curvature = Matrix::Identity() * ridge * found(kind);
+    Vector slope = -ridge * all_found * coefficients;
+    Matrix curvature = Matrix::Identity() * ridge * all_found;
     for (const auto& [key, cell] : cells_) {
       if (key[0] != static_cast<std::int16_t>(kind)) continue;
       const Vector features = Eigen::Map<const Vector>(cell.features.data()) / cell.weight;

@@ -12,8 +12,6 @@ double linear(const std::array<double, n>& coefficients, const std::array<float,
   return std::inner_product(coefficients.begin(), coefficients.end(), features.begin(), 0.0);
 }
 
-double logistic(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
-
 }  // namespace
 
 NewSurfaceModel NewSurfaceModel::fitted() {
@@ -30,9 +28,9 @@ float NewSurfaceModel::chance(const SurfaceEvidence& evidence, std::size_t voxel
       return static_cast<float>(
           -std::expm1(-std::exp(linear(unmeasured, evidence.unmeasured(voxel))) / evidence.size()));
     case SurfaceEvidence::Kind::free:
-      return static_cast<float>(logistic(linear(free, evidence.measured(voxel))));
+      return static_cast<float>(probability(linear(free, evidence.measured(voxel))));
     case SurfaceEvidence::Kind::occupied:  // never 0, whose sign would say nothing
-      return -std::max(1e-9f, static_cast<float>(logistic(linear(occupied, evidence.measured(voxel)))));
+      return -std::max(1e-9f, static_cast<float>(probability(linear(occupied, evidence.measured(voxel)))));
   }
   return 0.0f;
 }

@@ -8,6 +8,7 @@
 #include "core/evaluation/coverage.hpp"
 #include "core/map/traversal.hpp"
 #include "core/offline/training_parts.hpp"
+#include "core/planner/new_surface_policy.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
 #include "core/sensor/depth_image.hpp"
@@ -132,8 +133,7 @@ NewSurfaceObservations scan(const TrainingObject& object, const Configuration& c
   while (session.finished().empty()) {
     if (!session.step({}, stop)) throw Stopped();
     rays.cover(session.scans().back()->hits, stop);
-    const SurfaceEvidence evidence(session.map().grid(), session.planning_voxels(), session.map().voxels(),
-                                   session.map().model().occupancy_threshold);
+    const SurfaceEvidence evidence = surface_evidence(session.state().known);
     std::vector<NewSurfaceObservations> of_view(session.candidates().size());
     tbb::parallel_for(std::size_t{0}, of_view.size(), [&](std::size_t v) {
       const bool is_turn = v % 2 == session.records().size() % 2;  // neighbours see much the same

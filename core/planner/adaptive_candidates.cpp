@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/planner/new_surface_policy.hpp"
 #include "core/random/counter_random.hpp"
 
 namespace nextview {
@@ -46,10 +47,9 @@ std::vector<Pose> AdaptiveCandidates::drawn(const SurfaceEvidence& evidence, con
 
 std::vector<View> AdaptiveCandidates::candidates(const Knowledge& known) const {
   std::vector<View> views = fixed_;
-  const OccupancyMap& map = known.map;
-  const SurfaceEvidence evidence(map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold);
+  const SurfaceEvidence evidence = surface_evidence(known);
   if (evidence.grid().voxel_count() == 0) return views;
-  const std::vector<Pose> poses = drawn(evidence, map.grid(), static_cast<std::uint32_t>(known.taken.size()));
+  const std::vector<Pose> poses = drawn(evidence, known.map.grid(), static_cast<std::uint32_t>(known.taken.size()));
   const std::vector<double> areas =
       expected_new_surface({evidence, config_.model}, poses, rays_, {config_.ray_length, config_.model.slant});
   std::vector<std::size_t> order(poses.size());

@@ -29,31 +29,35 @@ std::string side(const ScoreExplanation& explanation, const Vector3& centre, dou
 
 }  // namespace
 
-NewSurfaceField NewSurfacePolicy::field(const PlanningState& state) const {
-  const OccupancyMap& map = state.known.map;
-  return {{map.grid(), state.known.planning_voxels(), map.voxels(), map.model().occupancy_threshold}, model_};
+SurfaceEvidence surface_evidence(const Knowledge& known) {
+  const OccupancyMap& map = known.map;
+  return {map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold};
 }
 
 std::vector<double> NewSurfacePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
                                              std::stop_token stop) const {
   std::vector<Pose> views;
   for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
-  return expected_new_surface(field(state), views, state.bundle, options(state), stop);
+  return expected_new_surface({surface_evidence(state.known), model_}, views, state.bundle, options(state), stop);
 }
 
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {
   std::string text = short_text(value) + " cm² of new surface";
   if (!(value > 0.0)) return text;
-  const OccupancyMap& map = state.known.map;
-  const SurfaceEvidence evidence(map.grid(), state.known.planning_voxels(), map.voxels(),
-                                 map.model().occupancy_threshold);
-  const std::string where = side(*explain(state, T_world_camera), evidence.object().center(), map.grid().resolution);
+  const SurfaceEvidence evidence = surface_evidence(state.known);
+  const std::string where =
+      side(explanation(evidence, state, T_world_camera), evidence.object().center(), evidence.grid().resolution);
   return where.empty() ? text : text + ", most of it " + where;
 }
 
 std::optional<ScoreExplanation> NewSurfacePolicy::explain(const PlanningState& state,
                                                           const Pose& T_world_camera) const {
-  return explain_new_surface(field(state), state.known.map.grid(), state.known.planning_voxels(), T_world_camera,
+  return explanation(surface_evidence(state.known), state, T_world_camera);
+}
+
+ScoreExplanation NewSurfacePolicy::explanation(const SurfaceEvidence& evidence, const PlanningState& state,
+                                               const Pose& T_world_camera) const {
+  return explain_new_surface({evidence, model_}, state.known.map.grid(), state.known.planning_voxels(), T_world_camera,
                              state.bundle, options(state));
 }
 

@@ -4,6 +4,9 @@
 
 namespace nextview {
 
+/// What the maps that views are planned on say of where the surface goes on.
+SurfaceEvidence surface_evidence(const Knowledge& known);
+
 /// A view is worth the surface that it is expected to see first.
 class NewSurfacePolicy : public Policy {
  public:
@@ -17,7 +20,8 @@ class NewSurfacePolicy : public Policy {
   std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
 
  private:
-  NewSurfaceField field(const PlanningState& state) const;
+  ScoreExplanation explanation(const SurfaceEvidence& evidence, const PlanningState& state,
+                               const Pose& T_world_camera) const;
   NewSurfaceOptions options(const PlanningState& state) const { return {state.config.ray_length, model_.slant}; }
 
   NewSurfaceModel model_;

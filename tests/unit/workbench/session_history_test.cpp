@@ -93,11 +93,16 @@ TEST_F(SessionRunnerTest, ACancelledUndoLeavesAllAsItWas) {
   expect_same_scan(now(), *fresh(5, c));
 }
 
-/// The planner's own Gibbs map goes back with the views.
-TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShown) {
+Configuration planned_on_gibbs_map() {
   Configuration c = small_scan();
   c.planner.gain = "gibbs";
   c.gibbs.view_sweeps = 8;
+  return c;
+}
+
+/// The planner's own Gibbs map goes back with the views.
+TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShown) {
+  const Configuration c = planned_on_gibbs_map();
   runner_.load(c, job_control());
   steps(2);
   EXPECT_EQ(now().gibbs->views, 2u);
@@ -108,8 +113,6 @@ TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShown) {
   runner_.redo(job_control());
   EXPECT_EQ(now().gibbs->views, 1u);
 }
-
-}  // namespace
 
 /// Nor if a later refinement was cancelled before it had all of them.
 TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShownAfterACancelledRefinement) {
@@ -130,9 +133,7 @@ TEST_F(SessionRunnerTest, AMapOfViewsThatAreNoMoreIsNotShownAfterACancelledRefin
 
 /// What the window refined beside the planner's own map is made anew of other views.
 TEST_F(SessionRunnerTest, RefiningBesideThePlannersMapIsOfTheViewsThatThereAre) {
-  Configuration c = small_scan();
-  c.planner.gain = "gibbs";
-  c.gibbs.view_sweeps = 8;
+  const Configuration c = planned_on_gibbs_map();
   runner_.load(c, job_control());
   steps(2);
   runner_.refine(2, 8, job_control());
@@ -150,4 +151,5 @@ TEST_F(SessionRunnerTest, RefiningBesideThePlannersMapIsOfTheViewsThatThereAre) 
   EXPECT_EQ(now().gibbs->posterior->occupied, other.snapshot()->gibbs->posterior->occupied);
 }
 
+}  // namespace
 }  // namespace nextview
