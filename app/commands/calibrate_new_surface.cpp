@@ -60,7 +60,7 @@ std::vector<TrainingObject> objects(const CalibrateArguments& arguments, const C
   for (const std::string& input : arguments.fitted) {
     const std::filesystem::path file = resolve_object(input);
     const auto object =
-        std::make_shared<const PlacedMesh>(load_placed_mesh(file, {configuration.object.longest_side}, stop));
+        std::make_shared<const PlacedMesh>(load_placed_mesh(file, configuration.object.placement(), stop));
     require_within_region(object->mesh, configuration, file);
     read.push_back({object_name(file), object});
   }

@@ -50,8 +50,8 @@ void add_examples(const CalibrateArguments& arguments, const std::string& input,
     CandidateViewsConfig around = configuration.views;
     around.layout = ViewLayout::fibonacci;
     around.count = count;
-    CalibrationExample example{refinement_job(configuration, candidate_views(around, Vector3::Zero()), progress, stop),
-                               held_out};
+    CalibrationExample example{
+        refinement_job(configuration, candidate_views(around, view_target(configuration)), progress, stop), held_out};
     example.job.name = fs::path(input).stem().string();
     examples.push_back(std::move(example));
   }

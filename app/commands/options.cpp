@@ -52,8 +52,8 @@ void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std:
   prefixes_ = prefixes;
   app.add_option(
          "--config", files_,
-         "configuration file (TOML), or paper, calibrated or new_surface; may be given several times: later ones "
-         "override, options all")
+         "configuration file (TOML), or paper, calibrated, new_surface or published_bunny; may be given several times: "
+         "later ones override, options all")
       ->type_name("FILE")
       ->allow_extra_args(false);
   Configuration defaults;

@@ -119,6 +119,24 @@ void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
 
+void require_region(const MapConfig& map) {
+  if (map.region.empty()) {
+    const double voxels = map.region_edge / map.resolution;
+    require(voxels >= 1.0 && voxels <= 512.0,
+            fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
+    return;
+  }
+  const Eigen::AlignedBox3d box = map.region_box();
+  const Vector3 voxels = box.sizes() / map.resolution;
+  require(
+      voxels.minCoeff() >= 1.0 - 1e-6 && voxels.maxCoeff() <= 512.0 + 1e-6,
+      fmt::format("map.region, {}, must be from 1 to 512 voxels of {} m along each side", map.region, map.resolution));
+  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  require(farthest <= std::min(1000.0, 32768.0 * map.resolution),
+          fmt::format("map.region, {}, must lie within {} m of the origin", map.region,
+                      std::min(1000.0, 32768.0 * map.resolution)));
+}
+
 /// All that Configuration::validate checks, in the words of the declarations.
 void require_valid(const Configuration& c) {
   require_in_bounds(c);
@@ -127,9 +145,7 @@ void require_valid(const Configuration& c) {
   c.map.model.validate();
   c.gibbs.validate();
   c.planner.validate();
-  const double voxels = c.map.region_edge / c.map.resolution;
-  require(voxels >= 1.0 && voxels <= 512.0,
-          fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
+  require_region(c.map);
   require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
           fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
   require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,

@@ -7,6 +7,7 @@
 #include "core/cloud/point_cloud.hpp"
 #include "core/config/gibbs_config.hpp"
 #include "core/map/occupancy_map.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "core/planner/planner_config.hpp"
 #include "core/planner/termination.hpp"
 #include "core/sensor/depth_camera.hpp"
@@ -19,19 +20,34 @@ namespace nextview {
 struct ObjectConfig {
   std::string file;           ///< mesh file; empty: the default object
   double longest_side = 0.5;  ///< the mesh is scaled to this [m]; 0 keeps its size
+  bool centred = true;        ///< its bounding box is centred in the origin; else it stays where its file has it
+  bool ground = false;        ///< it stands on a plane that the camera sees and that no coverage counts
+
+  MeshFileOptions placement() const { return {.longest_side = longest_side, .centred = centred, .ground = ground}; }
 };
 
 struct MapConfig {
   double resolution = 0.01;   ///< voxel edge [m]
-  double region_edge = 1.28;  ///< edge of the region of interest, a cube around the object [m]
+  double region_edge = 1.28;  ///< edge of the region of interest, a cube around the origin [m]
+  std::string region;         ///< region of interest, `x y z x y z` of its corners [m, world]; empty: that cube
   Insertion insertion = Insertion::local_octree;
   InverseSensorModel model;
+
+  /// The region of interest [m, world]. @throws std::invalid_argument if `region` is none
+  Eigen::AlignedBox3d region_box() const;
 };
 std::vector<Setting> settings(MapConfig& config);
+
+/// What coverage is a share of.
+enum class EvaluationSamples {
+  surface,  ///< points spread over the surface in proportion to area
+  vertices  ///< the mesh's vertices, each place counted once
+};
 
 struct EvaluationConfig {
   bool enabled = true;   ///< compare with the mesh after each view
   double d_reg = 0.005;  ///< registration distance of surface coverage [m]; the paper's 0.0005 is always reported too
+  EvaluationSamples samples = EvaluationSamples::surface;
   int surface_samples = 50'000;
 };
 

@@ -73,6 +73,7 @@ PosteriorSamplerConfig posterior_sampler_config(const GibbsConfig& config, doubl
 }
 
 double ray_pitch(const DepthCameraConfig& sensor) {
+  if (!sensor.intrinsics.empty()) return 1.0 / sensor.camera().fx;
   return sensor.field_of_view * std::numbers::pi / 180.0 / sensor.width;
 }
 

@@ -1,6 +1,7 @@
 #include <stdexcept>
 
 #include "core/config/configuration.hpp"
+#include "core/setting/numbers.hpp"
 
 namespace nextview {
 
@@ -8,6 +9,8 @@ std::vector<Setting> settings(MapConfig& c) {
   std::vector<Setting> all = {
       {"map.resolution", "m", "voxel edge", &c.resolution, from_to(1e-4, 1)},
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
+      {"map.region", "m", "region of interest as a box, x y z of two opposite corners; empty: a cube of region_edge",
+       &c.region},
       {"map.insertion", "", "register a local octree, or insert directly: the same map",
        choice(c.insertion, {"local-octree", "direct"})},
   };
@@ -15,10 +18,19 @@ std::vector<Setting> settings(MapConfig& c) {
   return all;
 }
 
+Eigen::AlignedBox3d MapConfig::region_box() const {
+  if (region.empty()) return {Vector3::Constant(-0.5 * region_edge), Vector3::Constant(0.5 * region_edge)};
+  const std::vector<double> v = numbers("map.region", region, 6, "x y z of two opposite corners");
+  Eigen::AlignedBox3d box(Vector3(v[0], v[1], v[2]));
+  return box.extend(Vector3(v[3], v[4], v[5]));
+}
+
 std::vector<Setting> settings(ObjectConfig& c) {
   return {
       {"object.file", "", "mesh file, or the name of an object that comes with the program", &c.file},
       {"object.longest_side", "m", "scale the object to this; 0 keeps its size", &c.longest_side, zero_or(1e-3, 100)},
+      {"object.centred", "", "put its middle in the origin; false: it stays where its file has it", &c.centred},
+      {"object.ground", "", "a plane under it, seen and mapped, that coverage does not count", &c.ground},
   };
 }
 
@@ -26,6 +38,8 @@ std::vector<Setting> settings(EvaluationConfig& c) {
   return {
       {"evaluation.enabled", "", "compare with the mesh after each view", &c.enabled},
       {"evaluation.d_reg", "m", "registration distance of surface coverage", &c.d_reg, from_to(1e-5, 1)},
+      {"evaluation.samples", "", "what coverage is a share of: points spread over the surface, or the mesh's vertices",
+       choice(c.samples, {"surface", "vertices"})},
       {"evaluation.surface_samples", "", "points spread over the true surface", &c.surface_samples, from_to(1, 1e7)},
   };
 }

@@ -26,17 +26,16 @@ std::vector<Eigen::Vector3f> sample_normals(const TriangleMesh& mesh, const Surf
 
 }  // namespace
 
-KnownObject::KnownObject(const TriangleMesh& mesh, std::shared_ptr<const MeshRayCaster> scene,
+KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::shared_ptr<const MeshRayCaster> scene,
                          const DepthCamera& camera, std::span<const Pose> candidates, const VoxelGrid& grid,
-                         std::size_t surface_samples, double d_reg, std::uint64_t seed, const Progress& progress,
-                         std::stop_token stop)
+                         double d_reg, const Progress& progress, std::stop_token stop)
     : scene_(std::move(scene)),
       camera_(camera),
-      samples_(sample_surface(mesh, surface_samples, seed)),
-      normals_(sample_normals(mesh, samples_)),
+      samples_(std::move(samples)),
+      normals_(sample_normals(seen, samples_)),
       seen_from_(see_from(candidates, progress, stop)),
       visible_(seen_by_any()),
-      truth_(ground_truth(mesh, grid, stop)),
+      truth_(ground_truth(seen, grid, stop)),
       nothing_seen_{std::vector<std::uint8_t>(samples_.points.size()),
                     {samples_.points, visible_, d_reg},
                     {samples_.points, visible_, paper_d_reg},

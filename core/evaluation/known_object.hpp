@@ -30,10 +30,11 @@ class KnownObject {
   /// The paper's registration distance [m], reported beside the chosen one.
   static constexpr double paper_d_reg = 0.0005;
 
+  /// `seen` is all that a camera sees, the object and what it stands on; `samples` are those of the object.
   /// @throws Stopped
-  KnownObject(const TriangleMesh& mesh, std::shared_ptr<const MeshRayCaster> scene, const DepthCamera& camera,
-              std::span<const Pose> candidates, const VoxelGrid& grid, std::size_t surface_samples, double d_reg,
-              std::uint64_t seed, const Progress& progress, std::stop_token stop);
+  KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::shared_ptr<const MeshRayCaster> scene,
+              const DepthCamera& camera, std::span<const Pose> candidates, const VoxelGrid& grid, double d_reg,
+              const Progress& progress, std::stop_token stop);
 
   /// Surface samples that a perfect camera sees from a pose: in its image and ranges, not too slanted, nothing in
   /// between.

@@ -12,12 +12,14 @@ double solid_angle(const PinholeCamera& camera, const Vector3& direction, double
 
 }  // namespace
 
-RayBundle RayBundle::regular(const PinholeCamera& camera, int columns, int rows) {
+RayBundle RayBundle::regular(const PinholeCamera& camera, int columns, int rows, double window) {
   RayBundle bundle;
+  const double width = window * camera.width / columns, height = window * camera.height / rows;
+  const double left = 0.5 * (1.0 - window) * camera.width, top = 0.5 * (1.0 - window) * camera.height;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const double width = double(camera.width) / columns, height = double(camera.height) / rows;
-      bundle.directions.push_back(camera.direction((column + 0.5) * width - 0.5, (row + 0.5) * height - 0.5));
+      bundle.directions.push_back(
+          camera.direction(left + (column + 0.5) * width - 0.5, top + (row + 0.5) * height - 0.5));
       bundle.solid_angles.push_back(solid_angle(camera, bundle.directions.back(), width, height));
     }
   return bundle;

@@ -33,8 +33,9 @@ struct RayBundle {
   std::vector<Vector3> directions;
   std::vector<double> solid_angles;  ///< of each ray's part of the image [sr]
 
-  /// `columns` x `rows` rays through the middles of equal cells of the whole image.
-  static RayBundle regular(const PinholeCamera& camera, int columns = 38, int rows = 25);
+  /// `columns` x `rows` rays through the middles of equal cells of the image, or of its middle: `window` is the share
+  /// of width and height.
+  static RayBundle regular(const PinholeCamera& camera, int columns = 38, int rows = 25, double window = 1.0);
   /// The bundle of the reference code: pixel x from `lowest` to `highest` share of the width inclusive, one every
   /// `spacing` pixels, truncated to whole pixels; y likewise.
   static RayBundle reference(const PinholeCamera& camera, Eigen::Vector2d lowest, Eigen::Vector2d highest,

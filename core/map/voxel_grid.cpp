@@ -26,4 +26,20 @@ VoxelGrid region_of_interest(const Vector3& centre, double edge, double resoluti
   return grid;
 }
 
+VoxelGrid region_of_interest(const Eigen::AlignedBox3d& box, double resolution) {
+  constexpr double slack = 1e-6;  // a side on a voxel's face, give or take rounding [voxels]
+  const Vector3 first = (box.min().array() / resolution + slack).floor();
+  const Vector3 last = (box.max().array() / resolution - slack).ceil();
+  const Vector3 size = last - first;
+  if (!((size.array() >= 1.0) && (size.array() <= 1024.0)).all())
+    throw std::invalid_argument(
+        fmt::format("region of interest: a box of {} x {} x {} m at a resolution of {} m must be from 1 to 1024 voxels "
+                    "along each side",
+                    box.sizes().x(), box.sizes().y(), box.sizes().z(), resolution));
+  if (!(first.array().abs() <= 32768.0).all() || !(last.array().abs() <= 32768.0).all())  // an octree's 16 bits an axis
+    throw std::invalid_argument(
+        fmt::format("region of interest: it must lie within {} m of the world's origin", 32768.0 * resolution));
+  return {resolution, first.cast<int>(), size.cast<int>()};
+}
+
 }  // namespace nextview

@@ -42,5 +42,8 @@ struct VoxelGrid {
 /// of voxels).
 /// @throws std::invalid_argument if it has no voxels, or more than 2^31 of them.
 VoxelGrid region_of_interest(const Vector3& centre, double edge, double resolution);
+/// The same of a box [m, world]: all voxels that it reaches into.
+/// @throws std::invalid_argument as above, 1024 voxels along each side
+VoxelGrid region_of_interest(const Eigen::AlignedBox3d& box, double resolution);
 
 }  // namespace nextview

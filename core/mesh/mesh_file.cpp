@@ -93,7 +93,7 @@ double scale_for(const Eigen::AlignedBox3d& box, double longest_side) {
 }
 
 /// Moves and scales in double precision, then joins vertices at the same place; only those in use remain.
-TriangleMesh centred(const ImportedTriangles& imported, const MeshPlacement& placement) {
+TriangleMesh moved(const ImportedTriangles& imported, const MeshPlacement& placement) {
   std::vector<Eigen::Vector3f> scaled;
   scaled.reserve(imported.vertices.size());
   for (const Eigen::Vector3d& vertex : imported.vertices) scaled.push_back(placement(vertex).cast<float>());
@@ -126,7 +126,7 @@ MeshTopology topology_of(const ImportedTriangles& imported) {
   return topology(mesh);
 }
 
-PlacedMesh placed(ImportedTriangles imported, double longest_side) {
+PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options) {
   check_coordinates(imported);
   if (imported.triangles.empty())
     throw std::runtime_error("has no faces; a surface is needed, not only points or lines");
@@ -135,13 +135,28 @@ PlacedMesh placed(ImportedTriangles imported, double longest_side) {
   std::erase_if(imported.triangles, [&](const auto& triangle) { return !has_area(imported, triangle); });
   if (imported.triangles.empty()) throw std::runtime_error("has only degenerate triangles, none with an area");
   const Eigen::AlignedBox3d box = box_of_triangles(imported);
-  const MeshPlacement placement{box.center(), scale_for(box, longest_side)};
-  TriangleMesh mesh = centred(imported, placement);
+  const MeshPlacement placement{options.centred ? box.center() : Eigen::Vector3d::Zero().eval(),
+                                scale_for(box, options.longest_side)};
+  TriangleMesh mesh = moved(imported, placement);
   topology.left_out = all - mesh.triangles.size();
-  return {std::move(mesh), placement, topology};
+  return {std::move(mesh), placement, topology, options.ground};
 }
 
 }  // namespace
+
+TriangleMesh PlacedMesh::surroundings() const {
+  constexpr float far = 1000.0f;  // as far as any camera sees [m]
+  TriangleMesh all = mesh;
+  if (!on_ground || mesh.vertices.empty()) return all;
+  const Eigen::AlignedBox3d box = mesh.bounding_box();
+  const Eigen::Vector3f below(float(box.center().x()), float(box.center().y()), float(box.min().z()));
+  const auto first = static_cast<std::uint32_t>(all.vertices.size());
+  for (const Eigen::Vector2f corner : {Eigen::Vector2f(-far, -far), {far, -far}, {far, far}, {-far, far}})
+    all.vertices.push_back(below + Eigen::Vector3f(corner.x(), corner.y(), 0.0f));
+  all.triangles.push_back({first, first + 1, first + 2});
+  all.triangles.push_back({first, first + 2, first + 3});
+  return all;
+}
 
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options, std::stop_token stop) {
   return load_placed_mesh(file, options, std::move(stop)).mesh;
@@ -161,7 +176,7 @@ PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOpt
   try {
     check_content(mesh.extension, mesh.bytes);
     const ReadingLimits limits = reading_limits(mesh.extension, mesh.bytes.size(), options.largest_file);
-    return placed(import_scene(std::move(mesh), limits, stop), options.longest_side);
+    return placed(import_scene(std::move(mesh), limits, stop), options);
   } catch (const Stopped&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -9,13 +9,15 @@ namespace nextview {
 struct MeshFileOptions {
   /// Longest side of the bounding box after scaling [m]; 0 keeps the file's own size.
   double longest_side = 0.5;
+  bool centred = true;  ///< the bounding box has its centre in the origin; else the file's origin stays where it is
+  bool ground = false;  ///< PlacedMesh::on_ground
   std::uintmax_t largest_file = 1u << 30;  ///< of all files of a mesh together; beyond it is refused [bytes]
 };
 
 /// How load_mesh moves and scales a file's coordinates: what else is known in them, such as openings, goes the same
 /// way.
 struct MeshPlacement {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the file's bounding box, becomes the origin [file's units]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< becomes the origin [file's units]
   double scale = 1.0;                                ///< over 0 [m per file's unit]
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& point) const { return (point - centre) * scale; }
@@ -24,13 +26,16 @@ struct MeshPlacement {
 struct PlacedMesh {
   TriangleMesh mesh;
   MeshPlacement placement;
-  MeshTopology topology;  ///< of the file's triangles as they come, those without an area included
+  MeshTopology topology;   ///< of the file's triangles as they come, those without an area included
+  bool on_ground = false;  ///< it stands on a horizontal plane that a camera sees, which is no part of it
+
+  /// What a camera sees: the mesh and, behind its triangles, the ground.
+  TriangleMesh surroundings() const;
 };
 
-/// Reads PLY, OBJ, STL, OFF, 3MF, AMF, glTF, DAE, FBX, 3DS and X3D; all of a scene's meshes become one. The result is
-/// centred: its bounding box has its centre in the origin. Triangles without an area, or that scaling to single
-/// precision folds, are left out. Besides the file only those that a glTF names are read: regular files beside it or in
-/// folders below. Who reads it is confined (import_scene).
+/// Reads PLY, OBJ, STL, OFF, 3MF, AMF, glTF, DAE, FBX, 3DS and X3D; all of a scene's meshes become one. Triangles
+/// without an area, or that scaling to single precision folds, are left out. Besides the file only those that a glTF
+/// names are read: regular files beside it or in folders below. Who reads it is confined (import_scene).
 /// @throws std::runtime_error with one line that names the file and the reason: missing, empty, unreadable, truncated,
 ///         without faces, not finite, absurdly large coordinates, over the size limit, more memory or time than its
 ///         size explains.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/random/counter_random.hpp"
@@ -35,6 +36,18 @@ Eigen::Vector3f point_in(const TriangleMesh& mesh, std::uint32_t triangle, doubl
 }
 
 }  // namespace
+
+SurfaceSamples vertex_samples(const TriangleMesh& mesh) {
+  SurfaceSamples samples;
+  std::vector<std::uint8_t> taken(mesh.vertices.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t vertex : mesh.triangles[t]) {
+      if (std::exchange(taken[vertex], 1)) continue;
+      samples.points.push_back(mesh.vertices[vertex]);
+      samples.triangles.push_back(t);
+    }
+  return samples;
+}
 
 SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
   const std::vector<double> cumulated = cumulated_area(mesh);

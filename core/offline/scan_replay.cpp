@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// The poses that views.csv says were taken. Where that is a candidate's or the start view it is looked up, as the text
 /// of a pose rounds.
 std::vector<Pose> views_taken(const fs::path& file, const Configuration& configuration) {
-  const auto candidates = candidate_views(configuration.views, Vector3::Zero());
+  const auto candidates = candidate_views(configuration.views, view_target(configuration));
   const Pose start = configured_start_view(configuration);
   std::istringstream text(read_file(file, std::uintmax_t{1} << 24));
   std::string line;
@@ -86,7 +86,7 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
                              std::stop_token stop) {
   const Configuration c = affordable(configuration);
   const fs::path object = resolve_object(c);
-  const auto mesh = std::make_shared<PlacedMesh>(load_placed_mesh(object, {c.object.longest_side}, stop));
+  const auto mesh = std::make_shared<PlacedMesh>(load_placed_mesh(object, c.object.placement(), stop));
   require_within_region(mesh->mesh, c, object);
   const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);
 
@@ -96,16 +96,16 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
   job.grid = configured_region(c);
   job.model = c.map.model;
   job.ray_length = c.planner.ray_length;
-  job.candidates = candidate_views(c.views, Vector3::Zero());
+  job.candidates = candidate_views(c.views, view_target(c));
   job.bundle = scoring_rays(c, world->camera.camera());
   job.sampler = posterior_sampler_config(c);
   job.configuration = c;
   job.inputs = input_files(c);
   SimulatedSource source(world, c.seed);
   job.scans = take_scans(source, views_at(views), &c.cloud, progress, stop);
-  const KnownObject known(mesh->mesh, std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
-                          job.candidates, job.grid, c.evaluation.surface_samples, c.evaluation.d_reg, c.seed, progress,
-                          stop);
+  const KnownObject known(mesh->surroundings(), evaluation_samples(c, mesh->mesh),
+                          std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera, job.candidates,
+                          job.grid, c.evaluation.d_reg, progress, stop);
   EvaluationState evaluation = known.nothing_seen();
   for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].hits, stop);
   job.truth = RefinementTruth{std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),

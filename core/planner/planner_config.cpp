@@ -32,9 +32,12 @@ std::vector<Setting> settings(PlannerConfig& c) {
        &c.combined_weights},
       {"planner.ray_columns", "", "rays that score a view, across", &c.ray_columns, from_to(1, 2000)},
       {"planner.ray_rows", "", "rays that score a view, down", &c.ray_rows, from_to(1, 2000)},
+      {"planner.ray_window", "", "share of the image's width and height that they go through, about its middle",
+       &c.ray_window, over_to(0, 1)},
       {"planner.ray_length", "m", "how far they reach", &c.ray_length, from_to(1e-3, 1000)},
       {"planner.start_azimuth", "deg", "start view, seen from the object", &c.start_azimuth, from_to(-360, 360)},
       {"planner.start_elevation", "deg", "start view, seen from the object", &c.start_elevation, from_to(-90, 90)},
+      {"planner.start_view", "", "start view as x y z qx qy qz qw; empty: from azimuth and elevation", &c.start_view},
   };
   std::ranges::move(settings(c.new_surface), std::back_inserter(all));
   return all;
@@ -50,6 +53,12 @@ void PlannerConfig::validate() const {
     throw std::invalid_argument(
         fmt::format("planner.gain {} needs planner.semantics published: the reference code knows no Gibbs map", gain));
   const CombinedPolicy readable(combined_weights);
+  if (start_view.empty()) return;
+  try {
+    parse_view(start_view);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("planner.start_view, '{}': {}", start_view, error.what()));
+  }
 }
 
 }  // namespace nextview

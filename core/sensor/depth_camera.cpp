@@ -9,6 +9,7 @@
 
 #include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
+#include "core/setting/numbers.hpp"
 
 namespace nextview {
 namespace {
@@ -65,6 +66,8 @@ std::vector<Setting> settings(DepthCameraConfig& c) {
       {"sensor.width", "px", "image width", &c.width, from_to(1, 16384)},
       {"sensor.height", "px", "image height", &c.height, from_to(1, 16384)},
       {"sensor.field_of_view", "deg", "horizontal field of view", &c.field_of_view, from_to(1, 170)},
+      {"sensor.intrinsics", "px", "fx fy cx cy, pixel centres at whole numbers; empty: from the field of view",
+       &c.intrinsics},
       {"sensor.min_range", "m", "nearer surfaces give invalid pixels", &c.min_range, from_to(0, 1000)},
       {"sensor.max_range", "m", "farther surfaces are beyond range", &c.max_range, from_to(0.001, 1000)},
       {"sensor.range_noise", "m", "standard deviation along the ray", &c.range_noise, from_to(0, 1)},
@@ -81,9 +84,18 @@ void DepthCameraConfig::validate() const {
   if (min_range > max_range)
     throw std::invalid_argument(
         fmt::format("sensor.min_range, {} m, must be at most sensor.max_range, {} m", min_range, max_range));
+  camera();
 }
 
 PinholeCamera DepthCameraConfig::camera() const {
+  if (!intrinsics.empty()) {
+    const char* const takes = "fx fy cx cy, focal lengths from 1 to 1e6 px and a point within 1e6 px";
+    const std::vector<double> v = numbers("sensor.intrinsics", intrinsics, 4, takes);
+    const bool good =
+        std::min(v[0], v[1]) >= 1.0 && *std::max_element(v.begin(), v.end()) <= 1e6 && std::min(v[2], v[3]) >= -1e6;
+    if (!good) throw std::invalid_argument(fmt::format("sensor.intrinsics takes {}, not '{}'", takes, intrinsics));
+    return {width, height, v[0], v[1], v[2], v[3]};
+  }
   return PinholeCamera::from_field_of_view(width, height, field_of_view * degree);
 }
 

@@ -16,6 +16,7 @@ struct DepthCameraConfig {
   int width = 640;              ///< [px]
   int height = 480;             ///< [px]
   double field_of_view = 58.0;  ///< horizontal [deg]
+  std::string intrinsics;       ///< `fx fy cx cy` [px]; empty: from field_of_view
   double min_range = 0.2;       ///< nearer surfaces give invalid pixels [m]
   double max_range = 1.5;       ///< farther surfaces are beyond range [m]
   double range_noise = 0.002;   ///< standard deviation along the ray [m]
@@ -26,6 +27,7 @@ struct DepthCameraConfig {
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
+  /// @throws std::invalid_argument if `intrinsics` are none
   PinholeCamera camera() const;
 };
 /// Their bounds are declared here and nowhere else; the settings of other configurations are likewise.

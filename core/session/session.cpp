@@ -30,17 +30,18 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   setup_.candidates = std::move(parts.candidates);
   if (!setup_.candidates) setup_.candidates = configured_candidates(c, setup_.source);
   if (c.evaluation.enabled)
-    setup_.truth = std::make_shared<KnownObject>(
-        object_->mesh, std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
-        poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))), setup_.region,
-        c.evaluation.surface_samples, c.evaluation.d_reg, c.seed, progress, stop);
+    setup_.truth =
+        std::make_shared<KnownObject>(object_->surroundings(), evaluation_samples(c, object_->mesh),
+                                      std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
+                                      poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
+                                      setup_.region, c.evaluation.d_reg, progress, stop);
   adopt(nothing_scanned(setup_, robot_->pose()));
 }
 
 std::shared_ptr<const SimulatedWorld> Session::make_world(const std::stop_token& stop) {
   const Configuration& c = setup_.configuration;
   object_file_ = resolve_object(c);
-  object_ = std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, {c.object.longest_side}, stop));
+  object_ = std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, c.object.placement(), stop));
   require_within_region(object_->mesh, c, object_file_);
   return std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
 }

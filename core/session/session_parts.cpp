@@ -21,6 +21,8 @@ std::string map_text(const VoxelGrid& grid) {
   return fmt::format("a map of {} x {} x {} voxels", grid.size.x(), grid.size.y(), grid.size.z());
 }
 
+std::string text(const Vector3& p) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", p.x(), p.y(), p.z()); }
+
 std::string image_text(const DepthCameraConfig& sensor) {
   return fmt::format("images of {} x {} pixels", sensor.width, sensor.height);
 }
@@ -70,16 +72,22 @@ std::string not_enough_memory(const Configuration& c) {
                                 map_bytes(c) >= image_bytes(c) ? coarser_map : fewer_pixels));
 }
 
+Vector3 view_target(const Configuration& c) {
+  return c.map.region.empty() ? Vector3::Zero().eval() : c.map.region_box().center().eval();
+}
+
 Pose configured_start_view(const Configuration& c) {
+  if (!c.planner.start_view.empty()) return parse_view(c.planner.start_view);
   const double azimuth = c.planner.start_azimuth * std::numbers::pi / 180.0;
   const double elevation = c.planner.start_elevation * std::numbers::pi / 180.0;
   const Vector3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                           std::sin(elevation));
-  return look_at(c.views.radius * direction, Vector3::Zero());
+  return look_at(view_target(c) + c.views.radius * direction, view_target(c));
 }
 
 VoxelGrid configured_region(const Configuration& c) {
-  return region_of_interest(Vector3::Zero(), c.map.region_edge, c.map.resolution);  // load_mesh centres the object
+  if (!c.map.region.empty()) return region_of_interest(c.map.region_box(), c.map.resolution);
+  return region_of_interest(Vector3::Zero(), c.map.region_edge, c.map.resolution);
 }
 
 View start_view(const Configuration& c, const SourceDescription& source, const Robot* robot) {
@@ -96,30 +104,43 @@ VoxelGrid configured_region(const Configuration& c, const SourceDescription& sou
 std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& c,
                                                                 const SourceDescription& source) {
   if (!source.frames.empty()) return std::make_shared<FixedCandidates>(source.frames);
-  std::vector<View> views = views_at(candidate_views(c.views, Vector3::Zero()));
+  std::vector<View> views = views_at(candidate_views(c.views, view_target(c)));
   // What a planner is compared with knows no views but these.
   if (c.views.layout != ViewLayout::adaptive || policy_entry(c.planner.gain).baseline)
     return std::make_shared<FixedCandidates>(std::move(views));
-  const RayBundle few =
-      RayBundle::regular(source.camera, (c.planner.ray_columns + 1) / 2, (c.planner.ray_rows + 1) / 2);
+  const RayBundle few = RayBundle::regular(source.camera, (c.planner.ray_columns + 1) / 2, (c.planner.ray_rows + 1) / 2,
+                                           c.planner.ray_window);
   return std::make_shared<AdaptiveCandidates>(
       std::move(views), few,
       AdaptiveCandidatesConfig{c.views.adaptive, c.views.radius, c.planner.ray_length, c.planner.new_surface, c.seed});
 }
 
 void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {
-  const double longest = object.bounding_box().sizes().maxCoeff();
-  if (longest > c.map.region_edge)
+  const Eigen::AlignedBox3d box = object.bounding_box(), region = c.map.region_box();
+  const double longest = box.sizes().maxCoeff();
+  if (c.map.region.empty() && c.object.centred && longest > c.map.region_edge)
     throw std::invalid_argument(fmt::format(
         "{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
         "object.longest_side or enlarge map.region_edge",
         file.string(), longest, c.map.region_edge));
+  const Vector3 slack = Vector3::Constant(1e-6);  // what scaling to single precision rounds [m]
+  if (!Eigen::AlignedBox3d(region.min() - slack, region.max() + slack).contains(box))
+    throw std::invalid_argument(fmt::format(
+        "{}: the object reaches from {} to {} m, beyond the region of interest from {} to {} m; enlarge {}, "
+        "scale the object with object.longest_side, or move it with object.centred",
+        file.string(), text(box.min()), text(box.max()), text(region.min()), text(region.max()),
+        c.map.region.empty() ? "map.region_edge" : "map.region"));
+}
+
+SurfaceSamples evaluation_samples(const Configuration& c, const TriangleMesh& object) {
+  if (c.evaluation.samples == EvaluationSamples::vertices) return vertex_samples(object);
+  return sample_surface(object, c.evaluation.surface_samples, c.seed);
 }
 
 RayBundle scoring_rays(const Configuration& c, const PinholeCamera& camera) {
   if (c.planner.semantics == Semantics::reference)
     return RayBundle::reference(camera, {0.25, 0.25}, {0.75, 0.75}, {10.0, 10.0});
-  return RayBundle::regular(camera, c.planner.ray_columns, c.planner.ray_rows);
+  return RayBundle::regular(camera, c.planner.ray_columns, c.planner.ray_rows, c.planner.ray_window);
 }
 
 namespace {

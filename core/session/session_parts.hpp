@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/config/configuration.hpp"
+#include "core/mesh/surface_samples.hpp"
 #include "core/planner/planner.hpp"
 #include "core/robot/robot.hpp"
 #include "core/source/scan_source.hpp"
@@ -19,6 +20,8 @@ Configuration affordable(Configuration configuration);
 /// One line that says what took the memory of a scan that has none left, and what to do.
 std::string not_enough_memory(const Configuration& configuration);
 
+/// What the views that the program lays out look at: the middle of the region of interest.
+Vector3 view_target(const Configuration& configuration);
 Pose configured_start_view(const Configuration& configuration);
 /// Where to begin: with the source's first frame, or where it says, else where a robot of its own is, else as
 /// configured.
@@ -29,6 +32,8 @@ VoxelGrid configured_region(const Configuration& configuration, const SourceDesc
 /// A recording's frames, if the source is one.
 std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& configuration,
                                                                 const SourceDescription& source);
+/// The points of an object that coverage is a share of.
+SurfaceSamples evaluation_samples(const Configuration& configuration, const TriangleMesh& object);
 /// @throws std::invalid_argument naming the file if the object reaches beyond the region of interest.
 void require_within_region(const TriangleMesh& object, const Configuration& configuration,
                            const std::filesystem::path& file);

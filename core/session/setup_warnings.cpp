@@ -91,7 +91,7 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
   views.push_back(configured_start_view(c));
   const Standing s = standing(c, object, views);
   const double longest = object.bounding_box().sizes().maxCoeff();
-  const double reach = 0.5 * object.bounding_box().diagonal().norm();  // the box is centred in the origin
+  const double reach = 0.5 * object.bounding_box().diagonal().norm();
   const bool from_file = c.views.layout == ViewLayout::file;
   const std::string stand = from_file ? "the views of views.file" : "views.radius";
   std::vector<std::string> warnings;

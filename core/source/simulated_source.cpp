@@ -6,7 +6,7 @@ namespace nextview {
 
 SimulatedWorld::SimulatedWorld(std::shared_ptr<const PlacedMesh> placed, const DepthCameraConfig& sensor,
                                const std::stop_token& stop)
-    : object(std::move(placed)), scene(object->mesh, stop), camera(sensor, stop) {}
+    : object(std::move(placed)), scene(object->surroundings(), stop), camera(sensor, stop) {}
 
 SimulatedSource::SimulatedSource(std::shared_ptr<const SimulatedWorld> world, std::uint64_t seed)
     : world_(std::move(world)), seed_(seed) {

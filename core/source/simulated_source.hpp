@@ -7,7 +7,7 @@
 
 namespace nextview {
 
-/// An object in front of a simulated depth camera.
+/// An object, and the ground if it stands on one, in front of a simulated depth camera.
 struct SimulatedWorld {
   std::shared_ptr<const PlacedMesh> object;
   MeshRayCaster scene;

@@ -75,7 +75,7 @@ std::vector<Setting> settings(CandidateViewsConfig& c) {
       {"views.count", "", "number of candidate views", &c.count, from_to(1, 10000)},
       {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(0.01, 100)},
       {"views.rings", "", "number of rings (layout rings)", &c.rings, from_to(1, 10000)},
-      {"views.file", "", "views file (layout file): a count, then x y z qx qy qz qw a line", &c.file},
+      {"views.file", "", "views file (layout file): a count or none, then x y z qx qy qz qw a line", &c.file},
       {"views.adaptive", "", "views made from the map at each step, beside those of a sphere (layout adaptive)",
        &c.adaptive, from_to(1, 1000)},
   };

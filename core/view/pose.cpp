@@ -3,12 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
 #include "core/file/read_file.hpp"
 
 namespace nextview {
+namespace {
+
+/// Whether a line begins a file without a count: it has as many words as a view.
+bool is_view(const std::string& line) {
+  std::istringstream words(line);
+  return std::distance(std::istream_iterator<std::string>(words), {}) >= 7;
+}
+
+/// 0 if the line is no count.
+std::size_t count_of(const std::string& line) {
+  std::istringstream text(line);
+  std::size_t count = 0;
+  return text >> count && (text >> std::ws).eof() ? count : 0;
+}
+
+}  // namespace
 
 Pose look_at(const Vector3& position, const Vector3& target) {
   const Vector3 forward = (target - position).normalized();
@@ -39,33 +56,43 @@ double rotation_angle(const Pose& a, const Pose& b) {
   return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
 }
 
+Pose parse_view(const std::string& text) {
+  std::istringstream line(text);
+  Eigen::Matrix<double, 7, 1> v;
+  for (double& value : v)
+    if (!(line >> value)) throw std::invalid_argument("expected a view as `x y z qx qy qz qw`");
+  if (!(line >> std::ws).eof()) throw std::invalid_argument("more than a view's seven numbers `x y z qx qy qz qw`");
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!v.allFinite() || std::abs(q.norm() - 1.0) > 1e-3)
+    throw std::invalid_argument("the view's quaternion (qx qy qz qw) must be finite and of length 1");
+  return make_pose(v.head<3>(), q);
+}
+
 std::vector<Pose> read_views(const std::filesystem::path& file) {
   constexpr std::uintmax_t largest = std::uintmax_t{1} << 25;  // bytes; the most views take about half of that
+  constexpr std::size_t most = 100'000;
   std::istringstream in(read_file(file, largest));
   const auto fail = [&](std::size_t line, const std::string& reason) {
     return std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, reason));
   };
-  std::string text;
-  std::size_t count = 0;
-  const auto next_line = [&] { return std::getline(in, text) ? std::istringstream(text) : std::istringstream(); };
-  std::istringstream first = next_line();
-  if (!(first >> count) || !(first >> std::ws).eof() || count == 0 || count > 100'000)
-    throw fail(1, "expected the number of views, from 1 to 100000, alone on the first line");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  while (!lines.empty() && lines.back().find_first_not_of(" \t\r") == std::string::npos) lines.pop_back();
+  const bool counted = !lines.empty() && !is_view(lines.front());
+  const std::size_t count = counted ? count_of(lines.front()) : lines.size();
+  if (count == 0 || count > most)
+    throw fail(1, fmt::format("expected the number of views, from 1 to {}, alone on the first line", most));
+  const std::size_t first = counted ? 1 : 0;
+  if (lines.size() - first > count)
+    throw fail(first + count + 1, fmt::format("more than the {} views that the first line tells", count));
   std::vector<Pose> views;
-  for (std::size_t i = 0; i < count; ++i) {
-    std::istringstream line = next_line();
-    if (!in) throw fail(i + 2, fmt::format("expected {} views, found {}", count, i));
-    Eigen::Matrix<double, 7, 1> v;
-    for (double& value : v)
-      if (!(line >> value)) throw fail(i + 2, "expected a view as `x y z qx qy qz qw`");
-    if (!(line >> std::ws).eof()) throw fail(i + 2, "more than a view's seven numbers `x y z qx qy qz qw`");
-    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-    if (!v.allFinite() || std::abs(q.norm() - 1.0) > 1e-3)
-      throw fail(i + 2, "the view's quaternion (qx qy qz qw) must be finite and of length 1");
-    views.push_back(make_pose(v.head<3>(), q));
-  }
-  if (!(in >> std::ws).eof())
-    throw fail(count + 2, fmt::format("more than the {} views that the first line tells", count));
+  for (std::size_t i = first; i < lines.size(); ++i) try {
+      views.push_back(parse_view(lines[i]));
+    } catch (const std::invalid_argument& error) {
+      throw fail(i + 1, error.what());
+    }
+  if (views.size() < count)
+    throw fail(lines.size() + 1, fmt::format("expected {} views, found {}", count, views.size()));
   return views;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace nextview {
@@ -22,7 +23,10 @@ bool is_rigid(const Pose& pose);
 /// Angle of the rotation that takes the orientation of `a` to that of `b` [rad], in [0, pi].
 double rotation_angle(const Pose& a, const Pose& b);
 
-/// The views file: a count, then one view a line as `x y z qx qy qz qw` (T_world_camera, [m]).
+/// A view as `x y z qx qy qz qw` (T_world_camera, [m]). @throws std::invalid_argument with the reason
+Pose parse_view(const std::string& text);
+
+/// The views file: a count alone on its line, which may be left out, then one view a line as parse_view takes it.
 /// @throws std::runtime_error naming the file, the line and what is wrong with it.
 std::vector<Pose> read_views(const std::filesystem::path& file);
 

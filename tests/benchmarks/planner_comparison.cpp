@@ -2,10 +2,14 @@
 // each object and policy as CSV, and their means; the README's table comes from it.
 //   build/release/planner_comparison                                       the objects of the table, half an hour
 //   build/release/planner_comparison --object part.stl --policy paper      some of it
+//   build/release/planner_comparison --config FILE --at 1,2,4,6,10         a table of coverage of all samples, as FILE
+//   has
+//                                                                          it; the README's published table
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -22,6 +26,9 @@ struct Options {
   std::vector<std::string> policies = {"default", "paper", "proximity-count", "average-entropy", "area-factor"};
   int views = 12, width = 320, random_seeds = 5;
   double noise = 0.001, resolution = 0.01, cost_weight = -1.0;
+  std::string config;
+  std::vector<std::string> set;
+  std::vector<int> at;
 };
 
 /// Coverage of the visible surface and metres after each view.
@@ -127,6 +134,52 @@ void compare(const Options& options) {
     print("mean", policy, means.at(policy), gap_closed(means.at(policy), means.at("random"), means.at("oracle")));
 }
 
+/// The gains that were published, random views, and ours.
+const std::vector<std::string> table_policies = {"occlusion-aware",   "unobserved-voxel", "rear-side-voxel",
+                                                 "rear-side-entropy", "proximity-count",  "area-factor",
+                                                 "average-entropy",   "random",           "new-surface"};
+
+/// As a file has it, and `--object` and `--set` after it; what else there is of options is the file's.
+Configuration configuration_of_file(const Options& options) {
+  const fs::path named = assets_folder() / "configurations" / (options.config + ".toml");
+  Configuration c;
+  read_settings(fs::exists(named) ? named : fs::path(options.config), c);
+  for (const std::string& object : options.objects) give(c, "object.file", object, "--object");
+  for (const std::string& one : options.set) {
+    const std::size_t equals = one.find('=');
+    give(c, one.substr(0, equals), equals == std::string::npos ? "" : one.substr(equals + 1), "--set " + one);
+  }
+  c.termination = {};
+  c.termination.views = *std::max_element(options.at.begin(), options.at.end());
+  return c;
+}
+
+/// Share of all samples that is covered after each view of --at; the mean over seeds of random views.
+void print_row(const Options& options, Configuration c, const std::string& policy) {
+  c.planner.gain = policy;
+  c.validate();
+  const int runs = policy == "random" ? options.random_seeds : 1;
+  std::vector<double> coverage(options.at.size());
+  for (int run = 0; run < runs; ++run, ++c.seed) {
+    Session session(c);
+    while (session.finished().empty()) session.step();
+    for (std::size_t i = 0; i < options.at.size(); ++i) {
+      const std::size_t view = std::min(std::size_t(options.at[i]), session.records().size());
+      coverage[i] += session.records().at(view - 1).coverage / runs;
+    }
+  }
+  fmt::print("{}", policy);
+  for (const double share : coverage) fmt::print(",{:.3f}", share);
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+void print_table(const Options& options) {
+  const Configuration c = configuration_of_file(options);
+  fmt::print("policy,{}\n", fmt::join(options.at, ","));
+  for (const std::string& policy : options.policies) print_row(options, c, policy);
+}
+
 }  // namespace
 }  // namespace nextview
 
@@ -134,7 +187,15 @@ int main(int argc, char** argv) {
   nextview::Options options;
   CLI::App app("Coverage against views of planners, random views and the greedy oracle");
   app.add_option("--object", options.objects, "objects as for scan, separated by commas")->delimiter(',');
-  app.add_option("--policy", options.policies, "default, paper, or gains; random and oracle always")->delimiter(',');
+  CLI::Option* policies =
+      app.add_option("--policy", options.policies, "default, paper, or gains; random and oracle always")
+          ->delimiter(',');
+  CLI::Option* config = app.add_option("--config", options.config, "a table as this configuration has it");
+  app.add_option("--set", options.set, "key=value, over the configuration")->needs(config)->allow_extra_args(false);
+  app.add_option("--at", options.at, "columns of the table: after so many views")
+      ->delimiter(',')
+      ->needs(config)
+      ->check(CLI::Range(1, 100));
   app.add_option("--views", options.views)->check(CLI::Range(1, 100));
   app.add_option("--width", options.width, "of the image [px]")->check(CLI::Range(16, 4096));
   app.add_option("--noise", options.noise, "[m]");
@@ -142,6 +203,14 @@ int main(int argc, char** argv) {
   app.add_option("--cost-weight", options.cost_weight, "of Eq. 13, but for the paper's plan");
   app.add_option("--random-seeds", options.random_seeds)->check(CLI::Range(1, 100));
   CLI11_PARSE(app, argc, argv);
-  nextview::compare(options);
+  if (!*config) return nextview::compare(options), 0;
+  if (!*policies) options.policies = nextview::table_policies;
+  if (options.at.empty()) options.at = {1, 2, 4, 6, 10};
+  try {
+    nextview::print_table(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
   return 0;
 }

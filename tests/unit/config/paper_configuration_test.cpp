@@ -13,9 +13,12 @@ namespace {
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
 constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"object.longest_side", "0.5"},
+    {"object.centred", "true"},
+    {"object.ground", "false"},
     {"sensor.width", "640"},
     {"sensor.height", "480"},
     {"sensor.field_of_view", "58"},
+    {"sensor.intrinsics", ""},
     {"sensor.min_range", "0.2"},
     {"sensor.max_range", "1.5"},
     {"sensor.range_noise", "0.002"},
@@ -29,6 +32,7 @@ constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"cloud.down_sampling_leaf", "0.002"},
     {"map.resolution", "0.01"},
     {"map.region_edge", "1.28"},
+    {"map.region", ""},
     {"map.insertion", "local-octree"},
     {"map.hit", "0.7"},
     {"map.miss", "0.4"},
@@ -70,9 +74,11 @@ constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"planner.combined_weights", ""},
     {"planner.ray_columns", "38"},
     {"planner.ray_rows", "25"},
+    {"planner.ray_window", "1"},
     {"planner.ray_length", "1.5"},
     {"planner.start_azimuth", "30"},
     {"planner.start_elevation", "20"},
+    {"planner.start_view", ""},
     {"termination.views", "20"},
     {"termination.coverage", "0"},
     {"termination.gain", "0"},
@@ -80,6 +86,7 @@ constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"termination.entropy_slope", "0"},
     {"evaluation.enabled", "true"},
     {"evaluation.d_reg", "0.005"},
+    {"evaluation.samples", "surface"},
     {"evaluation.surface_samples", "50000"},
 }};
 const std::set<std::string> not_pinned = {"seed", "object.file", "sensor.preset", "views.file"};

@@ -242,7 +242,8 @@ TEST(Configurations, ThoseThatComeWithTheProgramAreGoodAndChangeSomething) {
     EXPECT_NE(to_toml(configuration), to_toml(other)) << file;
     names.insert(file.path().stem().string());
   }
-  EXPECT_EQ(names, (std::set<std::string>{"calibrated", "new_surface", "paper"})) << "--help names these";
+  EXPECT_EQ(names, (std::set<std::string>{"calibrated", "new_surface", "paper", "published_bunny"}))
+      << "--help names these";
 }
 
 }  // namespace

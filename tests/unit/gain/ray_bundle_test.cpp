@@ -31,6 +31,21 @@ TEST(RayBundle, RegularRaysPassThroughTheMiddlesOfEqualCells) {
     }
 }
 
+TEST(RayBundle, AWindowIsTheMiddleOfTheImage) {
+  const PinholeCamera camera = conformance_camera();
+  const RayBundle whole = RayBundle::regular(camera, 38, 25), asked = RayBundle::regular(camera, 38, 25, 1.0);
+  EXPECT_EQ(whole.directions, asked.directions);
+  const RayBundle half = RayBundle::regular(camera, 38, 25, 0.5);
+  ASSERT_EQ(half.directions.size(), 950u);
+  const Eigen::Vector2d first = camera.project(half.directions.front()), last = camera.project(half.directions.back());
+  EXPECT_NEAR(first.x(), 752 / 4.0 + 0.25 * 752 / 38 - 0.5, 1e-9);
+  EXPECT_NEAR(first.y(), 480 / 4.0 + 0.25 * 480 / 25 - 0.5, 1e-9);
+  EXPECT_NEAR(first.x() + last.x(), 751, 1e-9);
+  EXPECT_NEAR(first.y() + last.y(), 479, 1e-9);
+  const RayBundle pixels = RayBundle::regular(camera, 376, 240, 0.5), one = RayBundle::regular(camera, 752, 480);
+  EXPECT_NEAR(pixels.solid_angles.front(), one.solid_angles[120 * 752 + 188], 1e-15) << "a pixel each";
+}
+
 TEST(RayBundle, AsManyRaysAsPixelsGoThroughPixels) {
   const PinholeCamera camera = PinholeCamera::from_field_of_view(8, 6, 1.0);
   const RayBundle bundle = RayBundle::regular(camera, 8, 6);

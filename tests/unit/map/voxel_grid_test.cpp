@@ -63,6 +63,24 @@ TEST(RegionOfInterest, IsThePapersCubeAtItsSettings) {
   EXPECT_EQ(grid.first, Eigen::Vector3i::Constant(-64));
 }
 
+TEST(RegionOfInterest, OfABoxIsAllVoxelsItReachesInto) {
+  const auto region = [](const Vector3& lower, const Vector3& upper, double resolution) {
+    return region_of_interest(Eigen::AlignedBox3d(lower, upper), resolution);
+  };
+  const VoxelGrid exact = region({-0.4, -0.3, 0}, {0.4, 0.3, 0.8}, 0.01);
+  EXPECT_EQ(exact.first, Eigen::Vector3i(-40, -30, 0));
+  EXPECT_EQ(exact.size, Eigen::Vector3i(80, 60, 80));
+  const VoxelGrid between = region({-0.401, 0.009, 0.5}, {-0.4, 0.011, 0.505}, 0.01);
+  EXPECT_EQ(between.first, Eigen::Vector3i(-41, 0, 50));
+  EXPECT_EQ(between.size, Eigen::Vector3i(1, 2, 1));
+  const double nan = std::nan("");
+  EXPECT_THROW(region({0, 0, 0}, {1, 1, 0}, 0.1), std::invalid_argument);
+  EXPECT_THROW(region({0, 0, 0}, {1, 1, nan}, 0.1), std::invalid_argument);
+  EXPECT_THROW(region({0, 0, 0}, {1, 1, 11}, 0.01), std::invalid_argument);
+  EXPECT_THROW(region({1e4, 0, 0}, {1e4 + 1, 1, 1}, 0.01), std::invalid_argument);
+  EXPECT_THROW(region_of_interest(Eigen::AlignedBox3d(), 0.1), std::invalid_argument);
+}
+
 TEST(RegionOfInterest, RejectsWhatHasNoVoxelsOrTooMany) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, nan, infinity, -infinity}) {

@@ -66,6 +66,34 @@ TEST(MeshFile, theLongestSideIsAsAskedAndTheBoxIsCentred) {
     EXPECT_THROW(load_mesh(file, {.longest_side = wrong}), std::invalid_argument) << wrong;
 }
 
+TEST(MeshFile, itStaysWhereTheFileHasItIfAsked) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("t.obj", files::obj());
+  TriangleMesh as_in_file;
+  for (const auto& c : files::corners) as_in_file.vertices.emplace_back(c[0], c[1], c[2]);
+  as_in_file.triangles.assign(files::faces.begin(), files::faces.end());
+  const PlacedMesh kept = load_placed_mesh(file, {.longest_side = 0.0, .centred = false});
+  EXPECT_EQ(shape(kept.mesh), shape(as_in_file));
+  EXPECT_EQ(kept.placement(Eigen::Vector3d(1, 2, 3)), Eigen::Vector3d(1, 2, 3));
+  for (Eigen::Vector3f& vertex : as_in_file.vertices) vertex *= 0.125f;  // scaled about the file's origin
+  EXPECT_EQ(shape(load_mesh(file, {.centred = false})), shape(as_in_file));
+}
+
+TEST(MeshFile, theGroundLiesUnderTheLowestPointAndIsNoPartOfTheMesh) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("t.obj", files::obj());
+  EXPECT_EQ(shape(load_placed_mesh(file).surroundings()), shape(expected(0.125f)));
+  const PlacedMesh standing = load_placed_mesh(file, {.ground = true});
+  EXPECT_EQ(shape(standing.mesh), shape(expected(0.125f)));
+  const TriangleMesh all = standing.surroundings();
+  ASSERT_EQ(all.triangles.size(), standing.mesh.triangles.size() + 2);
+  EXPECT_TRUE(std::equal(standing.mesh.triangles.begin(), standing.mesh.triangles.end(), all.triangles.begin()));
+  const Eigen::AlignedBox3d box = all.bounding_box();
+  EXPECT_NEAR(box.min().z(), -0.25, 1e-7) << "the tetrahedron is 0.5 m high and centred";
+  EXPECT_NEAR(box.max().z(), 0.25, 1e-7);
+  EXPECT_GE(box.sizes().head<2>().minCoeff(), 2000.0);
+}
+
 TEST(MeshFile, transformsOfNodesAreJoined) {
   const TemporaryFolder folder;
   folder.write("buffer.bin", files::gltf_buffer());

@@ -27,6 +27,14 @@ TEST(SurfaceSamples, sharesFollowAreasToOneSample) {
   EXPECT_NEAR(counts[2], 1001 * 0.25, 1.0);
 }
 
+TEST(SurfaceSamples, verticesCountOnceEachWithATriangleOfTheirs) {
+  TriangleMesh mesh = uneven();
+  mesh.vertices.push_back({9, 9, 9});  // of no triangle
+  const SurfaceSamples samples = vertex_samples(mesh);
+  EXPECT_EQ(samples.points, uneven().vertices);
+  EXPECT_EQ(samples.triangles, (std::vector<std::uint32_t>{0, 0, 0, 1, 2, 2, 2}));
+}
+
 TEST(SurfaceSamples, pointsAreUniformOverATriangle) {
   constexpr std::size_t count = 40'000;
   const SurfaceSamples samples = sample_surface(uneven(), count, 3);

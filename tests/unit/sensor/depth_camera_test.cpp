@@ -49,6 +49,25 @@ TEST(DepthCamera, settingsOutsideTheirBoundsAreNamed) {
   EXPECT_NO_THROW(DepthCamera(DepthCameraConfig{}));
 }
 
+TEST(DepthCamera, intrinsicsTakeThePlaceOfTheFieldOfView) {
+  DepthCameraConfig config;
+  const PinholeCamera plain = config.camera();
+  EXPECT_EQ(plain.fx, PinholeCamera::from_field_of_view(640, 480, 58.0 * std::numbers::pi / 180.0).fx);
+  config.intrinsics = "448.1 450, 376.5 -2";
+  const PinholeCamera camera = DepthCamera(config).camera();
+  EXPECT_EQ(camera.width, 640);
+  EXPECT_EQ(camera.height, 480);
+  EXPECT_EQ(camera.fx, 448.1);
+  EXPECT_EQ(camera.fy, 450.0);
+  EXPECT_EQ(camera.cx, 376.5);
+  EXPECT_EQ(camera.cy, -2.0);
+  for (const char* wrong : {"448", "0 448 1 1", "448 -448 1 1", "448 448 1 1 1", "448 448 1 x", "nan 448 1 1",
+                            "448 inf 1 1", "1e7 448 1 1", "448 448 1 -1e7", " "}) {
+    config.intrinsics = wrong;
+    EXPECT_THROW(config.validate(), std::invalid_argument) << wrong;
+  }
+}
+
 TEST(DepthCamera, aTiltedPlaneHasTheRangesOfTheFormula) {
   DepthCameraConfig config;
   config.width = 37, config.height = 23;  // no multiples of a packet

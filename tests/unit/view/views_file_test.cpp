@@ -71,6 +71,23 @@ TEST_F(ViewsFile, AcceptsCarriageReturnsAndNoFinalNewline) {
   EXPECT_EQ(read("1\n0.1 0.2 0.3 0 0 0 1").size(), 1u);
 }
 
+TEST_F(ViewsFile, MayHaveNoCount) {
+  const std::string views = std::string(two_views).substr(2);
+  const std::vector<Pose> without = read(views), with = read(two_views);
+  ASSERT_EQ(without.size(), 2u);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(without[i].matrix(), with[i].matrix());
+  EXPECT_EQ(read(views + "\n \n").size(), 2u) << "blank lines at the end";
+  EXPECT_NE(reason("0.1 0.2 0.3 0 0 0\n" + views), "") << "a view of six numbers first";
+  EXPECT_NE(reason(views + "2\n").find(":3"), std::string::npos) << "the count comes first";
+  EXPECT_NE(reason("\n" + views), "");
+}
+
+TEST_F(ViewsFile, OneViewIsReadFromAText) {
+  EXPECT_EQ(parse_view("0.1 0.2 0.3 0 0 0 1").matrix(), read(two_views)[0].matrix());
+  for (const char* bad : {"", "1 2 3", "1 2 3 0 0 0 1 0", "1 2 3 0 0 0 2", "1 2 nan 0 0 0 1", "1,2,3,0,0,0,1"})
+    EXPECT_THROW(parse_view(bad), std::invalid_argument) << bad;
+}
+
 TEST_F(ViewsFile, RoundedQuaternionsAreMadeUnit) {
   const std::vector<Pose> views = read("1\n0 0 0 0.3827 0 0 0.9239\n");
   EXPECT_LT((views[0].linear().transpose() * views[0].linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
