@@ -151,10 +151,10 @@ TriangleMesh PlacedMesh::surroundings() const {
   const Eigen::AlignedBox3d box = mesh.bounding_box();
   const Eigen::Vector3f below(float(box.center().x()), float(box.center().y()), float(box.min().z()));
   const auto first = static_cast<std::uint32_t>(all.vertices.size());
-  for (const Eigen::Vector2f corner : {Eigen::Vector2f(-far, -far), {far, -far}, {far, far}, {-far, far}})
-    all.vertices.push_back(below + Eigen::Vector3f(corner.x(), corner.y(), 0.0f));
-  all.triangles.push_back({first, first + 1, first + 2});
-  all.triangles.push_back({first, first + 2, first + 3});
+  for (const float y : {-far, far})
+    for (const float x : {-far, far}) all.vertices.push_back(below + Eigen::Vector3f(x, y, 0.0f));
+  all.triangles.push_back({first, first + 1, first + 3});
+  all.triangles.push_back({first, first + 3, first + 2});
   return all;
 }
 
