@@ -67,6 +67,7 @@ Configuration configuration(const Options& options, const std::string& object, c
   if (options.cost_weight >= 0.0 && policy != "paper") c.planner.weights.cost = options.cost_weight;
   c.termination = {};
   c.termination.views = options.views;
+  c.termination.surface_left = 0.0;
   return c;
 }
 

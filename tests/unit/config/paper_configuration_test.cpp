@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 72> pinned = {{
     {"object.longest_side", "0.5"},
     {"sensor.width", "640"},
     {"sensor.height", "480"},
@@ -22,6 +22,7 @@ constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"sensor.dropout", "0"},
     {"sensor.outliers", "0"},
     {"sensor.grazing_limit", "85"},
+    {"sensor.seconds", "4"},
     {"cloud.outlier_removal", "true"},
     {"cloud.outlier_neighbours", "16"},
     {"cloud.outlier_deviations", "3"},
@@ -65,6 +66,7 @@ constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"views.rings", "3"},
     {"planner.gain", "occlusion-aware"},
     {"planner.semantics", "published"},
+    {"planner.utility", "weighted-shares"},
     {"planner.gain_weight", "1"},
     {"planner.cost_weight", "1"},
     {"planner.combined_weights", ""},
@@ -74,6 +76,7 @@ constexpr std::array<std::array<const char*, 2>, 69> pinned = {{
     {"planner.start_azimuth", "30"},
     {"planner.start_elevation", "20"},
     {"termination.views", "20"},
+    {"termination.surface_left", "0"},
     {"termination.coverage", "0"},
     {"termination.gain", "0"},
     {"termination.new_voxels", "0"},
