@@ -34,14 +34,14 @@ void print_head(const Session& session) {
              c.planner.semantics == Semantics::published ? "published" : "reference");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
              "new", "coverage", "entropy", "log loss", "seconds");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "voxels",
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "cm²",
              "% visible", "kbit", "nats*", "");
 }
 
 void print_step(const StepRecord& r) {
   const StageSeconds& s = r.seconds;
-  fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
-             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.hits, r.new_voxels,
+  fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9.0f} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
+             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.hits, r.new_surface,
              100.0 * r.coverage_visible, r.entropy / 1e3, r.quality_near_surface.log_loss,
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
   if (r.refinement) {
@@ -55,15 +55,22 @@ void print_step(const StepRecord& r) {
   std::fflush(stdout);
 }
 
-void print_files(const Session& session, const std::filesystem::path& out, bool pictures, const std::string& surfaces) {
+void print_end(const Session& session) {
   fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
-  if (session.known_object() && !session.records().empty())
+  if (session.records().empty()) return;
+  const StepRecord& last = session.records().back();
+  if (last.surface_left && session.known_object())
+    fmt::print("Surface expected to be left: {:.2g} %; truly left of what the candidates can see: {:.2g} %.\n",
+               100.0 * *last.surface_left, 100.0 * (1.0 - last.coverage_visible));
+  if (session.known_object())
     fmt::print(
         "* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; "
         "of all the\n"
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
-        1e3 * session.configuration().evaluation.d_reg, 100.0 * session.records().back().coverage,
-        100.0 * session.records().back().coverage_paper);
+        1e3 * session.configuration().evaluation.d_reg, 100.0 * last.coverage, 100.0 * last.coverage_paper);
+}
+
+void print_files(const Session& session, const std::filesystem::path& out, bool pictures, const std::string& surfaces) {
   fmt::print("\n{}/\n", printable(out.string()));
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
@@ -103,6 +110,7 @@ int run(const ScanArguments& arguments) {
     surface_files = write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(),
                                              out, figure != nullptr);
   }
+  print_end(session);
   print_files(session, out.path(), figure != nullptr, surface_files);
   return session.finished().empty() || stop.token().stop_requested() ? exit_stopped : 0;
 }

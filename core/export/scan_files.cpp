@@ -20,29 +20,30 @@ std::string steps_csv(const Session& session) {
       "misses,new_voxels,"
       "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
       "nats],brier,"
-      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate\n",
+      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left\n",
       unit, 1e3 * d_reg, 1e3 * d_reg);
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.view,
-                       int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance, r.motion.rotation,
-                       path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy, r.coverage,
-                       r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss, r.quality.brier,
-                       r.quality_near_surface.log_loss, r.quality_near_surface.brier,
-                       r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()));
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step,
+                       r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
+                       r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
+                       r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
+                       r.quality.brier, r.quality_near_surface.log_loss, r.quality_near_surface.brier,
+                       r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()),
+                       r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "");
   }
   return csv;
 }
 
 std::string scores_csv(const Session& session) {
   const bool refined = session.refinement() != nullptr;
-  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility{}\n", session.planner().unit(),
+  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility,seconds[s]{}\n", session.planner().unit(),
                                 refined ? ",gain_on_conventional_map[nats]" : "");
   for (const StepRecord& r : session.records())
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
       const Candidate& c = r.candidates[v];
-      csv += fmt::format("{},{},{},{},{},{}", r.step, v, int(c.available), c.gain, c.cost, c.utility);
+      csv += fmt::format("{},{},{},{},{},{},{}", r.step, v, int(c.available), c.gain, c.cost, c.utility, c.seconds);
       csv += refined ? fmt::format(",{}\n", r.refinement->conventional_gains[v]) : "\n";
     }
   return csv;
@@ -132,6 +133,8 @@ std::string metrics_json(const Session& session, const PointCloud& cloud) {
   if (!records.empty()) {
     json["entropy_bits"] = records.back().entropy;
     json["total_entropy_bits"] = records.back().total_entropy;
+    if (records.back().surface_left) json["surface_left"]["expected_share"] = *records.back().surface_left;
+    if (session.known_object()) json["surface_left"]["true_share"] = 1.0 - records.back().coverage_visible;
     if (session.known_object()) json.update(evaluation_json(session, cloud));
   }
   return json.dump(2) + "\n";

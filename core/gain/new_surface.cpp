@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/map/traversal.hpp"
@@ -39,23 +40,58 @@ NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfa
   });
 }
 
+namespace {
+
+/// The new surface that one view is expected to see [cm^2]. `visit(x, y, z, area)` gets the area across a ray [m^2].
+template <class Visit>
+double area_of_view(const NewSurfaceField& field, const Pose& view, const RayBundle& bundle,
+                    const NewSurfaceOptions& options, Visit visit) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
+    double of_ray = 0.0;
+    follow(field, view.translation(), view.linear() * bundle.directions[i], options.ray_length,
+           [&](int x, int y, int z, double, double found) {
+             of_ray += found;
+             visit(x, y, z, found * bundle.solid_angles[i]);
+           });
+    area += of_ray * bundle.solid_angles[i];
+  }
+  return square_centimetres * options.slant * area;
+}
+
+}  // namespace
+
 std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
                                          const RayBundle& bundle, const NewSurfaceOptions& options,
                                          std::stop_token stop) {
   std::vector<double> areas(views.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
-    if (stop.stop_requested()) return;
-    const Pose& view = views[v];
-    double area = 0.0;
-    for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
-      double of_ray = 0.0;
-      follow(field, view.translation(), view.linear() * bundle.directions[i], options.ray_length,
-             [&](int, int, int, double, double found) { of_ray += found; });
-      area += of_ray * bundle.solid_angles[i];
-    }
-    areas[v] = square_centimetres * options.slant * area;
+    if (!stop.stop_requested()) areas[v] = area_of_view(field, views[v], bundle, options, [](int, int, int, double) {});
   });
   return areas;
+}
+
+NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
+                                        const RayBundle& bundle, const NewSurfaceOptions& options,
+                                        std::stop_token stop) {
+  const Eigen::Vector3i parts = (field.grid().size + Eigen::Vector3i::Constant(7)) / 8;
+  NewSurfaceForecast forecast;
+  forecast.part_count = static_cast<std::size_t>(parts.prod());
+  forecast.areas.assign(views.size(), 0.0);
+  forecast.parts.assign(views.size(), std::vector<float>(forecast.part_count, 0.0f));
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
+    if (stop.stop_requested()) return;
+    const double worth = square_centimetres * options.slant;
+    forecast.areas[v] = area_of_view(field, views[v], bundle, options, [&](int x, int y, int z, double area) {
+      forecast.parts[v][std::size_t(((z >> 3) * parts.y() + (y >> 3)) * parts.x() + (x >> 3))] += float(worth * area);
+    });
+  });
+  for (std::size_t part = 0; part < forecast.part_count; ++part) {
+    float most = 0.0f;
+    for (const std::vector<float>& of_view : forecast.parts) most = std::max(most, of_view[part]);
+    forecast.all += most;
+  }
+  return forecast;
 }
 
 ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGrid& grid, const VoxelBricks& voxels,

@@ -35,6 +35,20 @@ std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span
                                          const RayBundle& bundle, const NewSurfaceOptions& options,
                                          std::stop_token stop = {});
 
+/// What views are expected to show, each for itself and all together [cm^2].
+struct NewSurfaceForecast {
+  std::vector<double> areas;  ///< expected_new_surface
+  /// Of each view, how much of that is in each part of the map, a block of 8 x 8 x 8 voxels.
+  std::vector<std::vector<float>> parts;
+  std::size_t part_count = 0;
+  /// Of each part what the view shows that shows most of it. As views see parts from several sides it is too little,
+  /// and too much as no view knows what another would have seen.
+  double all = 0.0;
+};
+NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
+                                        const RayBundle& bundle, const NewSurfaceOptions& options,
+                                        std::stop_token stop = {});
+
 /// A view's expected new surface taken apart [cm^2]: the voxels with their probability of being occupied, which
 /// `voxels` of the whole `grid` say, and their visibility, which is reach.
 ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGrid& grid, const VoxelBricks& voxels,

@@ -145,7 +145,8 @@ void walk_ray_segments(const VoxelGrid& grid, const Vector3& origin, const Vecto
   // The grid's far side is met by counting voxels, not by distance: no rounding cuts the last one short.
   const unsigned nx = grid.size.x(), ny = grid.size.y(), nz = grid.size.z();
   while (true) {
-    const double exit = w.exit();
+    // A ray that hardly moves along an axis may be a rounding beyond its face there, and meet it long ago.
+    const double exit = std::max(w.exit(), enter);
     if (!visit(w.x, w.y, w.z, enter, exit) || exit >= max_range) return;
     enter = exit;
     w.advance();

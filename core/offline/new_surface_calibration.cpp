@@ -107,6 +107,7 @@ Configuration configuration_of(std::size_t object, Configuration c, const NewSur
   c.planner.start_azimuth = 360.0 * CounterRandom(c.seed, random_stream::training_views).uniform(object)[0];
   c.termination = {};
   c.termination.views = config.views;
+  c.termination.surface_left = 0.0;
   c.evaluation.enabled = false;
   c.seed += object;
   return c;

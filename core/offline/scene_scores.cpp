@@ -76,7 +76,7 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
       throw std::invalid_argument(
           fmt::format("the gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
     const PlanningState state{planner, 1, reach, known, *rays, parameters.rays, nullptr, candidates, {}};
-    const auto column = on_posterior ? gibbs_gains(scene, progress, stop) : policy->values(state, all, stop);
+    const auto column = on_posterior ? gibbs_gains(scene, progress, stop) : policy->values(state, all, stop).gains;
     throw_if_stopped(stop);
     scores.gains.push_back(planner.gain);
     for (std::size_t v = 0; v < column.size(); ++v) scores.views[v].gains.push_back(column[v]);

@@ -7,8 +7,8 @@
 
 namespace nextview {
 
-std::vector<double> BaselinePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
-                                           std::stop_token) const {
+Valuation BaselinePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                 std::stop_token) const {
   std::vector<double> values;
   for (const std::size_t candidate : available) values.push_back(value(state, candidate));
   return values;
@@ -33,8 +33,8 @@ double FixedOrderPolicy::value(const PlanningState& state, std::size_t candidate
   return static_cast<double>(state.candidates.size() - candidate);
 }
 
-std::vector<double> CoveringOrderPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
-                                                std::stop_token) const {
+Valuation CoveringOrderPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                      std::stop_token) const {
   const auto order = state.true_surface->covering_order(state.seed);
   std::vector<double> values;
   for (const std::size_t candidate : available)

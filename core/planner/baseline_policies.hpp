@@ -6,9 +6,9 @@ namespace nextview {
 /// What a planner is compared with. It ranks by other means than volumetric information.
 class BaselinePolicy : public Policy {
  public:
-  UtilityWeights weights(const PlannerConfig&) const override { return {1.0, 0.0}; }
-  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                             std::stop_token stop) const override;
+  bool ignores_cost() const override { return true; }
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                   std::stop_token stop) const override;
 
  protected:
   /// The larger, the sooner.
@@ -38,8 +38,8 @@ class FixedOrderPolicy : public BaselinePolicy {
 class CoveringOrderPolicy : public BaselinePolicy {
  public:
   PolicyNeeds needs() const override { return {false, false, true}; }
-  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                             std::stop_token stop) const override;
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                   std::stop_token stop) const override;
 
  private:
   double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are ordered at once

@@ -26,8 +26,8 @@ std::vector<std::vector<double>> gain_values(const PlanningState& state, std::sp
 
 }  // namespace
 
-std::vector<double> GainPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
-                                       std::stop_token stop) const {
+Valuation GainPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                             std::stop_token stop) const {
   const Gain* const one = &gain_;
   return gain_values(state, available, {&one, 1}, stop).front();
 }
@@ -64,8 +64,8 @@ PolicyNeeds CombinedPolicy::needs() const {
   return {std::ranges::any_of(gains_, &Gain::needs_occlusion), false, false};
 }
 
-std::vector<double> CombinedPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
-                                           std::stop_token stop) const {
+Valuation CombinedPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                 std::stop_token stop) const {
   return combine(weights_, gain_values(state, available, gains_, stop), state.config.semantics);
 }
 

@@ -9,8 +9,8 @@ class GainPolicy : public Policy {
   explicit GainPolicy(const Gain& gain) : gain_(gain) {}
   std::string unit() const override { return std::string(gain_.unit); }
   PolicyNeeds needs() const override { return {gain_.needs_occlusion, gain_.needs_posterior, false}; }
-  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                             std::stop_token stop) const override;
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                   std::stop_token stop) const override;
   const Gain* gain() const override { return &gain_; }
   std::string no_explanation() const override { return ""; }
   std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
@@ -25,8 +25,8 @@ class CombinedPolicy : public Policy {
   /// @param weights `gain=weight,gain=weight`; empty: the pre-release weights. @throws std::invalid_argument
   explicit CombinedPolicy(const std::string& weights);
   PolicyNeeds needs() const override;
-  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                             std::stop_token stop) const override;
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                   std::stop_token stop) const override;
   std::string no_explanation() const override {
     return "weighs several gains over all candidates; it has no rays of its own";
   }

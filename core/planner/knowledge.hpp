@@ -6,6 +6,7 @@
 #include "core/gain/map_rays.hpp"
 #include "core/gibbs/gibbs_state.hpp"
 #include "core/map/occupancy_map.hpp"
+#include "core/map/scanned_surface.hpp"
 #include "core/progress/progress.hpp"
 #include "core/view/view.hpp"
 
@@ -15,6 +16,8 @@ namespace nextview {
 struct TakenView {
   View wanted;
   Pose T_world_camera = Pose::Identity();  ///< the one that was reached
+  double gain = 0.0;                       ///< that was expected of it, in the planner's unit; 0 if nothing was
+  double new_surface = 0.0;                ///< that it showed [cm^2]
 };
 
 /// All that a scan has learned, and all that a fork of it copies: a few pointers, as copies share what they have in
@@ -23,6 +26,7 @@ struct Knowledge {
   OccupancyMap map;
   std::shared_ptr<const GibbsState> posterior = {};    ///< the Gibbs map; null if the planner needs none
   std::shared_ptr<const ReferenceMap> reference = {};  ///< reference semantics only
+  std::shared_ptr<const ScannedSurface> scanned = {};  ///< null where nothing is to be scanned
   std::vector<TakenView> taken = {};
 
   /// The voxels that views are planned on: the Gibbs map's if there is one.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/planner/remaining_plan.hpp"
+
 namespace nextview {
 namespace {
 
@@ -34,11 +36,32 @@ SurfaceEvidence surface_evidence(const Knowledge& known) {
   return {map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold};
 }
 
-std::vector<double> NewSurfacePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
-                                             std::stop_token stop) const {
+double promise_kept(std::span<const TakenView> taken) {
+  constexpr double memory = 0.4;  // of a view, one view later
+  constexpr double least = 0.02, most = 5.0;
+  double kept = 1.0, found = 0.0, expected = 0.0;
+  for (const TakenView& view : taken) {
+    if (!(view.gain > 0.0)) continue;
+    const double as_modelled = view.gain / kept;
+    if (expected == 0.0) found = expected = as_modelled;  // as if one view before had kept its promise
+    found = memory * found + view.new_surface;
+    expected = memory * expected + as_modelled;
+    kept = std::clamp(found / expected, least, most);
+  }
+  return kept;
+}
+
+Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                   std::stop_token stop) const {
   std::vector<Pose> views;
   for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
-  return expected_new_surface({surface_evidence(state.known), model_}, views, state.bundle, options(state), stop);
+  NewSurfaceForecast forecast =
+      forecast_new_surface({surface_evidence(state.known), model_}, views, state.bundle, options(state), stop);
+  const double seen = state.known.scanned ? 1e4 * model_.slant * state.known.scanned->area() : 0.0;  // [cm^2]
+  if (!(seen > 0.0)) return std::move(forecast.areas);
+  std::vector<std::size_t> few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
+  for (std::size_t& view : few) view = available[view];
+  return {std::move(forecast.areas), forecast.all / (forecast.all + seen), std::move(few)};
 }
 
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {

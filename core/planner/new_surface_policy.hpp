@@ -7,14 +7,18 @@ namespace nextview {
 /// What the maps that views are planned on say of where the surface goes on.
 SurfaceEvidence surface_evidence(const Knowledge& known);
 
+/// How well the views so far kept what was expected of them, the last ones most: found over expected new surface. 1
+/// before there is any to tell from; bounded, as one view proves little. Expectations had it as a factor already.
+double promise_kept(std::span<const TakenView> taken);
+
 /// A view is worth the surface that it is expected to see first.
 class NewSurfacePolicy : public Policy {
  public:
   explicit NewSurfacePolicy(const NewSurfaceModel& model) : model_(model) {}
   std::string unit() const override { return "cm²"; }
   PolicyNeeds needs() const override { return {true, false, false}; }
-  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                             std::stop_token stop) const override;
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                   std::stop_token stop) const override;
   std::string promise(double value, const PlanningState& state, const Pose& T_world_camera) const override;
   std::string no_explanation() const override { return ""; }
   std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
@@ -22,7 +26,9 @@ class NewSurfacePolicy : public Policy {
  private:
   ScoreExplanation explanation(const SurfaceEvidence& evidence, const PlanningState& state,
                                const Pose& T_world_camera) const;
-  NewSurfaceOptions options(const PlanningState& state) const { return {state.config.ray_length, model_.slant}; }
+  NewSurfaceOptions options(const PlanningState& state) const {
+    return {state.config.ray_length, promise_kept(state.taken) * model_.slant};
+  }
 
   NewSurfaceModel model_;
 };

@@ -37,7 +37,8 @@ std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std:
   return second;
 }
 
-Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights) {
+Ranking rank(std::span<Candidate> candidates, const Utility& utility) {
+  const UtilityWeights& weights = utility.weights;
   double gain_sum = 0.0, cost_sum = 0.0;
   std::vector<double> gains;
   for (const Candidate& c : candidates) {
@@ -51,8 +52,12 @@ Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights) {
     Candidate& c = candidates[v];
     c.utility = 0.0;
     if (!c.available) continue;
-    if (gain_sum != 0.0) c.utility += weights.gain * c.gain / gain_sum;  // Eq. 13
-    if (cost_sum != 0.0) c.utility -= weights.cost * c.cost / cost_sum;
+    if (utility.scan_seconds) {
+      c.utility = c.gain / (c.seconds + *utility.scan_seconds);
+    } else {
+      if (gain_sum != 0.0) c.utility += weights.gain * c.gain / gain_sum;  // Eq. 13
+      if (cost_sum != 0.0) c.utility -= weights.cost * c.cost / cost_sum;
+    }
     if (!ranking.best || c.utility > candidates[*ranking.best].utility) ranking.best = v;  // Eq. 14
   }
   ranking.degenerate = degeneracy_reason(gains);

@@ -12,11 +12,19 @@ struct Candidate {
   double gain = 0.0;      ///< in the gain's own unit
   double cost = 0.0;      ///< of going there (distance [m])
   double utility = 0.0;   ///< set by rank()
+  double seconds = 0.0;   ///< of going there, as the robot says
 };
 
 struct UtilityWeights {
   double gain = 1.0;
   double cost = 1.0;
+};
+
+/// What weighs a gain against the way to it.
+struct Utility {
+  UtilityWeights weights;
+  /// Of taking a scan. If given, utility is the gain per second of going there and scanning, whatever the weights are.
+  std::optional<double> scan_seconds = {};
 };
 
 /// A ranking and whether it says anything.
@@ -31,7 +39,7 @@ struct Ranking {
 std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std::size_t best);
 
 /// Sets the utility of the available candidates, U = w_g G / sum G - w_c C / sum C (Eq. 13; a term whose sum is 0 is
-/// 0), and finds the next best view.
-Ranking rank(std::span<Candidate> candidates, const UtilityWeights& weights);
+/// 0) or the gain per second, and finds the next best view.
+Ranking rank(std::span<Candidate> candidates, const Utility& utility);
 
 }  // namespace nextview

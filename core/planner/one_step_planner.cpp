@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/planner/planner.hpp"
+#include "core/planner/remaining_plan.hpp"
 #include "core/progress/stopped.hpp"
 
 namespace nextview {
@@ -10,23 +11,33 @@ namespace {
 
 PlanningState state_of(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
                        const RayCaster& rays) {
-  return {setup.config, setup.seed, setup.occlusion_reach, known, rays, setup.bundle, setup.true_surface,
-          views,        known.taken};
+  return {setup.config, setup.seed,  setup.occlusion_reach, known, rays, setup.bundle, setup.true_surface,
+          views,        known.taken, setup.negligible_share};
+}
+
+Utility utility(const Policy& policy, const PlanningSetup& setup) {
+  if (policy.ignores_cost()) return {{1.0, 0.0}};
+  if (setup.config.utility == UtilityKind::gain_per_second) return {setup.config.weights, setup.scan_seconds};
+  return {setup.config.weights};
 }
 
 /// "Candidate 17: 214 cm² of new surface, most of it at its top; 0.90 m away. Runner-up 32: 190 cm², 0.40 m."
 std::string reason(const Policy& policy, const PlanningState& state, std::span<const Candidate> candidates,
-                   std::size_t best) {
+                   std::size_t best, bool is_per_second) {
   constexpr double saturated = 0.001;  // of the largest gain
   const Candidate& chosen = candidates[best];
   std::string text =
       fmt::format("Candidate {}: {}; {:.2f} m away.", best,
                   policy.promise(chosen.gain, state, state.candidates[best].T_world_camera), chosen.cost);
+  const std::string unit = policy.unit().empty() ? "" : " " + policy.unit();
+  if (is_per_second) {
+    text.back() = ',';
+    text += fmt::format(" {}{} a second.", short_text(chosen.utility), unit);
+  }
   const auto second = runner_up(candidates, best);
   if (!second) return text;
-  const std::string unit = policy.unit();
-  text += fmt::format(" Runner-up {}: {}{}{}, {:.2f} m.", *second, short_text(candidates[*second].gain),
-                      unit.empty() ? "" : " ", unit, candidates[*second].cost);
+  text += fmt::format(" Runner-up {}: {}{}, {:.2f} m.", *second, short_text(candidates[*second].gain), unit,
+                      candidates[*second].cost);
   double largest = 0.0;
   for (const Candidate& c : candidates)
     if (c.available) largest = std::max(largest, c.gain);
@@ -38,6 +49,17 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   return text;
 }
 
+/// " About 12 % of the surface is left: 7 views, 5.1 m."
+std::string outlook(const Valuation& valuation, const PlanningState& state) {
+  const std::string left = fmt::format(" About {:.2g} % of the surface is left", 100.0 * *valuation.surface_left);
+  if (valuation.remaining.empty() || state.taken.empty()) return left + ".";
+  std::vector<Vector3> stops;
+  for (const std::size_t v : valuation.remaining) stops.push_back(state.candidates[v].T_world_camera.translation());
+  const std::size_t count = stops.size();
+  return left + fmt::format(": {} view{}, {:.1f} m.", count, count == 1 ? "" : "s",
+                            short_way(state.taken.back().T_world_camera.translation(), std::move(stops)));
+}
+
 }  // namespace
 
 Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
@@ -47,12 +69,14 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
     if (candidates[v].available) available.push_back(v);
   const auto rays = planning_rays(known, setup.config.ray_length);
   const PlanningState state = state_of(setup, known, views, *rays);
-  const auto gains = policy_->values(state, available, stop);
+  const Valuation valuation = policy_->values(state, available, stop);
   throw_if_stopped(stop);  // or the ranking would be half one
-  for (std::size_t i = 0; i < available.size(); ++i) candidates[available[i]].gain = gains[i];
-  Ranking ranking = rank(candidates, policy_->weights(setup.config));
-  if (ranking.best) ranking.reason = reason(*policy_, state, candidates, *ranking.best);
-  return {std::move(candidates), std::move(ranking)};
+  for (std::size_t i = 0; i < available.size(); ++i) candidates[available[i]].gain = valuation.gains[i];
+  const Utility by = utility(*policy_, setup);
+  Ranking ranking = rank(candidates, by);
+  if (ranking.best) ranking.reason = reason(*policy_, state, candidates, *ranking.best, by.scan_seconds.has_value());
+  if (ranking.best && valuation.surface_left) ranking.reason += outlook(valuation, state);
+  return {std::move(candidates), std::move(ranking), valuation.surface_left};
 }
 
 std::optional<ScoreExplanation> OneStepPlanner::explain(const PlanningSetup& setup, const Knowledge& known,

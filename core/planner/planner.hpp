@@ -17,14 +17,17 @@ struct PlanningSetup {
   const PlannerConfig& config;
   std::uint64_t seed;
   double occlusion_reach;  ///< d_max of proximity count [voxels]
+  double scan_seconds;     ///< what taking a scan counts for in a utility per second
   const RayBundle& bundle;
   const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
+  double negligible_share = 0.005;  ///< of the surface: for less no view is worth it (termination.surface_left)
 };
 
 /// What a planner made of the candidates: each with its gain and utility, and which is best.
 struct Plan {
   std::vector<Candidate> candidates;
   Ranking ranking;
+  std::optional<double> surface_left = {};  ///< Valuation::surface_left of the available candidates
 };
 
 /// Decides where to look next.

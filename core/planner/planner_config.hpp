@@ -9,9 +9,13 @@
 
 namespace nextview {
 
+/// How a gain is weighed against the way to it.
+enum class UtilityKind { weighted_shares, gain_per_second };
+
 struct PlannerConfig {
   std::string gain = "new-surface";  ///< the name of a policy (policy_names)
   Semantics semantics = Semantics::published;
+  UtilityKind utility = UtilityKind::weighted_shares;
   UtilityWeights weights = {1.0, 0.3};  ///< of Eq. 13; with 1 and 1 the way decides, as gains differ by less
   std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
   int ray_columns = 38;                 ///< rays that score a view

@@ -42,20 +42,33 @@ struct PlanningState {
   const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
   std::span<const View> candidates;
   std::span<const TakenView> taken;  ///< so far, in order
+  double negligible_share = 0.005;   ///< of the surface: for less no view is worth it (termination.surface_left)
 };
 
-/// What a view is worth: a volumetric information, or a baseline that stands for one. Eq. 13 weighs it against the way.
+/// What a policy makes of some candidates.
+struct Valuation {
+  Valuation(std::vector<double> values) : gains(std::move(values)) {}
+  Valuation(std::vector<double> values, std::optional<double> left, std::vector<std::size_t> few = {})
+      : gains(std::move(values)), surface_left(left), remaining(std::move(few)) {}
+
+  std::vector<double> gains;           ///< one a candidate
+  std::optional<double> surface_left;  ///< share of all surface that they are expected to show; none: not predicted
+  std::vector<std::size_t> remaining;  ///< of the candidates, by number: few that are expected to show it
+};
+
+/// What a view is worth: a volumetric information, or a baseline that stands for one. The utility weighs it against the
+/// way.
 class Policy {
  public:
   virtual ~Policy() = default;
   /// Of its values, for people: "nats", "voxels", "m", "samples", or "" if they have none.
   virtual std::string unit() const { return ""; }
   virtual PolicyNeeds needs() const { return {}; }
-  /// Of Eq. 13. A baseline is a policy of its own, in which the way there has no say.
-  virtual UtilityWeights weights(const PlannerConfig& config) const { return config.weights; }
+  /// Whether the way there has no say, as in a baseline, which is a policy of its own.
+  virtual bool ignores_cost() const { return false; }
   /// The value of each candidate in `available`. A requested stop leaves what is not valued yet at 0.
-  virtual std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                                     std::stop_token stop) const = 0;
+  virtual Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                           std::stop_token stop) const = 0;
   /// The gain that its value of a single view is, whose rays then explain it; null if it is none.
   virtual const Gain* gain() const { return nullptr; }
   /// What a view of this value promises, for people: "gain 12.5 nats", "214 cm² of new surface, most of it at the top".

@@ -6,7 +6,10 @@ namespace nextview {
 
 std::vector<Setting> settings(TerminationConfig& c) {
   return {
-      {"termination.views", "", "stop after this many views", &c.views, from_to(1, 10000)},
+      {"termination.views", "", "stop after this many views", &c.views, from_to(1, TerminationConfig::most_views)},
+      {"termination.surface_left", "",
+       "stop when this share of the surface is expected to be left for the candidates, or less; 0: off",
+       &c.surface_left, from_to(0, 1)},
       {"termination.coverage", "", "stop at this share of the visible surface; 0: off", &c.coverage, from_to(0, 1)},
       {"termination.gain", "", "stop when the best gain falls to this share of the first; 0: off", &c.gain,
        from_to(0, 1)},
@@ -22,6 +25,9 @@ void TerminationConfig::validate() const { require_in_bounds(*this); }
 std::string termination_reason(const TerminationConfig& config, const ScanProgress& progress) {
   if (progress.views >= config.views) return fmt::format("{} views taken", progress.views);
   if (!progress.candidates_left) return "no candidate view is left";
+  if (config.surface_left > 0.0 && progress.surface_left && *progress.surface_left <= config.surface_left)
+    return fmt::format("no view is worth it: {:.2g} % of the surface is expected to be left for all of them",
+                       100.0 * *progress.surface_left);
   if (config.coverage > 0.0 && progress.coverage >= config.coverage)
     return fmt::format("coverage reached {:.1f} % of the visible surface", 100.0 * progress.coverage);
   if (config.gain > 0.0 && progress.best_gain <= config.gain * progress.first_gain)

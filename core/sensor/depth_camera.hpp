@@ -24,6 +24,7 @@ struct DepthCameraConfig {
   /// Share of the other pixels that return a range drawn evenly between min_range and max_range, whatever they look at.
   double outliers = 0.0;
   double grazing_limit = 85.0;  ///< surfaces met at more than this from their normal give invalid pixels [deg]
+  double seconds = 4.0;         ///< that a scan takes, as planning by the second has it; not simulated
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;

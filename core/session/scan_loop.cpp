@@ -68,6 +68,18 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   state.evaluation = std::move(evaluation);
 }
 
+/// What the scan of a step shows for the first time [cm^2].
+double see_surface(const ScanSetup& setup, Knowledge& known, const Scan& scan, const StepRecord& record) {
+  const PinholeCamera& camera = setup.source.camera;
+  // Cleaning leaves some out: the others stand for all.
+  const double pixels_per_point = double(record.hits) / double(std::max<std::size_t>(1, record.points));
+  auto scanned = std::make_shared<ScannedSurface>(*known.scanned);
+  const double across =
+      scanned->add(scan, record.T_world_camera.linear().col(2), pixels_per_point / (camera.fx * camera.fy));
+  known.scanned = std::move(scanned);
+  return 1e4 * setup.configuration.planner.new_surface.slant * across;
+}
+
 /// The record of the view that was to be taken, as it was.
 StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
   StepRecord record;
@@ -120,7 +132,11 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
   const FusionSeconds seconds = fuse(after.known, *scan, fusion(setup), part(progress, 0.5, 0.6), stop);
   record.seconds.insert = seconds.insert;
   record.seconds.refine = seconds.refine;
-  after.known.taken.push_back({acquired.wanted, record.T_world_camera});
+  {
+    Stopwatch watch(record.seconds.insert);
+    record.new_surface = see_surface(setup, after.known, *scan, record);
+  }
+  after.known.taken.push_back({acquired.wanted, record.T_world_camera, record.gain, record.new_surface});
   compare_maps(state.known, after.known, record);
   report(progress, stop, 0.6, "comparing with the object");
   evaluate(setup, after, *scan, record, stop);
@@ -136,6 +152,7 @@ std::size_t bytes_of(const ScanState& state, const ScanState* other) {
   const Knowledge* const beside = other ? &other->known : nullptr;
   std::size_t bytes = beside ? known.map.voxels().bytes_beside(beside->map.voxels()) : known.map.voxels().bytes();
   if (known.posterior) bytes += known.posterior->bytes(beside ? beside->posterior.get() : nullptr);
+  if (known.scanned && !(beside && beside->scanned == known.scanned)) bytes += known.scanned->bytes();
   if (state.evaluation && !(other && other->evaluation == state.evaluation)) bytes += state.evaluation->bytes();
   return bytes;
 }
@@ -156,6 +173,7 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
   for (std::size_t k = from.scans.size(); k < state.scans.size(); ++k) {
     report(progress, stop, double(k) / double(state.scans.size()), "making the map again");
     fuse(known, *state.scans[k], fusion(setup), {}, stop);
+    see_surface(setup, known, *state.scans[k], *state.records[k]);
     if (evaluation) setup.truth->add_view(*evaluation, state.records[k]->T_world_camera, state.scans[k]->hits, stop);
   }
   known.taken = state.known.taken;
@@ -167,6 +185,9 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
 ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera) {
   ScanState state;
   state.known = nothing_known(setup.configuration, setup.region, setup.planner->needs());
+  // Noise makes points of the same surface lie apart.
+  state.known.scanned = std::make_shared<const ScannedSurface>(
+      std::max(setup.configuration.evaluation.d_reg, 3.0 * setup.source.range_noise));
   if (setup.truth) state.evaluation = std::make_shared<const EvaluationState>(setup.truth->nothing_seen());
   state.candidates = setup.candidates->candidates(state.known);
   state.next.view = setup.start;

@@ -35,7 +35,10 @@ struct StepRecord {
   MotionCost motion;  ///< of getting here
   double gain = 0.0;  ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view, and for
                       ///< a custom view where the gain is not one of single views
-  double utility = 0.0;        ///< 0 for a view that is no candidate: it is a share of all candidates
+  double utility = 0.0;      ///< 0 for a view that is no candidate: it is a share of all candidates
+  double new_surface = 0.0;  ///< that it showed, by its points alone, whatever the truth is [cm^2]
+  /// After this view: share of the surface that is expected to be left for the candidates; none: not predicted.
+  std::optional<double> surface_left;
   double realised_gain = 0.0;  ///< entropy that the map lost by this view [nats] (Eq. 12)
 
   std::size_t hits = 0;        ///< pixels that met a surface

@@ -24,8 +24,13 @@ class SurfaceLeft : public TrueSurface {
 /// What a planner is given besides the knowledge; valid as long as the setup and the state are.
 struct PlanningInput {
   PlanningInput(const ScanSetup& scan, const ScanState& state)
-      : setup{scan.configuration.planner, scan.configuration.seed, occlusion_reach(scan.configuration), scan.bundle,
-              nullptr} {
+      : setup{scan.configuration.planner,
+              scan.configuration.seed,
+              occlusion_reach(scan.configuration),
+              scan.configuration.sensor.seconds,
+              scan.bundle,
+              nullptr,
+              scan.configuration.termination.surface_left} {
     if (state.evaluation) setup.true_surface = &surface.emplace(*scan.truth, *state.evaluation);
   }
   PlanningInput(const PlanningInput&) = delete;
@@ -41,6 +46,7 @@ std::vector<Candidate> reachable_candidates(const ScanState& state, Robot& robot
   std::vector<Candidate> candidates(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     candidates[v].cost = reach.at(v).cost.distance;
+    candidates[v].seconds = reach[v].cost.seconds;
     candidates[v].available = reach[v].unreachable.empty() && !state.known.has_taken(views[v]);
   }
   return candidates;
@@ -87,6 +93,7 @@ ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Prog
     Plan plan = setup.planner->plan(input.setup, state.known, state.candidates, candidates, stop);
     record->candidates = std::move(plan.candidates);
     record->ranking = std::move(plan.ranking);
+    record->surface_left = plan.surface_left;
     if (record->refinement) compare_with_conventional(setup, state, input, candidates, *record, stop);
   }
   state.records.back() = std::move(record);
@@ -109,6 +116,7 @@ std::string termination(const TerminationConfig& config, const ScanState& state)
   progress.views = static_cast<int>(state.records.size());
   progress.coverage = last.coverage_visible;
   progress.candidates_left = last.ranking.best.has_value();
+  progress.surface_left = last.surface_left;
   progress.best_gain = best_gain(last);
   progress.first_gain = best_gain(*state.records.front());
   progress.new_voxel_share = double(last.new_voxels) / double(state.known.map.voxels().size());

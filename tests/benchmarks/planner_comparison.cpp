@@ -74,6 +74,7 @@ Configuration configuration(const Options& options, const std::string& object, c
   if (options.cost_weight >= 0.0 && policy != "paper") c.planner.weights.cost = options.cost_weight;
   c.termination = {};
   c.termination.views = options.views;
+  c.termination.surface_left = 0.0;
   return c;
 }
 
@@ -151,6 +152,7 @@ Configuration configuration_of_file(const Options& options) {
   }
   c.termination = {};
   c.termination.views = *std::max_element(options.at.begin(), options.at.end());
+  c.termination.surface_left = 0.0;
   return c;
 }
 

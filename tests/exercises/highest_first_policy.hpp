@@ -6,13 +6,12 @@ namespace nextview {
 /// Exercise: a policy of its own. A view is worth its height.
 struct HighestFirstPolicy : Policy {
   std::string unit() const override { return "m"; }
-  std::vector<double> values(const PlanningState& state, std::span<const std::size_t> available,
-                             std::stop_token) const override {
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available, std::stop_token) const override {
     std::vector<double> values;
     for (const std::size_t v : available) values.push_back(1.0 + state.candidates[v].T_world_camera.translation().z());
     return values;
   }
-  UtilityWeights weights(const PlannerConfig&) const override { return {1.0, 0.0}; }
+  bool ignores_cost() const override { return true; }
 };
 
 }  // namespace nextview

@@ -30,6 +30,7 @@ Configuration tiny_scan() {
   c.gibbs.sampler.sweeps = 40;
   c.evaluation.surface_samples = 500;
   c.termination.views = 6;
+  c.termination.surface_left = 0.0;
   return c;
 }
 

@@ -65,6 +65,7 @@ TEST(PanelPictures, LogAndMissedSurface) {
 TEST(PanelPictures, CurvesOfSeveralRuns) {
   Configuration c = housing();
   c.termination.views = 6;
+  c.termination.surface_left = 0.0;
   User user(c);
   user.run("play\n");
   user.run("set planner.gain average-entropy\n");

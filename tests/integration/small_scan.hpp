@@ -15,6 +15,7 @@ inline Configuration small_scan() {
   c.planner.ray_rows = 12;
   c.evaluation.surface_samples = 2000;
   c.termination.views = 5;
+  c.termination.surface_left = 0.0;
   return c;
 }
 

@@ -20,7 +20,7 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       // File
       open, set, reset_setting, reset_settings, export_scan, save_picture, save_script, quit,
       // Scan
-      step, play, pause, speed, take_view, take_proposal, take_custom_view, cancel, undo, redo, reset,
+      step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, cancel, undo, redo, reset,
       // Gibbs
       refine, pause_refinement, resume_refinement,
       // Select

@@ -41,6 +41,12 @@ std::vector<std::string> available_candidates(const SessionSnapshot& s) {
   return result;
 }
 
+std::string continue_why_not(const CommandState& t) {
+  if (!t.session.loaded()) return "there is no object yet";
+  if (t.session.finished.empty()) return "the scan is not finished";
+  return available_candidates(t.session).empty() ? "no candidate view is left" : "";
+}
+
 void look_at_next_view(WindowState& window) {
   window.selection.view = {};
   window.selection.ray.reset();
@@ -73,6 +79,20 @@ const CommandOf<> command::step{{"step",
 const CommandOf<> command::play{
     {"play", "Scan", "Play", "Takes views until the scan is finished or paused.", {{key('P')}}, step_why_not},
     [](CommandTarget& t) { t.worker.post(request::Play{}); }};
+
+const CommandOf<> command::go_on{
+    {"continue",
+     "Scan",
+     "Continue beyond the limits",
+     "Lets a finished scan go on from where it is until no candidate is left: lifts what ends it (termination.*).",
+     {},
+     continue_why_not},
+    [](CommandTarget& t) {
+      TerminationConfig none;
+      none.views = TerminationConfig::most_views;
+      none.surface_left = 0.0;
+      t.worker.post(request::SetTermination{none});
+    }};
 
 const CommandOf<> command::pause{
     {"pause",

@@ -18,9 +18,11 @@ void draw_buttons(const PanelContext& context, bool with_cancel) {
   const float gap = context.style.px(6);
   command_button(context, command::step, Icon::step, "Step", true);
   ImGui::SameLine(0, gap);
-  const float width = context.style.px(84);  // of either word
+  const float width = context.style.px(84);  // of each word
   if (context.progress.playing) {
     command_button(context, command::pause, Icon::pause, "Pause", false, width);
+  } else if (command::go_on.available(context.state())) {
+    command_button(context, command::go_on, Icon::play, "Continue", false, width);
   } else {
     command_button(context, command::play, Icon::play, "Play", false, width);
   }
@@ -121,7 +123,9 @@ float draw_figures(const PanelContext& context, float least, float right, float 
   const double bits = any ? s.records.back().entropy : double(s.grid.voxel_count());
   right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy");
   const int views = s.configuration.termination.views;
-  return draw_figure(context, least, right, y, fmt::format("{} / {}", s.records.size(), views), "views");
+  std::string taken = fmt::format("{}", s.records.size());
+  if (views < TerminationConfig::most_views) taken += fmt::format(" / {}", views);
+  return draw_figure(context, least, right, y, taken, "views");
 }
 
 }  // namespace

@@ -75,7 +75,15 @@ ChartContent divergence_content(const SessionSnapshot& s) {
   return content;
 }
 
+/// What a planner expects of a view can be seen in one unit only if that is the surface's; else beside Eq. 12.
 ChartContent gain_content(const SessionSnapshot& s) {
+  if (s.gain_unit == "cm²") {
+    ChartContent surface{"New surface of a view [cm²]", "view", "", "new surface", "cm²", {}, {}, true};
+    add_curves(surface, s,
+               {{"seen", [](const StepRecord& r) { return r.new_surface; }},
+                {"expected", [](const StepRecord& r) { return r.gain; }}});
+    return surface;
+  }
   const std::string unit = s.gain_unit.empty() ? "" : fmt::format(" [{}]", s.gain_unit);
   ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
   add_curves(content, s,

@@ -10,7 +10,7 @@ std::string last_step(const SessionSnapshot& s) {
   if (s.records.empty()) return "Nothing measured yet";
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
-  return fmt::format("View {}: {} points, realised gain {:.0f} nats, {:.2f} s", r.step, r.points, r.realised_gain,
+  return fmt::format("View {}: {} points, {:.0f} cm² of new surface, {:.2f} s", r.step, r.points, r.new_surface,
                      seconds + r.seconds.refine);
 }
 

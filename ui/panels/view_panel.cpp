@@ -139,6 +139,8 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
             "What the planner expected of this view, on the map before it");
   table_row("realised gain", fmt::format("{} nats", readable(r.realised_gain)),
             "Entropy that the map lost by this view (Eq. 12)");
+  table_row("new surface", fmt::format("{} cm²", readable(r.new_surface)),
+            "That its points show for the first time, at the registration distance");
   table_row("new voxels", fmt::format("{}", r.new_voxels), "Measured for the first time");
   table_row("points", fmt::format("{} of {} hits", r.points, r.hits), "Left after the cleaning of the cloud");
   table_row("beyond range", fmt::format("{} rays", r.misses));

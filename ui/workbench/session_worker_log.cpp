@@ -30,8 +30,8 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
   const StepRecord& r = now.records.back();
   const std::string from =
       r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
-  log.add(Level::note, fmt::format("View {} from {}{}: {} points, realised gain {:.0f} nats", r.step, from,
-                                   r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.realised_gain));
+  log.add(Level::note, fmt::format("View {} from {}{}: {} points, {:.0f} cm² of new surface", r.step, from,
+                                   r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.new_surface));
   if (!r.ranking.degenerate.empty())
     log.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
   if (!now.finished.empty()) log.add(Level::success, "The scan is finished: " + now.finished);

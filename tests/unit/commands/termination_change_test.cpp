@@ -75,6 +75,33 @@ TEST_F(TerminationChange, NothingToChangeIsFound) {
   EXPECT_FALSE(now().can_undo);
 }
 
+TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
+  SessionWorker worker;
+  WindowState window;
+  const auto run = [&](const char* line) {
+    const auto snapshot = worker.snapshot();
+    const WorkerProgress progress = worker.progress();
+    CommandTarget target{worker, window, *snapshot, progress};
+    execute(parse_call(line), target);
+    while (worker.progress().busy) std::this_thread::yield();
+  };
+  Configuration c = with_views(2);
+  c.views.count = 5;
+  c.termination.coverage = 1e-9;  // and a limit that is met by any view
+  worker.post(request::Load{c});
+  while (worker.progress().busy) std::this_thread::yield();
+  EXPECT_THROW(run("continue"), std::exception) << "nothing is finished";
+  run("step");
+  ASSERT_NE(worker.snapshot()->finished, "");
+  run("continue");
+  EXPECT_EQ(worker.snapshot()->finished, "");
+  EXPECT_EQ(worker.snapshot()->records.size(), 1u) << "nothing starts over";
+  run("play");
+  EXPECT_EQ(worker.snapshot()->records.size(), 6u) << "the start view and all candidates";
+  EXPECT_EQ(worker.snapshot()->finished, "no candidate view is left");
+  EXPECT_THROW(run("continue"), std::exception) << "there is nothing to go on to";
+}
+
 /// As somebody does it who presses + at Views: by the command.
 TEST(TerminationCommand, KeepsTheScan) {
   SessionWorker worker;

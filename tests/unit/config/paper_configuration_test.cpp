@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 76> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 79> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.centred", "true"},
     {"object.ground", "false"},
@@ -25,6 +25,7 @@ constexpr std::array<std::array<const char*, 2>, 76> pinned = {{
     {"sensor.dropout", "0"},
     {"sensor.outliers", "0"},
     {"sensor.grazing_limit", "85"},
+    {"sensor.seconds", "4"},
     {"cloud.outlier_removal", "true"},
     {"cloud.outlier_neighbours", "16"},
     {"cloud.outlier_deviations", "3"},
@@ -69,6 +70,7 @@ constexpr std::array<std::array<const char*, 2>, 76> pinned = {{
     {"views.rings", "3"},
     {"planner.gain", "occlusion-aware"},
     {"planner.semantics", "published"},
+    {"planner.utility", "weighted-shares"},
     {"planner.gain_weight", "1"},
     {"planner.cost_weight", "1"},
     {"planner.combined_weights", ""},
@@ -80,6 +82,7 @@ constexpr std::array<std::array<const char*, 2>, 76> pinned = {{
     {"planner.start_elevation", "20"},
     {"planner.start_view", ""},
     {"termination.views", "20"},
+    {"termination.surface_left", "0"},
     {"termination.coverage", "0"},
     {"termination.gain", "0"},
     {"termination.new_voxels", "0"},

@@ -205,6 +205,48 @@ TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
   }
 }
 
+TEST(NewSurface, AForecastIsThatOfEachViewPartByPart) {
+  std::mt19937 random(9);
+  const MadeMap made = evidence_maps::random_map(random, {30, 28, 31}, 0.03, 0.7);
+  const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
+  const std::vector<Pose> views = views_around(random, 12);
+  const auto forecast = forecast_new_surface(field, views, bundle(), {});
+  EXPECT_EQ(forecast.areas, expected_new_surface(field, views, bundle(), {}));
+  ASSERT_EQ(forecast.part_count, 4u * 4u * 4u);
+  double all = 0.0;
+  for (std::size_t part = 0; part < forecast.part_count; ++part) {
+    double most = 0.0;
+    for (std::size_t v = 0; v < views.size(); ++v) most = std::max(most, double(forecast.parts[v][part]));
+    all += most;
+  }
+  EXPECT_NEAR(forecast.all, all, 1e-6 * all);
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    // What lies in a part is what the rays say of the voxels there.
+    std::vector<double> of_part(forecast.part_count, 0.0);
+    for (const auto& ray : explain_new_surface(field, made.map.grid(), made.map.voxels(), views[v], bundle(), {}).rays)
+      for (const auto& voxel : ray.voxels) {
+        const Vector3i p = (Vector3i(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) - field.grid().first) / 8;
+        of_part[std::size_t((p.z() * 4 + p.y()) * 4 + p.x())] += voxel.contribution;
+      }
+    for (std::size_t p = 0; p < of_part.size(); ++p)
+      EXPECT_NEAR(forecast.parts[v][p], of_part[p], 1e-5 * (1 + forecast.areas[v]));
+  }
+}
+
+// Along an axis, on the faces between voxels: rounding must not carry a ray anywhere.
+TEST(NewSurface, ViewsAlongAnAxisAreLikeTheirNeighbours) {
+  std::mt19937 random(8);
+  const MadeMap made = evidence_maps::random_map(random, {30, 30, 30}, 0.03, 0.8);
+  const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
+  const RayBundle rays = bundle(19, 13);  // one ray in the middle
+  for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, -1, 0), Vector3(-1, 1, 0), Vector3(1, 1e-17, -1e-17)}) {
+    const Pose along = look_at(0.9 * axis, Vector3::Zero());
+    const Pose beside = look_at(0.9 * axis + Vector3(1e-4, 1e-4, 1e-4), Vector3(1e-4, 1e-4, 1e-4));
+    const double expected = expected_new_surface(field, {&beside, 1}, rays, {})[0];
+    EXPECT_NEAR(expected_new_surface(field, {&along, 1}, rays, {})[0] / expected, 1.0, 0.1);
+  }
+}
+
 TEST(NewSurface, OfAMapWithNothingOccupiedIsZero) {
   MadeMap made({20, 20, 20});
   made.set_box({3, 3, 3}, {12, 12, 12}, -1.0);

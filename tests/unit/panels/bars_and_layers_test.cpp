@@ -102,7 +102,7 @@ TEST_F(Bars, PlayAndPauseAreOneButtonAndStepWaitsWhilePlaying) {
 }
 
 TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
-  EXPECT_THAT(status(), HasSubstr("View 2: 500 points, realised gain 321 nats, 15.75 s")) << "all stages";
+  EXPECT_THAT(status(), HasSubstr("View 2: 500 points, 214 cm² of new surface, 15.75 s")) << "all stages";
   const Eigen::Vector3i n = scan_->grid.size;
   EXPECT_THAT(status(), HasSubstr(fmt::format("sphere · {} triangles · {} × {} × {} voxels of 40 mm",
                                               scan_->mesh->triangles.size(), n.x(), n.y(), n.z())));

@@ -53,6 +53,15 @@ TEST(Curves, EachShowsItsColumnInItsUnit) {
   EXPECT_EQ(time.y_unit, "s");
 }
 
+TEST(Curves, NewSurfaceIsExpectedAndSeenInOneUnit) {
+  const auto s = made_scan();
+  s->gain_unit = "cm²";
+  const ChartContent gain = curve_content(*s, CurveKind::gain);
+  EXPECT_THAT(names(gain), ElementsAre("seen", "expected"));
+  EXPECT_THAT(last(gain), ElementsAre(214, 12.5));
+  EXPECT_EQ(gain.y_unit, "cm²");
+}
+
 TEST(Curves, TheDistanceThatCoverageIsCountedAtIsInMillimetres) {
   const auto s = made_scan();
   s->configuration.evaluation.d_reg = 0.0075;

@@ -16,6 +16,7 @@ inline std::shared_ptr<SessionSnapshot> made_scan() {
   r.gain = 12.5;
   r.utility = 0.375;
   r.realised_gain = 321;
+  r.new_surface = 214;
   r.hits = 600;
   r.misses = 40;
   r.points = 500;

@@ -35,6 +35,15 @@ TEST(Rank, WeightsScaleTheTwoTerms) {
   EXPECT_EQ(rank(c, {1.0, 0.0}).best, 2u);
 }
 
+TEST(Rank, PerSecondIsTheGainOverTheTimeItTakes) {
+  auto c = candidates({{10, 2}, {30, 1}, {60, 5}});
+  c[0].seconds = 0.5, c[1].seconds = 1.0, c[2].seconds = 10.0;
+  EXPECT_EQ(rank(c, {{1.0, 9.0}, 2.0}).best, 1u);
+  EXPECT_NEAR(c[0].utility, 4.0, 1e-12);
+  EXPECT_NEAR(c[1].utility, 10.0, 1e-12);
+  EXPECT_NEAR(c[2].utility, 5.0, 1e-12);
+}
+
 TEST(Rank, SumsGoOverTheAvailableAlone) {
   auto c = candidates({{1, 2}, {100, 50}, {3, 2}});
   c[1].available = false;

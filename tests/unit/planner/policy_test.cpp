@@ -32,7 +32,7 @@ struct KnownSurface : TrueSurface {
 };
 
 struct Policies : ::testing::Test {
-  std::vector<double> values(const Policy& policy) const { return policy.values(state(), available, {}); }
+  std::vector<double> values(const Policy& policy) const { return policy.values(state(), available, {}).gains; }
   PlanningState state() const { return {config, seed, 60.0, known, rays, bundle, &surface, candidates, taken}; }
   std::unique_ptr<Policy> made(const std::string& name) {
     config.gain = name;
@@ -59,8 +59,7 @@ TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
     EXPECT_TRUE(!policy->gain() || policy->no_explanation().empty()) << entry.name;
     EXPECT_EQ(policy->explain(state(), candidates[1].T_world_camera).has_value(), policy->no_explanation().empty())
         << entry.name;
-    EXPECT_EQ(policy->weights(config).cost == 0.0, entry.baseline)
-        << entry.name << ": the way has no say in a baseline";
+    EXPECT_EQ(policy->ignores_cost(), entry.baseline) << entry.name << ": the way has no say in a baseline";
     EXPECT_FALSE(entry.baseline && policy->needs().posterior) << entry.name;
   }
   EXPECT_EQ(names.size(), gains().size() + 7);
@@ -132,8 +131,7 @@ TEST_F(Policies, CombinedWeighsSharesOfEachGain) {
 
 /// As an exercise: a policy of one's own is a class, and ranks like any other.
 struct Highest : Policy {
-  std::vector<double> values(const PlanningState& s, std::span<const std::size_t> left,
-                             std::stop_token) const override {
+  Valuation values(const PlanningState& s, std::span<const std::size_t> left, std::stop_token) const override {
     std::vector<double> heights;
     for (const std::size_t v : left) heights.push_back(s.candidates[v].T_world_camera.translation().z());
     return heights;

@@ -13,21 +13,27 @@ using testing::Not;
 struct GivenValues : Policy {
   explicit GivenValues(std::vector<double> values) : all(std::move(values)) {}
   std::string unit() const override { return "nats"; }
-  std::vector<double> values(const PlanningState&, std::span<const std::size_t> available,
-                             std::stop_token) const override {
+  Valuation values(const PlanningState&, std::span<const std::size_t> available, std::stop_token) const override {
     std::vector<double> some;
     for (const std::size_t v : available) some.push_back(all[v]);
-    return some;
+    return {some, left, remaining};
   }
   std::vector<double> all;
+  std::optional<double> left;
+  std::vector<std::size_t> remaining;
 };
 
-Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candidates) {
-  const PlannerConfig config;
+Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candidates, const PlannerConfig& config = {},
+               std::optional<double> surface_left = {}, const std::vector<std::size_t>& remaining = {}) {
   const RayBundle bundle;
-  const OneStepPlanner planner(std::make_unique<GivenValues>(values));
-  const std::vector<View> views(values.size());
-  return planner.plan({config, 1, 60.0, bundle, nullptr}, {}, views, std::move(candidates), {}).ranking;
+  auto policy = std::make_unique<GivenValues>(values);
+  policy->left = surface_left, policy->remaining = remaining;
+  const OneStepPlanner planner(std::move(policy));
+  std::vector<View> views(values.size());
+  for (std::size_t v = 0; v < views.size(); ++v) views[v].T_world_camera.translation().x() = double(v);
+  Knowledge known;
+  known.taken.emplace_back();  // at the origin
+  return planner.plan({config, 1, 60.0, 4.0, bundle, nullptr}, known, views, std::move(candidates), {}).ranking;
 }
 
 Candidate at(double metres, bool available = true) { return {available, 0.0, metres, 0.0}; }
@@ -49,6 +55,29 @@ TEST(Reason, SaysWhereTheGainHardlyTellsThemApart) {
   EXPECT_THAT(near_ties.reason, HasSubstr(" 3 of 4 gain the same within 0.1 %: the way there decides."));
   EXPECT_EQ(near_ties.degenerate, "");
   EXPECT_THAT(ranked({1000, 990, 980, 500}, {at(0.2), at(1), at(2), at(3)}).reason, Not(HasSubstr("decides")));
+}
+
+TEST(Reason, SaysHowMuchIsExpectedToBeLeft) {
+  EXPECT_EQ(ranked({10, 20}, {at(1, false), at(2)}, {}, 0.0372).reason,
+            "Candidate 1: gain 20 nats; 2.00 m away. About 3.7 % of the surface is left.");
+}
+
+TEST(Reason, SaysWhichWayTheRestWouldTake) {
+  const std::vector<Candidate> all = {at(0, false), at(1), at(2), at(3)};
+  EXPECT_THAT(ranked({0, 10, 20, 30}, all, {}, 0.1, {3, 1}).reason,
+              HasSubstr(" About 10 % of the surface is left: 2 views, 3.0 m."));
+  EXPECT_THAT(ranked({0, 10, 20, 30}, all, {}, 0.004, {2}).reason,
+              HasSubstr(" About 0.4 % of the surface is left: 1 view, 2.0 m."));
+}
+
+TEST(Reason, PerSecondTheWayCostsItsTime) {
+  PlannerConfig config;
+  config.utility = UtilityKind::gain_per_second;
+  std::vector<Candidate> candidates = {at(1), at(2)};
+  candidates[0].seconds = 1.0, candidates[1].seconds = 6.0;  // and 4 to scan
+  const Ranking ranking = ranked({100, 150}, candidates, config);
+  EXPECT_EQ(ranking.best, 0u) << "20 and 15 a second";
+  EXPECT_THAT(ranking.reason, HasSubstr("1.00 m away, 20 nats a second."));
 }
 
 TEST(Reason, TheRunnerUpIsTheNextBestThatIsAvailable) {

@@ -43,6 +43,17 @@ TEST(Termination, EveryCriterionStopsForAReasonOfItsOwn) {
   EXPECT_FALSE(reasons.contains(""));
 }
 
+TEST(Termination, WithoutAPredictionNoSurfaceIsLeftForIt) {
+  ScanProgress progress = under_way();
+  const TerminationConfig config;  // the default stops
+  EXPECT_EQ(termination_reason(config, progress), "");
+  progress.surface_left = 0.0051;
+  EXPECT_EQ(termination_reason(config, progress), "");
+  progress.surface_left = 0.005;
+  EXPECT_NE(termination_reason(config, progress).find("0.5 % of the surface"), std::string::npos);
+  EXPECT_EQ(termination_reason({20, 0, 0, 0, 0, 0.0}, progress), "") << "off";
+}
+
 TEST(Termination, CriteriaAreMetAtTheirBounds) {
   const auto stops = [](auto set_config, auto set_progress) {
     TerminationConfig config;

@@ -16,6 +16,7 @@ inline Configuration small_scan() {
   c.planner.ray_columns = 12;
   c.planner.ray_rows = 9;
   c.termination.views = 4;
+  c.termination.surface_left = 0.0;
   c.evaluation.surface_samples = 2000;
   c.evaluation.d_reg = 0.02;
   return c;

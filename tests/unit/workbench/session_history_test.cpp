@@ -31,6 +31,7 @@ TEST_F(SessionRunnerTest, UndoAndRedoOfKeptViewsTakeNothingAnew) {
 Configuration forgetful(const std::string& gain = "proximity-count") {
   Configuration c = small_scan();
   c.termination.views = 6;
+  c.termination.surface_left = 0.0;
   c.planner.gain = gain;
   c.gibbs.view_sweeps = 8;
   c.history.memory = 0.0;

@@ -19,7 +19,7 @@ class WorkerLog : public GatedWorker {
   }
   std::string measured() {
     const StepRecord& r = now()->records.back();
-    return fmt::format(": {} points, realised gain {:.0f} nats", r.points, r.realised_gain);
+    return fmt::format(": {} points, {:.0f} cm² of new surface", r.points, r.new_surface);
   }
 };
 

@@ -15,6 +15,7 @@ inline Configuration small_scan() {
   c.planner.ray_rows = 6;
   c.evaluation.surface_samples = 500;
   c.termination.views = 4;
+  c.termination.surface_left = 0.0;
   return c;
 }
 

@@ -1,0 +1,124 @@
+#include "core/map/scanned_surface.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace nextview {
+namespace {
+
+constexpr int divisions = 4;  // of a cell along each axis
+constexpr int sub_cell_count = divisions * divisions * divisions;
+
+/// Places beyond are taken for the last one: that is thousands of kilometres, or a radius that is next to nothing.
+constexpr int farthest = (1 << 20) - 2;
+
+std::uint64_t key_of(const Eigen::Vector3i& cell) {
+  constexpr int offset = 1 << 20;
+  return 1 + ((std::uint64_t(cell.z() + offset) << 42) | (std::uint64_t(cell.y() + offset) << 21) |
+              std::uint64_t(cell.x() + offset));
+}
+std::size_t slot_of(std::uint64_t key, std::size_t count) {
+  return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 32) & (count - 1);
+}
+
+/// The cells around a cell, itself first.
+const std::array<Eigen::Vector3i, 27> neighbours = [] {
+  std::array<Eigen::Vector3i, 27> all;
+  for (int i = 0; i < 27; ++i) all[i] = Eigen::Vector3i(i % 3, i / 3 % 3, i / 9) - Eigen::Vector3i::Ones();
+  std::ranges::stable_sort(all, {}, [](const Eigen::Vector3i& n) { return n.squaredNorm(); });
+  return all;
+}();
+
+Eigen::Vector3i sub_cell_at(int i) { return {i % divisions, i / divisions % divisions, i / divisions / divisions}; }
+
+/// Of each sub-cell, and each neighbour: which of its sub-cells lie within the radius, from middle to middle.
+const auto within_radius = [] {
+  std::array<std::array<std::uint64_t, 27>, sub_cell_count> masks{};
+  for (int from = 0; from < sub_cell_count; ++from)
+    for (std::size_t n = 0; n < neighbours.size(); ++n)
+      for (int to = 0; to < sub_cell_count; ++to) {
+        const Eigen::Vector3i way = divisions * neighbours[n] + sub_cell_at(to) - sub_cell_at(from);
+        if (way.squaredNorm() <= divisions * divisions) masks[from][n] |= std::uint64_t{1} << to;
+      }
+  return masks;
+}();
+
+}  // namespace
+
+ScannedSurface::ScannedSurface(double radius) : radius_(radius), cells_(1024) {
+  if (!(radius > 0.0)) throw std::invalid_argument("scanned surface: the radius must be greater than 0");
+}
+
+double ScannedSurface::add(const Scan& scan, const Vector3& optical_axis, double central_solid_angle) {
+  std::vector<Place> places(scan.hits.size());
+  std::vector<double> areas(scan.hits.size(), 0.0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      places[i] = place(scan.hits[i]);
+      if (!is_new(places[i])) continue;
+      const Vector3 way = scan.hits[i].cast<double>() - scan.origin;
+      const double depth = std::max(0.0, way.dot(optical_axis)), distance = way.norm();
+      // A pixel's solid angle falls with the cube of the cosine.
+      if (distance > 0.0) areas[i] = central_solid_angle * depth * depth * depth / distance;
+    }
+  });
+  for (const Place& place : places) mark(place);
+  double area = 0.0;
+  for (const double a : areas) area += a;
+  area_ += area;
+  return area;
+}
+
+ScannedSurface::Place ScannedSurface::place(const Eigen::Vector3f& point) const {
+  Place place{{}, 0};
+  for (int axis = 2; axis >= 0; --axis) {
+    const double at = std::clamp(point[axis] / radius_, -double(farthest), double(farthest));
+    place.cell[axis] = static_cast<int>(std::floor(at));
+    const int part = static_cast<int>((at - place.cell[axis]) * divisions);
+    place.sub_cell = place.sub_cell * divisions + std::min(part, divisions - 1);
+  }
+  return place;
+}
+
+bool ScannedSurface::is_new(const Place& place) const {
+  const auto& masks = within_radius[static_cast<std::size_t>(place.sub_cell)];
+  for (std::size_t n = 0; n < neighbours.size(); ++n)
+    if (masks[n] & sub_cells(place.cell + neighbours[n])) return false;
+  return true;
+}
+
+std::uint64_t ScannedSurface::sub_cells(const Eigen::Vector3i& cell) const {
+  const std::uint64_t key = key_of(cell);
+  for (std::size_t slot = slot_of(key, cells_.size());; slot = (slot + 1) & (cells_.size() - 1)) {
+    if (cells_[slot].key == key) return cells_[slot].sub_cells;
+    if (cells_[slot].key == 0) return 0;
+  }
+}
+
+void ScannedSurface::mark(const Place& place) {
+  if (2 * used_ >= cells_.size()) grow();
+  const std::uint64_t key = key_of(place.cell);
+  std::size_t slot = slot_of(key, cells_.size());
+  while (cells_[slot].key != 0 && cells_[slot].key != key) slot = (slot + 1) & (cells_.size() - 1);
+  if (cells_[slot].key == 0) ++used_;
+  cells_[slot].key = key;
+  cells_[slot].sub_cells |= std::uint64_t{1} << place.sub_cell;
+}
+
+void ScannedSurface::grow() {
+  std::vector<Cell> before(2 * cells_.size());
+  std::swap(before, cells_);
+  for (const Cell& cell : before) {
+    if (cell.key == 0) continue;
+    std::size_t slot = slot_of(cell.key, cells_.size());
+    while (cells_[slot].key != 0) slot = (slot + 1) & (cells_.size() - 1);
+    cells_[slot] = cell;
+  }
+}
+
+}  // namespace nextview

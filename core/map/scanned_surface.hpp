@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+
+namespace nextview {
+
+/// The surface that scans have met so far, so that it can be told how much of it the next one meets for the first time:
+/// no truth is needed for that. A value; points are told apart to an eighth of the radius.
+class ScannedSurface {
+ public:
+  /// `radius` [m]: a point that is nearer to one of an earlier scan shows nothing new.
+  /// @throws std::invalid_argument if it is not over 0.
+  explicit ScannedSurface(double radius);
+
+  /// Adds a scan and returns the area across its rays of what it shows for the first time [m^2]: r^2 dOmega, summed
+  /// over its new points at range r, each a pixel of solid angle dOmega, which is `central_solid_angle` [sr] on the
+  /// optical axis (of unit length, world). The same on any number of threads.
+  double add(const Scan& scan, const Vector3& optical_axis, double central_solid_angle);
+
+  double area() const { return area_; }  ///< of all scans [m^2]
+  std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
+
+ private:
+  struct Cell {
+    std::uint64_t key = 0;        ///< of its place; 0: no cell
+    std::uint64_t sub_cells = 0;  ///< those with a point, of 4 x 4 x 4, a bit each
+  };
+  /// Where a point lies: its cell, and its sub-cell there.
+  struct Place {
+    Eigen::Vector3i cell;
+    int sub_cell;
+  };
+  Place place(const Eigen::Vector3f& point) const;
+  bool is_new(const Place& place) const;
+  std::uint64_t sub_cells(const Eigen::Vector3i& cell) const;
+  void mark(const Place& place);
+  void grow();
+
+  double radius_;
+  double area_ = 0.0;
+  std::vector<Cell> cells_;  ///< a hash table with open addressing, of a power of two
+  std::size_t used_ = 0;
+};
+
+}  // namespace nextview

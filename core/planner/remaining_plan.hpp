@@ -1,0 +1,17 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/gain/new_surface.hpp"
+
+namespace nextview {
+
+/// Few views that together leave no more than `left` [cm^2] of what all views are expected to show: the view that adds
+/// most, again and again. Numbers of views, in that order.
+std::vector<std::size_t> covering_views(const NewSurfaceForecast& forecast, double left);
+
+/// How long a short way from `from` by all the stops is [m]: the nearest one next, then turned round wherever that
+/// makes it shorter (2-opt). It ends at the last stop.
+double short_way(const Vector3& from, std::vector<Vector3> stops);
+
+}  // namespace nextview

@@ -1,0 +1,107 @@
+#include "core/map/scanned_surface.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "tests/unit/map/random_scans.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double radius = 0.005;
+
+/// What a camera at the origin, that looks along z, sees of a plate one metre away: a point every 2 mm.
+Scan plate(double left, double right) {
+  Scan scan;
+  for (int x = static_cast<int>(std::lround(left / 0.002)); x < static_cast<int>(std::lround(right / 0.002)); ++x)
+    for (int y = -50; y < 50; ++y)
+      scan.hits.emplace_back(static_cast<float>((x + 0.5) * 0.002), static_cast<float>((y + 0.5) * 0.002), 1.0f);
+  return scan;
+}
+constexpr double pixel = 0.002 * 0.002;  // [sr] on the axis: each point is one of 2 x 2 mm, 1 m away
+
+TEST(ScannedSurface, OfAPlateIsItsArea) {
+  ScannedSurface surface(radius);
+  // The area across the rays is the plate's, times the mean cosine: 0.2 m x 0.2 m, up to 0.14 m off the axis.
+  EXPECT_NEAR(surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel), 0.04, 0.04 * 0.01);
+  EXPECT_NEAR(surface.area(), 0.04, 0.0004);
+  EXPECT_EQ(surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel), 0.0) << "nothing is new";
+}
+
+TEST(ScannedSurface, OnlyTheNewPartCounts) {
+  ScannedSurface surface(radius);
+  surface.add(plate(-0.1, 0.0), Vector3::UnitZ(), pixel);
+  const double more = surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel);
+  EXPECT_NEAR(more, 0.2 * (0.1 - radius), 0.2 * 0.0025) << "what is beside the seam is not new";
+  EXPECT_NEAR(surface.area(), 0.04, 0.04 * 0.05);
+}
+
+TEST(ScannedSurface, DoesNotDependOnTheRange) {
+  for (const double range : {0.5, 2.0}) {
+    Scan scan = plate(-0.1, 0.1);  // the same pixels, of a plate as much larger as it is farther off
+    for (Eigen::Vector3f& hit : scan.hits) hit *= static_cast<float>(range);
+    ScannedSurface surface(radius);
+    EXPECT_NEAR(surface.add(scan, Vector3::UnitZ(), pixel), 0.04 * range * range, 0.0005 * range * range);
+  }
+}
+
+// By comparing all points: new is what is farther than the radius; within an eighth of it, and the rounding of both
+// points to their sub-cells, it may be either.
+TEST(ScannedSurface, AgreesWithComparingAllPoints) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(-0.06f, 0.06f);
+  for (int round = 0; round < 20; ++round) {
+    Scan first, second;
+    for (int i = 0; i < 400; ++i) first.hits.emplace_back(uniform(random), uniform(random), uniform(random) * 0.1f);
+    ScannedSurface surface(radius);
+    surface.add(first, Vector3::UnitZ(), 1.0);
+    for (int i = 0; i < 50; ++i) {
+      second.hits = {Eigen::Vector3f(uniform(random), uniform(random), uniform(random) * 0.1f)};
+      second.origin = second.hits[0].cast<double>() - Vector3::UnitZ();
+      float nearest = 1e9f;
+      for (const Eigen::Vector3f& p : first.hits) nearest = std::min(nearest, (p - second.hits[0]).norm());
+      ScannedSurface copy = surface;
+      const bool is_new = copy.add(second, Vector3::UnitZ(), 1.0) > 0.0;
+      const double rounding = std::sqrt(3.0) * radius / 4;
+      EXPECT_TRUE(is_new || nearest <= radius + rounding) << nearest;
+      EXPECT_TRUE(!is_new || nearest >= radius - rounding) << nearest;
+    }
+  }
+}
+
+TEST(ScannedSurface, CopiesAreValues) {
+  ScannedSurface surface(radius);
+  surface.add(plate(-0.1, 0.0), Vector3::UnitZ(), pixel);
+  ScannedSurface copy = surface;
+  const double area = surface.area();
+  EXPECT_GT(copy.add(plate(0.0, 0.1), Vector3::UnitZ(), pixel), 0.0);
+  EXPECT_EQ(surface.area(), area);
+  EXPECT_GT(surface.add(plate(0.0, 0.1), Vector3::UnitZ(), pixel), 0.0) << "the copy's points are not its own";
+}
+
+TEST(ScannedSurface, TheSameOnOneThreadAndTwo) {
+  const auto run = [](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    std::mt19937 random(2);
+    ScannedSurface surface(radius);
+    for (int i = 0; i < 3; ++i)
+      surface.add(random_scans::scan(random, Vector3(0.5, 0.1 * i, 0), 0.01, 20000), -Vector3::UnitX(), 1e-6);
+    return surface.area();
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+TEST(ScannedSurface, PointsFarOffAndBadRadiiAreHarmless) {
+  ScannedSurface surface(1e-6);
+  Scan scan;
+  scan.hits = {{1e30f, -1e30f, 0.0f}, {3e4f, 0.0f, 0.0f}};
+  EXPECT_TRUE(std::isfinite(surface.add(scan, Vector3::UnitX(), 0.0)));
+  for (const double bad : {0.0, -1.0, std::nan("")}) EXPECT_THROW(ScannedSurface{bad}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nextview
