@@ -13,6 +13,7 @@
 #include "core/file/printable.hpp"
 #include "core/offline/map_calibration.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/session_parts.hpp"
 #include "core/view/candidate_views.hpp"
 #include "ui/figures/calibration_figure.hpp"
 
