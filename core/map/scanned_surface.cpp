@@ -22,8 +22,13 @@ std::uint64_t key_of(const Eigen::Vector3i& cell) {
   return 1 + ((std::uint64_t(cell.z() + offset) << 42) | (std::uint64_t(cell.y() + offset) << 21) |
               std::uint64_t(cell.x() + offset));
 }
-std::size_t slot_of(std::uint64_t key, std::size_t count) {
-  return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 32) & (count - 1);
+/// Where the cell of this key is in the table, or has its place if there is none.
+template <class Cell>
+std::size_t slot_of(std::uint64_t key, const std::vector<Cell>& cells) {
+  const std::size_t last = cells.size() - 1;
+  std::size_t slot = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 32) & last;
+  while (cells[slot].key != 0 && cells[slot].key != key) slot = (slot + 1) & last;
+  return slot;
 }
 
 /// The cells around a cell, itself first.
@@ -93,32 +98,23 @@ bool ScannedSurface::is_new(const Place& place) const {
 }
 
 std::uint64_t ScannedSurface::sub_cells(const Eigen::Vector3i& cell) const {
-  const std::uint64_t key = key_of(cell);
-  for (std::size_t slot = slot_of(key, cells_.size());; slot = (slot + 1) & (cells_.size() - 1)) {
-    if (cells_[slot].key == key) return cells_[slot].sub_cells;
-    if (cells_[slot].key == 0) return 0;
-  }
+  return cells_[slot_of(key_of(cell), cells_)].sub_cells;
 }
 
 void ScannedSurface::mark(const Place& place) {
   if (2 * used_ >= cells_.size()) grow();
   const std::uint64_t key = key_of(place.cell);
-  std::size_t slot = slot_of(key, cells_.size());
-  while (cells_[slot].key != 0 && cells_[slot].key != key) slot = (slot + 1) & (cells_.size() - 1);
-  if (cells_[slot].key == 0) ++used_;
-  cells_[slot].key = key;
-  cells_[slot].sub_cells |= std::uint64_t{1} << place.sub_cell;
+  Cell& cell = cells_[slot_of(key, cells_)];
+  if (cell.key == 0) ++used_;
+  cell.key = key;
+  cell.sub_cells |= std::uint64_t{1} << place.sub_cell;
 }
 
 void ScannedSurface::grow() {
   std::vector<Cell> before(2 * cells_.size());
   std::swap(before, cells_);
-  for (const Cell& cell : before) {
-    if (cell.key == 0) continue;
-    std::size_t slot = slot_of(cell.key, cells_.size());
-    while (cells_[slot].key != 0) slot = (slot + 1) & (cells_.size() - 1);
-    cells_[slot] = cell;
-  }
+  for (const Cell& cell : before)
+    if (cell.key != 0) cells_[slot_of(cell.key, cells_)] = cell;
 }
 
 }  // namespace nextview

@@ -33,13 +33,14 @@ double short_way(const Vector3& from, std::vector<Vector3> stops) {
     way.push_back(*nearest);
     stops.erase(nearest);
   }
+  // Beyond the last stop there is no way to go.
   const auto length = [&](std::size_t a, std::size_t b) { return b < way.size() ? (way[a] - way[b]).norm() : 0.0; };
   for (bool is_shorter = true; is_shorter;) {
     is_shorter = false;
     for (std::size_t i = 1; i + 1 < way.size(); ++i)
       for (std::size_t k = i + 1; k < way.size(); ++k) {
         const double now = length(i - 1, i) + length(k, k + 1);
-        const double turned = length(i - 1, k) + (k + 1 < way.size() ? length(i, k + 1) : 0.0);
+        const double turned = length(i - 1, k) + length(i, k + 1);
         if (turned > now - 1e-9) continue;
         std::reverse(way.begin() + std::ptrdiff_t(i), way.begin() + std::ptrdiff_t(k) + 1);
         is_shorter = true;

@@ -95,6 +95,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
                             "step",
                             "undo",
                             "redo",
+                            "set termination.views 1\ncontinue\nset termination.views 6",
                             "refine 2 20",
                             "refine",
                             endless_refinement,

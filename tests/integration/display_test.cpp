@@ -124,7 +124,7 @@ class Display : public testing::Test {
 
 TEST_F(Display, TheWindowStepsToTwentyViewsByClicks) {
   const Layout l(1280, 800, 1.0);
-  start();
+  start("window --termination.surface_left 0");
   ASSERT_TRUE(titled("view 0 of 20")) << "the window does not come up with the default object";
   for (int view = 1; view <= 20; ++view) {
     ASSERT_TRUE(click(50, l.control_bar.y + l.control_bar.height / 2));  // the Step button

@@ -77,7 +77,7 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
                                                fmt::format("{:.5g}", cell("gain[voxels]")),
                                                fmt::format("{:.2f}", cell("distance[m]")),
                                                steps[i].at("hits"),
-                                               steps[i].at("new_voxels"),
+                                               fmt::format("{:.0f}", cell("new_surface[cm²]")),
                                                fmt::format("{:.1f}", 100.0 * cell("coverage_visible@5mm")),
                                                fmt::format("{:.1f}", cell("entropy[bits]") / 1e3),
                                                fmt::format("{:.3f}", cell("log_loss_near_surface[nats]"))};

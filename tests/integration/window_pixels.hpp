@@ -17,7 +17,7 @@ struct Point {
 
 inline Point step_button(const Layout& layout) { return {50, layout.control_bar.y + layout.control_bar.height / 2}; }
 inline Point table_row(const Layout& layout, int row) {
-  return {layout.right.x + 100, layout.right.y + 106 + 21 * row};
+  return {layout.right.x + 100, layout.right.y + 172 + 21 * row};
 }
 inline Point take_button(const Layout& layout) {
   return {layout.right.x + 80, layout.right.y + layout.right.height - 24};

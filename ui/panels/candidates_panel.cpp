@@ -135,6 +135,13 @@ std::string next_text(const SessionSnapshot& s) {
 /// "0.3 " before what it weighs; nothing for 1.
 std::string factor(double weight) { return weight == 1.0 ? "" : fmt::format("{:g} ", weight); }
 
+/// What orders the candidates; of a baseline as of any other gain, though the way there has no say in it.
+std::string ranked_by(const PlannerConfig& planner) {
+  if (planner.utility == UtilityKind::gain_per_second) return fmt::format("ranked by {} per second", planner.gain);
+  return fmt::format("ranked by {}, U = {}gain share − {}cost share (Eq. 13)", planner.gain,
+                     factor(planner.weights.gain), factor(planner.weights.cost));
+}
+
 /// A column's name; a click sorts by it, another one the other way round.
 void draw_header(const PanelContext& context, CandidateColumn column, const std::string& name) {
   constexpr std::array columns = {"view", "gain", "cost", "utility"};
@@ -200,9 +207,7 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
                     context.style.px(right_panel_width));
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
-  small_text(context.style,
-             fmt::format("ranked by {}, U = {}gain share − {}cost share (Eq. 13)", s.configuration.planner.gain,
-                         factor(s.configuration.planner.weights.gain), factor(s.configuration.planner.weights.cost)));
+  small_text(context.style, ranked_by(s.configuration.planner));
   if (!s.records.empty() && s.finished.empty()) small_text(context.style, s.records.back().ranking.reason, theme::ink);
   if (!s.records.empty() && s.finished.empty() && !s.records.back().ranking.degenerate.empty())
     draw_degenerate(context, s.records.back().ranking.degenerate);

@@ -161,7 +161,10 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   if (!c.available) return table_row("", "taken");
   table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
   table_row("way there", fmt::format("{:.2f} m", c.cost));
-  table_row("utility", fmt::format("{:.4f}", c.utility), "U = gain share - cost share, each with its weight (Eq. 13)");
+  const bool per_second = s.configuration.planner.utility == UtilityKind::gain_per_second;
+  table_row("utility", fmt::format("{:.4f}", c.utility),
+            per_second ? "Gain per second of the way and of a scan"
+                       : "U = gain share - cost share, each with its weight (Eq. 13)");
 }
 
 void draw_numbers(const PanelContext& context, const ViewInspection& view) {

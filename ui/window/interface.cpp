@@ -57,8 +57,9 @@ double Interface::seconds_to_next_frame() const {
 std::string Interface::title() const {
   const SessionSnapshot& s = *parts_->news.snapshot;
   if (!s.loaded()) return "Nextview";
-  return fmt::format("Nextview - {} - view {} of {}", s.object_name, s.records.size(),
-                     s.configuration.termination.views);
+  const int views = s.configuration.termination.views;
+  const std::string of = views < TerminationConfig::most_views ? fmt::format(" of {}", views) : "";
+  return fmt::format("Nextview - {} - view {}{}", s.object_name, s.records.size(), of);
 }
 
 bool Interface::draw(double seconds) {

@@ -75,60 +75,62 @@ TEST_F(TerminationChange, NothingToChangeIsFound) {
   EXPECT_FALSE(now().can_undo);
 }
 
-TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
-  SessionWorker worker;
-  WindowState window;
-  const auto run = [&](const char* line) {
-    const auto snapshot = worker.snapshot();
-    const WorkerProgress progress = worker.progress();
-    CommandTarget target{worker, window, *snapshot, progress};
-    execute(parse_call(line), target);
-    while (worker.progress().busy) std::this_thread::yield();
-  };
-  Configuration c = with_views(2);
-  c.views.count = 5;
-  c.termination.coverage = 1e-9;  // and a limit that is met by any view
-  worker.post(request::Load{c});
-  while (worker.progress().busy) std::this_thread::yield();
-  EXPECT_THROW(run("continue"), std::exception) << "nothing is finished";
-  run("step");
-  ASSERT_NE(worker.snapshot()->finished, "");
-  run("continue");
-  EXPECT_EQ(worker.snapshot()->finished, "");
-  EXPECT_EQ(worker.snapshot()->records.size(), 1u) << "nothing starts over";
-  run("play");
-  EXPECT_EQ(worker.snapshot()->records.size(), 6u) << "the start view and all candidates";
-  EXPECT_EQ(worker.snapshot()->finished, "no candidate view is left");
-  EXPECT_THROW(run("continue"), std::exception) << "there is nothing to go on to";
-}
-
-/// As somebody does it who presses + at Views: by the command.
-TEST(TerminationCommand, KeepsTheScan) {
-  SessionWorker worker;
-  WindowState window;
-  const auto wait = [&] {
-    while (worker.progress().busy) std::this_thread::yield();
-  };
-  const auto run = [&](const char* line) {
+/// A worker that does a line of a script at a time, and a load, and is waited for.
+struct ScriptedWorker {
+  void load(const Configuration& configuration) {
+    worker.post(request::Load{configuration});
+    wait();
+  }
+  void run(const char* line) {
     const auto snapshot = worker.snapshot();
     const WorkerProgress progress = worker.progress();
     CommandTarget target{worker, window, *snapshot, progress};
     execute(parse_call(line), target);
     wait();
-  };
-  worker.post(request::Load{with_views(2)});
-  wait();
-  run("step");
-  run("step");
-  run("set termination.views 3");
+  }
+  void wait() {
+    while (worker.progress().busy) std::this_thread::yield();
+  }
+
+  SessionWorker worker;
+  WindowState window;
+};
+
+TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
+  ScriptedWorker scripted;
+  SessionWorker& worker = scripted.worker;
+  Configuration c = with_views(2);
+  c.views.count = 5;
+  c.termination.coverage = 1e-9;  // and a limit that is met by any view
+  scripted.load(c);
+  EXPECT_THROW(scripted.run("continue"), std::exception) << "nothing is finished";
+  scripted.run("step");
+  ASSERT_NE(worker.snapshot()->finished, "");
+  scripted.run("continue");
+  EXPECT_EQ(worker.snapshot()->finished, "");
+  EXPECT_EQ(worker.snapshot()->records.size(), 1u) << "nothing starts over";
+  scripted.run("play");
+  EXPECT_EQ(worker.snapshot()->records.size(), 6u) << "the start view and all candidates";
+  EXPECT_EQ(worker.snapshot()->finished, "no candidate view is left");
+  EXPECT_THROW(scripted.run("continue"), std::exception) << "there is nothing to go on to";
+}
+
+/// As somebody does it who presses + at Views: by the command.
+TEST(TerminationCommand, KeepsTheScan) {
+  ScriptedWorker scripted;
+  SessionWorker& worker = scripted.worker;
+  scripted.load(with_views(2));
+  scripted.run("step");
+  scripted.run("step");
+  scripted.run("set termination.views 3");
   EXPECT_EQ(worker.snapshot()->records.size(), 2u);
   EXPECT_EQ(worker.snapshot()->finished, "");
-  run("set termination.views 3");
-  run("set planner.gain occlusion-aware");
-  run("set planner.gain occlusion-aware");
+  scripted.run("set termination.views 3");
+  scripted.run("set planner.gain occlusion-aware");
+  scripted.run("set planner.gain occlusion-aware");
   EXPECT_EQ(worker.snapshot()->session, 2u) << "what is so already started the scan over";
-  run("step");
-  run("reset-setting termination.views");
+  scripted.run("step");
+  scripted.run("reset-setting termination.views");
   EXPECT_EQ(worker.snapshot()->records.size(), 1u);
   EXPECT_EQ(worker.snapshot()->configuration.termination.views, 20);
   std::string log;

@@ -49,12 +49,23 @@ void click_menu(Desk& desk, double x, std::set<float>& menus, std::set<std::stri
   desk.window = before;
 }
 
+using Snapshots = std::vector<std::shared_ptr<const SessionSnapshot>>;
+
+/// The desk's, and that with the scan finished.
+Snapshots under_way_and_finished(const Desk& desk) {
+  const auto finished = std::make_shared<SessionSnapshot>(*desk.snapshot);
+  finished->finished = "5 views taken";
+  return {desk.snapshot, finished};
+}
+
 TEST(Reach, EveryCommandByMouseThroughTheMenu) {
   std::set<std::string> reached;
-  for (const WorkerProgress& progress : all_progress()) {
+  for (std::size_t state = 0; state <= all_progress().size(); ++state) {
     Desk desk;
     open_all_ways(desk);
-    desk.progress = progress;
+    const bool is_finished = state == all_progress().size();
+    desk.progress = all_progress()[is_finished ? 0 : state];
+    if (is_finished) desk.snapshot = under_way_and_finished(desk).back();
     std::set<float> menus;
     for (double x = 10; x < 500; x += 15) click_menu(desk, x, menus, reached);
     EXPECT_EQ(menus.size(), nextview::menus().size());
@@ -69,22 +80,24 @@ std::string valid_value(const Argument& argument, const SessionSnapshot& snapsho
   return std::to_string(int(std::ceil(argument.low)));
 }
 
-/// Nothing, or what must run for this command.
-WorkerProgress progress_for(const Command& command, Desk& desk) {
-  for (const WorkerProgress& progress : all_progress()) {
-    desk.progress = progress;
-    if (command.available(desk.state())) return progress;
-  }
+/// Brings the desk to where this command can be done: nothing runs, or what must; the scan goes on, or is finished.
+void prepare_for(const Command& command, Desk& desk, const Snapshots& snapshots) {
+  for (const auto& snapshot : snapshots)
+    for (const WorkerProgress& progress : all_progress()) {
+      desk.snapshot = snapshot;
+      desk.progress = progress;
+      if (command.available(desk.state())) return;
+    }
   ADD_FAILURE() << command.name << " can never be done";
-  return {};
 }
 
 TEST(Reach, EveryCommandThroughThePalette) {
   Desk desk;
   open_all_ways(desk);
+  const Snapshots snapshots = under_way_and_finished(desk);
   const WindowState before = desk.window;
   for (const Command& command : commands()) {
-    desk.progress = progress_for(command, desk);
+    prepare_for(command, desk, snapshots);
     desk.window = before;
     desk.window.palette_open = true;
     desk.frames();
@@ -128,10 +141,11 @@ TEST(Reach, ThePaletteSaysWhatIsWrongAndStays) {
 TEST(Reach, EveryKeyDoesItsCommand) {
   Desk desk;
   open_all_ways(desk);
+  const Snapshots snapshots = under_way_and_finished(desk);
   const WindowState before = desk.window;
   for (const Command& command : commands())
     for (const Shortcut& shortcut : command.shortcuts()) {
-      desk.progress = progress_for(command, desk);
+      prepare_for(command, desk, snapshots);
       desk.window = before;
       desk.frames();
       const ImGuiIO& io = ImGui::GetIO();

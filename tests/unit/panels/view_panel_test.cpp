@@ -75,8 +75,11 @@ TEST_F(ViewPanel, ACandidatesNumbersAreThoseOfTheRanking) {
 TEST_F(ViewPanel, ATakenViewsNumbersAreThoseOfItsRecord) {
   show_view({Kind::taken, 1}, std::vector<float>(12, 0.5f));
   EXPECT_THAT(panel(), HasSubstr("View 2 as taken"));
-  EXPECT_THAT(panel(), HasSubstr("taken from candidate 5 predicted gain 12.5 nats realised gain 321 nats new surface 214 cm² new voxels 77 "
-                                 "points 500 of 600 hits beyond range 40 rays way there 1.25 m, 90°"));
+  EXPECT_THAT(
+      panel(),
+      HasSubstr(
+          "taken from candidate 5 predicted gain 12.5 nats realised gain 321 nats new surface 214 cm² new voxels 77 "
+          "points 500 of 600 hits beyond range 40 rays way there 1.25 m, 90°"));
   scan_->records[1].overridden = true;
   EXPECT_THAT(panel(), HasSubstr("taken from candidate 5, your choice"));
   scan_->records[1].view = -1;
