@@ -15,6 +15,8 @@ struct NewSurfaceModel {
   /// Log-odds of new surface in a free voxel, where a ray may end, and in an occupied one, where it does.
   std::array<double, std::tuple_size_v<SurfaceEvidence::Measured>> free{}, occupied{};
   double slant = 1.7;  ///< area of the surface that rays meet, over the area across them
+  /// Of surface whose area across the rays is so many m^2 [cm^2].
+  double square_centimetres(double across) const { return 1e4 * slant * across; }
 
   bool operator==(const NewSurfaceModel&) const = default;
   /// Fitted to simulated scans of parts that were made up for it.

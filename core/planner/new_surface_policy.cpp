@@ -57,7 +57,7 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
   for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
   NewSurfaceForecast forecast =
       forecast_new_surface({surface_evidence(state.known), model_}, views, state.bundle, options(state), stop);
-  const double seen = state.known.scanned ? 1e4 * model_.slant * state.known.scanned->area() : 0.0;  // [cm^2]
+  const double seen = state.known.scanned ? model_.square_centimetres(state.known.scanned->area()) : 0.0;
   if (!(seen > 0.0)) return std::move(forecast.areas);
   std::vector<std::size_t> few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
   for (std::size_t& view : few) view = available[view];

@@ -14,9 +14,10 @@ double promise_kept(std::span<const TakenView> taken);
 /// A view is worth the surface that it is expected to see first.
 class NewSurfacePolicy : public Policy {
  public:
-  explicit NewSurfacePolicy(const NewSurfaceModel& model) : model_(model) {}
+  explicit NewSurfacePolicy(const NewSurfaceModel& model, bool on_posterior = false)
+      : model_(model), on_posterior_(on_posterior) {}
   std::string unit() const override { return "cm²"; }
-  PolicyNeeds needs() const override { return {true, false, false}; }
+  PolicyNeeds needs() const override { return {true, on_posterior_, false}; }
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;
   std::string promise(double value, const PlanningState& state, const Pose& T_world_camera) const override;
@@ -31,6 +32,7 @@ class NewSurfacePolicy : public Policy {
   }
 
   NewSurfaceModel model_;
+  bool on_posterior_;  ///< what is occupied, free or unknown is taken from the Gibbs map
 };
 
 }  // namespace nextview

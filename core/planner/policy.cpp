@@ -22,6 +22,8 @@ std::vector<PolicyEntry> all_policies() {
   std::vector<PolicyEntry> all;
   all.push_back({"new-surface", "the surface that a view is expected to see first, learned from simulated scans", false,
                  [](const PlannerConfig& c) { return std::make_unique<NewSurfacePolicy>(c.new_surface); }});
+  all.push_back({"new-surface-gibbs", "as new-surface, of the Gibbs map", false,
+                 [](const PlannerConfig& c) { return std::make_unique<NewSurfacePolicy>(c.new_surface, true); }});
   for (const Gain& gain : gains())
     all.push_back({std::string(gain.name), std::string(gain.summary), false,
                    [&gain](const PlannerConfig&) { return std::make_unique<GainPolicy>(gain); }});

@@ -6,7 +6,7 @@ namespace nextview {
 
 std::vector<Setting> settings(TerminationConfig& c) {
   return {
-      {"termination.views", "", "stop after this many views", &c.views, from_to(1, TerminationConfig::most_views)},
+      {"termination.views", "", "stop after this many views", &c.views, from_to(1, TerminationConfig::max_views)},
       {"termination.surface_left", "",
        "stop when this share of the surface is expected to be left for the candidates, or less; 0: off",
        &c.surface_left, from_to(0, 1)},

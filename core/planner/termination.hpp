@@ -9,7 +9,7 @@ namespace nextview {
 
 /// When a scan is done. Each criterion but the number of views is off at 0.
 struct TerminationConfig {
-  static constexpr int most_views = 10000;
+  static constexpr int max_views = 10000;  ///< as many as that are no limit
 
   int views = 20;              ///< after this many views
   double coverage = 0.0;       ///< surface coverage reached, of what can be seen, at d_reg
@@ -20,6 +20,9 @@ struct TerminationConfig {
   /// it.
   double surface_left = 0.005;
 
+  /// Without any criterion.
+  static TerminationConfig unlimited() { return {.views = max_views, .surface_left = 0.0}; }
+  bool limits_views() const { return views < max_views; }
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };

@@ -77,7 +77,7 @@ double see_surface(const ScanSetup& setup, Knowledge& known, const Scan& scan, c
   const double across =
       scanned->add(scan, record.T_world_camera.linear().col(2), pixels_per_point / (camera.fx * camera.fy));
   known.scanned = std::move(scanned);
-  return 1e4 * setup.configuration.planner.new_surface.slant * across;
+  return setup.configuration.planner.new_surface.square_centimetres(across);
 }
 
 /// The record of the view that was to be taken, as it was.

@@ -87,12 +87,7 @@ const CommandOf<> command::go_on{
      "Lets a finished scan go on from where it is until no candidate is left: lifts what ends it (termination.*).",
      {},
      continue_why_not},
-    [](CommandTarget& t) {
-      TerminationConfig none;
-      none.views = TerminationConfig::most_views;
-      none.surface_left = 0.0;
-      t.worker.post(request::SetTermination{none});
-    }};
+    [](CommandTarget& t) { t.worker.post(request::SetTermination{TerminationConfig::unlimited()}); }};
 
 const CommandOf<> command::pause{
     {"pause",

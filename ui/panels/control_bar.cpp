@@ -122,9 +122,9 @@ float draw_figures(const PanelContext& context, float least, float right, float 
   }
   const double bits = any ? s.records.back().entropy : double(s.grid.voxel_count());
   right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy");
-  const int views = s.configuration.termination.views;
+  const TerminationConfig& limits = s.configuration.termination;
   std::string taken = fmt::format("{}", s.records.size());
-  if (views < TerminationConfig::most_views) taken += fmt::format(" / {}", views);
+  if (limits.limits_views()) taken += fmt::format(" / {}", limits.views);
   return draw_figure(context, least, right, y, taken, "views");
 }
 

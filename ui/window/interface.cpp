@@ -57,8 +57,8 @@ double Interface::seconds_to_next_frame() const {
 std::string Interface::title() const {
   const SessionSnapshot& s = *parts_->news.snapshot;
   if (!s.loaded()) return "Nextview";
-  const int views = s.configuration.termination.views;
-  const std::string of = views < TerminationConfig::most_views ? fmt::format(" of {}", views) : "";
+  const TerminationConfig& end = s.configuration.termination;
+  const std::string of = end.limits_views() ? fmt::format(" of {}", end.views) : "";
   return fmt::format("Nextview - {} - view {}{}", s.object_name, s.records.size(), of);
 }
 

@@ -62,7 +62,7 @@ TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
     EXPECT_EQ(policy->ignores_cost(), entry.baseline) << entry.name << ": the way has no say in a baseline";
     EXPECT_FALSE(entry.baseline && policy->needs().posterior) << entry.name;
   }
-  EXPECT_EQ(names.size(), gains().size() + 7);
+  EXPECT_EQ(names.size(), gains().size() + 8);
 }
 
 TEST_F(Policies, UnknownOnesAreRefusedWithTheNamesThereAre) {
@@ -77,7 +77,8 @@ TEST_F(Policies, UnknownOnesAreRefusedWithTheNamesThereAre) {
 TEST_F(Policies, SayWhatTheyNeed) {
   EXPECT_TRUE(made("proximity-count")->needs().occlusions);
   EXPECT_FALSE(made("occlusion-aware")->needs().occlusions);
-  EXPECT_TRUE(made("gibbs")->needs().posterior);
+  EXPECT_TRUE(made("gibbs")->needs().posterior && made("new-surface-gibbs")->needs().posterior);
+  EXPECT_FALSE(made("new-surface")->needs().posterior);
   EXPECT_TRUE(made("oracle")->needs().true_surface && made("covering-order")->needs().true_surface);
   config.combined_weights = "area-factor=1";
   EXPECT_TRUE(made("combined")->needs().occlusions);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/evaluation/entropy.hpp"
+#include "core/gain/new_surface.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/session/session.hpp"
 #include "tests/unit/session/small_scan.hpp"
@@ -55,6 +56,27 @@ TEST(GibbsSession, TheConventionalMapAndItsRankingAreKeptBeside) {
   for (std::size_t v = 0; v < scores.size(); ++v) EXPECT_EQ(refinement.conventional_gains[v], scores[v].gains.front());
   EXPECT_GT(refinement.changed_class, 0u);
   EXPECT_TRUE(refinement.conventional_best.has_value());
+}
+
+TEST(GibbsSession, NewSurfaceIsExpectedOfThePosterior) {
+  Configuration c = gibbs_scan();
+  c.planner.gain = "new-surface-gibbs";
+  Session session(c);
+  session.step();
+  const OccupancyMap& map = session.map();
+  const NewSurfaceModel& model = c.planner.new_surface;
+  const SurfaceEvidence evidence(map.grid(), session.planning_voxels(), map.voxels(), c.map.model.occupancy_threshold);
+  const RayBundle bundle = RayBundle::regular(session.camera(), c.planner.ray_columns, c.planner.ray_rows);
+  std::vector<Pose> views;
+  for (const View& view : session.candidates()) views.push_back(view.T_world_camera);
+  const auto areas = expected_new_surface({evidence, model}, views, bundle, {c.planner.ray_length, model.slant});
+  const auto& conventional = session.records().front().refinement->conventional_gains;
+  std::size_t differ = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    EXPECT_EQ(session.records().front().candidates[v].gain, areas[v]);
+    differ += areas[v] != conventional[v];
+  }
+  EXPECT_GT(differ, views.size() / 2);
 }
 
 TEST(GibbsSession, EntropyAddsUpFromStepToStep) {

@@ -26,7 +26,7 @@ Configuration with_gain(const std::string& gain, Semantics semantics = Semantics
 TEST(SessionGains, EveryGainAndBaselineRuns) {
   for (const auto& [gain, summary, baseline, make] : policies())
     for (const Semantics semantics : {Semantics::published, Semantics::reference}) {
-      if ((baseline || gain == "gibbs") && semantics == Semantics::reference) continue;
+      if ((baseline || gain.ends_with("gibbs")) && semantics == Semantics::reference) continue;
       Session session(with_gain(gain, semantics));
       finish(session);
       const auto views = views_of(session);
@@ -40,7 +40,7 @@ TEST(SessionGains, EveryGainAndBaselineRuns) {
 TEST(SessionGains, ExplanationsAreThoseOfTheRanking) {
   for (const auto& [gain, summary, baseline, make] : policies())
     for (const Semantics semantics : {Semantics::published, Semantics::reference}) {
-      if ((baseline || gain == "gibbs") && semantics == Semantics::reference) continue;
+      if ((baseline || gain.ends_with("gibbs")) && semantics == Semantics::reference) continue;
       Session session(with_gain(gain, semantics));
       session.step();
       for (std::size_t v = 0; v < session.candidates().size(); v += 3) {
