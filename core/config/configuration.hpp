@@ -30,7 +30,7 @@ struct MapConfig {
   double resolution = 0.01;   ///< voxel edge [m]
   double region_edge = 1.28;  ///< edge of the region of interest, a cube around the origin [m]
   std::string region;         ///< region of interest, `x y z x y z` of its corners [m, world]; empty: that cube
-  Insertion insertion = Insertion::local_octree;
+  Insertion insertion = Insertion::direct;
   InverseSensorModel model;
 
   /// The region of interest [m, world]. @throws std::invalid_argument if `region` is none

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/map/huge_pages.hpp"
+#include "core/map/ray_marks.hpp"
 #include "core/map/traversal.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/stopped.hpp"
@@ -19,10 +20,11 @@ namespace {
 
 /// What a scan does to a voxel.
 enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
+using Touches = std::array<std::uint8_t, VoxelBricks::brick_voxels>;
 
-/// A value for each place of a map's bricks, 0 at first. It is of one insertion: a copy of the map has none.
-template <class T>
-using Scratch = std::vector<T, HugePages<T>>;
+/// How far each place of a map's bricks lies behind a surface, 0 where it does not. It is of one scan: a copy of the
+/// map has none.
+using Distances = std::vector<std::uint16_t, HugePages<std::uint16_t>>;
 
 /// Before any of it is taken: memory that is promised and not there ends the program without a word.
 const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
@@ -34,19 +36,14 @@ const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
   return grid;
 }
 
-/// Calls `visit(brick)` for the bricks in whose part of the scratch anything is not 0, several at once.
-template <class T, class Visit>
-void for_each_touched_brick(std::span<const T> scratch, Visit visit) {
+/// Calls `visit(brick)` for the bricks in whose part of the distances anything is not 0, several at once.
+template <class Visit>
+void for_each_brick_behind(const Distances& distances, Visit visit) {
   constexpr std::size_t volume = VoxelBricks::brick_voxels;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scratch.size() / volume, 16), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distances.size() / volume, 16), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
-      const T* const begin = &scratch[brick * volume];
-      std::uint64_t any = 0;
-      for (std::size_t at = 0; at < volume * sizeof(T); at += sizeof any) {  // most bricks are untouched
-        std::uint64_t word;
-        std::memcpy(&word, reinterpret_cast<const char*>(begin) + at, sizeof word);
-        any |= word;
-      }
+      std::uint16_t any = 0;
+      for (std::size_t i = 0; i < volume; ++i) any |= distances[brick * volume + i];
       if (any != 0) visit(brick);
     }
   });
@@ -78,32 +75,24 @@ void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
 
 void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
-  Scratch<std::uint8_t> touched(voxels_.brick_count() * VoxelBricks::brick_voxels);
-  // Hits first: a voxel where a ray ends is a hit, whatever else passes through it.
+  RayMarks marks(grid_);
+  marks.pass(origin, scan.hits, scan.max_range, stop);
+  marks.pass(origin, scan.misses, scan.max_range, stop);
+  // Hits last: a voxel where a ray ends is a hit, whatever else passes through it.
   for (const auto& point : scan.hits) {
     const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
-    if (grid_.contains(cell) && ray_length(origin, point) <= scan.max_range)
-      touched[voxels_.place(cell.x(), cell.y(), cell.z())] = hit;
+    if (grid_.contains(cell) && ray_length(origin, point) <= scan.max_range) marks.set(cell, hit);
   }
-  // Rays side by side: they only ever turn `untouched` into `passed`, so their order does not matter.
-  const auto pass = [&](const PointCloud& ends) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 1024), [&](const auto& range) {
-      if (stop.stop_requested()) return;
-      for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        const bool short_enough = ray_length(origin, ends[i]) <= scan.max_range;
-        const Eigen::Vector3f end = short_enough ? ends[i] : point_on_ray(origin, ends[i], scan.max_range);
-        walk_segment_inside(grid_, origin, end, [&](int x, int y, int z) {
-          std::atomic_ref<std::uint8_t> touch(touched[voxels_.place(x, y, z)]);
-          if (touch.load(std::memory_order_relaxed) == untouched) touch.store(passed, std::memory_order_relaxed);
-          return true;
-        });
-      }
-    });
-  };
-  pass(scan.hits);
-  pass(scan.misses);
-  throw_if_stopped(stop);
-  add(touched, scan.origin);
+  add(
+      [&](std::size_t brick, Touches& touches) {
+        const Eigen::Vector3i first = voxels_.cell(brick * VoxelBricks::brick_voxels);
+        const Eigen::Vector3i size = (grid_.size - first).cwiseMin(VoxelBricks::edge);
+        for (int z = 0; z < size.z(); ++z)
+          for (int y = 0; y < size.y(); ++y)
+            std::memcpy(&touches[std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge],
+                        marks.row(first.x(), first.y() + y, first.z() + z), std::size_t(size.x()));
+      },
+      scan.origin);
 }
 
 void OccupancyMap::insert(const Scan& scan, Insertion insertion, const std::stop_token& stop) {
@@ -114,36 +103,42 @@ void OccupancyMap::insert(const Scan& scan, Insertion insertion, const std::stop
 }
 
 /// Adds the hit or the miss, as the model has them for a camera at `origin`, to the log-odds of each touched voxel.
-void OccupancyMap::add(std::span<const std::uint8_t> touched, const Vector3& origin) {
+/// `touches_of(brick, touches)` says which are touched.
+template <class TouchesOf>
+void OccupancyMap::add(TouchesOf touches_of, const Vector3& origin) {
   if (model_.range_dependent()) {
-    add_terms(touched, [&](std::size_t place, bool is_hit) {
+    add_terms(touches_of, [&](std::size_t place, bool is_hit) {
       const double range = (grid_.centre(grid_.index(voxels_.cell(place))) - origin).norm();
       return static_cast<float>(is_hit ? model_.hit_term(range) : model_.miss_term(range));
     });
   } else {
     const auto hit_update = static_cast<float>(model_.hit_term(1.0));
     const auto miss_update = static_cast<float>(model_.miss_term(1.0));
-    add_terms(touched, [=](std::size_t, bool is_hit) { return is_hit ? hit_update : miss_update; });
+    add_terms(touches_of, [=](std::size_t, bool is_hit) { return is_hit ? hit_update : miss_update; });
   }
 }
 
 /// Adds `term(place, is_hit)` to the log-odds of each touched voxel, and clamps.
-template <class Term>
-void OccupancyMap::add_terms(std::span<const std::uint8_t> touched, Term term) {
+template <class TouchesOf, class Term>
+void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   VoxelBricks after = voxels_;  // the map stays as it was if memory runs out
   const auto bricks = after.change_bricks();
-  for_each_touched_brick(touched, [&](std::size_t brick) {
-    const std::size_t begin = brick * VoxelBricks::brick_voxels;
-    Voxel last = measured_voxel(0.0f);  // neighbours often have the same log-odds, and logarithms are expensive
-    VoxelBricks::Brick& voxels = bricks[brick].change();
-    for (std::size_t i = 0; i < voxels.size(); ++i) {
-      const std::uint8_t touch = touched[begin + i];
-      if (touch == untouched) continue;
-      const float log_odds = std::clamp(voxels[i].log_odds + term(begin + i, touch == hit), lowest, highest);
-      if (log_odds != last.log_odds) last = measured_voxel(log_odds);
-      voxels[i] = last;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 16), [&](const auto& range) {
+    for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
+      Touches touches{};
+      touches_of(brick, touches);
+      if (touches == Touches{}) continue;  // and it stays shared
+      Voxel last = measured_voxel(0.0f);   // neighbours often have the same log-odds, and logarithms are expensive
+      VoxelBricks::Brick& voxels = bricks[brick].change();
+      for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (touches[i] == untouched) continue;
+        const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
+        const float log_odds = std::clamp(voxels[i].log_odds + change, lowest, highest);
+        if (log_odds != last.log_odds) last = measured_voxel(log_odds);
+        voxels[i] = last;
+      }
     }
   });
   voxels_ = std::move(after);
@@ -156,19 +151,19 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
     throw std::invalid_argument(
         "occupancy map: a local map must have the grid and the model of the map it is registered into");
   // One scan's log-odds tell hits from misses; they may be clamped already, so they are not what is added.
-  Scratch<std::uint8_t> touched(voxels_.brick_count() * VoxelBricks::brick_voxels);
   const auto bricks = local.voxels_.bricks();
-  tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t brick) {
-    const VoxelBricks::Brick& voxels = *bricks[brick];
-    for (std::size_t i = 0; i < voxels.size(); ++i)
-      if (voxels[i].measured) touched[brick * VoxelBricks::brick_voxels + i] = voxels[i].log_odds > 0.0f ? hit : passed;
-  });
-  add(touched, origin);
+  add(
+      [&](std::size_t brick, Touches& touches) {
+        const VoxelBricks::Brick& voxels = *bricks[brick];
+        for (std::size_t i = 0; i < voxels.size(); ++i)
+          if (voxels[i].measured) touches[i] = voxels[i].log_odds > 0.0f ? hit : passed;
+      },
+      origin);
 }
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
-  Scratch<std::uint16_t> nearest_behind(voxels_.brick_count() * VoxelBricks::brick_voxels);
+  Distances nearest_behind(voxels_.brick_count() * VoxelBricks::brick_voxels);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.hits.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -192,7 +187,7 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std:
   throw_if_stopped(stop);
   VoxelBricks after = voxels_;
   const auto bricks = after.change_bricks();
-  for_each_touched_brick<std::uint16_t>(nearest_behind, [&](std::size_t brick) {
+  for_each_brick_behind(nearest_behind, [&](std::size_t brick) {
     const std::uint16_t* const nearest = &nearest_behind[brick * VoxelBricks::brick_voxels];
     const auto better = [&](std::size_t i, const Voxel& voxel) {
       return nearest[i] != 0 && !voxel.measured &&

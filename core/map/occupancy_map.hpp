@@ -51,9 +51,10 @@ class OccupancyMap {
 
  private:
   Voxel measured_voxel(float log_odds) const;
-  void add(std::span<const std::uint8_t> touched, const Vector3& origin);
-  template <class Term>
-  void add_terms(std::span<const std::uint8_t> touched, Term term);
+  template <class TouchesOf>
+  void add(TouchesOf touches_of, const Vector3& origin);
+  template <class TouchesOf, class Term>
+  void add_terms(TouchesOf touches_of, Term term);
 
   VoxelGrid grid_;
   InverseSensorModel model_;

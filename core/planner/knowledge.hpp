@@ -38,7 +38,7 @@ struct Knowledge {
 
 /// How scans enter the maps.
 struct FusionConfig {
-  Insertion insertion = Insertion::local_octree;
+  Insertion insertion = Insertion::direct;
   double occlusion_distance = 0.0;  ///< how far behind surfaces voxels are marked [m]; 0: none are
   int view_sweeps = 0;              ///< as GibbsConfig::view_sweeps
 };

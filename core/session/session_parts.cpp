@@ -27,7 +27,7 @@ std::string image_text(const DepthCameraConfig& sensor) {
   return fmt::format("images of {} x {} pixels", sensor.width, sensor.height);
 }
 
-/// The map and what else has a value per voxel: the local map of a step, truth, masks, and the sampler.
+/// The map and what else has a value per voxel: the marks of a step or its local map, truth, masks, and the sampler.
 std::uint64_t map_bytes(const Configuration& c) {
   const VoxelGrid grid = configured_region(c);
   const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;

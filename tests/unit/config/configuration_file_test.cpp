@@ -79,7 +79,7 @@ TEST_F(ConfigurationFile, RoundTrip) {
   changed.object.file = "a \"quoted\" näme\\with\tmore # than = usual.ply";
   changed.sensor.range_noise = 1.0 / 3.0 * 1e-7;
   changed.sensor.width = 123;
-  changed.map.insertion = Insertion::direct;
+  changed.map.insertion = Insertion::local_octree;
   changed.map.resolution = 0.1 + 0.2;
   changed.planner.gain = "oracle";
   changed.planner.semantics = Semantics::reference;

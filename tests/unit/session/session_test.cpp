@@ -103,7 +103,7 @@ TEST(Session, TheSameBytesOnOneThreadAndTwo) {
 
 TEST(Session, LocalOctreesAndDirectInsertionGiveTheSameScan) {
   Configuration local = small_scan(), direct = small_scan();
-  direct.map.insertion = Insertion::direct;
+  local.map.insertion = Insertion::local_octree;
   Session a(local), b(direct);
   finish(a);
   finish(b);

@@ -14,7 +14,7 @@ namespace {
 std::vector<Configuration> kinds_of_sessions() {
   std::vector<Configuration> kinds(5, small_scan());
   kinds[0].planner.gain = "proximity-count";  // marks occlusions
-  kinds[1].map.insertion = Insertion::direct;
+  kinds[1].map.insertion = Insertion::local_octree;
   kinds[2].planner.gain = "gibbs";
   kinds[2].gibbs.view_sweeps = 8;
   kinds[3].planner.semantics = Semantics::reference;

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/map/huge_pages.hpp"
+#include "core/map/voxel_grid.hpp"
+
+namespace nextview {
+
+/// A byte for each voxel of a grid, 0 at first, in which rays leave a 1 where they pass: many rays at once, in the
+/// lanes of the processor's vector registers. The voxels are those of walk_segment_inside, its twin of one ray at a
+/// time, to the last rounding, on any instruction set and any number of threads.
+class RayMarks {
+ public:
+  /// @throws std::bad_alloc
+  explicit RayMarks(const VoxelGrid& grid);
+
+  /// Rays from `origin` to each of the ends [m, world]; those longer than `max_range` [m] pass as far as that.
+  /// Overwrites what set() has set. @throws Stopped
+  void pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
+            const std::stop_token& stop = {});
+  /// Of a voxel of the grid.
+  void set(const Eigen::Vector3i& cell, std::uint8_t mark) { marks_[place(cell.x(), cell.y(), cell.z())] = mark; }
+  std::uint8_t at(const Eigen::Vector3i& cell) const { return marks_[place(cell.x(), cell.y(), cell.z())]; }
+  /// The marks of the voxels from this one on, along x, up to the grid's edge.
+  const std::uint8_t* row(int x, int y, int z) const { return &marks_[place(x, y, z)]; }
+
+ private:
+  /// Around the grid lies a margin of one voxel, where rays may leave marks too: so they need not ask where they are.
+  std::size_t place(int x, int y, int z) const {
+    return (std::size_t(z + 1) * (grid_.size.y() + 2) + (y + 1)) * (grid_.size.x() + 2) + (x + 1);
+  }
+
+  VoxelGrid grid_;
+  std::vector<std::uint8_t, HugePages<std::uint8_t>> marks_;
+};
+
+}  // namespace nextview
