@@ -74,7 +74,12 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
   for (std::size_t i = 0; i < available.size(); ++i) candidates[available[i]].gain = valuation.gains[i];
   const Utility by = utility(*policy_, setup);
   Ranking ranking = rank(candidates, by);
-  if (ranking.best) ranking.reason = reason(*policy_, state, candidates, *ranking.best, by.scan_seconds.has_value());
+  if (ranking.best) {
+    const Choice choice = choose(state, candidates, by, *ranking.best, stop);
+    ranking.best = choice.candidate;
+    ranking.reason =
+        reason(*policy_, state, candidates, choice.candidate, by.scan_seconds.has_value()) + choice.because;
+  }
   if (ranking.best && valuation.surface_left) ranking.reason += outlook(valuation, state);
   return {std::move(candidates), std::move(ranking), valuation.surface_left};
 }

@@ -61,6 +61,18 @@ class OneStepPlanner : public Planner {
   std::optional<ScoreExplanation> explain(const PlanningSetup& setup, const Knowledge& known,
                                           const Pose& T_world_camera) const override;
 
+ protected:
+  /// Which of the ranked candidates is taken, and what is to be said of that.
+  struct Choice {
+    std::size_t candidate;
+    std::string because = "";
+  };
+  /// @pre some candidate is available, and `ranked` is the best of them @throws Stopped
+  virtual Choice choose(const PlanningState&, std::span<const Candidate>, const Utility&, std::size_t ranked,
+                        const std::stop_token&) const {
+    return {ranked};
+  }
+
  private:
   std::unique_ptr<const Policy> policy_;
 };

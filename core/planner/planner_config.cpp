@@ -38,6 +38,9 @@ std::vector<Setting> settings(PlannerConfig& c) {
       {"planner.ray_window", "", "share of the image's width and height that they go through, about its middle",
        &c.ray_window, over_to(0, 1)},
       {"planner.ray_length", "m", "how far they reach", &c.ray_length, from_to(1e-3, 1000)},
+      {"planner.simulations", "",
+       "plans of several views tried out in drawn worlds (new-surface only); 0: no look-ahead", &c.simulations,
+       from_to(0, 100000)},
       {"planner.start_azimuth", "deg", "start view, seen from the object", &c.start_azimuth, from_to(-360, 360)},
       {"planner.start_elevation", "deg", "start view, seen from the object", &c.start_elevation, from_to(-90, 90)},
       {"planner.start_view", "", "start view as x y z qx qy qz qw; empty: from azimuth and elevation", &c.start_view},
@@ -55,6 +58,8 @@ void PlannerConfig::validate() const {
   if (make_policy(*this)->needs().posterior && semantics != Semantics::published)
     throw std::invalid_argument(
         fmt::format("planner.gain {} needs planner.semantics published: the reference code knows no Gibbs map", gain));
+  if (simulations > 0 && gain != "new-surface")
+    throw std::invalid_argument(fmt::format("planner.simulations needs planner.gain new-surface; it is {}", gain));
   const CombinedPolicy readable(combined_weights);
   if (start_view.empty()) return;
   try {

@@ -20,8 +20,9 @@ struct PlannerConfig {
   std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
   int ray_columns = 38;                 ///< rays that score a view
   int ray_rows = 25;
-  double ray_window = 1.0;        ///< share of the image's width and height that they go through, about its middle
-  double ray_length = 1.5;        ///< [m]
+  double ray_window = 1.0;  ///< share of the image's width and height that they go through, about its middle
+  double ray_length = 1.5;  ///< [m]
+  int simulations = 0;      ///< plans of several views that are tried out before one is taken; 0: one view at a time
   double start_azimuth = 30.0;    ///< of the start view, seen from the target [deg]
   double start_elevation = 20.0;  ///< [deg]
   std::string start_view;         ///< as parse_view takes it; empty: from azimuth and elevation

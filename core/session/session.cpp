@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/memory/available_memory.hpp"
+#include "core/planner/look_ahead_planner.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/session_parts.hpp"
 
@@ -26,7 +27,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   setup_.start = start_view(c, setup_.source, robot_.get());
   if (!robot_) robot_ = std::make_unique<FreeFlyingCamera>(setup_.start.T_world_camera);
   setup_.planner = std::move(parts.planner);
-  if (!setup_.planner) setup_.planner = std::make_unique<OneStepPlanner>(make_policy(c.planner));
+  if (!setup_.planner) setup_.planner = make_planner(c.planner);
   setup_.candidates = std::move(parts.candidates);
   if (!setup_.candidates) setup_.candidates = configured_candidates(c, setup_.source);
   if (c.evaluation.enabled)

@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 79> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 80> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.centred", "true"},
     {"object.ground", "false"},
@@ -78,6 +78,7 @@ constexpr std::array<std::array<const char*, 2>, 79> pinned = {{
     {"planner.ray_rows", "25"},
     {"planner.ray_window", "1"},
     {"planner.ray_length", "1.5"},
+    {"planner.simulations", "0"},
     {"planner.start_azimuth", "30"},
     {"planner.start_elevation", "20"},
     {"planner.start_view", ""},
