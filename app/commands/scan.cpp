@@ -68,6 +68,8 @@ void print_end(const Session& session) {
         "of all the\n"
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
         1e3 * session.configuration().evaluation.d_reg, 100.0 * last.coverage, 100.0 * last.coverage_paper);
+  if (last.coverage_any_pose)
+    fmt::print("  Of the surface that any pose could see {:.1f} %.\n", 100.0 * *last.coverage_any_pose);
 }
 
 void print_files(const Session& session, const std::filesystem::path& out, bool pictures, const std::string& surfaces) {

@@ -49,6 +49,7 @@ struct EvaluationConfig {
   double d_reg = 0.005;  ///< registration distance of surface coverage [m]; the paper's 0.0005 is always reported too
   EvaluationSamples samples = EvaluationSamples::surface;
   int surface_samples = 50'000;
+  bool any_pose = false;  ///< coverage of what any pose could see too; always so with adaptive views
 };
 
 /// What the window keeps to go back to. It decides nothing of a scan.

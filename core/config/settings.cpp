@@ -41,6 +41,8 @@ std::vector<Setting> settings(EvaluationConfig& c) {
       {"evaluation.samples", "", "what coverage is a share of: points spread over the surface, or the mesh's vertices",
        choice(c.samples, {"surface", "vertices"})},
       {"evaluation.surface_samples", "", "points spread over the true surface", &c.surface_samples, from_to(1, 1e7)},
+      {"evaluation.any_pose", "", "coverage of what any pose could see too; always with views.layout adaptive",
+       &c.any_pose},
   };
 }
 

@@ -84,13 +84,15 @@ double SurfaceCoverage::of_all() const {  // Eq. 17
   return double(std::count(observed_.begin(), observed_.end(), 1)) / double(observed_.size());
 }
 
-double SurfaceCoverage::of_visible() const {  // Eq. 17 over the visible samples
-  std::size_t visible = 0, seen = 0;
+double SurfaceCoverage::of_visible() const { return of(cells_->visible); }
+
+double SurfaceCoverage::of(std::span<const std::uint8_t> counted) const {  // Eq. 17 over some samples
+  std::size_t all = 0, seen = 0;
   for (std::size_t i = 0; i < observed_.size(); ++i) {
-    visible += cells_->visible[i] != 0;
-    seen += cells_->visible[i] && observed_[i];
+    all += counted[i] != 0;
+    seen += counted[i] && observed_[i];
   }
-  return visible == 0 ? 0.0 : double(seen) / double(visible);
+  return all == 0 ? 0.0 : double(seen) / double(all);
 }
 
 }  // namespace nextview

@@ -24,6 +24,8 @@ class SurfaceCoverage {
 
   double of_all() const;      ///< share of all samples that are observed
   double of_visible() const;  ///< share of the visible samples that are observed; 0 if none is visible
+  /// Share of the samples that are not 0 in `counted` that are observed; 0 if there is none.
+  double of(std::span<const std::uint8_t> counted) const;
   double d_reg() const { return cells_->d_reg; }
   std::span<const std::uint8_t> observed() const { return observed_; }  ///< one per sample
 

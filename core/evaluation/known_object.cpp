@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
+#include "core/evaluation/any_pose.hpp"
 #include "core/evaluation/visited_voxels.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
@@ -24,6 +24,12 @@ std::vector<Eigen::Vector3f> sample_normals(const TriangleMesh& mesh, const Surf
   return normals;
 }
 
+std::vector<std::uint32_t> numbers_to(std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
+}
+
 }  // namespace
 
 KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::shared_ptr<const MeshRayCaster> scene,
@@ -33,6 +39,7 @@ KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::
       camera_(camera),
       samples_(std::move(samples)),
       normals_(sample_normals(seen, samples_)),
+      all_samples_(numbers_to(samples_.points.size())),
       seen_from_(see_from(candidates, progress, stop)),
       visible_(seen_by_any()),
       truth_(ground_truth(seen, grid, stop)),
@@ -63,37 +70,11 @@ std::vector<std::uint8_t> KnownObject::seen_by_any() const {
 }
 
 std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera, const std::stop_token& stop) const {
-  const DepthCameraConfig& config = camera_.config();
-  const Eigen::Vector3f origin = T_world_camera.translation().cast<float>();
-  const Pose T_camera_world = T_world_camera.inverse();
-  const float min_cosine = static_cast<float>(std::cos(config.grazing_limit * std::numbers::pi / 180.0));
+  return visible_samples(surface(), *scene_, camera_, T_world_camera, all_samples_, any_slant, stop);
+}
 
-  std::vector<std::uint32_t> in_image;
-  std::vector<Eigen::Vector3f> directions;
-  std::vector<float> ranges;
-  constexpr std::uint32_t between_looks = 1 << 14;  // at the stop token
-  for (std::uint32_t s = 0; s < samples_.points.size(); ++s) {
-    if (s % between_looks == 0) throw_if_stopped(stop);
-    const Eigen::Vector3f to_sample = samples_.points[s] - origin;
-    const float range = to_sample.norm();
-    const Vector3 in_camera = T_camera_world * samples_.points[s].cast<double>();
-    if (range < config.min_range || range > config.max_range || in_camera.z() <= 0.0) continue;
-    const Eigen::Vector2d pixel = camera_.camera().project(in_camera);
-    if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > config.width - 0.5 || pixel.y() > config.height - 0.5)
-      continue;
-    const Eigen::Vector3f direction = to_sample / range;
-    if (std::abs(direction.dot(normals_[s])) < min_cosine) continue;
-    in_image.push_back(s);
-    directions.push_back(direction);
-    ranges.push_back(range);
-  }
-  std::vector<MeshRayCaster::Hit> hits(directions.size());
-  scene_->cast(T_world_camera.translation(), directions, static_cast<float>(config.max_range) + 0.01f, hits);
-  constexpr float tolerance = 5e-4f;  // the sample lies on the surface: the ray meets it, give or take rounding [m]
-  std::vector<std::uint32_t> seen;
-  for (std::size_t i = 0; i < in_image.size(); ++i)
-    if (hits[i].range > ranges[i] - tolerance) seen.push_back(in_image[i]);
-  return seen;
+std::vector<std::uint8_t> KnownObject::seen_from_any_pose(const Progress& progress, const std::stop_token& stop) const {
+  return nextview::seen_from_any_pose(surface(), *scene_, camera_, nothing_seen_.coverage.d_reg(), progress, stop);
 }
 
 void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,

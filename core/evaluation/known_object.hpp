@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/evaluation/coverage.hpp"
+#include "core/evaluation/visible_samples.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/progress.hpp"
@@ -41,6 +42,10 @@ class KnownObject {
   /// @throws Stopped
   std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera, const std::stop_token& stop = {}) const;
 
+  /// One a sample, 1: a camera could see it from some pose, whatever the candidates are. Takes a second or two.
+  /// @throws Stopped
+  std::vector<std::uint8_t> seen_from_any_pose(const Progress& progress = {}, const std::stop_token& stop = {}) const;
+
   /// Before the first view.
   EvaluationState nothing_seen() const { return nothing_seen_; }
   /// A view was taken from here and gave these points. @throws Stopped; then some of it is added.
@@ -60,11 +65,13 @@ class KnownObject {
   std::vector<std::vector<std::uint32_t>> see_from(std::span<const Pose> candidates, const Progress& progress,
                                                    std::stop_token stop) const;
   std::vector<std::uint8_t> seen_by_any() const;
+  SampledSurface surface() const { return {samples_.points, normals_}; }
 
   std::shared_ptr<const MeshRayCaster> scene_;
   DepthCamera camera_;
   SurfaceSamples samples_;
   std::vector<Eigen::Vector3f> normals_;               ///< of the samples
+  std::vector<std::uint32_t> all_samples_;             ///< their numbers
   std::vector<std::vector<std::uint32_t>> seen_from_;  ///< of each candidate
   std::vector<std::uint8_t> visible_;                  ///< 1: some candidate sees the sample
   GroundTruth truth_;

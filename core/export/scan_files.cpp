@@ -20,18 +20,20 @@ std::string steps_csv(const Session& session) {
       "misses,new_voxels,"
       "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
       "nats],brier,"
-      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left\n",
-      unit, 1e3 * d_reg, 1e3 * d_reg);
+      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}\n",
+      unit, 1e3 * d_reg, 1e3 * d_reg,
+      session.setup().any_pose.empty() ? "" : fmt::format(",coverage_any_pose@{:g}mm", 1e3 * d_reg));
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", r.step,
                        r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
                        r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
                        r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
                        r.quality.brier, r.quality_near_surface.log_loss, r.quality_near_surface.brier,
                        r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()),
-                       r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "");
+                       r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "",
+                       r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "");
   }
   return csv;
 }
@@ -101,6 +103,7 @@ nlohmann::ordered_json evaluation_json(const Session& session, const PointCloud&
                       {"of_all_surface", last.coverage},
                       {"of_visible_surface", last.coverage_visible},
                       {"of_all_surface_at_0.5_mm", last.coverage_paper}};
+  if (last.coverage_any_pose) json["coverage_any_pose"] = *last.coverage_any_pose;
   if (!cloud.empty()) {
     const Accuracy a = accuracy(cloud, MeshDistance(*session.mesh()));
     json["accuracy_m"] = {{"points", a.points}, {"mean", a.mean}, {"rms", a.rms}, {"percentile_95", a.percentile_95}};

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/gain/new_surface.hpp"
@@ -26,7 +27,10 @@ class AdaptiveCandidates : public CandidateGenerator {
   std::vector<View> candidates(const Knowledge& known) const override;
 
  private:
-  std::vector<Pose> drawn(const SurfaceEvidence& evidence, const VoxelGrid& region, std::uint32_t step) const;
+  struct Drawing;
+  static std::vector<Pose> all_around(const Drawing& drawing);
+  static std::vector<Pose> towards_frontiers(const Drawing& drawing);
+  static std::vector<Pose> about(const Drawing& drawing, std::span<const Pose> poses);
 
   std::vector<View> fixed_;
   RayBundle rays_;

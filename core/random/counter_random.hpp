@@ -35,7 +35,8 @@ inline constexpr std::uint32_t outliers = 6;
 inline constexpr std::uint32_t training_parts = 7;
 inline constexpr std::uint32_t training_views = 8;
 inline constexpr std::uint32_t adaptive_views = 9;
-inline constexpr std::uint32_t drawn_worlds = 10;
+inline constexpr std::uint32_t any_pose = 10;
+inline constexpr std::uint32_t drawn_worlds = 11;
 inline constexpr std::uint32_t gibbs = 1024;  ///< and on: chains and moves have streams of their own
 }  // namespace random_stream
 

@@ -54,6 +54,7 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   setup.truth->add_view(*evaluation, record.T_world_camera, scan.hits, stop);
   record.coverage = evaluation->coverage.of_all();
   record.coverage_visible = evaluation->coverage.of_visible();
+  if (!setup.any_pose.empty()) record.coverage_any_pose = evaluation->coverage.of(setup.any_pose);
   record.coverage_paper = evaluation->coverage_paper.of_all();
   const GroundTruth& truth = setup.truth->truth();
   const auto quality = [&](const std::vector<float>& p, ScoredSet set) {

@@ -24,6 +24,7 @@ struct ScanSetup {
   std::shared_ptr<const CandidateGenerator> candidates;
   std::shared_ptr<const Planner> planner;
   std::shared_ptr<const KnownObject> truth;  ///< null without evaluation
+  std::vector<std::uint8_t> any_pose = {};   ///< KnownObject::seen_from_any_pose; empty unless it is asked for
 };
 
 /// The view that is taken next.

@@ -36,6 +36,8 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
                                       std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
                                       poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
                                       setup_.region, c.evaluation.d_reg, progress, stop);
+  if (setup_.truth && (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive))
+    setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
   adopt(nothing_scanned(setup_, robot_->pose()));
 }
 

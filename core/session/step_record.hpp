@@ -49,11 +49,12 @@ struct StepRecord {
   double entropy = 0.0;        ///< of the maximum-likelihood map (Eq. 18) [bits]
   double total_entropy = 0.0;  ///< sum of H(p) [bits]
   // With evaluation:
-  double coverage = 0.0;            ///< of all the surface, at d_reg (Eq. 17)
-  double coverage_visible = 0.0;    ///< of the surface that some candidate sees, at d_reg
-  double coverage_paper = 0.0;      ///< of all the surface, at the paper's 0.5 mm
-  MapQuality quality;               ///< over visited voxels, touch truth
-  MapQuality quality_near_surface;  ///< over visited voxels of the band, touch truth
+  double coverage = 0.0;                    ///< of all the surface, at d_reg (Eq. 17)
+  double coverage_visible = 0.0;            ///< of the surface that some candidate sees, at d_reg
+  std::optional<double> coverage_any_pose;  ///< of the surface that any pose could see, at d_reg; none: not asked for
+  double coverage_paper = 0.0;              ///< of all the surface, at the paper's 0.5 mm
+  MapQuality quality;                       ///< over visited voxels, touch truth
+  MapQuality quality_near_surface;          ///< over visited voxels of the band, touch truth
 
   std::optional<RefinementRecord> refinement;  ///< total_entropy, realised_gain and gains are then the Gibbs map's
 

@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 80> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 81> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.centred", "true"},
     {"object.ground", "false"},
@@ -92,6 +92,7 @@ constexpr std::array<std::array<const char*, 2>, 80> pinned = {{
     {"evaluation.d_reg", "0.005"},
     {"evaluation.samples", "surface"},
     {"evaluation.surface_samples", "50000"},
+    {"evaluation.any_pose", "false"},
 }};
 const std::set<std::string> not_pinned = {"seed", "object.file", "sensor.preset", "views.file"};
 

@@ -38,6 +38,21 @@ TEST(AdaptiveViews, AreMadeAtEachStepAndTaken) {
   EXPECT_TRUE(same_scan(session, again));
 }
 
+TEST(AdaptiveViews, AreMeasuredByWhatAnyPoseCouldSee) {
+  Configuration with = small_scan(), without = small_scan();
+  with.evaluation.any_pose = true;
+  Session fixed(with), plain(without), made(adaptive());
+  for (Session* session : {&fixed, &plain, &made}) finish(*session);
+  EXPECT_EQ(fixed.setup().any_pose, made.setup().any_pose) << "whatever the views are";
+  for (const Session* session : {&fixed, &made})
+    EXPECT_EQ(session->records().back().coverage_any_pose,
+              session->evaluation()->coverage.of(session->setup().any_pose));
+  EXPECT_GT(*made.records().back().coverage_any_pose, *made.records().front().coverage_any_pose);
+  EXPECT_TRUE(plain.setup().any_pose.empty());
+  EXPECT_FALSE(plain.records().back().coverage_any_pose) << "nor is it computed";
+  EXPECT_TRUE(same_scan(fixed, plain)) << "it decides nothing";
+}
+
 TEST(AdaptiveViews, BaselinesKnowTheFixedOnesAlone) {
   for (const char* gain : {"random", "oracle"}) {
     Configuration c = adaptive();
