@@ -11,6 +11,35 @@
 namespace nextview {
 namespace {
 
+/// What a voxel adds to the sums.
+struct Terms {
+  double log_loss, brier, divergence;
+  std::size_t bin;
+};
+
+Terms terms_of(double p, bool occupied) {
+  const double clamped = std::clamp(p, probability_floor, 1.0 - probability_floor);
+  const double q = occupied ? 1.0 - probability_floor : probability_floor;
+  return {-std::log(occupied ? clamped : 1.0 - clamped), (p - occupied) * (p - occupied),
+          (p > 0.0 ? p * std::log(p / q) : 0.0) +
+              (p < 1.0 ? (1.0 - p) * std::log((1.0 - p) / (1.0 - q)) : 0.0),  // Eqs. 15 and 16
+          std::min<std::size_t>(9, static_cast<std::size_t>(p * 10.0))};
+}
+
+/// Neighbours often have the same probability, and logarithms are expensive.
+class LastTerms {
+ public:
+  const Terms& of(float p, bool occupied) {
+    if (p != p_ || occupied != occupied_) terms_ = terms_of(p, occupied), p_ = p, occupied_ = occupied;
+    return terms_;
+  }
+
+ private:
+  float p_ = -1.0f;
+  bool occupied_ = false;
+  Terms terms_{};
+};
+
 struct Sums {
   std::size_t voxels = 0;
   double log_loss = 0.0, brier = 0.0, divergence = 0.0, divergence_outside = 0.0;
@@ -20,19 +49,13 @@ struct Sums {
   };
   std::array<Bin, 10> bins;
 
-  void add(double p, bool occupied, bool in_band) {
+  void add(double p, bool occupied, bool in_band, const Terms& terms) {
     ++voxels;
-    const double clamped = std::clamp(p, probability_floor, 1.0 - probability_floor);
-    log_loss -= std::log(occupied ? clamped : 1.0 - clamped);
-    brier += (p - occupied) * (p - occupied);
-
-    const double q = occupied ? 1.0 - probability_floor : probability_floor;
-    const double term =
-        (p > 0.0 ? p * std::log(p / q) : 0.0) + (p < 1.0 ? (1.0 - p) * std::log((1.0 - p) / (1.0 - q)) : 0.0);
-    divergence += term;  // Eqs. 15 and 16
-    if (!in_band) divergence_outside += term;
-
-    Bin& bin = bins[std::min<std::size_t>(9, static_cast<std::size_t>(p * 10.0))];
+    log_loss += terms.log_loss;
+    brier += terms.brier;
+    divergence += terms.divergence;
+    if (!in_band) divergence_outside += terms.divergence;
+    Bin& bin = bins[terms.bin];
     ++bin.voxels;
     bin.occupied += occupied;
     bin.probability += p;
@@ -52,6 +75,10 @@ struct Sums {
     return *this;
   }
 };
+
+constexpr std::size_t scored_sets = 4;
+bool of_visited(ScoredSet set) { return set == ScoredSet::visited || set == ScoredSet::visited_band; }
+bool of_band(ScoredSet set) { return set == ScoredSet::band || set == ScoredSet::visited_band; }
 
 MapQuality means(const Sums& sums) {
   MapQuality quality;
@@ -77,33 +104,49 @@ void check_lengths(std::size_t probabilities, const GroundTruth& truth, ScoredSe
   if (probabilities != voxels)
     throw std::invalid_argument(
         fmt::format("map quality: {} probabilities for {} voxels of truth", probabilities, voxels));
-  const bool needs_visited = set == ScoredSet::visited || set == ScoredSet::visited_band;
-  if (needs_visited && visited != voxels)
+  if (of_visited(set) && visited != voxels)
     throw std::invalid_argument(fmt::format(
         "map quality: the scored set '{}' needs a mask of {} visited voxels, not of {}", name(set), voxels, visited));
 }
 
 }  // namespace
 
-MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,
-                       ScoredSet set, std::span<const std::uint8_t> visited) {
-  check_lengths(probabilities.size(), truth, set, visited.size());
-  const bool only_visited = set == ScoredSet::visited || set == ScoredSet::visited_band;
-  const bool only_band = set == ScoredSet::band || set == ScoredSet::visited_band;
+std::vector<MapQuality> map_quality(std::span<const float> probabilities, const GroundTruth& truth,
+                                    TruthConvention convention, std::span<const ScoredSet> sets,
+                                    std::span<const std::uint8_t> visited) {
+  for (const ScoredSet set : sets) check_lengths(probabilities.size(), truth, set, visited.size());
+  using SumsOfSets = std::array<Sums, scored_sets>;
+  const auto add = [&](SumsOfSets& sums, std::size_t i, LastTerms& last) {
+    const bool in_band = truth.surface_distance[i] <= band_width;
+    const auto counts = [&](ScoredSet set) { return (!of_visited(set) || visited[i]) && (!of_band(set) || in_band); };
+    if (std::ranges::none_of(sets, counts)) return;
+    const VoxelTruth voxel = voxel_truth(truth, i, convention);
+    if (voxel == VoxelTruth::hidden) return;
+    const bool occupied = voxel == VoxelTruth::occupied;
+    const Terms& terms = last.of(probabilities[i], occupied);
+    for (const ScoredSet set : sets)
+      if (counts(set)) sums[static_cast<std::size_t>(set)].add(probabilities[i], occupied, in_band, terms);
+  };
   // Split and joined in the same places on any number of threads, so that the sums round alike.
-  const Sums sums = tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, probabilities.size(), 1 << 15), Sums(),
-      [&](const auto& range, Sums part) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          const bool in_band = truth.surface_distance[i] <= band_width;
-          if ((only_visited && !visited[i]) || (only_band && !in_band)) continue;
-          const VoxelTruth voxel = voxel_truth(truth, i, convention);
-          if (voxel != VoxelTruth::hidden) part.add(probabilities[i], voxel == VoxelTruth::occupied, in_band);
-        }
+  const SumsOfSets all = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, probabilities.size(), 1 << 15), SumsOfSets(),
+      [&](const auto& range, SumsOfSets part) {
+        LastTerms last;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) add(part, i, last);
         return part;
       },
-      [](Sums a, const Sums& b) { return a += b; });
-  return means(sums);
+      [](SumsOfSets a, const SumsOfSets& b) {
+        for (std::size_t s = 0; s < a.size(); ++s) a[s] += b[s];
+        return a;
+      });
+  std::vector<MapQuality> qualities;
+  for (const ScoredSet set : sets) qualities.push_back(means(all[static_cast<std::size_t>(set)]));
+  return qualities;
+}
+
+MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,
+                       ScoredSet set, std::span<const std::uint8_t> visited) {
+  return map_quality(probabilities, truth, convention, std::span(&set, 1), visited).front();
 }
 
 }  // namespace nextview

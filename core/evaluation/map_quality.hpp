@@ -49,5 +49,9 @@ struct MapQuality {
 /// @throws std::invalid_argument if lengths differ.
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,
                        ScoredSet set, std::span<const std::uint8_t> visited = {});
+/// The same over several sets in one pass, in their order.
+std::vector<MapQuality> map_quality(std::span<const float> probabilities, const GroundTruth& truth,
+                                    TruthConvention convention, std::span<const ScoredSet> sets,
+                                    std::span<const std::uint8_t> visited = {});
 
 }  // namespace nextview

@@ -16,8 +16,15 @@ void report(const Progress& progress, const std::stop_token& stop, double fracti
   throw_if_stopped(stop);
 }
 
-std::size_t measured_voxels(const VoxelBricks& voxels) {
-  return static_cast<std::size_t>(std::ranges::count_if(voxels, &Voxel::measured));
+/// How many voxels a map has measured that an earlier state of it had not.
+std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) {
+  std::size_t count = 0;
+  for (std::size_t brick = 0; brick < after.brick_count(); ++brick) {
+    const auto &was = before.bricks()[brick], &is = after.bricks()[brick];
+    if (was.shares_with(is)) continue;
+    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) count += (*is)[i].measured && !(*was)[i].measured;
+  }
+  return count;
 }
 
 FusionConfig fusion(const ScanSetup& setup) {
@@ -34,7 +41,7 @@ Progress part(const Progress& whole, double begin, double end) {
 /// What the view did to the maps, as numbers of its record.
 void compare_maps(const Knowledge& before, const Knowledge& after, StepRecord& record) {
   Stopwatch watch(record.seconds.evaluate);
-  record.new_voxels = measured_voxels(after.map.voxels()) - measured_voxels(before.map.voxels());
+  record.new_voxels = newly_measured(before.map.voxels(), after.map.voxels());
   record.entropy = unmeasured_entropy(after.map.voxels());
   record.total_entropy = total_entropy(after.planning_voxels());
   record.realised_gain = realised_gain(before.planning_voxels(), after.planning_voxels());  // Eq. 12
@@ -57,15 +64,15 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   if (!setup.any_pose.empty()) record.coverage_any_pose = evaluation->coverage.of(setup.any_pose);
   record.coverage_paper = evaluation->coverage_paper.of_all();
   const GroundTruth& truth = setup.truth->truth();
-  const auto quality = [&](const std::vector<float>& p, ScoredSet set) {
-    return map_quality(p, truth, TruthConvention::touch, set, evaluation->visited_voxels);
+  const auto quality = [&](const VoxelBricks& voxels, std::initializer_list<ScoredSet> sets) {
+    return map_quality(probabilities(voxels), truth, TruthConvention::touch, sets, evaluation->visited_voxels);
   };
-  const auto p = probabilities(state.known.map.voxels());
-  record.quality = quality(p, ScoredSet::visited);
-  record.quality_near_surface = quality(p, ScoredSet::visited_band);
+  const auto qualities = quality(state.known.map.voxels(), {ScoredSet::visited, ScoredSet::visited_band});
+  record.quality = qualities[0];
+  record.quality_near_surface = qualities[1];
   if (record.refinement)
     record.refinement->quality_near_surface =
-        quality(probabilities(state.known.posterior->voxels()), ScoredSet::visited_band);
+        quality(state.known.posterior->voxels(), {ScoredSet::visited_band}).front();
   state.evaluation = std::move(evaluation);
 }
 

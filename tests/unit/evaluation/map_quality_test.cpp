@@ -114,6 +114,20 @@ MapQuality twin(const RandomCase& c, bool by_touch, bool only_visited, bool only
   return q;
 }
 
+TEST(MapQuality, OfSeveralSetsIsThatOfEach) {
+  const RandomCase c = random_case(100'000);
+  const std::vector<ScoredSet> sets = {ScoredSet::visited_band, ScoredSet::region, ScoredSet::visited};
+  const auto all = map_quality(c.p, c.truth, TruthConvention::touch, sets, c.visited);
+  ASSERT_EQ(all.size(), sets.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const MapQuality one = map_quality(c.p, c.truth, TruthConvention::touch, sets[s], c.visited);
+    EXPECT_EQ(all[s].voxels, one.voxels);
+    EXPECT_EQ(all[s].log_loss, one.log_loss);
+    EXPECT_EQ(all[s].divergence, one.divergence);
+    EXPECT_EQ(all[s].reliability[3].mean_probability, one.reliability[3].mean_probability);
+  }
+}
+
 TEST(MapQuality, AgreesWithTheFormulasOnEverySetAndConvention) {
   const RandomCase c = random_case(100'000);
   for (const auto set : {ScoredSet::visited, ScoredSet::region, ScoredSet::band, ScoredSet::visited_band})
