@@ -19,7 +19,7 @@ struct DrawnWorld {
 
 /// How worlds are drawn.
 struct WorldDraws {
-  int count = 64;
+  int count = 32;
   double ray_length = 1.5;  ///< how far views see [m]
   std::uint64_t seed = 1;
   std::uint32_t step = 0;  ///< worlds of different steps are different

@@ -13,6 +13,8 @@ namespace nextview {
 namespace {
 
 constexpr std::size_t arms = 6;      // of a node
+constexpr double way_weight = 3.0;   // of the way in a plan's price, over its weight in the utility
+constexpr double worth_it = 1.02;    // times the value of the greedy choice's plan, for another to be taken
 constexpr double exploration = 0.5;  // against the range of the values so far
 
 /// What is seen after some views, in each world.
@@ -156,7 +158,7 @@ class Price {
     for (const Candidate& c : candidates)
       if (c.available) count += 1.0, way += c.cost, seconds += c.seconds;
     of_view_ = utility.scan_seconds ? *utility.scan_seconds : utility.weights.gain;
-    const double of_mean_way = utility.scan_seconds ? seconds / count : utility.weights.cost;
+    const double of_mean_way = utility.scan_seconds ? seconds / count : way_weight * utility.weights.cost;
     if (way > 0.0) of_metre_ = of_mean_way * count / way;
     if (const double whole = of_view_ + of_mean_way; whole > 0.0) of_view_ /= whole, of_metre_ /= whole;
   }
@@ -218,7 +220,7 @@ OneStepPlanner::Choice LookAheadPlanner::choose(const PlanningState& state, std:
   if (tree.worlds.empty()) return {ranked};
   const LookAhead found = look_ahead(tree, simulations_, stop);
   const std::size_t first = available[found.best.views.front()];
-  if (first == ranked) return {ranked};
+  if (first == ranked || found.best.value < worth_it * found.of_ranked.value) return {ranked};
   return {first, fmt::format(" {} views that begin here promise {} cm² in {:.1f} m; after {}, {} cm² in {:.1f} m.",
                              found.best.views.size(), short_text(found.best.area), found.best.way, ranked,
                              short_text(found.of_ranked.area), found.of_ranked.way)};

@@ -10,8 +10,8 @@ struct ViewTree {
   std::vector<double> gains;                ///< of each view as the next one [cm^2]
   std::vector<std::vector<double>> prices;  ///< [from][to], each at least 0; the last row is from where the camera is
   std::vector<std::vector<double>> ways;    ///< the same [m]
-  std::size_t depth = 4;                    ///< views of a sequence
-  double kept = 0.8;                        ///< of what is shown, for each unit of price before
+  std::size_t depth = 6;                    ///< views of a sequence
+  double kept = 0.85;                       ///< of what is shown, for each unit of price before
   std::size_t ranked = 0;                   ///< the view that is best as the next one, one step ahead
 };
 
