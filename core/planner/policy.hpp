@@ -48,12 +48,14 @@ struct PlanningState {
 /// What a policy makes of some candidates.
 struct Valuation {
   Valuation(std::vector<double> values) : gains(std::move(values)) {}
-  Valuation(std::vector<double> values, std::optional<double> left, std::vector<std::size_t> few = {})
-      : gains(std::move(values)), surface_left(left), remaining(std::move(few)) {}
+  Valuation(std::vector<double> values, std::optional<double> left, std::vector<std::size_t> few = {},
+            bool is_fewest = false)
+      : gains(std::move(values)), surface_left(left), remaining(std::move(few)), remaining_is_fewest(is_fewest) {}
 
   std::vector<double> gains;           ///< one a candidate
   std::optional<double> surface_left;  ///< share of all surface that they are expected to show; none: not predicted
   std::vector<std::size_t> remaining;  ///< of the candidates, by number: few that are expected to show it
+  bool remaining_is_fewest = false;    ///< proven: no fewer would
 };
 
 /// What a view is worth: a volumetric information, or a baseline that stands for one. The utility weighs it against the
