@@ -57,6 +57,10 @@ class KnownObject {
   /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
   std::vector<std::size_t> covering_order(std::uint64_t seed) const;
 
+  /// Which surface samples the candidate sees, in ascending order.
+  std::span<const std::uint32_t> seen_from(std::size_t candidate) const { return seen_from_[candidate]; }
+  std::size_t candidate_count() const { return seen_from_.size(); }
+
   const GroundTruth& truth() const { return truth_; }
   const SurfaceSamples& samples() const { return samples_; }
   std::span<const std::uint8_t> visible() const { return visible_; }  ///< one per sample, 1: some candidate sees it

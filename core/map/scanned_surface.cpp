@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,10 +18,16 @@ constexpr int sub_cell_count = divisions * divisions * divisions;
 /// Places beyond are taken for the last one: that is thousands of kilometres, or a radius that is next to nothing.
 constexpr int farthest = (1 << 20) - 2;
 
+constexpr int offset = 1 << 20;  // in a key no part is below 0
+
 std::uint64_t key_of(const Eigen::Vector3i& cell) {
-  constexpr int offset = 1 << 20;
   return 1 + ((std::uint64_t(cell.z() + offset) << 42) | (std::uint64_t(cell.y() + offset) << 21) |
               std::uint64_t(cell.x() + offset));
+}
+Eigen::Vector3i cell_of(std::uint64_t key) {
+  constexpr std::uint64_t part = (1 << 21) - 1;
+  const auto at = [&](int shift) { return int(((key - 1) >> shift) & part) - offset; };
+  return {at(0), at(21), at(42)};
 }
 /// Where the cell of this key is in the table, or has its place if there is none.
 template <class Cell>
@@ -95,6 +102,36 @@ bool ScannedSurface::is_new(const Place& place) const {
   for (std::size_t n = 0; n < neighbours.size(); ++n)
     if (masks[n] & sub_cells(place.cell + neighbours[n])) return false;
   return true;
+}
+
+int ScannedSurface::points_around(const Place& place) const {
+  const auto& masks = within_radius[static_cast<std::size_t>(place.sub_cell)];
+  int count = 0;
+  for (std::size_t n = 0; n < neighbours.size(); ++n)
+    if (masks[n]) count += std::popcount(masks[n] & sub_cells(place.cell + neighbours[n]));
+  return count;
+}
+
+std::vector<Eigen::Vector3f> ScannedSurface::sparse_points(double share) const {
+  std::vector<Place> places;
+  for (const Cell& cell : cells_)
+    for (int s = 0; s < sub_cell_count; ++s)
+      if (cell.sub_cells >> s & 1) places.push_back({cell_of(cell.key), s});
+  std::vector<int> counts(places.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, counts.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) counts[i] = points_around(places[i]);
+  });
+  std::vector<int> sorted = counts;
+  const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+  std::nth_element(sorted.begin(), median, sorted.end());
+  std::vector<Eigen::Vector3f> sparse;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (counts[i] >= share * *median) continue;
+    const Vector3 at = places[i].cell.cast<double>() +
+                       (sub_cell_at(places[i].sub_cell).cast<double>() + Vector3::Constant(0.5)) / divisions;
+    sparse.push_back((radius_ * at).cast<float>());
+  }
+  return sparse;
 }
 
 std::uint64_t ScannedSurface::sub_cells(const Eigen::Vector3i& cell) const {

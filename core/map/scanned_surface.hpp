@@ -20,6 +20,11 @@ class ScannedSurface {
   double add(const Scan& scan, const Vector3& optical_axis, double central_solid_angle);
 
   double area() const { return area_; }  ///< of all scans [m^2]
+
+  /// Points around which there are few: within the radius fewer than `share` of what is usual, the median over all
+  /// points. Points are those told apart, each at the middle of its place. The same order every time.
+  std::vector<Eigen::Vector3f> sparse_points(double share) const;
+
   std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
 
  private:
@@ -34,6 +39,7 @@ class ScannedSurface {
   };
   Place place(const Eigen::Vector3f& point) const;
   bool is_new(const Place& place) const;
+  int points_around(const Place& place) const;
   std::uint64_t sub_cells(const Eigen::Vector3i& cell) const;
   void mark(const Place& place);
   void grow();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/planner/set_cover.hpp"
 #include "core/random/counter_random.hpp"
 
 namespace nextview {
@@ -39,6 +40,22 @@ Valuation CoveringOrderPolicy::values(const PlanningState& state, std::span<cons
   std::vector<double> values;
   for (const std::size_t candidate : available)
     values.push_back(static_cast<double>(order.end() - std::ranges::find(order, candidate)));
+  return values;
+}
+
+Valuation SetCoverPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                 std::stop_token) const {
+  std::vector<std::vector<Covered>> unseen(available.size());
+  std::vector<double> values;
+  for (std::size_t i = 0; i < available.size(); ++i) {
+    for (const std::uint32_t sample : state.true_surface->unseen_samples(available[i]))
+      unseen[i].push_back({sample, 1});
+    values.push_back(static_cast<double>(unseen[i].size()));
+  }
+  const auto all = static_cast<double>(state.true_surface->visible_samples());
+  CoverLimits limits;  // as after each view it is looked for anew
+  limits.fewest = available.size();
+  for (const std::size_t i : least_cover(unseen, (1.0 - enough) * all, limits).views) values[i] += all;
   return values;
 }
 

@@ -45,6 +45,19 @@ class CoveringOrderPolicy : public BaselinePolicy {
   double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are ordered at once
 };
 
+/// A least set of candidates that see nearly all that any of them sees, made anew after each view; of the set, and then
+/// of the others, the one that sees most first.
+class SetCoverPolicy : public BaselinePolicy {
+ public:
+  static constexpr double enough = 0.99;  ///< share of the surface that any candidate sees
+  PolicyNeeds needs() const override { return {false, false, true}; }
+  Valuation values(const PlanningState& state, std::span<const std::size_t> available,
+                   std::stop_token stop) const override;
+
+ private:
+  double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are valued at once
+};
+
 /// Counts the surface samples that would be seen for the first time.
 class OraclePolicy : public BaselinePolicy {
  public:

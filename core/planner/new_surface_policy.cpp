@@ -59,9 +59,9 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
       forecast_new_surface({surface_evidence(state.known), model_}, views, state.bundle, options(state), stop);
   const double seen = state.known.scanned ? model_.square_centimetres(state.known.scanned->area()) : 0.0;
   if (!(seen > 0.0)) return std::move(forecast.areas);
-  std::vector<std::size_t> few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
-  for (std::size_t& view : few) view = available[view];
-  return {std::move(forecast.areas), forecast.all / (forecast.all + seen), std::move(few)};
+  SetCover few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
+  for (std::size_t& view : few.views) view = available[view];
+  return {std::move(forecast.areas), forecast.all / (forecast.all + seen), std::move(few.views), few.is_least};
 }
 
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {

@@ -49,14 +49,15 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   return text;
 }
 
-/// " About 12 % of the surface is left: 7 views, 5.1 m."
+/// " About 12 % of the surface is left: 7 views, 5.1 m." Proven to be the fewest: "7 views (no fewer do), 5.1 m."
 std::string outlook(const Valuation& valuation, const PlanningState& state) {
   const std::string left = fmt::format(" About {:.2g} % of the surface is left", 100.0 * *valuation.surface_left);
   if (valuation.remaining.empty() || state.taken.empty()) return left + ".";
   std::vector<Vector3> stops;
   for (const std::size_t v : valuation.remaining) stops.push_back(state.candidates[v].T_world_camera.translation());
   const std::size_t count = stops.size();
-  return left + fmt::format(": {} view{}, {:.1f} m.", count, count == 1 ? "" : "s",
+  const char* fewest = valuation.remaining_is_fewest && count > 1 ? " (no fewer do)" : "";
+  return left + fmt::format(": {} view{}{}, {:.1f} m.", count, count == 1 ? "" : "s", fewest,
                             short_way(state.taken.back().T_world_camera.translation(), std::move(stops)));
 }
 

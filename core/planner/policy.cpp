@@ -9,6 +9,7 @@
 #include "core/planner/baseline_policies.hpp"
 #include "core/planner/gain_policies.hpp"
 #include "core/planner/new_surface_policy.hpp"
+#include "core/planner/surface_edge_policy.hpp"
 
 namespace nextview {
 namespace {
@@ -34,6 +35,10 @@ std::vector<PolicyEntry> all_policies() {
   all.push_back({"fixed-order", "the candidates in the order of their numbers", true, make<FixedOrderPolicy>});
   all.push_back(
       {"covering-order", "a greedy set cover of the true surface, shuffled", true, make<CoveringOrderPolicy>});
+  all.push_back(
+      {"set-cover", "a least set of candidates that see 99 % of the true surface", true, make<SetCoverPolicy>});
+  all.push_back({"surface-edge-density", "the points around which few have been measured that a view sees", true,
+                 make<SurfaceEdgePolicy>});
   all.push_back({"oracle", "the candidate that really sees most new surface", true, make<OraclePolicy>});
   return all;
 }

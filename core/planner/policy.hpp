@@ -27,6 +27,10 @@ class TrueSurface {
   virtual ~TrueSurface() = default;
   /// How many surface samples the candidate would see that no view has seen yet.
   virtual std::size_t new_samples(std::size_t candidate) const = 0;
+  /// Which they are.
+  virtual std::vector<std::uint32_t> unseen_samples(std::size_t candidate) const = 0;
+  /// How many any candidate would see, seen by now or not.
+  virtual std::size_t visible_samples() const = 0;
   /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
   virtual std::vector<std::size_t> covering_order(std::uint64_t seed) const = 0;
 };
@@ -48,12 +52,14 @@ struct PlanningState {
 /// What a policy makes of some candidates.
 struct Valuation {
   Valuation(std::vector<double> values) : gains(std::move(values)) {}
-  Valuation(std::vector<double> values, std::optional<double> left, std::vector<std::size_t> few = {})
-      : gains(std::move(values)), surface_left(left), remaining(std::move(few)) {}
+  Valuation(std::vector<double> values, std::optional<double> left, std::vector<std::size_t> few = {},
+            bool is_fewest = false)
+      : gains(std::move(values)), surface_left(left), remaining(std::move(few)), remaining_is_fewest(is_fewest) {}
 
   std::vector<double> gains;           ///< one a candidate
   std::optional<double> surface_left;  ///< share of all surface that they are expected to show; none: not predicted
   std::vector<std::size_t> remaining;  ///< of the candidates, by number: few that are expected to show it
+  bool remaining_is_fewest = false;    ///< proven: no fewer would
 };
 
 /// What a view is worth: a volumetric information, or a baseline that stands for one. The utility weighs it against the
@@ -86,7 +92,7 @@ std::string short_text(double value);
 struct PolicyEntry {
   std::string name;                                                   ///< what `planner.gain` takes
   std::string summary;                                                ///< one line for people
-  bool baseline;                                                      ///< there to be compared with: it looks at no map
+  bool baseline;                                                      ///< there to be compared with
   std::function<std::unique_ptr<Policy>(const PlannerConfig&)> make;  ///< @throws std::invalid_argument
 };
 

@@ -4,25 +4,12 @@
 
 namespace nextview {
 
-std::vector<std::size_t> covering_views(const NewSurfaceForecast& forecast, double left) {
-  std::vector<std::size_t> chosen;
-  std::vector<float> shown(forecast.part_count, 0.0f);
-  double still_left = forecast.all;
-  while (still_left > left) {
-    double most = 0.0;
-    std::size_t best = 0;
-    for (std::size_t v = 0; v < forecast.parts.size(); ++v) {
-      double more = 0.0;
-      for (std::size_t p = 0; p < forecast.parts[v].size(); ++p)
-        more += std::max(0.0f, forecast.parts[v][p] - shown[p]);
-      if (more > most) most = more, best = v;
-    }
-    if (!(most > 1e-9 * forecast.all)) break;  // but for rounding, nothing is left
-    chosen.push_back(best);
-    for (std::size_t p = 0; p < shown.size(); ++p) shown[p] = std::max(shown[p], forecast.parts[best][p]);
-    still_left -= most;
-  }
-  return chosen;
+SetCover covering_views(const NewSurfaceForecast& forecast, double left) {
+  std::vector<std::vector<Covered>> views(forecast.parts.size());
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (std::uint32_t part = 0; part < forecast.parts[v].size(); ++part)
+      if (forecast.parts[v][part] > 0.0f) views[v].push_back({part, forecast.parts[v][part]});
+  return least_cover(views, left);
 }
 
 double short_way(const Vector3& from, std::vector<Vector3> stops) {

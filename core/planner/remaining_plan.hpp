@@ -3,12 +3,13 @@
 #include <vector>
 
 #include "core/gain/new_surface.hpp"
+#include "core/planner/set_cover.hpp"
 
 namespace nextview {
 
-/// Few views that together leave no more than `left` [cm^2] of what all views are expected to show: the view that adds
-/// most, again and again. Numbers of views, in that order.
-std::vector<std::size_t> covering_views(const NewSurfaceForecast& forecast, double left);
+/// Few views that together leave no more than `left` [cm^2] of what all views are expected to show, the least set if
+/// that is not too hard to find.
+SetCover covering_views(const NewSurfaceForecast& forecast, double left);
 
 /// How long a short way from `from` by all the stops is [m]: the nearest one next, then turned round wherever that
 /// makes it shorter (2-opt). It ends at the last stop.

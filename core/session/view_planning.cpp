@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "core/planner/rank_correlation.hpp"
 #include "core/progress/stopped.hpp"
@@ -14,6 +15,13 @@ class SurfaceLeft : public TrueSurface {
  public:
   SurfaceLeft(const KnownObject& object, const EvaluationState& state) : object_(object), state_(state) {}
   std::size_t new_samples(std::size_t candidate) const override { return object_.new_samples(state_, candidate); }
+  std::vector<std::uint32_t> unseen_samples(std::size_t candidate) const override {
+    std::vector<std::uint32_t> unseen;
+    std::ranges::copy_if(object_.seen_from(candidate), std::back_inserter(unseen),
+                         [&](std::uint32_t s) { return !state_.seen[s]; });
+    return unseen;
+  }
+  std::size_t visible_samples() const override { return std::size_t(std::ranges::count(object_.visible(), 1)); }
   std::vector<std::size_t> covering_order(std::uint64_t seed) const override { return object_.covering_order(seed); }
 
  private:

@@ -86,9 +86,9 @@ TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
 }
 
 TEST(Scan, EveryGainAndBaselineRuns) {
-  for (const char* gain :
-       {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy", "proximity-count", "area-factor",
-        "average-entropy", "combined", "random", "farthest", "fixed-order", "covering-order", "oracle"})
+  for (const char* gain : {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy",
+                           "proximity-count", "area-factor", "average-entropy", "combined", "random", "farthest",
+                           "fixed-order", "covering-order", "set-cover", "surface-edge-density", "oracle"})
     for (const char* semantics : {"published", "reference"}) {
       const TemporaryFolder folder;
       const Result run = nextview("scan " + housing() + quick + "--no-pictures --no-surfaces --gain " + gain +

@@ -32,6 +32,23 @@ TEST(ScannedSurface, OfAPlateIsItsArea) {
   EXPECT_EQ(surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel), 0.0) << "nothing is new";
 }
 
+TEST(ScannedSurface, PointsGetFewTowardsAnEdge) {
+  ScannedSurface surface(radius);
+  EXPECT_TRUE(surface.sparse_points(0.6).empty());
+  surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel);
+  std::size_t along_edges = 0;
+  for (const Eigen::Vector3f& point : surface.sparse_points(0.6)) {
+    const float inward = 0.1f - std::max(std::abs(point.x()), std::abs(point.y()));
+    EXPECT_LT(inward, 0.5 * radius) << point.transpose();
+    EXPECT_NEAR(point.z(), 1.0, 0.125 * radius + 1e-6) << "the middle of its place";
+    ++along_edges;
+  }
+  EXPECT_GE(along_edges, 396u) << "the outermost of 100 x 100 points";
+  surface.add(plate(-0.2, 0.2), Vector3::UnitZ(), pixel);
+  for (const Eigen::Vector3f& point : surface.sparse_points(0.6))
+    EXPECT_TRUE(std::abs(point.y()) > 0.095f || std::abs(point.x()) > 0.195f) << "the edge has gone: " << point.x();
+}
+
 TEST(ScannedSurface, OnlyTheNewPartCounts) {
   ScannedSurface surface(radius);
   surface.add(plate(-0.1, 0.0), Vector3::UnitZ(), pixel);

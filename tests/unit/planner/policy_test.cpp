@@ -28,6 +28,11 @@ struct TwoVoxels : RayCaster {
 
 struct KnownSurface : TrueSurface {
   std::size_t new_samples(std::size_t candidate) const override { return 10 * candidate; }
+  std::vector<std::uint32_t> unseen_samples(std::size_t candidate) const override {
+    std::vector<std::vector<std::uint32_t>> all = {{}, {0, 1, 2, 3}, {0, 1, 4}, {2, 3, 5}};
+    return all[candidate];
+  }
+  std::size_t visible_samples() const override { return 50; }
   std::vector<std::size_t> covering_order(std::uint64_t) const override { return {2, 0, 3, 1}; }
 };
 
@@ -62,7 +67,7 @@ TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
     EXPECT_EQ(policy->ignores_cost(), entry.baseline) << entry.name << ": the way has no say in a baseline";
     EXPECT_FALSE(entry.baseline && policy->needs().posterior) << entry.name;
   }
-  EXPECT_EQ(names.size(), gains().size() + 8);
+  EXPECT_EQ(names.size(), gains().size() + 10);
 }
 
 TEST_F(Policies, UnknownOnesAreRefusedWithTheNamesThereAre) {
@@ -90,6 +95,8 @@ TEST_F(Policies, BaselinesByHand) {
   EXPECT_EQ(values(*made("fixed-order")), (std::vector<double>{3, 2, 1}));
   EXPECT_EQ(values(*made("oracle")), (std::vector<double>{10, 20, 30}));
   EXPECT_EQ(values(*made("covering-order")), (std::vector<double>{1, 4, 2}));
+  // Views 2 and 3 see all six samples; view 1 sees most, and is not needed.
+  EXPECT_EQ(values(*made("set-cover")), (std::vector<double>{4, 53, 53}));
   const auto far = values(*made("farthest"));
   ASSERT_EQ(far.size(), 3u);
   EXPECT_NEAR(far[0], std::sqrt(2.01), 1e-12);

@@ -27,16 +27,17 @@ NewSurfaceForecast forecast(std::vector<std::vector<float>> parts) {
 TEST(CoveringViews, TakesTheViewThatAddsMostUntilEnoughIsShown) {
   // All: 5 + 4 + 3 + 1 = 13. View 1 shows 8; view 2 adds 1 + 2, view 3 three; the first of equals wins.
   const auto f = forecast({{4, 0, 0, 1}, {5, 3, 0, 0}, {0, 4, 2, 0}, {0, 0, 3, 0}});
-  EXPECT_THAT(covering_views(f, 0.0), ElementsAre(1, 2, 0, 3));
-  EXPECT_THAT(covering_views(f, 1.5), ElementsAre(1, 2, 0));
-  EXPECT_THAT(covering_views(f, 2.5), ElementsAre(1, 2));
-  EXPECT_THAT(covering_views(f, 13.0), IsEmpty());
+  EXPECT_THAT(covering_views(f, 0.0).views, ElementsAre(1, 2, 0, 3));
+  EXPECT_THAT(covering_views(f, 1.5).views, ElementsAre(1, 2, 0));
+  EXPECT_THAT(covering_views(f, 2.5).views, ElementsAre(1, 2));
+  EXPECT_TRUE(covering_views(f, 2.5).is_least);
+  EXPECT_THAT(covering_views(f, 13.0).views, IsEmpty());
 }
 
 TEST(CoveringViews, EndsWhereNothingIsLeft) {
-  EXPECT_THAT(covering_views(forecast({{1, 1}, {1, 1}}), 0.0), ElementsAre(0));
-  EXPECT_THAT(covering_views(forecast({{0, 0}}), 0.0), IsEmpty());
-  EXPECT_THAT(covering_views(NewSurfaceForecast{}, 0.0), IsEmpty());
+  EXPECT_THAT(covering_views(forecast({{1, 1}, {1, 1}}), 0.0).views, ElementsAre(0));
+  EXPECT_THAT(covering_views(forecast({{0, 0}}), 0.0).views, IsEmpty());
+  EXPECT_THAT(covering_views(NewSurfaceForecast{}, 0.0).views, IsEmpty());
 }
 
 double length(const Vector3& from, const std::vector<Vector3>& way) {

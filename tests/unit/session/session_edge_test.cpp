@@ -85,7 +85,7 @@ TEST(SessionEdge, BadSettingsAndFilesAreErrors) {
   EXPECT_NE(reason<std::invalid_argument>(bad_range).find("max_range"), std::string::npos);
   EXPECT_NE(reason<std::runtime_error>(no_file).find("/nonexistent/thing.ply"), std::string::npos);
   EXPECT_NE(reason<std::runtime_error>(no_views).find("/nonexistent/views.txt"), std::string::npos);
-  for (const char* gain : {"oracle", "covering-order"}) {
+  for (const char* gain : {"oracle", "covering-order", "set-cover"}) {
     Configuration blind = small_scan();
     blind.planner.gain = gain;
     blind.evaluation.enabled = false;
