@@ -29,7 +29,7 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   std::string text =
       fmt::format("Candidate {}: {}; {:.2f} m away.", best,
                   policy.promise(chosen.gain, state, state.candidates[best].T_world_camera), chosen.cost);
-  const std::string unit = policy.unit().empty() ? "" : " " + policy.unit();
+  const std::string unit = policy.unit().empty() ? "" : fmt::format(" {}", policy.unit());
   if (is_per_second) {
     text.back() = ',';
     text += fmt::format(" {}{} a second.", short_text(chosen.utility), unit);
@@ -78,8 +78,8 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
   if (ranking.best) {
     const Choice choice = choose(state, candidates, by, *ranking.best, stop);
     ranking.best = choice.candidate;
-    ranking.reason =
-        reason(*policy_, state, candidates, choice.candidate, by.scan_seconds.has_value()) + choice.because;
+    ranking.reason = reason(*policy_, state, candidates, choice.candidate, by.scan_seconds.has_value());
+    ranking.reason += choice.because;
   }
   if (ranking.best && valuation.surface_left) ranking.reason += outlook(valuation, state);
   return {std::move(candidates), std::move(ranking), valuation.surface_left};

@@ -65,7 +65,7 @@ class OneStepPlanner : public Planner {
   /// Which of the ranked candidates is taken, and what is to be said of that.
   struct Choice {
     std::size_t candidate;
-    std::string because = "";
+    std::string because = {};
   };
   /// @pre some candidate is available, and `ranked` is the best of them @throws Stopped
   virtual Choice choose(const PlanningState&, std::span<const Candidate>, const Utility&, std::size_t ranked,
