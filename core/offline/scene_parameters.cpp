@@ -74,7 +74,9 @@ void require_in_octree(const Vector3& point, double resolution, std::string_view
 ReferenceMap::Parameters map_parameters(Parameters& p) {
   ReferenceMap::Parameters m;
   constexpr double longest_ray = 1000.0;  // [m], as in configurations
-  MapConfig map{.resolution = m.resolution, .model = m.model};
+  MapConfig map;
+  map.resolution = m.resolution;
+  map.model = m.model;
   auto map_settings = settings(map);
   for (const auto& [key, name] : parameter_names) {
     double& value = *std::get<double*>(find_setting(map_settings, key).value);

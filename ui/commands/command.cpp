@@ -21,7 +21,7 @@ std::string Shortcut::text() const {
 
 std::string CommandCall::text() const {
   std::string result = command->name;
-  for (const std::string& value : values()) result += " " + quoted(value);
+  for (const std::string& value : values()) result += fmt::format(" {}", quoted(value));
   return result;
 }
 

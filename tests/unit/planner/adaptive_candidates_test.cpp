@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "tests/unit/planner/drilled_block.hpp"
+#include "tests/unit/gain/evidence_maps.hpp"
 
 namespace nextview {
 namespace {
@@ -145,28 +144,6 @@ TEST(AdaptiveCandidates, TheSameOnOneThreadAndTwo) {
     return candidates(known);
   };
   EXPECT_EQ(run(1), run(2));
-}
-
-// What is missing is at the bottoms of two bores; few views around the object would happen to look into them.
-TEST(AdaptiveCandidates, SomeLookIntoBoresAlongTheirAxes) {
-  const drilled_block::Bore bores[] = {{Vector3(0.25, 0.1, 1).normalized(), 0.025, 0.12},
-                                       {Vector3(-0.1, 1, -0.2).normalized(), 0.025, 0.12}};
-  const Knowledge known{drilled_block::block({bores[0], bores[1]}).map};
-  const SurfaceEvidence evidence(known.map.grid(), known.map.voxels(), known.map.voxels(), 0.5);
-  const std::vector<Pose> made = made_for(known);
-  ASSERT_FALSE(made.empty());
-  for (const auto& bore : bores) {
-    double along = 0.0;  // cosine
-    for (const Pose& pose : made) {
-      const Vector3 away = pose.translation() - bore.bottom();
-      if (away.normalized().dot(bore.axis) < along) continue;
-      along = away.normalized().dot(bore.axis);
-      EXPECT_GT((pose.inverse() * bore.bottom()).normalized().z(), 0.9) << "the bottom is in the image";
-    }
-    EXPECT_GT(along, std::cos(10.0 * std::numbers::pi / 180.0)) << bore.axis.transpose();
-  }
-  for (const Pose& pose : made)
-    EXPECT_GT(evidence.object().exteriorDistance(pose.translation()), 0.15 * evidence.object().diagonal().norm());
 }
 
 // A source's region need not be around the world's origin.
