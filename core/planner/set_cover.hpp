@@ -14,11 +14,11 @@ struct Covered {
 
 /// How far the least cover is looked for. No clock has a say: the same cover every time.
 struct CoverLimits {
-  std::size_t views = 128;  ///< with more to choose from no proof is tried
-  std::size_t fewest = 6;   ///< if the greedy cover takes more views, no proof is tried
-  int cuts = 100;           ///< before branch and bound
-  int nodes = 60;           ///< of branch and bound, in all
-  int rounds = 2;           ///< of branch and bound: each learns from the one before it
+  std::size_t views = 64;  ///< with more to choose from no proof is tried
+  std::size_t fewest = 5;  ///< if the greedy cover takes more views, no proof is tried
+  int cuts = 60;           ///< before branch and bound
+  int nodes = 10;          ///< of branch and bound, in all
+  int rounds = 1;          ///< of branch and bound: each learns from the one before it
 
   /// For a number to compare with, not for an operator who waits: seconds.
   static CoverLimits patient() { return {256, 100, 200, 300, 6}; }

@@ -1,7 +1,9 @@
 // Coverage against views: planners beside random views and the greedy oracle, which knows the mesh. Prints a row for
-// each object and policy as CSV, and their means; the README's table comes from it.
+// each object and policy as CSV, and their means; the README's table comes from it. Beside them the least number of
+// candidates that see 95 and 99 % of what any of them sees.
 //   build/release/planner_comparison                                       the objects of the table, half an hour
 //   build/release/planner_comparison --object part.stl --policy paper      some of it
+//   build/release/planner_comparison --from FILE.csv --chart FILE.png      the README's picture of what it printed
 //   build/release/planner_comparison --config FILE --at 1,2,4,6,10         a table of coverage of all samples, as FILE
 //   has
 //                                                                          it; the README's published table
@@ -14,7 +16,10 @@
 #include <filesystem>
 #include <map>
 
+#include "core/planner/set_cover.hpp"
 #include "core/session/session.hpp"
+#include "ui/charts/planner_chart.hpp"
+#include "ui/render_target/headless.hpp"
 
 namespace nextview {
 namespace {
@@ -23,7 +28,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> objects;
-  std::vector<std::string> policies = {"default", "paper", "proximity-count", "average-entropy", "area-factor"};
+  std::vector<std::string> policies = {"set-cover",       "default",         "paper",      "surface-edge-density",
+                                       "proximity-count", "average-entropy", "area-factor"};
   int views = 12, width = 320, random_seeds = 5;
   double noise = 0.001, resolution = 0.01, cost_weight = -1.0;
   std::string config;
@@ -103,8 +109,29 @@ Course course_of(const Options& options, const std::string& object, const std::s
   return mean;
 }
 
-void print(const std::string& object, const std::string& policy, const Course& course, double gap_closed) {
-  fmt::print("{},{},{:.2f},{:.3f},{:.2f}", object, policy, 100.0 * course.mean(), gap_closed, course.path.back());
+/// How many candidates it takes to see 95 and 99 % of what any of them sees; "<=": that no fewer do is not proven.
+struct LeastViews {
+  std::string of_95, of_99;
+};
+
+std::string least_views(const KnownObject& object, double share) {
+  std::vector<std::vector<Covered>> seen(object.candidate_count());
+  for (std::size_t v = 0; v < seen.size(); ++v)
+    for (const std::uint32_t sample : object.seen_from(v)) seen[v].push_back({sample, 1.0f});
+  const auto all = double(std::ranges::count(object.visible(), 1));
+  const SetCover cover = least_cover(seen, (1.0 - share) * all, CoverLimits::patient());
+  return fmt::format("{}{}", cover.is_least ? "" : "<=", cover.views.size());
+}
+
+LeastViews least_views(const Configuration& c) {
+  const Session session(c);
+  return {least_views(*session.known_object(), 0.95), least_views(*session.known_object(), 0.99)};
+}
+
+void print(const std::string& object, const std::string& policy, const Course& course, double gap_closed,
+           const LeastViews& least) {
+  fmt::print("{},{},{:.2f},{:.3f},{:.2f},{},{}", object, policy, 100.0 * course.mean(), gap_closed, course.path.back(),
+             least.of_95, least.of_99);
   for (const double coverage : course.coverage) fmt::print(",{:.2f}", 100.0 * coverage);
   fmt::print("\n");
   std::fflush(stdout);
@@ -114,7 +141,7 @@ void compare(const Options& options) {
   const auto objects = options.objects.empty() ? all_objects() : options.objects;
   std::vector<std::string> policies = {"random", "oracle"};
   policies.insert(policies.end(), options.policies.begin(), options.policies.end());
-  fmt::print("object,policy,mean_coverage[%],gap_closed,path[m]");
+  fmt::print("object,policy,mean_coverage[%],gap_closed,path[m],least_views_95,least_views_99");
   for (int view = 1; view <= options.views; ++view) fmt::print(",{}", view);
   fmt::print("\n");
   std::map<std::string, Course> means;
@@ -123,16 +150,17 @@ void compare(const Options& options) {
   };
   for (const std::string& object : objects) {
     std::map<std::string, Course> courses;
+    const LeastViews least = least_views(configuration(options, object, "default"));
     for (const std::string& policy : policies) {
       const Course& course = courses.insert_or_assign(policy, course_of(options, object, policy)).first->second;
       means.try_emplace(policy, options.views).first->second.add(course, 1.0 / double(objects.size()));
       const Course& random = courses.at("random");
       const double closed = courses.contains("oracle") ? gap_closed(course, random, courses.at("oracle")) : 0.0;
-      print(fs::path(object).stem().string(), policy, course, closed);
+      print(fs::path(object).stem().string(), policy, course, closed, least);
     }
   }
   for (const std::string& policy : policies)
-    print("mean", policy, means.at(policy), gap_closed(means.at(policy), means.at("random"), means.at("oracle")));
+    print("mean", policy, means.at(policy), gap_closed(means.at(policy), means.at("random"), means.at("oracle")), {});
 }
 
 /// The gains that were published, random views, and ours.
@@ -198,6 +226,9 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->needs(config)
       ->check(CLI::Range(1, 100));
+  std::string from, chart;
+  CLI::Option* picture = app.add_option("--chart", chart, "draws what --from has, a PNG file, and nothing else");
+  picture->needs(app.add_option("--from", from, "a CSV file that this program printed"));
   app.add_option("--views", options.views)->check(CLI::Range(1, 100));
   app.add_option("--width", options.width, "of the image [px]")->check(CLI::Range(16, 4096));
   app.add_option("--noise", options.noise, "[m]");
@@ -205,11 +236,17 @@ int main(int argc, char** argv) {
   app.add_option("--cost-weight", options.cost_weight, "of Eq. 13, but for the paper's plan");
   app.add_option("--random-seeds", options.random_seeds)->check(CLI::Range(1, 100));
   CLI11_PARSE(app, argc, argv);
-  if (!*config) return nextview::compare(options), 0;
-  if (!*policies) options.policies = nextview::table_policies;
+  if (!*policies && *config) options.policies = nextview::table_policies;
   if (options.at.empty()) options.at = {1, 2, 4, 6, 10};
   try {
-    nextview::print_table(options);
+    if (*picture) {
+      nextview::ensure_headless(argc, argv);
+      nextview::write_png(nextview::draw_planner_chart(nextview::read_planner_courses(from)), chart);
+    } else if (*config) {
+      nextview::print_table(options);
+    } else {
+      nextview::compare(options);
+    }
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

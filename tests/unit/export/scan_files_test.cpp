@@ -18,7 +18,7 @@ namespace {
 /// Some of its surface no candidate sees.
 Configuration housing() {
   Configuration c = small_scan();
-  c.object.file = std::string(NEXTVIEW_SOURCE_DIR) + "/assets/objects/slotted_housing.ply";
+  c.object.file = NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply";
   c.map.resolution = 0.02;
   return c;
 }

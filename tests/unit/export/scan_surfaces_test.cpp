@@ -23,7 +23,7 @@ using ::testing::Not;
 /// The sphere of 0.25 m radius, seen from all around.
 Configuration sphere_scan(int views) {
   Configuration c = small_scan();
-  c.object.file = std::string(NEXTVIEW_SOURCE_DIR) + "/assets/objects/sphere.ply";
+  c.object.file = NEXTVIEW_SOURCE_DIR "/assets/objects/sphere.ply";
   c.sensor.width = 160, c.sensor.height = 120;
   c.sensor.range_noise = 0.001;
   c.map.resolution = 0.02, c.map.region_edge = 0.64;

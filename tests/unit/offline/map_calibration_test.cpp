@@ -1,5 +1,6 @@
 #include "core/offline/map_calibration.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -12,7 +13,7 @@ namespace {
 /// `views` views of a part of ours, spread evenly around it.
 RefinementJob seen(const std::string& part, int views, double max_range = 1.5) {
   Configuration c = small_scan();
-  c.object.file = std::string(NEXTVIEW_SOURCE_DIR) + "/assets/objects/" + part + ".ply";
+  c.object.file = fmt::format("{}/assets/objects/{}.ply", NEXTVIEW_SOURCE_DIR, part);
   c.sensor.width = 40, c.sensor.height = 30, c.sensor.max_range = max_range;
   c.evaluation.surface_samples = 300;
   CandidateViewsConfig around;

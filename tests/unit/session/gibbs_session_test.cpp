@@ -67,8 +67,7 @@ TEST(GibbsSession, NewSurfaceIsExpectedOfThePosterior) {
   const NewSurfaceModel& model = c.planner.new_surface;
   const SurfaceEvidence evidence(map.grid(), session.planning_voxels(), map.voxels(), c.map.model.occupancy_threshold);
   const RayBundle bundle = RayBundle::regular(session.camera(), c.planner.ray_columns, c.planner.ray_rows);
-  std::vector<Pose> views;
-  for (const View& view : session.candidates()) views.push_back(view.T_world_camera);
+  const std::vector<Pose>& views = session.candidates();
   const auto areas = expected_new_surface({evidence, model}, views, bundle, {c.planner.ray_length, model.slant});
   const auto& conventional = session.records().front().refinement->conventional_gains;
   std::size_t differ = 0;

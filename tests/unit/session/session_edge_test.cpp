@@ -110,7 +110,7 @@ TEST(SessionEdge, TheObjectIsScaledOrKept) {
 // The map of an ideal scan of a box: free in front, occupied where the box is, nothing measured inside.
 TEST(SessionEdge, TheMapShowsTheObject) {
   Configuration c = small_scan();
-  c.object.file = std::string(NEXTVIEW_SOURCE_DIR) + "/assets/objects/sphere.ply";
+  c.object.file = NEXTVIEW_SOURCE_DIR "/assets/objects/sphere.ply";
   c.sensor.range_noise = 0.0;
   c.sensor.width = 160, c.sensor.height = 120;
   c.views.count = 20, c.termination.views = 14;

@@ -8,7 +8,7 @@ namespace nextview {
 /// A scan that takes a fraction of a second: the box, coarse voxels, a small image.
 inline Configuration small_scan() {
   Configuration c;
-  c.object.file = std::string(NEXTVIEW_SOURCE_DIR) + "/assets/objects/box.ply";
+  c.object.file = NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply";
   c.sensor.width = 80;
   c.sensor.height = 60;
   c.map.resolution = 0.04;
