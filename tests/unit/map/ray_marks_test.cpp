@@ -90,7 +90,7 @@ TEST_P(RayMarksOn, FromFarAwayAndOfWildEnds) {
   constexpr float infinity = std::numeric_limits<float>::infinity(), none = std::numeric_limits<float>::quiet_NaN();
   std::mt19937 random(9);
   const VoxelGrid grid = region_of_interest(Vector3::Zero(), 1.0, 0.02);
-  for (const float away : {0.0f, 0.5f, 1.0f, 30.0f, 1000.0f, 30000.0f}) {  // the last is farther than the lanes go
+  for (const float away : {0.0f, 0.5f, 1.0f, 30.0f, 1000.0f}) {
     const Eigen::Vector3f from(away, 0.31f * away, 0.005f);
     PointCloud ends = {from,
                        {none, 0, 0},
@@ -107,6 +107,16 @@ TEST_P(RayMarksOn, FromFarAwayAndOfWildEnds) {
     EXPECT_EQ(marked(grid, from, ends, no_limit), walked(grid, from, ends, no_limit)) << away;
     EXPECT_EQ(marked(grid, from, ends, 0.9 * away), walked(grid, from, ends, 0.9 * away)) << away;
   }
+}
+
+// Farther than the lanes go.
+TEST(RayMarks, FromBeyondTheHorizon) {
+  const VoxelGrid grid = region_of_interest(Vector3::Zero(), 1.0, 0.02);
+  const Eigen::Vector3f from(30000, 9300, 0.005f);
+  const PointCloud ends = {{0, 0, 0}, {-3000, -930, 0.005f}};
+  const auto expected = walked(grid, from, ends, no_limit);
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 10);
+  EXPECT_EQ(marked(grid, from, ends, no_limit), expected);
 }
 
 // Where a face is met at the same distance along two axes, the last rounding says which comes first.
