@@ -113,6 +113,7 @@ HWY_INLINE void step_up_to(Vector target, Vector delta, Vector& next, Vector& co
 struct Ends {
   FloatVector at[3], way[3];
   Vector length;
+  Mask is_finite;  ///< what is longer than single precision can tell has no direction
 };
 HWY_INLINE Vector length_of(const FloatVector (&way)[3]) {
   const FloatVector squares =
@@ -124,6 +125,7 @@ HWY_INLINE Ends ends_of(const RayBatch& batch, const float* ends) {
   hn::LoadInterleaved3(floats, ends, e.at[0], e.at[1], e.at[2]);
   for (int axis = 0; axis < 3; ++axis) e.way[axis] = hn::Sub(e.at[axis], hn::Set(floats, batch.origin[axis]));
   e.length = length_of(e.way);
+  e.is_finite = hn::Le(e.length, hn::Set(doubles, std::numeric_limits<float>::max()));
   const Mask too_long = hn::Gt(e.length, hn::Set(doubles, batch.max_range));
   if (hn::AllFalse(doubles, too_long)) return e;
   const FloatVector whole = hn::DemoteTo(floats, e.length);  // as point_on_ray
@@ -177,7 +179,7 @@ HWY_INLINE Walk begin_walk(const RayBatch& batch, const float* ends, std::size_t
   const Vector margin = hn::Set(doubles, 1e-3 * grid.resolution);  // far more than rounding, less than a voxel
   walk.stop = hn::Min(length, hn::Add(leave, margin));
   Vector target = hn::Sub(enter, margin);
-  walk.active = hn::And(hn::Lt(target, walk.stop), hn::Le(length, hn::Set(doubles, std::numeric_limits<float>::max())));
+  walk.active = hn::And(hn::Lt(target, walk.stop), e.is_finite);
   walk.active = hn::AndNot(hn::Or(same_cell, beside), hn::And(walk.active, hn::FirstN(doubles, count)));
   target = hn::IfThenElseZero(walk.active, target);
 
