@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
+#include "core/random/on_sphere.hpp"
 
 namespace nextview {
 namespace {
@@ -38,8 +38,7 @@ class Poses {
     std::vector<Eigen::Vector3f> drawn(directions);
     for (std::size_t i = 0; i < directions; ++i) {
       const auto u = random.uniform(1 + i + (is_front ? 0 : directions));
-      const double z = 2.0 * u[0] - 1.0, across = std::sqrt(1.0 - z * z), turn = 2.0 * std::numbers::pi * u[1];
-      drawn[i] = Vector3(across * std::cos(turn), across * std::sin(turn), z).cast<float>();
+      drawn[i] = on_sphere(u[0], u[1]).cast<float>();
       if (drawn[i].dot(normal) < 0.0f) drawn[i] = -drawn[i];
     }
     constexpr float off_surface = 5e-4f;  // [m]

@@ -21,7 +21,7 @@ constexpr double patch = 0.12;  // over which drawn surfaces are alike, as a sha
 
 /// The voxels of a grid, and which lie beside each other.
 struct Lattice {
-  explicit Lattice(const VoxelGrid& grid) : size(grid.size), strides(1, size.x(), size.x() * size.y()) {}
+  explicit Lattice(const VoxelGrid& of) : grid(of), size(grid.size), strides(1, size.x(), size.x() * size.y()) {}
 
   /// Calls `visit(i, x, y, z)` for all of them, or for all backwards.
   template <class Visit>
@@ -29,13 +29,14 @@ struct Lattice {
     const int count = size.prod();
     for (int k = 0; k < count; ++k) {
       const int i = backwards ? count - 1 - k : k;
-      visit(i, Eigen::Vector3i(i % size.x(), i / size.x() % size.y(), i / strides.z()));
+      visit(i, grid.cell(std::uint32_t(i)));
     }
   }
   bool is_at_rim(const Eigen::Vector3i& cell) const {
     return (cell.array() == 0).any() || (cell.array() == size.array() - 1).any();
   }
 
+  VoxelGrid grid;
   Eigen::Vector3i size, strides;
 };
 
@@ -170,8 +171,7 @@ bool is_open(const VoxelGrid& grid, const std::vector<std::uint8_t>& blocks, con
   const double beside = 1.5 * grid.resolution, distance = (eye - from).norm();
   bool open = true;
   walk_ray_segments(grid, from, (eye - from) / distance, distance, [&](int x, int y, int z, double enter, double) {
-    const auto i = (std::size_t(z) * grid.size.y() + y) * grid.size.x() + x;
-    return open = enter < beside || !blocks[i];
+    return open = enter < beside || !blocks[grid.index({x, y, z})];
   });
   return open;
 }

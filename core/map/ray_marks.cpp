@@ -5,51 +5,16 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
-#include "core/map/traversal.hpp"
+#include "core/map/ray_batch.hpp"
 #include "core/progress/stopped.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/map/ray_marks.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#ifndef NEXTVIEW_RAY_BATCH
-#define NEXTVIEW_RAY_BATCH
-namespace nextview {
-
-/// Rays of one camera, and where they leave their marks.
-struct RayBatch {
-  const VoxelGrid& grid;
-  const Eigen::Vector3f& origin;
-  std::span<const Eigen::Vector3f> ends;
-  double max_range;
-  std::uint8_t* marks;  ///< of the grid with its margin
-};
-
-/// Threads may mark the same voxel: they all write the same.
-inline void leave_mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
-
-/// Calls `visit(place)` for the voxels of one ray: what the lanes do, as it is meant to be read.
-template <class Visit>
-void walk_one(const RayBatch& batch, const Eigen::Vector3f& end, Visit visit) {
-  const bool short_enough = ray_length(batch.origin, end) <= batch.max_range;
-  const std::size_t row = batch.grid.size.x() + 2, layer = row * (batch.grid.size.y() + 2);
-  walk_segment_inside(batch.grid, batch.origin, short_enough ? end : point_on_ray(batch.origin, end, batch.max_range),
-                      [&](int x, int y, int z) { return visit((z + 1) * layer + (y + 1) * row + (x + 1)); });
-}
-inline void mark_one(const RayBatch& batch, const Eigen::Vector3f& end) {
-  walk_one(batch, end, [&](std::size_t place) {
-    leave_mark(batch.marks[place]);
-    return true;
-  });
-}
-
-}  // namespace nextview
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace nextview::HWY_NAMESPACE {
@@ -66,7 +31,7 @@ using Mask = hn::Mask<Doubles>;
 constexpr Doubles doubles;
 constexpr Floats floats;
 constexpr Integers integers;
-constexpr std::size_t most_lanes = 8;
+constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
 constexpr int rows =
     4;  // of lanes, walked side by side: a step takes its time, but the next row's need not wait for it
 

@@ -3,14 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 
 #include "core/planner/look_directions.hpp"
 #include "core/planner/new_surface_policy.hpp"
 #include "core/random/counter_random.hpp"
+#include "core/random/on_sphere.hpp"
 
 namespace nextview {
 namespace {
@@ -124,8 +123,7 @@ std::vector<Pose> AdaptiveCandidates::all_around(const Drawing& drawing) {
   for (std::uint64_t i = 0; i < around; ++i) {
     const auto where = drawing.random.uniform(3 * i);
     const auto aside = drawing.random.normal(3 * i + 1), up = drawing.random.normal(3 * i + 2);
-    const double z = 2.0 * where[0] - 1.0, across = std::sqrt(1.0 - z * z), turn = 2.0 * std::numbers::pi * where[1];
-    const Vector3 direction(across * std::cos(turn), across * std::sin(turn), z);
+    const Vector3 direction = on_sphere(where[0], where[1]);
     const Vector3 target = drawing.middle + scatter * drawing.size * Vector3(aside[0], aside[1], up[0]);
     drawing.add(poses, target + drawing.distance(where[2]) * direction, target);
   }

@@ -8,8 +8,8 @@
 
 namespace nextview {
 
-Valuation BaselinePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
-                                 std::stop_token) const {
+Valuation SingleViewPolicy::values(const PlanningState& state, std::span<const std::size_t> available,
+                                   std::stop_token) const {
   std::vector<double> values;
   for (const std::size_t candidate : available) values.push_back(value(state, candidate));
   return values;

@@ -7,6 +7,11 @@ namespace nextview {
 class BaselinePolicy : public Policy {
  public:
   bool ignores_cost() const override { return true; }
+};
+
+/// A baseline that values each candidate for itself.
+class SingleViewPolicy : public BaselinePolicy {
+ public:
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;
 
@@ -16,12 +21,12 @@ class BaselinePolicy : public Policy {
 };
 
 /// Draws a number for each candidate; others at each step.
-class RandomPolicy : public BaselinePolicy {
+class RandomPolicy : public SingleViewPolicy {
   double value(const PlanningState& state, std::size_t candidate) const override;
 };
 
 /// Measures the distance to the nearest view taken.
-class FarthestPolicy : public BaselinePolicy {
+class FarthestPolicy : public SingleViewPolicy {
  public:
   std::string unit() const override { return "m"; }
 
@@ -30,7 +35,7 @@ class FarthestPolicy : public BaselinePolicy {
 };
 
 /// Counts down.
-class FixedOrderPolicy : public BaselinePolicy {
+class FixedOrderPolicy : public SingleViewPolicy {
   double value(const PlanningState& state, std::size_t candidate) const override;
 };
 
@@ -40,9 +45,6 @@ class CoveringOrderPolicy : public BaselinePolicy {
   PolicyNeeds needs() const override { return {false, false, true}; }
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;
-
- private:
-  double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are ordered at once
 };
 
 /// A least set of candidates that see nearly all that any of them sees, made anew after each view; of the set, and then
@@ -53,13 +55,10 @@ class SetCoverPolicy : public BaselinePolicy {
   PolicyNeeds needs() const override { return {false, false, true}; }
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;
-
- private:
-  double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are valued at once
 };
 
 /// Counts the surface samples that would be seen for the first time.
-class OraclePolicy : public BaselinePolicy {
+class OraclePolicy : public SingleViewPolicy {
  public:
   std::string unit() const override { return "samples"; }
   PolicyNeeds needs() const override { return {false, false, true}; }

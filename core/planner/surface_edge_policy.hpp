@@ -11,9 +11,6 @@ class SurfaceEdgePolicy : public BaselinePolicy {
   std::string unit() const override { return "points"; }
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;
-
- private:
-  double value(const PlanningState&, std::size_t) const override { return 0.0; }  // all are valued at once
 };
 
 }  // namespace nextview
