@@ -11,45 +11,52 @@
 namespace nextview {
 namespace {
 
-/// The sum of `term(first, last)` over parts of `count` voxels. Split and joined in the same places on any number of
-/// threads, so that it rounds alike.
+using Brick = VoxelBricks::Brick;
+
+/// The sum of `term(i)`. Split and joined in the same places on any number of threads, so that it rounds alike.
 template <class Term>
-double sum_of_parts(std::size_t count, Term term) {
+double sum(std::size_t count, std::size_t grain, Term term) {
   return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, count, 1 << 15), 0.0,
-      [&](const auto& range, double part) { return term(range.begin(), range.end(), part); }, std::plus<>());
+      tbb::blocked_range<std::size_t>(0, count, grain), 0.0,
+      [&](const auto& range, double part) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) part += term(i);
+        return part;
+      },
+      std::plus<>());
 }
 
-/// The sum of a term of each voxel.
-template <class Term>
-double sum(const VoxelBricks& voxels, Term term) {
-  return sum_of_parts(voxels.size(), [&](std::size_t first, std::size_t last, double part) {
-    auto voxel = voxels.from(first);
-    for (std::size_t i = first; i != last; ++i, ++voxel) part += term(*voxel);
-    return part;
-  });
+constexpr std::size_t bricks_at_once = 64;
+
+double measured_count(const VoxelBricks& voxels) {
+  return sum(voxels.brick_count(), bricks_at_once,
+             [&](std::size_t b) { return double(voxels.bricks()[b]->measured_count()); });
+}
+
+double entropy_change(const Brick& before, const Brick& after) {
+  double change = 0.0;
+  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i)
+    change += double(before.entropy(i)) - double(after.entropy(i));
+  return change;
 }
 
 }  // namespace
 
 double unmeasured_entropy(const VoxelBricks& voxels) {  // Eq. 18
-  return sum(voxels, [](const Voxel& voxel) { return voxel.measured ? 0.0 : 1.0; });
+  return double(voxels.size()) - measured_count(voxels);
 }
 
 double total_entropy(const VoxelBricks& voxels) {
-  return sum(voxels, [](const Voxel& voxel) { return double(voxel.entropy); }) / std::numbers::ln2;
+  // Where bricks stick out of the grid their voxels are as uncertain as they can be.
+  const VoxelBricks nothing(voxels.edges());
+  return (double(voxels.size()) * double(Voxel().entropy) - realised_gain(nothing, voxels)) / std::numbers::ln2;
 }
 
-double realised_gain(const VoxelBricks& before, const VoxelBricks& after,
-                     std::span<const std::uint8_t> mask) {  // Eq. 12
-  if (before.size() != after.size() || (!mask.empty() && mask.size() != before.size()))
-    throw std::invalid_argument(fmt::format("realised gain: {} voxels before, {} after, {} in the mask", before.size(),
-                                            after.size(), mask.size()));
-  return sum_of_parts(before.size(), [&](std::size_t first, std::size_t last, double part) {
-    auto was = before.from(first), is = after.from(first);
-    for (std::size_t i = first; i != last; ++i, ++was, ++is)
-      if (mask.empty() || mask[i]) part += double(was->entropy) - double(is->entropy);
-    return part;
+double realised_gain(const VoxelBricks& before, const VoxelBricks& after) {  // Eq. 12
+  if (before.edges() != after.edges())
+    throw std::invalid_argument(fmt::format("realised gain: {} voxels before, {} after", before.size(), after.size()));
+  return sum(before.brick_count(), bricks_at_once, [&](std::size_t b) {
+    const auto &was = before.bricks()[b], &is = after.bricks()[b];
+    return was.shares_with(is) ? 0.0 : entropy_change(*was, *is);
   });
 }
 

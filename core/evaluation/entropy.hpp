@@ -1,7 +1,4 @@
 #pragma once
-#include <cstdint>
-#include <span>
-
 #include "core/map/voxel_bricks.hpp"
 
 namespace nextview {
@@ -14,8 +11,7 @@ double unmeasured_entropy(const VoxelBricks& voxels);
 double total_entropy(const VoxelBricks& voxels);
 
 /// Realised gain (Eq. 12) [nats]: the entropy that the voxels lost from `before` to `after`; negative if they became
-/// less certain. With a mask only the voxels where it is not 0 count, such as those in the frustum.
-/// @throws std::invalid_argument if lengths differ.
-double realised_gain(const VoxelBricks& before, const VoxelBricks& after, std::span<const std::uint8_t> mask = {});
+/// less certain. Takes the longer, the more bricks have changed. @throws std::invalid_argument if sizes differ.
+double realised_gain(const VoxelBricks& before, const VoxelBricks& after);
 
 }  // namespace nextview

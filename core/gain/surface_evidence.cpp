@@ -30,8 +30,8 @@ std::vector<Eigen::Vector3i> occupied_cells(const VoxelBricks& voxels, double th
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
       const VoxelBricks::Brick& all = *voxels.bricks()[brick];
-      for (std::size_t i = 0; i < all.size(); ++i)
-        if (is_occupied(all[i], threshold))
+      for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i)
+        if (all.measured(i) && is_occupied(all[i], threshold))
           of_brick[brick].push_back(voxels.cell(brick * VoxelBricks::brick_voxels + i));
     }
   });

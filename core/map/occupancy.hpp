@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -14,6 +16,25 @@ inline double probability(double log_odds) { return 1.0 - 1.0 / (1.0 + std::exp(
 /// Entropy of a binary voxel [nats] (Eq. 11).
 inline double entropy(double p) {
   return p <= 0.0 || p >= 1.0 ? 0.0 : -p * std::log(p) - (1.0 - p) * std::log(1.0 - p);
+}
+
+/// What log-odds say.
+struct Belief {
+  float log_odds = 0.0f;
+  float entropy = 0.6931472f;  ///< [nats]
+  double probability = 0.5;    ///< of being occupied
+};
+
+/// A map has few different log-odds, and logarithms are expensive: each thread remembers those that it met last.
+inline const Belief& belief(float log_odds) {
+  constexpr int places = 8;  // as a power of 2
+  constinit thread_local std::array<Belief, 1 << places> remembered{};
+  Belief& b = remembered[std::bit_cast<std::uint32_t>(log_odds) * 2654435769u >> (32 - places)];
+  if (b.log_odds != log_odds) {
+    const double p = probability(log_odds);
+    b = {log_odds, static_cast<float>(entropy(p)), p};
+  }
+  return b;
 }
 
 /// The three classes of the gains; see InverseSensorModel for their bounds.

@@ -52,7 +52,7 @@ void for_each_brick_behind(const Distances& distances, Visit visit) {
 }  // namespace
 
 std::uint64_t OccupancyMap::bytes(const VoxelGrid& grid) {
-  return grid.voxel_count() * (sizeof(Voxel) + sizeof(Touch));
+  return grid.voxel_count() * (sizeof(VoxelBricks::Brick) / VoxelBricks::brick_voxels + sizeof(Touch));
 }
 
 OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& model)
@@ -62,15 +62,15 @@ OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& mode
 
 OccupancyMap::OccupancyMap() : OccupancyMap(VoxelGrid{}) {}
 
-/// A measured voxel with these log-odds.
-Voxel OccupancyMap::measured_voxel(float log_odds) const {
-  const double p = probability(log_odds);
-  return {static_cast<float>(p), static_cast<float>(entropy(p)), model_.classify(p), true, 0, log_odds};
+/// Makes it a measured voxel with these log-odds.
+void OccupancyMap::set(VoxelBricks::Brick& brick, std::size_t i, float log_odds) const {
+  brick.set_measured(i, log_odds, model_.classify(belief(log_odds).probability));
 }
 
 void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
   const Eigen::Vector3i cell = grid_.cell(voxel);
-  voxels_.change(voxels_.place(cell.x(), cell.y(), cell.z())) = measured_voxel(log_odds);
+  const std::size_t place = voxels_.place(cell.x(), cell.y(), cell.z());
+  set(voxels_.change_brick_of(place), place % VoxelBricks::brick_voxels, log_odds);
 }
 
 void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
@@ -130,14 +130,11 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
       Touches touches{};
       touches_of(brick, touches);
       if (touches == Touches{}) continue;  // and it stays shared
-      Voxel last = measured_voxel(0.0f);   // neighbours often have the same log-odds, and logarithms are expensive
       VoxelBricks::Brick& voxels = bricks[brick].change();
-      for (std::size_t i = 0; i < voxels.size(); ++i) {
+      for (std::size_t i = 0; i < touches.size(); ++i) {
         if (touches[i] == untouched) continue;
         const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
-        const float log_odds = std::clamp(voxels[i].log_odds + change, lowest, highest);
-        if (log_odds != last.log_odds) last = measured_voxel(log_odds);
-        voxels[i] = last;
+        set(voxels, i, std::clamp(voxels.log_odds(i) + change, lowest, highest));
       }
     }
   });
@@ -155,8 +152,8 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
   add(
       [&](std::size_t brick, Touches& touches) {
         const VoxelBricks::Brick& voxels = *bricks[brick];
-        for (std::size_t i = 0; i < voxels.size(); ++i)
-          if (voxels[i].measured) touches[i] = voxels[i].log_odds > 0.0f ? hit : passed;
+        for (std::size_t i = 0; i < touches.size(); ++i)
+          if (voxels.measured(i)) touches[i] = voxels.log_odds(i) > 0.0f ? hit : passed;
       },
       origin);
 }
@@ -189,17 +186,17 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std:
   const auto bricks = after.change_bricks();
   for_each_brick_behind(nearest_behind, [&](std::size_t brick) {
     const std::uint16_t* const nearest = &nearest_behind[brick * VoxelBricks::brick_voxels];
-    const auto better = [&](std::size_t i, const Voxel& voxel) {
-      return nearest[i] != 0 && !voxel.measured &&
-             (voxel.occlusion_distance == 0 || nearest[i] < voxel.occlusion_distance);
+    const auto better = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
+      if (nearest[i] == 0 || voxels.measured(i)) return false;
+      const std::uint16_t known = voxels.occlusion_distance(i);
+      return known == 0 || nearest[i] < known;
     };
-    const VoxelBricks::Brick& before = *bricks[brick];
     std::size_t i = 0;
-    while (i < before.size() && !better(i, before[i])) ++i;
-    if (i == before.size()) return;  // and it stays shared
+    while (i < VoxelBricks::brick_voxels && !better(*bricks[brick], i)) ++i;
+    if (i == VoxelBricks::brick_voxels) return;  // and it stays shared
     VoxelBricks::Brick& voxels = bricks[brick].change();
-    for (; i < voxels.size(); ++i)
-      if (better(i, voxels[i])) voxels[i].occlusion_distance = nearest[i];
+    for (; i < VoxelBricks::brick_voxels; ++i)
+      if (better(voxels, i)) voxels.set_occlusion_distance(i, nearest[i]);
   });
   voxels_ = std::move(after);
 }

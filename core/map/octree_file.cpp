@@ -29,11 +29,11 @@ octomap::OcTree to_octree(const OccupancyMap& map) {
   tree.setClampingThresMax(model.clamp_max);
   tree.setOccupancyThres(model.occupancy_threshold);
   std::uint32_t v = 0;
-  for (auto voxel = map.voxels().begin(); voxel != map.voxels().end(); ++voxel, ++v) {
-    if (!voxel->measured) continue;
-    const Eigen::Vector3i lattice = map.grid().first + map.grid().cell(v);
+  for (const Voxel& voxel : map.voxels()) {
+    const Eigen::Vector3i lattice = map.grid().first + map.grid().cell(v++);
+    if (!voxel.measured) continue;
     const octomap::OcTreeKey key(lattice.x() + key_offset, lattice.y() + key_offset, lattice.z() + key_offset);
-    tree.setNodeValue(key, voxel->log_odds, true);
+    tree.setNodeValue(key, voxel.log_odds, true);
   }
   tree.updateInnerOccupancy();
   tree.prune();

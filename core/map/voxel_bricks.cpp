@@ -1,6 +1,7 @@
 #include "core/map/voxel_bricks.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -19,12 +20,23 @@ VoxelBricks::VoxelBricks(const Eigen::Vector3i& size, std::span<const Voxel> vox
   std::size_t v = 0;
   for (int z = 0; z < size.z(); ++z)
     for (int y = 0; y < size.y(); ++y)
-      for (int x = 0; x < size.x(); x += edge) {
-        const std::size_t first = place(x, y, z);
-        const std::size_t count = std::min<std::size_t>(edge, size.x() - x);
-        std::copy_n(&voxels[v], count, table[first / brick_voxels].change().begin() + first % brick_voxels);
-        v += count;
+      for (int x = 0; x < size.x(); ++x, ++v) {
+        const std::size_t at = place(x, y, z);
+        table[at / brick_voxels].change().set(at % brick_voxels, voxels[v]);
       }
+}
+
+std::size_t VoxelBricks::Brick::measured_count() const {
+  std::size_t count = 0;
+  for (const std::uint8_t state : states_) count += state / is_measured;
+  return count;
+}
+
+void VoxelBricks::Brick::set(std::size_t i, const Voxel& voxel) {
+  if (told_.empty()) told_.resize(brick_voxels);
+  numbers_[i] = voxel.measured ? voxel.log_odds : float(voxel.occlusion_distance);
+  states_[i] = static_cast<std::uint8_t>((voxel.measured ? is_measured : 0) | static_cast<int>(voxel.voxel_class));
+  told_[i] = {voxel.probability, voxel.entropy};
 }
 
 Eigen::Vector3i VoxelBricks::cell(std::size_t place) const {
@@ -34,9 +46,13 @@ Eigen::Vector3i VoxelBricks::cell(std::size_t place) const {
           brick / (nx * ny) * edge + (inside >> 6)};
 }
 
-const Voxel& VoxelBricks::operator[](std::size_t voxel) const {
-  const std::size_t nx = size_.x(), ny = size_.y();
-  return at(static_cast<int>(voxel % nx), static_cast<int>(voxel / nx % ny), static_cast<int>(voxel / (nx * ny)));
+Voxel VoxelBricks::operator[](std::size_t voxel) const { return *from(voxel); }
+
+std::vector<Voxel> VoxelBricks::dense() const {
+  std::vector<Voxel> voxels(size());
+  const std::size_t layer = std::size_t(size_.x()) * size_.y();
+  tbb::parallel_for(0, size_.z(), [&](int z) { std::copy_n(from(z * layer), layer, &voxels[z * layer]); });
+  return voxels;
 }
 
 VoxelBricks::Iterator::Iterator(const VoxelBricks& bricks, std::size_t voxel) : bricks_(&bricks), number_(voxel) {
@@ -45,7 +61,7 @@ VoxelBricks::Iterator::Iterator(const VoxelBricks& bricks, std::size_t voxel) : 
   x_ = static_cast<int>(voxel % nx);
   y_ = static_cast<int>(voxel / nx % ny);
   z_ = static_cast<int>(voxel / (nx * ny));
-  voxel_ = &bricks.at(x_, y_, z_);
+  find();
 }
 
 void VoxelBricks::Iterator::next_row() {
@@ -53,18 +69,28 @@ void VoxelBricks::Iterator::next_row() {
     x_ = 0;
     if (++y_ == bricks_->size_.y()) y_ = 0, ++z_;
   }
-  if (number_ < bricks_->size()) voxel_ = &bricks_->at(x_, y_, z_);
+  if (number_ < bricks_->size()) find();
+}
+
+void VoxelBricks::Iterator::find() {
+  const std::size_t place = bricks_->place(x_, y_, z_);
+  brick_ = &*bricks_->bricks()[place / brick_voxels];
+  in_brick_ = place % brick_voxels;
 }
 
 std::size_t VoxelBricks::bytes() const {
-  return sizeof(Brick) * std::ranges::count_if(*table_, [&](const auto& brick) { return !brick.shares_with(empty_); });
+  std::size_t bytes = 0;
+  for (const auto& brick : *table_)
+    if (!brick.shares_with(empty_)) bytes += brick->bytes();
+  return bytes;
 }
 
 std::size_t VoxelBricks::bytes_beside(const VoxelBricks& other) const {
   if (table_.shares_with(other.table_)) return 0;
-  std::size_t own = 0;
-  for (std::size_t b = 0; b < table_->size(); ++b) own += !(*table_)[b].shares_with((*other.table_)[b]);
-  return own * sizeof(Brick) + table_->size() * sizeof(CopyOnWrite<Brick>);
+  std::size_t own = table_->size() * sizeof(CopyOnWrite<Brick>);
+  for (std::size_t b = 0; b < table_->size(); ++b)
+    if (!(*table_)[b].shares_with((*other.table_)[b])) own += (*table_)[b]->bytes();
+  return own;
 }
 
 }  // namespace nextview

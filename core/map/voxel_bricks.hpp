@@ -13,16 +13,58 @@ namespace nextview {
 
 /// The voxels of a grid in bricks of 8 x 8 x 8. A copy costs a pointer: copies share their bricks, and a brick is
 /// copied when one of them changes it. Of bricks that hold only unmeasured voxels there is one for all. Copies may live
-/// in different threads.
+/// in different threads. A voxel of an occupancy map takes 5 bytes; what else a Voxel says follows from them.
 class VoxelBricks {
  public:
   static constexpr int edge = 8;  ///< of a brick [voxels]
   static constexpr std::size_t brick_voxels = std::size_t{edge} * edge * edge;
-  using Brick = std::array<Voxel, brick_voxels>;
+
+  class Brick {
+   public:
+    Voxel operator[](std::size_t i) const {
+      Voxel voxel{0.5f, 0.6931472f, voxel_class(i), measured(i), occlusion_distance(i), log_odds(i)};
+      if (!told_.empty()) {
+        voxel.probability = told_[i].probability, voxel.entropy = told_[i].entropy;
+      } else if (voxel.measured) {
+        const Belief& says = belief(voxel.log_odds);
+        voxel.probability = static_cast<float>(says.probability), voxel.entropy = says.entropy;
+      }
+      return voxel;
+    }
+    bool measured(std::size_t i) const { return states_[i] & is_measured; }
+    VoxelClass voxel_class(std::size_t i) const { return static_cast<VoxelClass>(states_[i] & class_bits); }
+    float log_odds(std::size_t i) const { return measured(i) ? numbers_[i] : 0.0f; }
+    std::uint16_t occlusion_distance(std::size_t i) const {
+      return measured(i) ? std::uint16_t{0} : static_cast<std::uint16_t>(numbers_[i]);
+    }
+    float entropy(std::size_t i) const { return told_.empty() ? belief(log_odds(i)).entropy : told_[i].entropy; }
+    std::size_t measured_count() const;
+
+    void set_measured(std::size_t i, float log_odds, VoxelClass voxel_class) {
+      numbers_[i] = log_odds;
+      states_[i] = is_measured | static_cast<std::uint8_t>(voxel_class);
+    }
+    /// Of an unmeasured voxel, how far it lies behind a surface [voxels].
+    void set_occlusion_distance(std::size_t i, std::uint16_t distance) { numbers_[i] = distance; }
+    /// As it is told, whatever the log-odds.
+    void set(std::size_t i, const Voxel& voxel);
+
+    std::size_t bytes() const { return sizeof *this + told_.size() * sizeof(Told); }
+
+   private:
+    static constexpr std::uint8_t class_bits = 3, is_measured = 4;
+    struct Told {
+      float probability = 0.5f, entropy = 0.6931472f;
+    };
+    std::array<float, brick_voxels> numbers_{};        ///< log-odds if measured, else the occlusion distance
+    std::array<std::uint8_t, brick_voxels> states_{};  ///< class and whether it is measured
+    std::vector<Told> told_;                           ///< of maps whose voxels do not follow from log-odds
+  };
 
   /// Unmeasured voxels, `size` of them along each axis.
   explicit VoxelBricks(const Eigen::Vector3i& size = Eigen::Vector3i::Zero());
-  /// Of voxels in the grid's order, x fastest. @throws std::invalid_argument if there are not as many.
+  /// Of voxels in the grid's order, x fastest, as they are; 13 bytes each. @throws std::invalid_argument if there are
+  /// not as many.
   VoxelBricks(const Eigen::Vector3i& size, std::span<const Voxel> voxels);
 
   std::size_t size() const { return std::size_t(size_.x()) * size_.y() * size_.z(); }  ///< voxels
@@ -35,16 +77,19 @@ class VoxelBricks {
     const std::size_t brick = (std::size_t(z >> 3) * bricks_.y() + (y >> 3)) * bricks_.x() + (x >> 3);
     return brick * brick_voxels + ((z & 7) << 6 | (y & 7) << 3 | (x & 7));
   }
-  /// The position of the voxel in the grid. Places beyond the grid's edges, of bricks that stick out, have one too.
+  /// The position of the voxel in the grid. Places beyond the grid's edges, of bricks that stick out, have one too;
+  /// their voxels are never measured.
   Eigen::Vector3i cell(std::size_t place) const;
 
-  const Voxel& at_place(std::size_t place) const { return (*(*table_)[place / brick_voxels])[place % brick_voxels]; }
-  const Voxel& at(int x, int y, int z) const { return at_place(place(x, y, z)); }
+  Voxel at(int x, int y, int z) const {
+    const std::size_t p = place(x, y, z);
+    return (*(*table_)[p / brick_voxels])[p % brick_voxels];
+  }
   /// By the grid's number. Slower than walking.
-  const Voxel& operator[](std::size_t voxel) const;
+  Voxel operator[](std::size_t voxel) const;
 
-  /// The voxel at a place, to be changed.
-  Voxel& change(std::size_t place) { return table_.change()[place / brick_voxels].change()[place % brick_voxels]; }
+  /// The brick of a place, to be changed; there the voxel is the `place % brick_voxels`-th.
+  Brick& change_brick_of(std::size_t place) { return table_.change()[place / brick_voxels].change(); }
   /// The bricks, to be changed: different ones from different threads.
   std::span<CopyOnWrite<Brick>> change_bricks() { return table_.change(); }
   std::span<const CopyOnWrite<Brick>> bricks() const { return *table_; }
@@ -54,15 +99,14 @@ class VoxelBricks {
    public:
     using value_type = Voxel;
     using difference_type = std::ptrdiff_t;
-    using pointer = const Voxel*;
-    using reference = const Voxel&;
-    using iterator_category = std::forward_iterator_tag;
+    using reference = Voxel;
+    using iterator_concept = std::forward_iterator_tag;
+    using iterator_category = std::input_iterator_tag;  // it has no Voxel to refer to
     Iterator() = default;
     Iterator(const VoxelBricks& bricks, std::size_t voxel);
-    const Voxel& operator*() const { return *voxel_; }
-    const Voxel* operator->() const { return voxel_; }
+    Voxel operator*() const { return (*brick_)[in_brick_]; }
     Iterator& operator++() {
-      ++number_, ++voxel_;
+      ++number_, ++in_brick_;
       if ((++x_ & (edge - 1)) == 0 || x_ == bricks_->size_.x()) next_row();
       return *this;
     }
@@ -75,9 +119,10 @@ class VoxelBricks {
 
    private:
     void next_row();
+    void find();
     const VoxelBricks* bricks_ = nullptr;
-    const Voxel* voxel_ = nullptr;
-    std::size_t number_ = 0;
+    const Brick* brick_ = nullptr;
+    std::size_t number_ = 0, in_brick_ = 0;
     int x_ = 0, y_ = 0, z_ = 0;
   };
   Iterator begin() const { return {*this, 0}; }
@@ -85,7 +130,7 @@ class VoxelBricks {
   /// From a voxel on, by the grid's number.
   Iterator from(std::size_t voxel) const { return {*this, voxel}; }
   /// All of them, in the grid's order.
-  std::vector<Voxel> dense() const { return {begin(), end()}; }
+  std::vector<Voxel> dense() const;
 
   /// What the bricks take that hold anything [bytes].
   std::size_t bytes() const;

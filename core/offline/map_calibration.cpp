@@ -35,7 +35,7 @@ std::vector<std::uint8_t> scored_voxels(const GibbsPosterior& posterior, const V
     near = grown(posterior.grid, std::move(near), band);
   }
   auto voxel = conventional.begin();
-  for (std::size_t v = 0; v < voxels; ++v, ++voxel) near[v] &= posterior.informed[v] && voxel->measured;
+  for (std::size_t v = 0; v < voxels; ++v, ++voxel) near[v] &= posterior.informed[v] && (*voxel).measured;
   return near;
 }
 

@@ -22,7 +22,7 @@ std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) 
   for (std::size_t brick = 0; brick < after.brick_count(); ++brick) {
     const auto &was = before.bricks()[brick], &is = after.bricks()[brick];
     if (was.shares_with(is)) continue;
-    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) count += (*is)[i].measured && !(*was)[i].measured;
+    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) count += is->measured(i) && !was->measured(i);
   }
   return count;
 }
@@ -50,7 +50,7 @@ void compare_maps(const Knowledge& before, const Knowledge& after, StepRecord& r
   record.refinement->diagnostics = after.posterior->posterior().diagnostics;
   auto refined = after.posterior->voxels().begin();
   for (const Voxel& voxel : after.map.voxels())
-    record.refinement->changed_class += voxel.voxel_class != (refined++)->voxel_class;
+    record.refinement->changed_class += voxel.voxel_class != (*refined++).voxel_class;
 }
 
 void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRecord& record,

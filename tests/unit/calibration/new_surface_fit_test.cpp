@@ -37,8 +37,9 @@ std::vector<SurfaceEvidence> made_up_maps() {
       const double outside = from.cast<double>().norm() - radius;
       if (from.x() + from.y() > radius / 2) return;  // not looked at
       if (outside < -1.0) {
-        occlusions.change(occlusions.place(cell.x(), cell.y(), cell.z())).occlusion_distance =
-            static_cast<std::uint16_t>(std::lround(-outside));
+        const std::size_t place = occlusions.place(cell.x(), cell.y(), cell.z());
+        occlusions.change_brick_of(place).set_occlusion_distance(place % VoxelBricks::brick_voxels,
+                                                                 static_cast<std::uint16_t>(std::lround(-outside)));
         return;
       }
       if (uniform(random) < 0.2) return;

@@ -65,7 +65,8 @@ TEST(SurfaceEvidence, KindsAreThoseOfTheMap) {
 TEST(SurfaceEvidence, UnmeasuredVoxelsByHand) {
   const MadeMap made = plate();
   VoxelBricks occlusions = made.map.voxels();
-  occlusions.change(occlusions.place(12, 12, 12)).occlusion_distance = 3;
+  const std::size_t place = occlusions.place(12, 12, 12);
+  occlusions.change_brick_of(place).set_occlusion_distance(place % VoxelBricks::brick_voxels, 3);
   const VoxelGrid& whole = made.map.grid();
   const SurfaceEvidence evidence(whole, made.map.voxels(), occlusions, 0.5);
   const double s = plate_size;

@@ -129,7 +129,7 @@ TEST(OccupancyMap, InvalidPixelsCarveNothing) {
   OccupancyMap alone(region(0.01), {});
   alone.insert({pose.translation(), {scan.hits[0]}, {}, 1.5});
   EXPECT_TRUE(same_bytes(map, alone));
-  EXPECT_GT(std::count_if(map.voxels().begin(), map.voxels().end(), [](auto& v) { return v.measured; }), 10);
+  EXPECT_GT(std::count_if(map.voxels().begin(), map.voxels().end(), [](const Voxel& v) { return v.measured; }), 10);
 }
 
 TEST(OccupancyMap, RegisteringLocalMapsGivesTheSameMap) {

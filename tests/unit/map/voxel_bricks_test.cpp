@@ -17,6 +17,11 @@ Voxel numbered(std::uint32_t number) {
   return voxel;
 }
 
+void number(VoxelBricks& bricks, int x, int y, int z, std::uint32_t number) {
+  const std::size_t place = bricks.place(x, y, z);
+  bricks.change_brick_of(place).set_measured(place % VoxelBricks::brick_voxels, float(number), VoxelClass::unknown);
+}
+
 const std::vector<Eigen::Vector3i> sizes = {{0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {9, 7, 17}, {16, 8, 24}, {3, 41, 10}};
 
 TEST(VoxelBricks, HoldWhatTheyAreMadeOfInTheGridsOrder) {
@@ -34,7 +39,7 @@ TEST(VoxelBricks, HoldWhatTheyAreMadeOfInTheGridsOrder) {
         for (int x = 0; x < size.x(); ++x, ++v) {
           ASSERT_EQ(bricks.at(x, y, z).log_odds, float(v + 1));
           ASSERT_EQ(bricks[v].log_odds, float(v + 1));
-          ASSERT_EQ(bricks.from(v)->log_odds, float(v + 1));
+          ASSERT_EQ((*bricks.from(v)).log_odds, float(v + 1));
           ASSERT_EQ(bricks.cell(bricks.place(x, y, z)), Eigen::Vector3i(x, y, z));
         }
     EXPECT_EQ(bricks.dense().size(), voxels.size());
@@ -54,7 +59,7 @@ TEST(VoxelBricks, CopiesNeverSeeEachOthersChanges) {
       expected.push_back(expected[which]);
     }
     const int x = int(random() % 20), y = int(random() % 9), z = int(random() % 33);
-    copies[which].change(copies[which].place(x, y, z)) = numbered(std::uint32_t(i));
+    number(copies[which], x, y, z, std::uint32_t(i));
     expected[which][std::size_t(z * 9 + y) * 20 + std::size_t(x)] = numbered(std::uint32_t(i));
     if (i % 50 == 49 && copies.size() > 2) {
       copies.erase(copies.begin() + 1);
@@ -65,16 +70,59 @@ TEST(VoxelBricks, CopiesNeverSeeEachOthersChanges) {
     for (std::size_t v = 0; v < expected[c].size(); ++v) ASSERT_EQ(copies[c][v].log_odds, expected[c][v].log_odds) << c;
 }
 
+TEST(VoxelBricks, AVoxelIsWhatItsLogOddsSay) {
+  VoxelBricks bricks({9, 9, 9});
+  const std::size_t place = bricks.place(8, 8, 8), i = place % VoxelBricks::brick_voxels;
+  VoxelBricks::Brick& brick = bricks.change_brick_of(place);
+  brick.set_occlusion_distance(i, 65535);
+  const Voxel behind = bricks.at(8, 8, 8);
+  EXPECT_EQ(std::tuple(behind.measured, behind.occlusion_distance, behind.log_odds, behind.probability, behind.entropy),
+            std::tuple(false, 65535, 0.0f, Voxel().probability, Voxel().entropy));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> any(-14.0f, 14.0f);
+  for (int n = 0; n < 5000; ++n) {  // many more than are remembered
+    const float log_odds = n == 0 ? 0.0f : any(random);
+    brick.set_measured(i, log_odds, VoxelClass::free);
+    const Voxel voxel = bricks.at(8, 8, 8);
+    const double p = probability(log_odds);
+    ASSERT_EQ(voxel.probability, float(p));
+    ASSERT_EQ(voxel.entropy, float(entropy(p)));
+    ASSERT_EQ(brick.entropy(i), voxel.entropy);
+    ASSERT_EQ(std::tuple(voxel.measured, voxel.occlusion_distance, voxel.log_odds, voxel.voxel_class),
+              std::tuple(true, 0, log_odds, VoxelClass::free));
+  }
+}
+
+TEST(VoxelBricks, VoxelsThatAreToldStayAsTheyAre) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> any(0.0f, 1.0f);
+  const Eigen::Vector3i size(9, 10, 11);
+  std::vector<Voxel> voxels(std::size_t(size.prod()));
+  for (Voxel& v : voxels) {
+    v = {any(random), any(random), static_cast<VoxelClass>(random() % 3), random() % 2 == 0, 0, 0.0f};
+    if (v.measured)
+      v.log_odds = any(random);
+    else
+      v.occlusion_distance = static_cast<std::uint16_t>(random());
+  }
+  const VoxelBricks bricks(size, voxels);
+  const auto all = [](const Voxel& v) {
+    return std::tuple(v.probability, v.entropy, v.voxel_class, v.measured, v.occlusion_distance, v.log_odds);
+  };
+  for (std::size_t i = 0; i < voxels.size(); ++i) ASSERT_EQ(all(bricks[i]), all(voxels[i]));
+  EXPECT_TRUE(std::ranges::equal(bricks.dense(), voxels, {}, all, all));
+}
+
 TEST(VoxelBricks, OnlyWhatChangesTakesMemory) {
-  constexpr std::size_t brick = VoxelBricks::brick_voxels * sizeof(Voxel);
+  constexpr std::size_t brick = VoxelBricks::brick_voxels * 5 + 24;
   VoxelBricks bricks({128, 128, 128});
   EXPECT_EQ(bricks.bytes(), 0u);
-  bricks.change(bricks.place(5, 5, 5)) = numbered(1);
-  bricks.change(bricks.place(7, 0, 7)) = numbered(2);
+  number(bricks, 5, 5, 5, 1);
+  number(bricks, 7, 0, 7, 2);
   EXPECT_EQ(bricks.bytes(), brick) << "both are of one brick";
   VoxelBricks fork = bricks;
   EXPECT_EQ(fork.bytes_beside(bricks), 0u);
-  fork.change(fork.place(100, 100, 100)) = numbered(3);
+  number(fork, 100, 100, 100, 3);
   EXPECT_EQ(fork.bytes(), 2 * brick);
   EXPECT_LE(fork.bytes_beside(bricks), brick + (std::size_t{64} << 10)) << "and at most 64 KiB to find the bricks";
   EXPECT_LE(sizeof(VoxelBricks), 64u);
