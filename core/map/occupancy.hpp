@@ -47,7 +47,7 @@ struct Voxel {
   VoxelClass voxel_class = VoxelClass::unknown;
   bool measured = false;  ///< a measurement has touched it (a Gibbs map: it is informed)
   std::uint16_t occlusion_distance =
-      0;                  ///< how far behind a measured surface it lies [voxels along the ray]; 0: not behind one
+      0;                  ///< unmeasured: how far behind a surface it lies [voxels along the ray]; 0: not behind one
   float log_odds = 0.0f;  ///< of `probability`, as the occupancy map adds them up; 0 in other maps
 };
 

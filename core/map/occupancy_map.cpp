@@ -62,15 +62,12 @@ OccupancyMap::OccupancyMap(const VoxelGrid& grid, const InverseSensorModel& mode
 
 OccupancyMap::OccupancyMap() : OccupancyMap(VoxelGrid{}) {}
 
-/// Makes it a measured voxel with these log-odds.
-void OccupancyMap::set(VoxelBricks::Brick& brick, std::size_t i, float log_odds) const {
-  brick.set_measured(i, log_odds, model_.classify(belief(log_odds).probability));
-}
+VoxelClass OccupancyMap::class_of(float log_odds) const { return model_.classify(belief(log_odds).probability); }
 
 void OccupancyMap::set_log_odds(std::uint32_t voxel, float log_odds) {
   const Eigen::Vector3i cell = grid_.cell(voxel);
   const std::size_t place = voxels_.place(cell.x(), cell.y(), cell.z());
-  set(voxels_.change_brick_of(place), place % VoxelBricks::brick_voxels, log_odds);
+  voxels_.change_brick_of(place).set_measured(place % VoxelBricks::brick_voxels, log_odds, class_of(log_odds));
 }
 
 void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
@@ -131,10 +128,14 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
       touches_of(brick, touches);
       if (touches == Touches{}) continue;  // and it stays shared
       VoxelBricks::Brick& voxels = bricks[brick].change();
+      float last = 0.0f;  // neighbours often have the same log-odds
+      VoxelClass last_class = class_of(last);
       for (std::size_t i = 0; i < touches.size(); ++i) {
         if (touches[i] == untouched) continue;
         const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
-        set(voxels, i, std::clamp(voxels.log_odds(i) + change, lowest, highest));
+        const float log_odds = std::clamp(voxels.log_odds(i) + change, lowest, highest);
+        if (log_odds != last) last = log_odds, last_class = class_of(log_odds);
+        voxels.set_measured(i, log_odds, last_class);
       }
     }
   });

@@ -50,7 +50,7 @@ class OccupancyMap {
   float log_odds(std::size_t voxel) const { return voxels_[voxel].log_odds; }  ///< 0 where unmeasured
 
  private:
-  void set(VoxelBricks::Brick& brick, std::size_t i, float log_odds) const;
+  VoxelClass class_of(float log_odds) const;
   template <class TouchesOf>
   void add(TouchesOf touches_of, const Vector3& origin);
   template <class TouchesOf, class Term>

@@ -4,9 +4,25 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 namespace nextview {
+namespace {
+
+/// `part` of each voxel, in the grid's order; several layers at once.
+template <class Part, class PartOf>
+std::vector<Part> of_each(const VoxelBricks& voxels, PartOf part_of) {
+  std::vector<Part> parts(voxels.size());
+  const std::size_t layer = std::size_t(voxels.edges().x()) * voxels.edges().y();
+  tbb::parallel_for(0, voxels.edges().z(), [&](int z) {
+    auto voxel = voxels.from(z * layer);
+    for (std::size_t i = z * layer; i < (z + 1) * layer; ++i, ++voxel) parts[i] = std::invoke(part_of, *voxel);
+  });
+  return parts;
+}
+
+}  // namespace
 
 VoxelBricks::VoxelBricks(const Eigen::Vector3i& size)
     : size_(size),
@@ -48,12 +64,9 @@ Eigen::Vector3i VoxelBricks::cell(std::size_t place) const {
 
 Voxel VoxelBricks::operator[](std::size_t voxel) const { return *from(voxel); }
 
-std::vector<Voxel> VoxelBricks::dense() const {
-  std::vector<Voxel> voxels(size());
-  const std::size_t layer = std::size_t(size_.x()) * size_.y();
-  tbb::parallel_for(0, size_.z(), [&](int z) { std::copy_n(from(z * layer), layer, &voxels[z * layer]); });
-  return voxels;
-}
+std::vector<Voxel> VoxelBricks::dense() const { return of_each<Voxel>(*this, std::identity()); }
+
+std::vector<float> probabilities(const VoxelBricks& voxels) { return of_each<float>(voxels, &Voxel::probability); }
 
 VoxelBricks::Iterator::Iterator(const VoxelBricks& bricks, std::size_t voxel) : bricks_(&bricks), number_(voxel) {
   if (voxel >= bricks.size()) return;

@@ -143,4 +143,7 @@ class VoxelBricks {
   CopyOnWrite<std::vector<CopyOnWrite<Brick>>> table_;
 };
 
+/// In the grid's order.
+std::vector<float> probabilities(const VoxelBricks& voxels);
+
 }  // namespace nextview

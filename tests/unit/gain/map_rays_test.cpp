@@ -20,9 +20,11 @@ constexpr double threshold = 0.5;
 std::vector<Voxel> random_voxels(std::mt19937& random, double surfaces) {
   std::vector<Voxel> voxels(grid.voxel_count());
   std::bernoulli_distribution stops(surfaces);
-  for (Voxel& v : voxels) do
-      v = random_voxel(random);
+  for (Voxel& v : voxels) {
+    do v = random_voxel(random);
     while (v.measured && v.probability >= threshold && !stops(random));
+    if (v.measured) v.occlusion_distance = 0;  // as maps have it
+  }
   return voxels;
 }
 
