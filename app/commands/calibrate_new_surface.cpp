@@ -4,6 +4,7 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/shell_text.hpp"
 #include "core/config/known_objects.hpp"
+#include "core/config/object_lengths.hpp"
 #include "core/export/new_surface_calibration_files.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
@@ -60,7 +61,7 @@ std::vector<TrainingObject> objects(const CalibrateArguments& arguments, const C
   for (const std::string& input : arguments.fitted) {
     const std::filesystem::path file = resolve_object(input);
     const auto object =
-        std::make_shared<const PlacedMesh>(load_placed_mesh(file, configuration.object.placement(), stop));
+        std::make_shared<const PlacedMesh>(load_placed_mesh(file, placement(configuration.object, file), stop));
     require_within_region(object->mesh, configuration, file);
     read.push_back({object_name(file), object});
   }
@@ -96,7 +97,9 @@ void print(const NewSurfaceCalibration& calibration) {
 
 int fit_new_surface(const CalibrateArguments& arguments) {
   require_consistent(arguments);
-  const Configuration configuration = arguments.options.configuration();
+  Configuration configuration = arguments.options.configuration();
+  // The voxels, cameras and noises that are mixed are those for objects of this size.
+  if (!configuration.sources.contains("object.longest_side")) configuration.object.longest_side = 0.5;
   const NewSurfaceCalibrationConfig config = fit_config(arguments, configuration);
   require_valid(configuration, config);
   OutputFolder out(arguments.out, inputs(arguments, configuration));

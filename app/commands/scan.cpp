@@ -10,6 +10,7 @@
 #include "app/commands/surface_output.hpp"
 #include "core/config/input_files.hpp"
 #include "core/config/known_objects.hpp"
+#include "core/config/object_lengths.hpp"
 #include "core/export/scan_files.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
@@ -28,7 +29,10 @@ struct ScanArguments {
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = session.planner().unit();
-  fmt::print("{}: {}\n", printable(session.object_file().filename().string()), session.object_topology().summary());
+  const LengthUnit unit_taken = session.object().unit;
+  fmt::print("{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()), size_text(*session.mesh()),
+             unit_taken == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit_taken)),
+             session.object_topology().summary(), lengths_text(c));
   fmt::print("{}, ranked by {}{} ({} semantics)\n\n", counted(session.candidates().size(), "candidate view"),
              c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
@@ -93,7 +97,7 @@ int run(const ScanArguments& arguments) {
   Session session(configuration, progress, stop.token());
   progress.clear();
   print_head(session);
-  for (const std::string& warning : setup_warnings(configuration, *session.mesh(), session.candidates()))
+  for (const std::string& warning : setup_warnings(session.configuration(), *session.mesh(), session.candidates()))
     fmt::print(stderr, "warning: {}\n", warning);
   out.begin("scan", session.object_file());
   std::unique_ptr<SessionFigure> figure;

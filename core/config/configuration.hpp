@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,11 @@
 namespace nextview {
 
 struct ObjectConfig {
-  std::string file;           ///< mesh file; empty: the default object
-  double longest_side = 0.5;  ///< the mesh is scaled to this [m]; 0 keeps its size
-  bool centred = true;        ///< its bounding box is centred in the origin; else it stays where its file has it
-  bool ground = false;        ///< it stands on a plane that the camera sees and that no coverage counts
-
-  MeshFileOptions placement() const { return {.longest_side = longest_side, .centred = centred, .ground = ground}; }
+  std::string file;                         ///< mesh file; empty: the default object
+  double longest_side = 0.0;                ///< the mesh is scaled to this [m]; 0 keeps its size
+  LengthUnit unit = LengthUnit::automatic;  ///< of its file's coordinates, where it keeps its size
+  bool centred = true;  ///< its bounding box is centred in the origin; else it stays where its file has it
+  bool ground = false;  ///< it stands on a plane that the camera sees and that no coverage counts
 };
 
 struct MapConfig {
@@ -73,6 +73,7 @@ struct Configuration {
   HistoryConfig history;
   std::vector<std::filesystem::path> read_from;  ///< the files it comes from, no setting: nothing may replace them
   SettingSources sources;                        ///< of settings that were given, for messages; no setting either
+  std::map<std::string, std::string> fitted;     ///< lengths that follow the object's size (fit_lengths), as they do
 
   /// @throws std::invalid_argument naming the settings as they were given, and their bounds.
   void validate() const;

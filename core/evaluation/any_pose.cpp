@@ -41,7 +41,7 @@ class Poses {
       drawn[i] = on_sphere(u[0], u[1]).cast<float>();
       if (drawn[i].dot(normal) < 0.0f) drawn[i] = -drawn[i];
     }
-    constexpr float off_surface = 5e-4f;  // [m]
+    const auto off_surface = static_cast<float>(std::min(5e-4, 0.1 * d_reg_));  // [m]
     std::vector<MeshRayCaster::Hit> hits(directions);
     scene_.cast((surface_.points[sample] + off_surface * normal).cast<double>(), drawn,
                 std::numeric_limits<float>::max(), hits);

@@ -44,8 +44,9 @@ std::vector<std::uint32_t> visible_samples(const SampledSurface& surface, const 
     ranges.push_back(range);
   }
   std::vector<MeshRayCaster::Hit> hits(directions.size());
-  scene.cast(T_world_camera.translation(), directions, static_cast<float>(config.max_range) + 0.01f, hits);
-  constexpr float tolerance = 5e-4f;  // the sample lies on the surface: the ray meets it, give or take rounding [m]
+  scene.cast(T_world_camera.translation(), directions, 1.01f * static_cast<float>(config.max_range), hits);
+  // The sample lies on the surface: the ray meets it, give or take rounding [m].
+  const auto tolerance = static_cast<float>(std::min(5e-4, config.max_range / 3000.0));
   std::vector<std::uint32_t> seen;
   for (std::size_t i = 0; i < in_image.size(); ++i)
     if (hits[i].range > ranges[i] - tolerance) seen.push_back(in_image[i]);

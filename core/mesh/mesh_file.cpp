@@ -12,6 +12,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/mesh/file_claims.hpp"
+#include "core/mesh/length_unit.hpp"
 #include "core/mesh/mesh_types.hpp"
 #include "core/mesh/scene_import.hpp"
 #include "core/mesh/weld.hpp"
@@ -74,8 +75,24 @@ void check_coordinates(const ImportedTriangles& mesh) {
     if (!vertex.allFinite()) throw std::runtime_error("has coordinates that are not finite numbers");
 }
 
-/// @return the factor that gives the mesh the size asked for
-double scale_for(const Eigen::AlignedBox3d& box, double longest_side) {
+/// What a type of file says that its unit is, as its specification has it or its reader delivers it.
+LengthUnit unit_of_type(const std::string& extension) {
+  const auto is = [&](std::initializer_list<std::string_view> those) { return std::ranges::count(those, extension); };
+  if (is({".gltf", ".glb", ".dae", ".x3d"})) return LengthUnit::metres;
+  if (is({".3mf", ".amf"})) return LengthUnit::millimetres;
+  if (is({".fbx"})) return LengthUnit::centimetres;
+  return LengthUnit::automatic;
+}
+
+LengthUnit unit_taken(LengthUnit asked, const std::string& extension, double longest) {
+  constexpr double longest_in_metres = 10.0;
+  if (asked == LengthUnit::automatic) asked = unit_of_type(extension);
+  if (asked != LengthUnit::automatic) return asked;
+  return longest > longest_in_metres ? LengthUnit::millimetres : LengthUnit::metres;
+}
+
+/// @throws std::runtime_error if single precision, which readers keep, loses the shape
+void check_precision(const Eigen::AlignedBox3d& box) {
   const double longest = box.sizes().maxCoeff();
   const auto farthest = static_cast<float>(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()));
   const double step = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
@@ -84,12 +101,15 @@ double scale_for(const Eigen::AlignedBox3d& box, double longest_side) {
         fmt::format("its coordinates reach {:.3g} while its longest side is {:.3g}: single precision loses the shape; "
                     "move the object to the origin",
                     farthest, longest));
-  if (longest_side > 0.0) return longest_side / longest;
-  if (longest > largest_own_size)
-    throw std::runtime_error(
-        fmt::format("its longest side would be {:.3g} m, more than {} m; give a longest side to scale it to", longest,
-                    largest_own_size));
-  return 1.0;
+}
+
+/// Metres per unit at its own size.
+double own_scale(double longest, LengthUnit unit) {
+  if (longest * metres_per(unit) > largest_own_size)
+    throw std::runtime_error(fmt::format(
+        "its longest side would be {:.3g} m, more than {} m; give a longest side to scale it to, or its unit",
+        longest * metres_per(unit), largest_own_size));
+  return metres_per(unit);
 }
 
 /// Moves and scales in double precision, then joins vertices at the same place; only those in use remain.
@@ -126,7 +146,7 @@ MeshTopology topology_of(const ImportedTriangles& imported) {
   return topology(mesh);
 }
 
-PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options) {
+PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options, const std::string& extension) {
   check_coordinates(imported);
   if (imported.triangles.empty())
     throw std::runtime_error("has no faces; a surface is needed, not only points or lines");
@@ -135,11 +155,15 @@ PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options) {
   std::erase_if(imported.triangles, [&](const auto& triangle) { return !has_area(imported, triangle); });
   if (imported.triangles.empty()) throw std::runtime_error("has only degenerate triangles, none with an area");
   const Eigen::AlignedBox3d box = box_of_triangles(imported);
+  check_precision(box);
+  const double longest = box.sizes().maxCoeff();
+  const bool scaled = options.longest_side > 0.0;
+  const LengthUnit unit = scaled ? LengthUnit::automatic : unit_taken(options.unit, extension, longest);
   const MeshPlacement placement{options.centred ? box.center() : Eigen::Vector3d::Zero().eval(),
-                                scale_for(box, options.longest_side)};
+                                scaled ? options.longest_side / longest : own_scale(longest, unit)};
   TriangleMesh mesh = moved(imported, placement);
   topology.left_out = all - mesh.triangles.size();
-  return {std::move(mesh), placement, topology, options.ground};
+  return {std::move(mesh), placement, topology, unit, options.ground};
 }
 
 }  // namespace
@@ -176,7 +200,8 @@ PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOpt
   try {
     check_content(mesh.extension, mesh.bytes);
     const ReadingLimits limits = reading_limits(mesh.extension, mesh.bytes.size(), options.largest_file);
-    return placed(import_scene(std::move(mesh), limits, stop), options);
+    const std::string extension = mesh.extension;
+    return placed(import_scene(std::move(mesh), limits, stop), options, extension);
   } catch (const Stopped&) {
     throw;
   } catch (const std::bad_alloc&) {

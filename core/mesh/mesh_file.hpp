@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <stop_token>
 
+#include "core/mesh/length_unit.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 
 namespace nextview {
@@ -9,6 +10,7 @@ namespace nextview {
 struct MeshFileOptions {
   /// Longest side of the bounding box after scaling [m]; 0 keeps the file's own size.
   double longest_side = 0.5;
+  LengthUnit unit = LengthUnit::automatic;  ///< of the file's coordinates, where its own size is kept
   bool centred = true;  ///< the bounding box has its centre in the origin; else the file's origin stays where it is
   bool ground = false;  ///< PlacedMesh::on_ground
   std::uintmax_t largest_file = 1u << 30;  ///< of all files of a mesh together; beyond it is refused [bytes]
@@ -26,7 +28,8 @@ struct MeshPlacement {
 struct PlacedMesh {
   TriangleMesh mesh;
   MeshPlacement placement;
-  MeshTopology topology;   ///< of the file's triangles as they come, those without an area included
+  MeshTopology topology;                    ///< of the file's triangles as they come, those without an area included
+  LengthUnit unit = LengthUnit::automatic;  ///< what the coordinates were taken for; automatic: scaled, whatever it is
   bool on_ground = false;  ///< it stands on a horizontal plane that a camera sees, which is no part of it
 
   /// What a camera sees: the mesh and, behind its triangles, the ground.

@@ -84,10 +84,8 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
 
 RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views, const Progress& progress,
                              std::stop_token stop) {
-  const Configuration c = affordable(configuration);
-  const fs::path object = resolve_object(c);
-  const auto mesh = std::make_shared<PlacedMesh>(load_placed_mesh(object, c.object.placement(), stop));
-  require_within_region(mesh->mesh, c, object);
+  Configuration c = configuration;
+  const auto [object, mesh] = load_object(c, stop);
   const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);
 
   RefinementJob job;

@@ -29,7 +29,7 @@ std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) 
 
 FusionConfig fusion(const ScanSetup& setup) {
   const Configuration& c = setup.configuration;
-  return {c.map.insertion, setup.planner->needs().occlusions ? default_occlusion_distance : 0.0, c.gibbs.view_sweeps};
+  return {c.map.insertion, setup.planner->needs().occlusions ? occlusion_distance(c) : 0.0, c.gibbs.view_sweeps};
 }
 
 /// The part of a job's progress from `begin` to `end`.

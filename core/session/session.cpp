@@ -42,11 +42,10 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
 }
 
 std::shared_ptr<const SimulatedWorld> Session::make_world(const std::stop_token& stop) {
-  const Configuration& c = setup_.configuration;
-  object_file_ = resolve_object(c);
-  object_ = std::make_shared<PlacedMesh>(load_placed_mesh(object_file_, c.object.placement(), stop));
-  require_within_region(object_->mesh, c, object_file_);
-  return std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
+  ConfiguredObject object = load_object(setup_.configuration, stop);
+  object_file_ = std::move(object.file);
+  object_ = std::move(object.placed);
+  return std::make_shared<const SimulatedWorld>(object_, setup_.configuration.sensor, stop);
 }
 
 std::shared_ptr<const TriangleMesh> Session::mesh() const {

@@ -68,6 +68,7 @@ class Session {
   const std::filesystem::path& object_file() const { return object_file_; }  ///< empty if there is none
   /// The object, if one was loaded; else null.
   std::shared_ptr<const TriangleMesh> mesh() const;
+  const PlacedMesh& object() const { return *object_; }                      ///< @pre mesh()
   const MeshTopology& object_topology() const { return object_->topology; }  ///< as its file has it. @pre mesh()
   const PinholeCamera& camera() const { return setup_.source.camera; }
   const Planner& planner() const { return *setup_.planner; }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/config/object_lengths.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/planner/adaptive_candidates.hpp"
 #include "core/planner/policy.hpp"
@@ -115,6 +116,15 @@ std::shared_ptr<const CandidateGenerator> configured_candidates(const Configurat
       AdaptiveCandidatesConfig{c.views.adaptive, c.views.radius, c.planner.ray_length, c.planner.new_surface, c.seed});
 }
 
+ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
+  const std::filesystem::path file = resolve_object(c);
+  ConfiguredObject object{file, std::make_shared<PlacedMesh>(load_placed_mesh(file, placement(c.object, file), stop))};
+  fit_lengths(c, object.placed->mesh.bounding_box().sizes().maxCoeff());
+  c = affordable(validated(std::move(c)));
+  require_within_region(object.placed->mesh, c, file);
+  return object;
+}
+
 void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {
   const Eigen::AlignedBox3d box = object.bounding_box(), region = c.map.region_box();
   const double longest = box.sizes().maxCoeff();
@@ -165,7 +175,12 @@ Knowledge nothing_known(const Configuration& c, const VoxelGrid& region, const P
   return known;
 }
 
-double occlusion_reach(const Configuration& c) { return occlusion_reach(default_occlusion_distance, c.map.resolution); }
+double occlusion_distance(const Configuration& c) {
+  constexpr double voxels = 30.0;
+  return c.planner.semantics == Semantics::reference ? default_occlusion_distance : voxels * c.map.resolution;
+}
+
+double occlusion_reach(const Configuration& c) { return occlusion_reach(occlusion_distance(c), c.map.resolution); }
 
 Configuration validated(Configuration c) {
   c.validate();

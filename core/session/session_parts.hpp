@@ -23,6 +23,15 @@ std::string not_enough_memory(const Configuration& configuration);
 /// What the views that the program lays out look at: the middle of the region of interest.
 Vector3 view_target(const Configuration& configuration);
 Pose configured_start_view(const Configuration& configuration);
+/// The object that a configuration names.
+struct ConfiguredObject {
+  std::filesystem::path file;
+  std::shared_ptr<const PlacedMesh> placed;
+};
+/// Reads it, and fits the lengths to its size (fit_lengths).
+/// @throws std::invalid_argument, std::runtime_error naming the file or the setting; OutOfMemory; Stopped
+ConfiguredObject load_object(Configuration& configuration, const std::stop_token& stop = {});
+
 /// Where to begin: with the source's first frame, or where it says, else where a robot of its own is, else as
 /// configured.
 View start_view(const Configuration& configuration, const SourceDescription& source, const Robot* robot);
@@ -39,6 +48,8 @@ void require_within_region(const TriangleMesh& object, const Configuration& conf
                            const std::filesystem::path& file);
 /// The rays that score a view.
 RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& camera);
+/// How far behind a surface voxels are marked [m]: 30 of them, or what the reference code has.
+double occlusion_distance(const Configuration& configuration);
 /// d_max of proximity count [voxels].
 double occlusion_reach(const Configuration& configuration);
 /// What is known before the first view, for a planner of these needs.

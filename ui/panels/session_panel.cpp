@@ -67,7 +67,13 @@ void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, c
   } else if (setting_control(setting)) {
     context.post(command::set_as_in(edited_, setting.key));
   }
-  if (context.snapshot.loaded()) draw_way_back(context, setting, defaults_.at(setting.key));
+  if (context.snapshot.loaded()) draw_way_back(context, setting, default_of(setting.key));
+}
+
+/// What a length is by default follows from the object's size.
+const std::string& SessionPanel::default_of(const std::string& key) const {
+  const auto fitted = edited_.fitted.find(key);
+  return fitted == edited_.fitted.end() ? defaults_.at(key) : fitted->second;
 }
 
 void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {

@@ -16,6 +16,7 @@ class SessionPanel : public PanelContent {
  private:
   void draw_setting(const PanelContext& context, Setting& setting, const char* name);
   void draw_object(const PanelContext& context, Setting& setting);
+  const std::string& default_of(const std::string& key) const;
   void draw_sensor(const PanelContext& context, const Setting& setting);
   void draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group);
 

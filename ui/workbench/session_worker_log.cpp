@@ -1,6 +1,7 @@
 // What a session worker tells the log of what was done.
 #include <fmt/format.h>
 
+#include "core/config/object_lengths.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/workbench/request_kind.hpp"
 #include "ui/workbench/session_worker.hpp"
@@ -20,8 +21,9 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
                         : is<request::OpenFile>(request) ? "Another file"
                                                          : "Start over",
                         views == 1 ? "view" : fmt::format("{} views", views)));
-  log.add(Level::note, fmt::format("{}: {} triangles, {} candidate views, {:g} mm voxels", now.object_name,
-                                   now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
+  log.add(Level::note,
+          fmt::format("{}, {}: {} triangles, {} candidate views, {:g} mm voxels", now.object_name, size_text(*now.mesh),
+                      now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
   for (const std::string& warning : setup_warnings(now.configuration, *now.mesh, now.candidates))
     log.add(Level::warning, warning);
 }

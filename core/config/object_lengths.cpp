@@ -1,0 +1,83 @@
+#include "core/config/object_lengths.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace nextview {
+namespace {
+
+struct FittedLength {
+  const char* key;
+  double share;  ///< of the longest side
+};
+constexpr std::array fitted_lengths = {FittedLength{"map.region_edge", 2.56},    FittedLength{"views.radius", 1.8},
+                                       FittedLength{"planner.ray_length", 3.0},  FittedLength{"evaluation.d_reg", 0.01},
+                                       FittedLength{"sensor.min_range", 0.4},    FittedLength{"sensor.max_range", 3.0},
+                                       FittedLength{"sensor.range_noise", 0.004}};
+
+/// Of 1, 2 and 5 x 10^k the one that is nearest in ratio.
+double round_length(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  double best = power;
+  for (const double step : {2.0, 5.0, 10.0})
+    if (std::abs(std::log(length / (step * power))) < std::abs(std::log(length / best))) best = step * power;
+  return best;
+}
+
+/// Without the digits that single precision, in which meshes are kept, makes up.
+double six_digits(double length) { return std::stod(fmt::format("{:.6g}", length)); }
+
+bool is_given(const Configuration& c, const Setting& setting, const Setting& by_default) {
+  const auto fitted = c.fitted.find(setting.key);
+  if (fitted != c.fitted.end() && fitted->second == setting.text()) return false;
+  const bool of_preset = setting.key.starts_with("sensor.") && c.sources.contains("sensor.preset");
+  return of_preset || c.sources.contains(setting.key) || setting.text() != by_default.text();
+}
+
+}  // namespace
+
+void fit_lengths(Configuration& configuration, double longest_side) {
+  Configuration defaults;
+  auto all = settings(configuration), unset = settings(defaults);
+  const auto fit = [&](const std::string& key, double length) {
+    Setting& setting = find_setting(all, key);
+    if (is_given(configuration, setting, find_setting(unset, key))) return;
+    *std::get<double*>(setting.value) = six_digits(length);
+    configuration.fitted[key] = setting.text();
+  };
+  const double longest = six_digits(longest_side);
+  fit("map.resolution", round_length(longest / 50.0));
+  for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
+}
+
+double declared_longest_side(const std::filesystem::path& file) { return file == resolve_object("bunny") ? 0.5 : 0.0; }
+
+MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::path& file) {
+  const bool own = object.longest_side == 0.0 && object.unit == LengthUnit::automatic;
+  return {.longest_side = own ? declared_longest_side(file) : object.longest_side,
+          .unit = object.unit,
+          .centred = object.centred,
+          .ground = object.ground};
+}
+
+std::string length_text(double metres) {
+  return metres < 1.0 ? fmt::format("{:.4g} mm", 1e3 * metres) : fmt::format("{:.4g} m", metres);
+}
+
+std::string size_text(const TriangleMesh& object) {
+  const Vector3 size = object.bounding_box().sizes().cast<double>();
+  const bool small = size.maxCoeff() < 1.0;
+  const Vector3 shown = (small ? 1e3 : 1.0) * size;
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} {}", shown.x(), shown.y(), shown.z(), small ? "mm" : "m");
+}
+
+std::string lengths_text(const Configuration& c) {
+  return fmt::format("voxels {}, region {}, views from {}, a camera for {} to {} with {} of noise, d_reg {}",
+                     length_text(c.map.resolution), length_text(c.map.region_edge), length_text(c.views.radius),
+                     length_text(c.sensor.min_range), length_text(c.sensor.max_range),
+                     length_text(c.sensor.range_noise), length_text(c.evaluation.d_reg));
+}
+
+}  // namespace nextview

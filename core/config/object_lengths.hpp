@@ -1,0 +1,25 @@
+#pragma once
+#include "core/config/configuration.hpp"
+
+namespace nextview {
+
+/// Sets the lengths that were not given to what suits an object of this size [m]: voxels of a fiftieth (of 1, 2 or
+/// 5 x 10^k), the region of interest 2.56 times as large, views from 1.8 times as far off, and so on. Given is what
+/// `sources` names, or what is neither as it is by default nor as it was fitted before; a sensor's lengths also where a
+/// preset was given. With 0.5 m all is as it is by default.
+void fit_lengths(Configuration& configuration, double longest_side);
+
+/// The longest side of an object that comes with the program, where its file's own size means nothing [m]; else 0.
+double declared_longest_side(const std::filesystem::path& file);
+
+/// How load_mesh places the object of a configuration.
+MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::path& file);
+
+/// "506 x 500.5 x 320.5 mm"
+std::string size_text(const TriangleMesh& object);
+/// Lengths that fit_lengths sets, as they are now: "voxels 10 mm, region 1.3 m, …".
+std::string lengths_text(const Configuration& configuration);
+/// A length as people write it: in mm below a metre.
+std::string length_text(double metres);
+
+}  // namespace nextview
