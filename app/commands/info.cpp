@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.hpp"
+#include "core/cloud/point_cloud.hpp"
+#include "core/cloud/range_scan_folder.hpp"
+#include "core/config/object_lengths.hpp"
+#include "core/file/counted.hpp"
+#include "core/file/printable.hpp"
+#include "core/map/octree_file.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "core/results/manifest.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "from (…) to (…)", in the unit that suits.
+std::string extents(const Eigen::AlignedBox3d& box) {
+  const Vector3 size = box.sizes();
+  const bool small = size.maxCoeff() < 1.0;
+  const double unit = small ? 1e3 : 1.0;
+  const auto triple = [&](const Vector3& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", unit * v.x(), unit * v.y(), unit * v.z());
+  };
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} {}, from {} to {}", unit * size.x(), unit * size.y(), unit * size.z(),
+                     small ? "mm" : "m", triple(box.min()), triple(box.max()));
+}
+
+template <class Points>
+Eigen::AlignedBox3d box_of(const Points& points) {
+  Eigen::AlignedBox3d box;
+  for (const auto& point : points) box.extend(point.template cast<double>());
+  return box;
+}
+
+std::string mesh_info(const fs::path& file) {
+  const PlacedMesh placed = load_placed_mesh(file, placement({.centred = false}, file));
+  const std::string unit = placed.unit == LengthUnit::automatic
+                               ? "its size is declared, as it comes with the program"
+                               : fmt::format("its unit is taken as {} (object.unit overrules it)", name(placed.unit));
+  return fmt::format("a mesh of {} and {}; {}\n  {}\n  {}", counted(placed.mesh.triangles.size(), "triangle"),
+                     counted(placed.mesh.vertices.size(), "vertex", "vertices"), placed.topology.summary(),
+                     extents(placed.mesh.bounding_box().cast<double>()), unit);
+}
+
+std::string cloud_info(const fs::path& file) {
+  const PointCloud cloud = read_ply(file);
+  return fmt::format("a cloud of {}\n  {}\n  coordinates are taken as m", counted(cloud.size(), "point"),
+                     extents(box_of(cloud)));
+}
+
+/// A PLY file without faces is a cloud.
+std::string mesh_or_cloud_info(const fs::path& file) try {
+  return mesh_info(file);
+} catch (const std::runtime_error& error) {
+  if (file.extension() != ".ply" || std::string_view(error.what()).find("has no faces") == std::string_view::npos)
+    throw;
+  return cloud_info(file);
+}
+
+std::string map_info(const fs::path& file) {
+  const OccupancyMap map = read_octree(file);
+  std::size_t measured = 0, occupied = 0;
+  for (const Voxel& voxel : map.voxels()) {
+    measured += voxel.measured;
+    occupied += voxel.measured && voxel.probability >= map.model().occupancy_threshold;
+  }
+  const Eigen::Vector3i size = map.grid().size;
+  return fmt::format("an occupancy map (OctoMap): {} x {} x {} voxels of {}, {} of them measured, {} occupied\n  {}",
+                     size.x(), size.y(), size.z(), length_text(map.grid().resolution), measured, occupied,
+                     extents({map.grid().lower(), map.grid().upper()}));
+}
+
+std::string scene_info(const RecordedScene& scene) {
+  std::size_t points = 0;
+  Eigen::AlignedBox3d box;
+  for (const RecordedScan& scan : scene.scans) {
+    points += scan.points.size();
+    for (const Vector3& point : scan.points) box.extend(scan.T_world_camera * point);
+  }
+  std::string text = fmt::format("{} with {}, and {} to be scored", counted(scene.scans.size(), "scan"),
+                                 counted(points, "point"), counted(scene.views.size(), "view"));
+  if (points > 0) text += "\n  " + extents(box);
+  for (const auto& [name, value] : scene.parameters) text += fmt::format("\n  {} {:g}", name, value);
+  return text;
+}
+
+std::string configuration_info(const fs::path& file) {
+  Configuration configuration;
+  read_settings(file, configuration);
+  configuration.validate();
+  std::string text = fmt::format("a configuration that gives {}", counted(configuration.sources.size(), "setting"));
+  for (const auto& [key, source] : configuration.sources) text += fmt::format("\n  {} = {}", key, source.text);
+  return text;
+}
+
+std::string results_info(const fs::path& folder, const Manifest& manifest) {
+  std::string text = fmt::format("results of `nextview {}` ({}): {}", manifest.command, manifest.program,
+                                 counted(manifest.files.size(), "file"));
+  if (manifest.object) text += "\n  object: " + printable(manifest.object->file);
+  if (fs::exists(folder / "views.csv")) {
+    const std::string views = read_file(folder / "views.csv", std::uintmax_t{1} << 24);
+    text += "\n  " + counted(std::size_t(std::max<std::ptrdiff_t>(1, std::ranges::count(views, '\n'))) - 1, "view");
+  }
+  return text;
+}
+
+std::string folder_info(const fs::path& folder) {
+  if (const auto manifest = read_manifest(folder)) return results_info(folder, *manifest);
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".conf") {
+      std::string notice;
+      const RecordedScene scene = read_range_scan_folder(folder, default_stand_off, 0.0,
+                                                         [&](const std::string& text) { notice += "\n  " + text; });
+      return "range scans (Stanford): " + scene_info(scene) + notice;
+    }
+  throw std::runtime_error(fmt::format("{}: holds neither results of Nextview (manifest.json) nor range scans (.conf)",
+                                       printable(folder.string())));
+}
+
+std::string info(const fs::path& path) {
+  if (fs::is_directory(path)) return folder_info(path);
+  const std::string extension = path.extension().string();
+  if (extension == ".ot" || extension == ".bt") return map_info(path);
+  if (extension == ".toml") return configuration_info(path);
+  if (extension == ".txt") return "a scene of recorded scans: " + scene_info(read_recorded_scene(path));
+  return mesh_or_cloud_info(resolve_object(path.string()));
+}
+
+int run(const std::vector<std::string>& paths) {
+  int code = 0;
+  for (const std::string& path : paths) try {
+      fmt::print("{}: {}\n", printable(path), info(path));
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "nextview: {}\n", printable(error.what()));
+      code = exit_bad_input;
+    }
+  return code;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program) {
+  auto paths = std::make_shared<std::vector<std::string>>();
+  CLI::App* app =
+      program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
+  app->add_option(
+         "PATH", *paths,
+         "mesh, cloud (PLY), map (.ot, .bt), scene of scans (.txt), configuration (.toml), a folder of results or "
+         "of range scans, or gearbox, bunny, …")
+      ->required();
+  app->footer("Examples:\n  nextview info part.stl\n  nextview info out out/map.ot out/cloud.ply");
+  app->callback([paths] { throw CLI::RuntimeError(run(*paths)); });
+}
+
+}  // namespace nextview

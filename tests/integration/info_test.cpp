@@ -1,0 +1,95 @@
+// What a file holds, and a part at its own size, as a user finds out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/cloud/point_cloud.hpp"
+#include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string quick =
+    "--views 3 --sensor.width 120 --sensor.height 90 --views.count 12 --evaluation.surface_samples 2000 --no-pictures "
+    "--no-surfaces ";
+
+/// A box of half a metre, at another size or in another unit.
+fs::path scaled_box(const fs::path& folder, double factor) {
+  std::string text = "OFF\n8 12 0\n";
+  for (int c = 0; c < 8; ++c)
+    text += std::to_string(factor * (c & 1 ? 0.5 : 0.0)) + " " + std::to_string(factor * (c & 2 ? 0.3 : 0.0)) + " " +
+            std::to_string(factor * (c & 4 ? 0.1 : 0.0)) + "\n";
+  text +=
+      "3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n";
+  write_file(folder / "part.off", text);
+  return folder / "part.off";
+}
+
+TEST(Info, TellsWhatFilesHold) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string(), part = scaled_box(folder.path(), 183.0).string();
+  ASSERT_EQ(nextview("scan slotted_plate " + quick + "--out " + out).exit_code, 0);
+  const Result run = nextview("info slotted_plate " + part + " " + out + " " + out + "/cloud.ply " + out + "/map.ot " +
+                              out + "/config.toml");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("slotted_plate: a mesh of "), HasSubstr("taken as m (")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("91.5 x 54.9 x 18.3 mm"), HasSubstr("taken as mm")));
+  EXPECT_THAT(run.out, HasSubstr("results of `nextview scan`"));
+  EXPECT_THAT(run.out, HasSubstr("cloud.ply: a cloud of "));
+  EXPECT_THAT(run.out, HasSubstr("map.ot: an occupancy map (OctoMap): "));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("a configuration that gives"), HasSubstr("map.resolution = 0.01")));
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(Info, WhatCannotBeReadIsALineAndTheRestIsTold) {
+  const TemporaryFolder folder;
+  const Result run =
+      nextview("info " + (folder.path() / "none.stl").string() + " " + folder.path().string() + " sphere");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.out, HasSubstr("sphere: a mesh of "));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("none.stl"), HasSubstr("holds neither")));
+}
+
+TEST(OwnSize, APartInMillimetresIsScannedAsLargeAsItIs) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  const Result run = nextview("scan " + scaled_box(folder.path(), 183.0).string() + " " + quick + "--out " + out);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("91.5 x 54.9 x 18.3 mm (its unit taken as mm)"), HasSubstr("voxels 2 mm")));
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& point : read_ply(folder.path() / "out" / "cloud.ply")) box.extend(point);
+  EXPECT_NEAR(box.sizes().maxCoeff(), 0.0915, 0.004);
+  EXPECT_THAT(read_file(folder.path() / "out" / "config.toml", 1 << 20), HasSubstr("resolution = 0.002 "));
+}
+
+/// The same shape at another size: the same scan, but for rounding.
+TEST(OwnSize, CoverageIsThatOfTheSameShapeAtHalfAMetre) {
+  const auto coverage = [](double factor) {
+    const TemporaryFolder folder;
+    const std::string out = (folder.path() / "out").string();
+    const Result run = nextview("scan " + scaled_box(folder.path(), factor).string() + " " + quick + "--out " + out);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const std::string steps = read_file(folder.path() / "out" / "steps.csv", 1 << 20);
+    const std::string last = steps.substr(steps.rfind('\n', steps.size() - 2) + 1);
+    std::string cell;
+    std::istringstream cells(last);
+    for (int i = 0; i <= 15; ++i) std::getline(cells, cell, ',');  // coverage@…mm
+    return std::stod(cell);
+  };
+  const double at_half_a_metre = coverage(1.0);
+  EXPECT_GT(at_half_a_metre, 0.3);
+  for (const double factor : {24.0, 183.0, 4.0, 60000.0})  // 12 mm, 91.5 mm, 2 m, 30 m
+    EXPECT_NEAR(coverage(factor), at_half_a_metre, 0.08) << factor;
+}
+
+}  // namespace
+}  // namespace nextview
