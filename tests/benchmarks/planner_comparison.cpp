@@ -73,6 +73,7 @@ Configuration configuration(const Options& options, const std::string& object, c
     c.planner.gain = policy;
   }
   c.object.file = object;
+  c.object.longest_side = 0.5;  // all alike, so that means mean something
   c.sensor.height = c.sensor.height * options.width / c.sensor.width;
   c.sensor.width = options.width;
   c.sensor.range_noise = options.noise;
