@@ -146,7 +146,7 @@ TEST_F(SessionRunnerTest, TheCloudHasEachPointsViewAndItsDistance) {
   runner_.load(c, job_control());
   steps(2);
   const SeenCloud& cloud = *now().cloud;
-  const double radius = 0.5 * c.object.longest_side;
+  const double radius = 0.25;
   std::size_t at = 0;
   double largest = 0;
   for (std::size_t view = 0; view < 2; ++view)
