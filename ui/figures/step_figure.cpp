@@ -79,8 +79,9 @@ ViewsPicture views_of(const StepPicture& picture) {
   views.path = picture.path;
   views.score_name = picture.gain_name;
   views.score_unit = picture.gain_unit;
+  const Vector3 target = 0.5 * (picture.grid.lower() + picture.grid.upper());
+  views.size = frustum_depth(picture.candidates, target);
   if (picture.chosen) {
-    const Vector3 target = 0.5 * (picture.grid.lower() + picture.grid.upper());
     views.reach = (picture.candidates.at(*picture.chosen).translation() - target).norm();
   }
   return views;

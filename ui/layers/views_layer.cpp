@@ -106,8 +106,16 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
 
 }  // namespace
 
-bool stands_at(const Vector3& eye, const Vector3& camera) {
-  constexpr double near = 0.02;  // [m]
+double frustum_depth(std::span<const Pose> candidates, const Vector3& target) {
+  constexpr double share = 0.07 / 0.9;
+  if (candidates.empty()) return ViewsPicture().size;
+  double way = 0.0;
+  for (const Pose& candidate : candidates) way += (candidate.translation() - target).norm();
+  return share * way / double(candidates.size());
+}
+
+bool stands_at(const Vector3& eye, const Vector3& camera, double depth) {
+  const double near = depth * 2.0 / 7.0;
   return (eye - camera).squaredNorm() < near * near;
 }
 
@@ -136,7 +144,7 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   Geometry frustums, outlines, path;
   std::vector<Vector3> points;
   std::vector<Label> labels;
-  const auto at_eye = [&](const Pose& view) { return picture.eye && stands_at(*picture.eye, view.translation()); };
+  const auto at_eye = [&](const Pose& view) { return picture.eye && stands_at(*picture.eye, view.translation(), picture.size); };
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);

@@ -29,8 +29,11 @@ struct ViewsPicture {
   double reach = 0.5;                    ///< depth of the chosen view's frustum [m]
 };
 
-/// Whether an eye stands where a camera does, or nearly: it would look out of the camera's own pyramid.
-bool stands_at(const Vector3& eye, const Vector3& camera);
+/// How deep frustums are drawn that stand around a target [m]: a small part of the way there.
+double frustum_depth(std::span<const Pose> candidates, const Vector3& target);
+/// Whether an eye stands where a camera does, or nearly: it would look out of the camera's own pyramid, which is drawn
+/// so deep [m].
+bool stands_at(const Vector3& eye, const Vector3& camera, double depth);
 
 /// Candidates as frustums coloured by score, taken ones grey, the chosen one with its full frustum, and the path so
 /// far.

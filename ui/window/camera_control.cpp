@@ -15,7 +15,7 @@ namespace {
 constexpr double turn_per_pixel = 0.006;  // [rad]
 constexpr double zoom_per_step = 1.12;
 constexpr double steepest = 89.0 * std::numbers::pi / 180;  // straight from above, the z axis would be no direction
-constexpr double nearest = 0.02, farthest = 1000.0;         // [m]
+constexpr double nearest = 1e-3, farthest = 1000.0;         // [m]
 
 }  // namespace
 
@@ -66,9 +66,10 @@ Pose camera_pose(vtkRenderer& renderer) {
 }
 
 void look_through(vtkRenderer& renderer, const Pose& T_world_camera, const Vector3& target, double vertical_angle) {
-  constexpr double min_distance = 0.1;  // [m]
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
+  // The target may lie behind it.
+  const double min_distance = std::max(0.1 * (target - position).norm(), nearest);
   const Vector3 focus = position + std::max((target - position).dot(forward), min_distance) * forward;
   const Vector3 up = -T_world_camera.linear().col(1);
   camera.SetPosition(position.data());

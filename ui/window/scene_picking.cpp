@@ -13,7 +13,6 @@
 namespace nextview {
 namespace {
 
-constexpr double frustum_depth = 0.07;                   // [m] as the views layer draws them
 constexpr double frustum_reach = 14.0, ray_reach = 5.0;  // [px]
 
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -47,9 +46,10 @@ Picked SceneView::pick(double x, double y) {
   if (!shown_) return picked;
   const SessionSnapshot& s = *shown_;
   const Eigen::Vector2d pointer(x, y);
+  const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
   double least = frustum_reach;
   for (std::size_t i = 0; choice_.views && i < s.candidates.size(); ++i) {
-    const auto pixel = project(s.candidates[i] * Vector3(0, 0, 0.5 * frustum_depth));
+    const auto pixel = project(s.candidates[i] * Vector3(0, 0, 0.5 * depth));
     const double distance = pixel ? (*pixel - pointer).norm() : least;
     if (distance >= least) continue;
     least = distance;

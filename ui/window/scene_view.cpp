@@ -115,6 +115,7 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
     if (!cloud.distances.empty()) thin.distances.push_back(cloud.distances[i]);
   }
   CloudPicture picture{thin.points, thin.views, thin.distances, choice.cloud_colouring};
+  picture.farthest = s.configuration.evaluation.d_reg;
   if (thin.distances.empty() && choice.cloud_colouring == CloudColouring::by_distance)
     picture.colouring = CloudColouring::single;  // there is no truth
   if (choice.ranges_locked && choice_.ranges_locked && heights_.first < heights_.second) {
@@ -172,13 +173,15 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
     picture.custom_view = window.selection.custom_view;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
   picture.eye = eye_;
+  picture.size = frustum_depth(s.candidates, target);
   picture.reach = (s.next_view.translation() - target).norm();
   scene_.views().show(picture);
 }
 
 std::optional<Vector3> SceneView::eye_of_a_view(const SessionSnapshot& s, const WindowState& window) {
   const Vector3 eye = camera_pose().translation();
-  const auto is_here = [&](const Pose& T_world_camera) { return stands_at(eye, T_world_camera.translation()); };
+  const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
+  const auto is_here = [&](const Pose& T_world_camera) { return stands_at(eye, T_world_camera.translation(), depth); };
   const bool here = std::any_of(s.candidates.begin(), s.candidates.end(), is_here) || is_here(s.next_view) ||
                     (window.selection.custom_view && is_here(*window.selection.custom_view)) ||
                     std::any_of(s.records.begin(), s.records.end(),

@@ -30,9 +30,10 @@ void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32
 
 void draw_frustum(SceneView& view, const PanelContext& context, const Pose& T_world_camera, const std::string& label,
                   const Colour& colour) {
-  if (stands_at(context.window.scene_camera.translation(), T_world_camera.translation())) return;
   const SessionSnapshot& s = context.snapshot;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
+  const Vector3 eye = context.window.scene_camera.translation();
+  if (stands_at(eye, T_world_camera.translation(), frustum_depth(s.candidates, target))) return;
   const double depth = (T_world_camera.translation() - target).norm();
   const PinholeCamera& c = s.camera;
   const auto apex = view.project(T_world_camera.translation());
