@@ -13,6 +13,7 @@
 #include "core/map/octree_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/results/manifest.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {

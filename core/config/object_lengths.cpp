@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/setting/length_text.hpp"
+
 namespace nextview {
 namespace {
 
@@ -60,10 +62,6 @@ MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::pat
           .unit = object.unit,
           .centred = object.centred,
           .ground = object.ground};
-}
-
-std::string length_text(double metres) {
-  return metres < 1.0 ? fmt::format("{:.4g} mm", 1e3 * metres) : fmt::format("{:.4g} m", metres);
 }
 
 std::string size_text(const TriangleMesh& object) {

@@ -19,7 +19,5 @@ MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::pat
 std::string size_text(const TriangleMesh& object);
 /// Lengths that fit_lengths sets, as they are now: "voxels 10 mm, region 1.3 m, …".
 std::string lengths_text(const Configuration& configuration);
-/// A length as people write it: in mm below a metre.
-std::string length_text(double metres);
 
 }  // namespace nextview

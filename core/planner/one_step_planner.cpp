@@ -5,6 +5,7 @@
 #include "core/planner/planner.hpp"
 #include "core/planner/remaining_plan.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {
@@ -21,14 +22,14 @@ Utility utility(const Policy& policy, const PlanningSetup& setup) {
   return {setup.config.weights};
 }
 
-/// "Candidate 17: 214 cm² of new surface, most of it at its top; 0.90 m away. Runner-up 32: 190 cm², 0.40 m."
+/// "Candidate 17: 214 cm² of new surface, most of it at its top; 900 mm away. Runner-up 32: 190 cm², 400 mm."
 std::string reason(const Policy& policy, const PlanningState& state, std::span<const Candidate> candidates,
                    std::size_t best, bool is_per_second) {
   constexpr double saturated = 0.001;  // of the largest gain
   const Candidate& chosen = candidates[best];
   std::string text =
-      fmt::format("Candidate {}: {}; {:.2f} m away.", best,
-                  policy.promise(chosen.gain, state, state.candidates[best].T_world_camera), chosen.cost);
+      fmt::format("Candidate {}: {}; {} away.", best,
+                  policy.promise(chosen.gain, state, state.candidates[best].T_world_camera), length_text(chosen.cost));
   const std::string unit = policy.unit().empty() ? "" : fmt::format(" {}", policy.unit());
   if (is_per_second) {
     text.back() = ',';
@@ -36,8 +37,8 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   }
   const auto second = runner_up(candidates, best);
   if (!second) return text;
-  text += fmt::format(" Runner-up {}: {}{}, {:.2f} m.", *second, short_text(candidates[*second].gain), unit,
-                      candidates[*second].cost);
+  text += fmt::format(" Runner-up {}: {}{}, {}.", *second, short_text(candidates[*second].gain), unit,
+                      length_text(candidates[*second].cost));
   double largest = 0.0;
   for (const Candidate& c : candidates)
     if (c.available) largest = std::max(largest, c.gain);
@@ -49,7 +50,7 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   return text;
 }
 
-/// " About 12 % of the surface is left: 7 views, 5.1 m." Proven to be the fewest: "7 views (no fewer do), 5.1 m."
+/// " About 12 % of the surface is left: 7 views, 5.12 m." Proven to be the fewest: "7 views (no fewer do), 5.12 m."
 std::string outlook(const Valuation& valuation, const PlanningState& state) {
   const std::string left = fmt::format(" About {:.2g} % of the surface is left", 100.0 * *valuation.surface_left);
   if (valuation.remaining.empty() || state.taken.empty()) return left + ".";
@@ -57,8 +58,8 @@ std::string outlook(const Valuation& valuation, const PlanningState& state) {
   for (const std::size_t v : valuation.remaining) stops.push_back(state.candidates[v].T_world_camera.translation());
   const std::size_t count = stops.size();
   const char* fewest = valuation.remaining_is_fewest && count > 1 ? " (no fewer do)" : "";
-  return left + fmt::format(": {} view{}{}, {:.1f} m.", count, count == 1 ? "" : "s", fewest,
-                            short_way(state.taken.back().T_world_camera.translation(), std::move(stops)));
+  return left + fmt::format(": {} view{}{}, {}.", count, count == 1 ? "" : "s", fewest,
+                            length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/setting/length_text.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 #include "ui/workbench/inspection.hpp"
@@ -62,9 +63,10 @@ void inspect_ray_of(CommandTarget& t, std::size_t ray) {
 Pose view_of_scene(CommandTarget& t) {
   const PlacedView placed = within_sight(t.session, t.window.scene_camera);
   if (std::abs(placed.moved) > 0.005)
-    t.worker.log().add(LogEntry::Level::success,
-                       fmt::format("Your view is moved {:.2f} m {} along the line of sight: {}", std::abs(placed.moved),
-                                   placed.moved > 0 ? "forward" : "back", why_empty(t.session, t.window.scene_camera)));
+    t.worker.log().add(
+        LogEntry::Level::success,
+        fmt::format("Your view is moved {} {} along the line of sight: {}", length_text(std::abs(placed.moved)),
+                    placed.moved > 0 ? "forward" : "back", why_empty(t.session, t.window.scene_camera)));
   return placed.T_world_camera;
 }
 

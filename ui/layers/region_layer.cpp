@@ -6,6 +6,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "core/setting/length_text.hpp"
 #include "ui/layers/geometry.hpp"
 
 namespace nextview {
@@ -14,8 +15,7 @@ namespace {
 /// "1.28 m" for a cube, otherwise the three lengths.
 std::string edges(const Vector3& size) {
   const bool cube = (size.array() - size.x()).abs().maxCoeff() < 1e-9;
-  return cube ? fmt::format("{:.4g} m", size.x())
-              : fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x(), size.y(), size.z());
+  return cube ? length_text(size.x()) : fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x(), size.y(), size.z());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/setting/length_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/selection_commands.hpp"
@@ -145,7 +146,7 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
   table_row("points", fmt::format("{} of {} hits", r.points, r.hits), "Left after the cleaning of the cloud");
   table_row("beyond range", fmt::format("{} rays", r.misses));
   table_row("way there",
-            fmt::format("{:.2f} m, {:.0f}°", r.motion.distance, 180 / std::numbers::pi * r.motion.rotation));
+            fmt::format("{}, {:.0f}°", length_text(r.motion.distance), 180 / std::numbers::pi * r.motion.rotation));
 }
 
 void draw_candidate_numbers(const PanelContext& context, const ViewInspection& view) {
@@ -160,7 +161,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   const Candidate& c = s.records.back().candidates[*candidate];
   if (!c.available) return table_row("", "taken");
   table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
-  table_row("way there", fmt::format("{:.2f} m", c.cost));
+  table_row("way there", length_text(c.cost));
   const bool per_second = s.configuration.planner.utility == UtilityKind::gain_per_second;
   table_row("utility", fmt::format("{:.4f}", c.utility),
             per_second ? "Gain per second of the way and of a scan"

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/setting/length_text.hpp"
+
 namespace nextview {
 namespace {
 
@@ -61,8 +63,10 @@ std::string why_empty(const SessionSnapshot& s, const Pose& T_world_camera) {
   const DepthCameraConfig& sensor = s.configuration.sensor;
   if (sight.in_picture == 0) return "it looks past the object";
   if (sight.nearest > sensor.max_range)
-    return fmt::format("the object is {:.2f} m away, and the sensor reaches {:g} m", sight.nearest, sensor.max_range);
-  return fmt::format("the object is {:.2f} m away, and the sensor needs {:g} m", sight.nearest, sensor.min_range);
+    return fmt::format("the object is {} away, and the sensor reaches {}", length_text(sight.nearest),
+                       length_text(sensor.max_range));
+  return fmt::format("the object is {} away, and the sensor needs {}", length_text(sight.nearest),
+                     length_text(sensor.min_range));
 }
 
 PlacedView within_sight(const SessionSnapshot& s, const Pose& T_world_camera) {

@@ -4,6 +4,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {

@@ -41,11 +41,11 @@ Candidate at(double metres, bool available = true) { return {available, 0.0, met
 TEST(Reason, NamesTheChoiceAndTheRunnerUp) {
   const Ranking ranking = ranked({10, 300, 250, 999}, {at(0.5), at(0.9), at(0.4), at(0.1, false)});
   EXPECT_EQ(ranking.best, 1u);
-  EXPECT_EQ(ranking.reason, "Candidate 1: gain 300 nats; 0.90 m away. Runner-up 2: 250 nats, 0.40 m.");
+  EXPECT_EQ(ranking.reason, "Candidate 1: gain 300 nats; 900 mm away. Runner-up 2: 250 nats, 400 mm.");
 }
 
 TEST(Reason, WithoutOthersNamesTheOneAndWithoutAnySaysNothing) {
-  EXPECT_EQ(ranked({10, 20}, {at(1, false), at(2)}).reason, "Candidate 1: gain 20 nats; 2.00 m away.");
+  EXPECT_EQ(ranked({10, 20}, {at(1, false), at(2)}).reason, "Candidate 1: gain 20 nats; 2 m away.");
   EXPECT_EQ(ranked({10}, {at(1, false)}).reason, "");
 }
 
@@ -59,15 +59,15 @@ TEST(Reason, SaysWhereTheGainHardlyTellsThemApart) {
 
 TEST(Reason, SaysHowMuchIsExpectedToBeLeft) {
   EXPECT_EQ(ranked({10, 20}, {at(1, false), at(2)}, {}, 0.0372).reason,
-            "Candidate 1: gain 20 nats; 2.00 m away. About 3.7 % of the surface is left.");
+            "Candidate 1: gain 20 nats; 2 m away. About 3.7 % of the surface is left.");
 }
 
 TEST(Reason, SaysWhichWayTheRestWouldTake) {
   const std::vector<Candidate> all = {at(0, false), at(1), at(2), at(3)};
   EXPECT_THAT(ranked({0, 10, 20, 30}, all, {}, 0.1, {3, 1}).reason,
-              HasSubstr(" About 10 % of the surface is left: 2 views, 3.0 m."));
+              HasSubstr(" About 10 % of the surface is left: 2 views, 3 m."));
   EXPECT_THAT(ranked({0, 10, 20, 30}, all, {}, 0.004, {2}).reason,
-              HasSubstr(" About 0.4 % of the surface is left: 1 view, 2.0 m."));
+              HasSubstr(" About 0.4 % of the surface is left: 1 view, 2 m."));
 }
 
 TEST(Reason, PerSecondTheWayCostsItsTime) {
@@ -77,7 +77,7 @@ TEST(Reason, PerSecondTheWayCostsItsTime) {
   candidates[0].seconds = 1.0, candidates[1].seconds = 6.0;  // and 4 to scan
   const Ranking ranking = ranked({100, 150}, candidates, config);
   EXPECT_EQ(ranking.best, 0u) << "20 and 15 a second";
-  EXPECT_THAT(ranking.reason, HasSubstr("1.00 m away, 20 nats a second."));
+  EXPECT_THAT(ranking.reason, HasSubstr("1 m away, 20 nats a second."));
 }
 
 TEST(Reason, TheRunnerUpIsTheNextBestThatIsAvailable) {

@@ -28,7 +28,7 @@ TEST(ViewSight, AnEmptyViewSaysWhy) {
   EXPECT_EQ(why_empty(*s, from(0.3 * r, 0.1 * r, 0)), "the camera is inside the object");
   EXPECT_EQ(why_empty(*s, look_at(Vector3(0.8, 0, 0), Vector3(1.6, 0, 0))), "it looks past the object");
   EXPECT_EQ(why_empty(*s, look_at(Vector3(0.8, 0, 0), Vector3(0.8, 0.8, 0.1))), "it looks past the object");
-  EXPECT_THAT(why_empty(*s, from(0, 0.03 + r, 0)), HasSubstr("and the sensor needs 0.2 m"));
+  EXPECT_THAT(why_empty(*s, from(0, 0.03 + r, 0)), HasSubstr("and the sensor needs 200 mm"));
   EXPECT_EQ(why_empty(SessionSnapshot(), from(1, 0, 0)), "");
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <string>
+
+namespace nextview {
+
+/// A length [m] as people write it: in mm below a metre.
+inline std::string length_text(double length) {
+  return length < 1.0 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
+}
+
+}  // namespace nextview
