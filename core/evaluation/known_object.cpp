@@ -46,7 +46,7 @@ KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::
       nothing_seen_{std::vector<std::uint8_t>(samples_.points.size()),
                     {samples_.points, visible_, d_reg},
                     {samples_.points, visible_, paper_d_reg},
-                    std::vector<std::uint8_t>(grid.voxel_count())} {
+                    BitMask(grid.voxel_count())} {
   if (stop.stop_requested()) throw Stopped();
 }
 
@@ -80,8 +80,9 @@ std::vector<std::uint8_t> KnownObject::seen_from_any_pose(const Progress& progre
 void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                            const std::stop_token& stop) const {
   const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
-  mark_visited(truth_.grid, back_project(ideal, T_world_camera, camera_.config().max_range, stop), state.visited_voxels,
-               stop);
+  std::vector<std::uint8_t> visited(truth_.grid.voxel_count());
+  mark_visited(truth_.grid, back_project(ideal, T_world_camera, camera_.config().max_range, stop), visited, stop);
+  state.visited_voxels.add(visited);
   for (const std::uint32_t s : samples_seen(T_world_camera, stop)) state.seen[s] = 1;
   state.coverage.add(points, stop);
   state.coverage_paper.add(points, stop);

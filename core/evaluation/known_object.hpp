@@ -8,6 +8,7 @@
 #include "core/evaluation/coverage.hpp"
 #include "core/evaluation/visible_samples.hpp"
 #include "core/map/ground_truth.hpp"
+#include "core/memory/bit_mask.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/progress.hpp"
 #include "core/sensor/depth_camera.hpp"
@@ -16,12 +17,12 @@ namespace nextview {
 
 /// How far a scan has come with a known object.
 struct EvaluationState {
-  std::vector<std::uint8_t> seen;            ///< one a surface sample, 1: a view would have seen it, but for noise
-  SurfaceCoverage coverage;                  ///< by the points of the views, at d_reg
-  SurfaceCoverage coverage_paper;            ///< at the paper's
-  std::vector<std::uint8_t> visited_voxels;  ///< one per voxel, 1: a noise-free ray visited it
+  std::vector<std::uint8_t> seen;  ///< one a surface sample, 1: a view would have seen it, but for noise
+  SurfaceCoverage coverage;        ///< by the points of the views, at d_reg
+  SurfaceCoverage coverage_paper;  ///< at the paper's
+  BitMask visited_voxels;          ///< one per voxel: a noise-free ray visited it
 
-  std::size_t bytes() const { return seen.size() + 2 * coverage.observed().size() + visited_voxels.size(); }
+  std::size_t bytes() const { return seen.size() + 2 * coverage.observed().size() + visited_voxels.memory(); }
 };
 
 /// What is known of an object whose mesh is known: for the evaluation, and for the baselines that may look at it

@@ -110,11 +110,12 @@ nlohmann::ordered_json evaluation_json(const Session& session, const PointCloud&
   }
   const std::vector<Voxel> voxels = session.map().voxels().dense();
   const auto p = probabilities(voxels);
+  const std::vector<std::uint8_t> visited = session.evaluation()->visited_voxels.bytes();
   for (const TruthConvention convention : {TruthConvention::touch, TruthConvention::centre}) {
     for (const ScoredSet set : {ScoredSet::visited, ScoredSet::visited_band, ScoredSet::region})
       json["map"][std::string(name(convention)) + " truth"][std::string(name(set))] =
-          to_json(map_quality(p, object.truth(), convention, set, session.evaluation()->visited_voxels));
-    const auto recall = surface_recall(voxels, object.truth(), convention, session.evaluation()->visited_voxels);
+          to_json(map_quality(p, object.truth(), convention, set, visited));
+    const auto recall = surface_recall(voxels, object.truth(), convention, visited);
     if (recall) json["map"][std::string(name(convention)) + " truth"]["surface_recall"] = *recall;
   }
   return json;

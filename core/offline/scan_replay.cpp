@@ -108,7 +108,7 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
   for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].hits, stop);
   job.truth = RefinementTruth{std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),
                               known.truth(),
-                              std::move(evaluation.visited_voxels),
+                              evaluation.visited_voxels.bytes(),
                               known_openings(object, mesh->placement, job.notices),
                               known.samples(),
                               {known.visible().begin(), known.visible().end()}};

@@ -42,7 +42,7 @@ class Surfaces : public ::testing::Test {
 };
 
 /// As the numbers stand in the file: an STL's are millimetres, which load_mesh takes for metres.
-TriangleMesh read(const fs::path& file) { return load_mesh(file, {.longest_side = 0.0}); }
+TriangleMesh read(const fs::path& file) { return load_mesh(file, {.longest_side = 0.0, .unit = LengthUnit::metres}); }
 
 /// The STLs hold what was seen and, in a file of its own, what was not; together they are the PLY.
 void expect_parts(const json& surface, const fs::path& folder, const std::string& name) {

@@ -144,7 +144,9 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   Geometry frustums, outlines, path;
   std::vector<Vector3> points;
   std::vector<Label> labels;
-  const auto at_eye = [&](const Pose& view) { return picture.eye && stands_at(*picture.eye, view.translation(), picture.size); };
+  const auto at_eye = [&](const Pose& view) {
+    return picture.eye && stands_at(*picture.eye, view.translation(), picture.size);
+  };
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);

@@ -192,7 +192,7 @@ TEST_F(ScanFiles, MetricsScoreTheMapUnderTheNamesOfTruthAndSet) {
     for (const auto& [set, called] : {std::pair(ScoredSet::visited, "visited"),
                                       {ScoredSet::visited_band, "visited band"},
                                       {ScoredSet::region, "region"}}) {
-      const MapQuality q = map_quality(p, truth, convention, set, session->evaluation()->visited_voxels);
+      const MapQuality q = map_quality(p, truth, convention, set, session->evaluation()->visited_voxels.bytes());
       const auto& found = json[of][called];
       EXPECT_EQ(found["voxels"], q.voxels) << of << called;
       EXPECT_EQ(found["log_loss_nats"], q.log_loss) << of << called;

@@ -45,7 +45,7 @@ TEST(MeshFile, everyTypeGivesTheSameShape) {
     const auto file = folder.write(name, bytes);
     // 3MF has millimetres in its header, yet Assimp hands the numbers on as they are.
     EXPECT_EQ(shape(load_mesh(file)), shape(expected(0.125f))) << name;
-    EXPECT_EQ(shape(load_mesh(file, {.longest_side = 0.0})), shape(expected(1.0f))) << name;
+    EXPECT_EQ(shape(load_mesh(file, {.longest_side = 0.0, .unit = LengthUnit::metres})), shape(expected(1.0f))) << name;
     EXPECT_EQ(load_mesh(file).vertices.size(), 4u) << name << ": corners at one place are one vertex";
     EXPECT_EQ(topology(load_mesh(file)).summary(), "watertight") << name;
   }
