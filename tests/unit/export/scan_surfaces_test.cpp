@@ -209,7 +209,7 @@ TEST_F(ScanSurfaceFiles, WhatWasNotSeenIsInAFileOfItsOwn) {
                                                                           "surface_map_unseen.stl", "surfaces.json"));
   EXPECT_EQ(load_mesh(folder_ / "surface_map.ply").triangles.size(), 8u);
   const auto area = [&](const char* name) {
-    return 1e-6 * load_mesh(folder_ / name, {.longest_side = 0}).surface_area();
+    return 1e-6 * load_mesh(folder_ / name, {.longest_side = 0, .unit = LengthUnit::metres}).surface_area();
   };
   EXPECT_NEAR(area("surface_map.stl"), 0.02, 1e-6);
   EXPECT_NEAR(area("surface_map_unseen.stl"), 0.02, 1e-6);

@@ -107,7 +107,7 @@ TEST(GoingBack, AMapThatCannotFitIsRefusedBeforeItIsMade) {
     FAIL();
   } catch (const std::runtime_error& error) {
     const std::string text = error.what();
-    EXPECT_TRUE(text.starts_with("a map of 100000 x 100000 x 100000 voxels needs 17000000.0 GB, ")) << text;
+    EXPECT_TRUE(text.starts_with("a map of 100000 x 100000 x 100000 voxels needs 6000000.0 GB, ")) << text;
   }
 }
 

@@ -97,7 +97,7 @@ TEST(Stl, isReadByAnIndependentReader) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = sphere().mesh;
   write_stl(mesh, folder / "a.stl");
-  const TriangleMesh read = load_mesh(folder / "a.stl", {.longest_side = 0.0});
+  const TriangleMesh read = load_mesh(folder / "a.stl", {.longest_side = 0.0, .unit = LengthUnit::metres});
   EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
   EXPECT_EQ(topology(read).summary(), "watertight");
   EXPECT_NEAR(read.bounding_box().sizes().x(), 200.0, 1e-3);
@@ -182,7 +182,7 @@ TEST(SurfacePly, isReadByAnIndependentReader) {
   const TemporaryFolder folder;
   const Surface surface = sphere();
   write_ply(surface, folder / "a.ply");
-  const PlacedMesh read = load_placed_mesh(folder / "a.ply", {.longest_side = 0.0});
+  const PlacedMesh read = load_placed_mesh(folder / "a.ply", {.longest_side = 0.0, .unit = LengthUnit::metres});
   EXPECT_EQ(read.mesh.vertices.size(), surface.mesh.vertices.size());
   ASSERT_EQ(read.mesh.triangles.size(), surface.mesh.triangles.size());
   for (std::size_t t = 0; t < read.mesh.triangles.size(); ++t)

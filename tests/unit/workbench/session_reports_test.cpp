@@ -26,8 +26,8 @@ class WorkerLog : public GatedWorker {
 TEST_F(WorkerLog, HasALineForEachThing) {
   using Level = LogEntry::Level;
   load();
-  expect_last(Level::note,
-              fmt::format("sphere: {} triangles, 8 candidate views, 40 mm voxels", now()->mesh->triangles.size()));
+  expect_last(Level::note, fmt::format("sphere: 500 x 500 x 500 mm, {} triangles, 8 candidate views, 40 mm voxels",
+                                       now()->mesh->triangles.size()));
   step();
   expect_last(Level::note, "View 1 from the start view" + measured());
   const std::size_t proposed = *now()->proposal(), other = proposed == 3 ? 4 : 3;
