@@ -27,9 +27,10 @@ struct ObjectConfig {
 };
 
 struct MapConfig {
-  double resolution = 0.01;   ///< voxel edge [m]
-  double region_edge = 1.28;  ///< edge of the region of interest, a cube around the origin [m]
-  std::string region;         ///< region of interest, `x y z x y z` of its corners [m, world]; empty: that cube
+  double resolution = 0.01;         ///< voxel edge [m]
+  double region_edge = 1.28;        ///< edge of the region of interest, a cube around the origin [m]
+  std::string region;               ///< region of interest, `x y z x y z` of its corners [m, world]; empty: that cube
+  double occlusion_distance = 0.3;  ///< how far behind a surface voxels are marked [m]
   Insertion insertion = Insertion::direct;
   InverseSensorModel model;
 

@@ -50,7 +50,9 @@ void fit_lengths(Configuration& configuration, double longest_side) {
     configuration.fitted[key] = setting.text();
   };
   const double longest = six_digits(longest_side);
-  fit("map.resolution", round_length(longest / 50.0));
+  const double voxel = round_length(longest / 50.0);
+  fit("map.resolution", voxel);
+  fit("map.occlusion_distance", 30.0 * voxel);
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
 }
 

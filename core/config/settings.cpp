@@ -11,6 +11,8 @@ std::vector<Setting> settings(MapConfig& c) {
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
       {"map.region", "m", "region of interest as a box, x y z of two opposite corners; empty: a cube of region_edge",
        &c.region},
+      {"map.occlusion_distance", "m", "how far behind a surface voxels are marked; the reference code's is 0.3 m",
+       &c.occlusion_distance, from_to(1e-3, 1000)},
       {"map.insertion", "", "register a local octree, or insert directly: the same map",
        choice(c.insertion, {"local-octree", "direct"})},
   };

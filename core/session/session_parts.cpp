@@ -176,8 +176,7 @@ Knowledge nothing_known(const Configuration& c, const VoxelGrid& region, const P
 }
 
 double occlusion_distance(const Configuration& c) {
-  constexpr double voxels = 30.0;
-  return c.planner.semantics == Semantics::reference ? default_occlusion_distance : voxels * c.map.resolution;
+  return c.planner.semantics == Semantics::reference ? default_occlusion_distance : c.map.occlusion_distance;
 }
 
 double occlusion_reach(const Configuration& c) { return occlusion_reach(occlusion_distance(c), c.map.resolution); }

@@ -48,7 +48,7 @@ void require_within_region(const TriangleMesh& object, const Configuration& conf
                            const std::filesystem::path& file);
 /// The rays that score a view.
 RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& camera);
-/// How far behind a surface voxels are marked [m]: 30 of them, or what the reference code has.
+/// How far behind a surface voxels are marked [m]: as configured, or what the reference code has.
 double occlusion_distance(const Configuration& configuration);
 /// d_max of proximity count [voxels].
 double occlusion_reach(const Configuration& configuration);

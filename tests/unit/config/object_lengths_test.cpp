@@ -26,6 +26,7 @@ TEST(ObjectLengths, FollowTheObject) {
   EXPECT_EQ(c.map.resolution, 0.002);
   EXPECT_DOUBLE_EQ(c.map.region_edge, 0.23424);
   EXPECT_DOUBLE_EQ(c.views.radius, 0.1647);
+  EXPECT_DOUBLE_EQ(c.map.occlusion_distance, 0.06);
   EXPECT_DOUBLE_EQ(c.planner.ray_length, 0.2745);
   EXPECT_DOUBLE_EQ(c.evaluation.d_reg, 0.000915);
   EXPECT_DOUBLE_EQ(c.sensor.min_range, 0.0366);

@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 82> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.unit", "auto"},
     {"object.centred", "true"},
@@ -35,6 +35,7 @@ constexpr std::array<std::array<const char*, 2>, 82> pinned = {{
     {"map.resolution", "0.01"},
     {"map.region_edge", "1.28"},
     {"map.region", ""},
+    {"map.occlusion_distance", "0.3"},
     {"map.insertion", "local-octree"},
     {"map.hit", "0.7"},
     {"map.miss", "0.4"},

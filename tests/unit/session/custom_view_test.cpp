@@ -125,7 +125,7 @@ TEST_F(CustomViewFiles, AreTakenAgainExactly) {
     for (std::size_t i = 0; i < job.scans[k].hits.size(); ++i)
       ASSERT_TRUE(job.scans[k].hits[i].isApprox(session.scans()[k]->hits[i], 1e-5f)) << k;
     map.insert(job.scans[k]);
-    map.mark_occlusions(job.scans[k], 30 * session.map().grid().resolution);  // as the default gain wants
+    map.mark_occlusions(job.scans[k], 0.3);  // as the default gain wants
   }
   EXPECT_TRUE(same_map(map, session.map()));
 }

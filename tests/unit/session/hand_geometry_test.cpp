@@ -134,7 +134,8 @@ Configuration facing_x(Configuration c) {
   return c;
 }
 
-TEST_F(HandGeometry, OcclusionsReachThirtyVoxelsBehindTheSurface) {
+// The paper's reach is 0.3 m behind the surface, whatever the voxel.
+TEST_F(HandGeometry, OcclusionsReachThreeTenthsOfAMetreBehindTheSurface) {
   for (const double resolution : {0.02, 0.03}) {
     Configuration c = facing_x(plates({0, 0.01, half_large}));
     c.map.resolution = resolution;
@@ -143,34 +144,34 @@ TEST_F(HandGeometry, OcclusionsReachThirtyVoxelsBehindTheSurface) {
     const VoxelGrid& grid = session.map().grid();
     const Vector3 eye = session.records()[0].T_world_camera.translation();
     ASSERT_LT((eye - Vector3(0.9, 0, 0)).norm(), 1e-9);
-    const double surface = 0.005, half_diagonal = 0.5 * std::sqrt(3.0) * resolution, reach = 30.0 * resolution;
+    const double surface = 0.005, half_diagonal = 0.5 * std::sqrt(3.0) * resolution;
     double farthest = 0.0;
     for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
       if (session.map().voxels()[v].occlusion_distance == 0) continue;
       const Vector3 centre = grid.centre(v);
       const double behind = (centre - eye).norm() * (surface - centre.x()) / (eye.x() - centre.x());
-      ASSERT_LT(behind, reach + half_diagonal + 1e-6) << centre.transpose();
+      ASSERT_LT(behind, 0.3 + half_diagonal + 1e-6) << centre.transpose();
       ASSERT_GT(behind, -half_diagonal) << centre.transpose();
       farthest = std::max(farthest, behind);
     }
-    EXPECT_GT(farthest, reach - half_diagonal);
+    EXPECT_GT(farthest, 0.3 - half_diagonal);
   }
 }
 
-// Along the axis the k-th voxel behind the surface's is marked k. The way ends in the 30th, which does not count, as no
-// traversal's last one does.
+// Along the axis the k-th voxel behind the surface's is marked k. The 0.3 m end in the 15th voxel of 2 cm, which does
+// not count, as no traversal's last one does.
 TEST_F(HandGeometry, OcclusionsCountTheVoxelsBehindTheSurface) {
   Session session(facing_x(plates({0, 0.01, half_large})));
   session.step();
   const VoxelGrid& grid = session.map().grid();
-  for (int k = 1; k <= 31; ++k) {
+  for (int k = 1; k <= 20; ++k) {
     const Voxel& voxel = session.map().voxels()[grid.index(grid.cell_at({0.01 - 0.02 * k, 0.01, 0.01}))];
     EXPECT_FALSE(voxel.measured) << k;
-    EXPECT_EQ(int(voxel.occlusion_distance), k < 30 ? k : 0) << k;
+    EXPECT_EQ(int(voxel.occlusion_distance), k < 15 ? k : 0) << k;
   }
 }
 
-// Proximity count adds d_max - k for the k-th voxel behind a surface, d_max = 2 * 30 voxels.
+// Proximity count adds d_max - k for the k-th voxel behind a surface, d_max = 2 * 0.3 m: 30 voxels of 2 cm.
 TEST_F(HandGeometry, ProximityCountsDownFromTwiceTheReach) {
   Session session(facing_x(plates({0, 0.01, half_large})));
   session.step();
@@ -183,7 +184,7 @@ TEST_F(HandGeometry, ProximityCountsDownFromTwiceTheReach) {
       const Eigen::Vector3i cell = Eigen::Vector3i(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) - grid.first;
       const Voxel& of_map = session.map().voxels()[grid.index(cell)];
       const bool counts = !of_map.measured && of_map.occlusion_distance > 0;
-      ASSERT_EQ(voxel.contribution, counts ? 60.0 - of_map.occlusion_distance : 0.0);
+      ASSERT_EQ(voxel.contribution, counts ? 30.0 - of_map.occlusion_distance : 0.0);
       counted += counts;
     }
   EXPECT_GT(counted, 100);
