@@ -28,14 +28,15 @@ std::string image_text(const DepthCameraConfig& sensor) {
   return fmt::format("images of {} x {} pixels", sensor.width, sensor.height);
 }
 
-/// The map and what else has a value per voxel: the marks of a step or its local map, truth, masks, and the sampler.
+/// The map and what else has a value per voxel: the marks of a step or its local map, the bricks that it changes and
+/// how far behind a surface they lie, truth, masks, and the sampler.
 std::uint64_t map_bytes(const Configuration& c) {
   const VoxelGrid grid = configured_region(c);
   const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;
-  const std::uint64_t truth = c.evaluation.enabled ? 10 : 0;
+  const std::uint64_t truth = c.evaluation.enabled ? 10 : 0, changed = 7;
   const std::uint64_t sampler =
       make_policy(c.planner)->needs().posterior ? 40 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
-  return maps * OccupancyMap::bytes(grid) + (truth + sampler) * grid.voxel_count();
+  return maps * OccupancyMap::bytes(grid) + (truth + changed + sampler) * grid.voxel_count();
 }
 
 /// The most views that a scan can take: the start view, and each candidate.
