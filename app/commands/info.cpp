@@ -10,6 +10,7 @@
 #include "core/config/object_lengths.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
+#include "core/file/read_file.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/results/manifest.hpp"
@@ -40,7 +41,9 @@ Eigen::AlignedBox3d box_of(const Points& points) {
 }
 
 std::string mesh_info(const fs::path& file) {
-  const PlacedMesh placed = load_placed_mesh(file, placement({.centred = false}, file));
+  ObjectConfig as_it_stands;
+  as_it_stands.centred = false;
+  const PlacedMesh placed = load_placed_mesh(file, placement(as_it_stands, file));
   const std::string unit = placed.unit == LengthUnit::automatic
                                ? "its size is declared, as it comes with the program"
                                : fmt::format("its unit is taken as {} (object.unit overrules it)", name(placed.unit));

@@ -7,8 +7,8 @@
 
 #include "core/evaluation/coverage.hpp"
 #include "core/evaluation/visible_samples.hpp"
+#include "core/map/bit_mask.hpp"
 #include "core/map/ground_truth.hpp"
-#include "core/memory/bit_mask.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/progress.hpp"
 #include "core/sensor/depth_camera.hpp"

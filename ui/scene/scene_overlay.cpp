@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/setting/length_text.hpp"
 #include "ui/drawing/painter.hpp"
 
 namespace nextview {
@@ -77,8 +78,8 @@ void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, cons
   painter.line(x, y, x + width, y, 2, theme::ink);
   painter.line(x, y - 4, x, y + 4, 2, theme::ink);
   painter.line(x + width, y - 4, x + width, y + 4, 2, theme::ink);
-  const std::string text = length >= 0.1 ? fmt::format("{:g} m", length) : fmt::format("{:g} mm", length * 1000);
-  painter.text(x + width / 2, y + 6, text, theme::small_text, theme::ink, TextWeight::regular, TextAlign::centre);
+  painter.text(x + width / 2, y + 6, length_text(length), theme::small_text, theme::ink, TextWeight::regular,
+               TextAlign::centre);
 }
 
 /// Pixels at scale 1, if in front of the camera.

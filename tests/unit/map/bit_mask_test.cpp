@@ -1,4 +1,4 @@
-#include "core/memory/bit_mask.hpp"
+#include "core/map/bit_mask.hpp"
 
 #include <gtest/gtest.h>
 
