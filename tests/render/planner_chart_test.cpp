@@ -31,6 +31,12 @@ TEST(PlannerChart, RefusesWhatIsNoTable) {
   EXPECT_THROW(draw_planner_chart({}), std::invalid_argument);
 }
 
+// What the README says of the default plan, drawn; the table's run takes half an hour (tests/data/README.md).
+TEST(Figures, CoverageByPlanner) {
+  expect_screenshot("coverage_by_planner",
+                    draw_planner_chart(read_planner_courses(NEXTVIEW_SOURCE_DIR "/tests/data/planner_comparison.csv")));
+}
+
 TEST(PlannerChart, DrawsPoliciesThatItDoesNotKnowAndAnyNumberOfObjects) {
   EXPECT_EQ(draw_planner_chart({{"a", "mine", {10, 60}}, {"b", "mine", {20, 70}}}, 800, 600).width, 800);
 }
