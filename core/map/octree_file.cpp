@@ -51,21 +51,25 @@ void write_head(std::ostream& out, const octomap::OcTree& tree, bool binary) {
 /// woods.
 class TreeBytes {
  public:
-  TreeBytes(std::string_view bytes, bool binary) : bytes_(bytes), binary_(binary) {}
+  TreeBytes(std::string_view bytes, bool binary, bool coloured)
+      : bytes_(bytes), binary_(binary), colour_size_(coloured && !binary ? 3 : 0) {}
   bool well_formed() { return node(0) && at_ == bytes_.size(); }
+  /// The bytes of the same tree without colours. @pre well_formed()
+  std::string without_colours() { return colour_size_ == 0 ? std::string(bytes_) : std::move(plain_); }
 
  private:
   bool node(int depth) {
     if (depth > tree_depth) return false;
     return binary_ ? binary_node(depth) : full_node(depth);
   }
-  /// .ot: log-odds, then a byte that tells which children follow.
+  /// .ot: log-odds, a coloured tree's red, green and blue, then a byte that tells which children follow.
   bool full_node(int depth) {
-    if (bytes_.size() - at_ < 5) return false;
+    if (bytes_.size() - at_ < 5 + colour_size_) return false;
     float value;
     std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    const auto children = static_cast<unsigned char>(bytes_[at_ + 4]);
-    at_ += 5;
+    const auto children = static_cast<unsigned char>(bytes_[at_ + 4 + colour_size_]);
+    if (colour_size_ > 0) plain_.append(bytes_.substr(at_, 4)).push_back(bytes_[at_ + 4 + colour_size_]);
+    at_ += 5 + colour_size_;
     if (!std::isfinite(value)) return false;
     for (int c = 0; c < 8; ++c)
       if ((children >> c & 1) && !node(depth + 1)) return false;
@@ -85,7 +89,9 @@ class TreeBytes {
 
   std::string_view bytes_;
   bool binary_;
+  std::size_t colour_size_;  ///< of a node [bytes]
   std::size_t at_ = 0;
+  std::string plain_;
 };
 
 /// The head of a tree's file, and the bytes that follow it.
@@ -123,15 +129,18 @@ std::unique_ptr<octomap::OcTree> read_tree(const std::filesystem::path& file, co
   if (!binary && !content.starts_with("# Octomap OcTree file"))
     throw fail("is not an octree; expected OctoMap's .ot or .bt");
   const std::optional<Head> head = parse_head(content);
-  if (!head || head->id != "OcTree") throw fail("its header is damaged, or it holds another kind of tree than OcTree");
+  const bool coloured = head && head->id == "ColorOcTree";
+  if (!head || (head->id != "OcTree" && !coloured))
+    throw fail("its header is damaged, or it holds another kind of tree than OcTree or ColorOcTree");
   const auto resolution = parse<double>(head->resolution);
   if (!resolution || !(*resolution >= 1e-6 && *resolution <= 1e3))
     throw fail(fmt::format("its voxel edge, `res {}`, is not between 1e-6 and 1000 m", head->resolution));
-  if (!TreeBytes(head->data, binary).well_formed()) throw fail("is truncated or damaged");
+  TreeBytes bytes(head->data, binary, coloured);
+  if (!bytes.well_formed()) throw fail("is truncated or damaged");
   auto tree = std::make_unique<octomap::OcTree>(*resolution);
   tree->setClampingThresMin(model.clamp_min);  // what .bt has for free and for occupied
   tree->setClampingThresMax(model.clamp_max);
-  std::istringstream data{std::string(head->data)};
+  std::istringstream data(bytes.without_colours());
   binary ? tree->readBinaryData(data) : tree->readData(data);
   if (parse<std::size_t>(head->size) != tree->size())
     throw fail(fmt::format("is damaged: has {} nodes where its header says `size {}`", tree->size(), head->size));

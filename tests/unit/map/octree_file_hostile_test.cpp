@@ -115,7 +115,7 @@ std::string with(std::string file, const std::string& key, const std::string& va
 TEST_F(HostileOctreeFile, ClaimsOfTheHead) {
   for (const char* name : names) {
     const std::string good = good_file(name);
-    EXPECT_NE(reason(with(good, "id", "ColorOcTree"), name), "") << name;
+    EXPECT_NE(reason(with(good, "id", "CountingOcTree"), name), "") << name;
     EXPECT_NE(reason(with(good, "id", ""), name), "") << name;
     for (const char* res : {"0", "-0.05", "nan", "inf", "1e-320", "1e300", "x", "", "0.05x"})
       EXPECT_NE(reason(with(good, "res", res), name), "") << name << " res " << res;

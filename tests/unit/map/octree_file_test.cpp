@@ -1,9 +1,11 @@
 #include "core/map/octree_file.hpp"
 
 #include <gtest/gtest.h>
+#include <octomap/ColorOcTree.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <memory>
@@ -78,6 +80,36 @@ TEST_F(OctreeFile, OctoMapReadsTheTreeThatItWouldHaveBuilt) {
     ASSERT_TRUE(both.tree.writeBinary((folder_ / "twin.bt").string()));  // makes the tree maximum-likelihood
     expect_same_leaves(*binary, *read_by_octomap(folder_ / "twin.bt"));
     EXPECT_EQ(read_file(folder_ / "map.bt"), read_file(folder_ / "twin.bt"));
+  }
+}
+
+/// Trees of RGB-D mapping have colours: the map is that of the tree without.
+TEST_F(OctreeFile, ColouredTreesAreReadWithoutTheirColours) {
+  octomap::ColorOcTree coloured(0.05);
+  OcTree plain(0.05);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> at(-0.4f, 0.4f);
+  for (int i = 0; i < 4000; ++i) {
+    const octomap::point3d point(at(random), at(random), at(random));
+    const bool occupied = random() % 3 != 0;
+    coloured.updateNode(point, occupied);
+    plain.updateNode(point, occupied);
+    coloured.integrateNodeColor(point.x(), point.y(), point.z(), std::uint8_t(random()), std::uint8_t(random()), 7);
+  }
+  for (const char* name : {"map.ot", "map.bt"}) {
+    const fs::path file = folder_ / name, twin = folder_ / (std::string("twin_") + name);
+    const bool binary = file.extension() == ".bt";
+    ASSERT_TRUE(binary ? coloured.writeBinary(file.string()) : coloured.write(file.string()));
+    ASSERT_TRUE(binary ? plain.writeBinary(twin.string()) : plain.write(twin.string()));
+    const OccupancyMap read = read_octree(file), expected = read_octree(twin);
+    ASSERT_EQ(read.grid().size, expected.grid().size);
+    EXPECT_TRUE(std::ranges::equal(read.voxels(), expected.voxels(), {}, &Voxel::log_odds, &Voxel::log_odds)) << name;
+    EXPECT_GT(std::ranges::count_if(read.voxels(), &Voxel::measured), 1000) << name;
+    const std::string bytes = read_file(file);
+    for (std::size_t cut = 1; cut < 40; ++cut) {
+      write_file(file, bytes.substr(0, bytes.size() - cut));
+      EXPECT_THROW(read_octree(file), std::runtime_error) << name << ", " << cut << " bytes less";
+    }
   }
 }
 
