@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/planner/gain_policies.hpp"
 
@@ -137,15 +138,21 @@ void require_region(const MapConfig& map) {
                       std::min(1000.0, 32768.0 * map.resolution)));
 }
 
+/// Whether lengths can be compared with each other: the object sets those that were not given when it is opened.
+bool are_settled(const Configuration& c, std::initializer_list<const char*> lengths) {
+  return std::none_of(lengths.begin(), lengths.end(), [&](const char* key) { return awaits_object(c, key); });
+}
+
 /// All that Configuration::validate checks, in the words of the declarations.
 void require_valid(const Configuration& c) {
   require_in_bounds(c);
-  c.sensor.validate();
+  c.sensor.camera();
+  if (are_settled(c, {"sensor.min_range", "sensor.max_range"})) c.sensor.validate();
   c.views.validate();
   c.map.model.validate();
   c.gibbs.validate();
   c.planner.validate();
-  require_region(c.map);
+  if (are_settled(c, {c.map.region.empty() ? "map.region_edge" : "map.region", "map.resolution"})) require_region(c.map);
   require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
           fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
   require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,

@@ -56,6 +56,13 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
 }
 
+bool awaits_object(const Configuration& configuration, const std::string& key) {
+  if (!configuration.fitted.empty()) return false;
+  Configuration copy = configuration, defaults;
+  auto all = settings(copy), unset = settings(defaults);
+  return !is_given(configuration, find_setting(all, key), find_setting(unset, key));
+}
+
 double declared_longest_side(const std::filesystem::path& file) { return file == resolve_object("bunny") ? 0.5 : 0.0; }
 
 MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::path& file) {

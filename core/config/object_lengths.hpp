@@ -9,6 +9,9 @@ namespace nextview {
 /// preset was given. With 0.5 m all is as it is by default.
 void fit_lengths(Configuration& configuration, double longest_side);
 
+/// Whether fit_lengths has not set this length yet, and will: what it is now means nothing.
+bool awaits_object(const Configuration& configuration, const std::string& key);
+
 /// The longest side of an object that comes with the program, where its file's own size means nothing [m]; else 0.
 double declared_longest_side(const std::filesystem::path& file);
 

@@ -15,10 +15,13 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
     : Session(std::move(configuration), SessionParts{}, progress, std::move(stop)) {}
 
 Session::Session(Configuration configuration, SessionParts parts, const Progress& progress, std::stop_token stop) {
-  Configuration& c = setup_.configuration = affordable(validated(std::move(configuration)));
+  Configuration& c = setup_.configuration = validated(std::move(configuration));
   source_ = std::move(parts.source);
   std::shared_ptr<const SimulatedWorld> world;
-  if (!source_ || c.evaluation.enabled) world = make_world(stop);
+  if (!source_ || c.evaluation.enabled)
+    world = make_world(stop);
+  else
+    c = affordable(std::move(c));
   if (!source_) source_ = std::make_unique<SimulatedSource>(world, c.seed);
   setup_.source = source_->describe();
   setup_.region = configured_region(c, setup_.source);
