@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "core/config/input_files.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/results/manifest.hpp"
@@ -11,19 +12,6 @@
 namespace nextview {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// A scene file, or a folder of range scans and the files in it.
-std::vector<InputFile> recorded_files(const fs::path& input) {
-  std::vector<InputFile> files = {{input, "the recorded scans"}};
-  std::error_code ignored;
-  for (fs::directory_iterator entry(input, ignored), end; !ignored && entry != end; entry.increment(ignored))
-    files.push_back({entry->path(), "of the recorded scans"});
-  return files;
-}
-
-}  // namespace
 
 void RangeScanOptions::add_to(CLI::App& app) {
   app.add_option("--voxel", resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")

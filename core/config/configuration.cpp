@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -24,10 +25,11 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t largest_file = 1 << 15;
 
 /// Where a file says that another one is: beside it, if there is one, or as it stands.
-std::string beside(const fs::path& file, const std::string& said) {
+std::string beside(const fs::path& file, const std::string& said, bool may_be_folder) {
   const fs::path there = file.parent_path() / said;
   std::error_code ignored;
-  return !said.empty() && fs::path(said).is_relative() && fs::is_regular_file(there, ignored) ? there.string() : said;
+  const bool is_there = fs::is_regular_file(there, ignored) || (may_be_folder && fs::is_directory(there, ignored));
+  return !said.empty() && fs::path(said).is_relative() && is_there ? there.string() : said;
 }
 
 class TomlReader {
@@ -53,9 +55,10 @@ class TomlReader {
  private:
   /// The text of a setting: what names a file is looked for beside this one.
   std::string located(const std::string& key, const std::string& text) const {
+    constexpr std::array paths = {"object.file", "views.file", "map.start", "recorded.folder", "recorded.truth"};
     const bool names_file =
-        key == "object.file" || key == "views.file" || (key == "sensor.preset" && !is_there(named_sensor(text)));
-    return names_file ? beside(file_, text) : text;
+        std::ranges::find(paths, key) != paths.end() || (key == "sensor.preset" && !is_there(named_sensor(text)));
+    return names_file ? beside(file_, text, key == "recorded.folder") : text;
   }
 
   void apply(const toml::table& table, const std::string& prefix) {
@@ -152,7 +155,8 @@ void require_valid(const Configuration& c) {
   c.map.model.validate();
   c.gibbs.validate();
   c.planner.validate();
-  if (are_settled(c, {c.map.region.empty() ? "map.region_edge" : "map.region", "map.resolution"})) require_region(c.map);
+  if (are_settled(c, {c.map.region.empty() ? "map.region_edge" : "map.region", "map.resolution"}))
+    require_region(c.map);
   require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
           fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
   require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,

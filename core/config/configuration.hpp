@@ -26,9 +26,19 @@ struct ObjectConfig {
   bool ground = false;  ///< it stands on a plane that the camera sees and that no coverage counts
 };
 
+/// Scans that were taken elsewhere, in the place of a simulated camera's (core/recording).
+struct RecordedConfig {
+  std::string folder;      ///< or the file that holds them; empty: there are none
+  std::string truth;       ///< mesh of what was scanned, which is aligned with it; empty: none is known
+  std::string start;       ///< name or number of the frame to begin with; empty: the first
+  int every = 1;           ///< takes each n-th frame
+  double stand_off = 0.7;  ///< of the scanner that took Stanford's range images, which do not tell [m]
+};
+
 struct MapConfig {
   double resolution = 0.01;         ///< voxel edge [m]
   double region_edge = 1.28;        ///< edge of the region of interest, a cube around the origin [m]
+  std::string start;                ///< octree (.ot, .bt) to begin with; empty: nothing is known
   std::string region;               ///< region of interest, `x y z x y z` of its corners [m, world]; empty: that cube
   double occlusion_distance = 0.3;  ///< how far behind a surface voxels are marked [m]
   Insertion insertion = Insertion::direct;
@@ -62,6 +72,7 @@ struct HistoryConfig {
 struct Configuration {
   std::uint64_t seed = 1;
   ObjectConfig object;
+  RecordedConfig recorded;
   std::string sensor_preset = "paper";
   DepthCameraConfig sensor;
   CloudConfig cloud;

@@ -14,12 +14,16 @@ namespace fs = std::filesystem;
 
 std::string to_toml(const Configuration& configuration, const fs::path& folder) {
   Configuration named = configuration;
-  const auto name_from_folder = [&](std::string& file) {
+  const auto name_from_folder = [&](std::string& file, bool may_be_folder = false) {
     std::error_code ignored;
-    if (!file.empty() && fs::exists(file, ignored) && !fs::is_directory(file, ignored)) file = named_from(folder, file);
+    if (!file.empty() && fs::exists(file, ignored) && (may_be_folder || !fs::is_directory(file, ignored)))
+      file = named_from(folder, file);
   };
   name_from_folder(named.object.file);
   name_from_folder(named.views.file);
+  name_from_folder(named.map.start);
+  name_from_folder(named.recorded.truth);
+  name_from_folder(named.recorded.folder, true);
   if (!is_there(named_sensor(named.sensor_preset))) name_from_folder(named.sensor_preset);
   return to_toml(named);
 }

@@ -12,6 +12,9 @@ namespace nextview {
 /// configuration itself comes from, its sensor's among them. @throws std::runtime_error if there is no such object.
 std::vector<InputFile> input_files(const Configuration& configuration);
 
+/// Recorded scans: a file, or a folder and what lies in it.
+std::vector<InputFile> recorded_files(const std::filesystem::path& recorded);
+
 /// The JSON beside a mesh file, which may list the part's openings: part.json beside part.ply.
 std::filesystem::path openings_file(const std::filesystem::path& object);
 

@@ -26,4 +26,9 @@ std::string object_name(const std::filesystem::path& file) {
   return file.stem().string();
 }
 
+std::string recording_name(const std::filesystem::path& recorded) {
+  const auto path = std::filesystem::absolute(recorded).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).stem().string();
+}
+
 }  // namespace nextview

@@ -56,11 +56,22 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
 }
 
-bool awaits_object(const Configuration& configuration, const std::string& key) {
-  if (!configuration.fitted.empty()) return false;
+bool is_given(const Configuration& configuration, const std::string& key) {
   Configuration copy = configuration, defaults;
   auto all = settings(copy), unset = settings(defaults);
-  return !is_given(configuration, find_setting(all, key), find_setting(unset, key));
+  return is_given(configuration, find_setting(all, key), find_setting(unset, key));
+}
+
+void set_unless_given(Configuration& configuration, const std::string& key, const std::string& text) {
+  if (is_given(configuration, key)) return;
+  auto all = settings(configuration);
+  Setting& setting = find_setting(all, key);
+  setting.set(text);
+  configuration.fitted[key] = setting.text();
+}
+
+bool awaits_object(const Configuration& configuration, const std::string& key) {
+  return configuration.fitted.empty() && !is_given(configuration, key);
 }
 
 double declared_longest_side(const std::filesystem::path& file) { return file == resolve_object("bunny") ? 0.5 : 0.0; }

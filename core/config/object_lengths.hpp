@@ -9,6 +9,11 @@ namespace nextview {
 /// preset was given. With 0.5 m all is as it is by default.
 void fit_lengths(Configuration& configuration, double longest_side);
 
+/// Whether a setting is what someone wants: not as it is by default, and not what follows from the object.
+bool is_given(const Configuration& configuration, const std::string& key);
+/// Sets a setting that follows from what is scanned, if it was not given.
+void set_unless_given(Configuration& configuration, const std::string& key, const std::string& text);
+
 /// Whether fit_lengths has not set this length yet, and will: what it is now means nothing.
 bool awaits_object(const Configuration& configuration, const std::string& key);
 

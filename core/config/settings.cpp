@@ -11,6 +11,8 @@ std::vector<Setting> settings(MapConfig& c) {
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
       {"map.region", "m", "region of interest as a box, x y z of two opposite corners; empty: a cube of region_edge",
        &c.region},
+      {"map.start", "", "octree (.ot, .bt) to begin with, in whose world the object lies; empty: nothing is known",
+       &c.start},
       {"map.occlusion_distance", "m", "how far behind a surface voxels are marked; the reference code's is 0.3 m",
        &c.occlusion_distance, from_to(1e-3, 1000)},
       {"map.insertion", "", "register a local octree, or insert directly: the same map",
@@ -38,6 +40,18 @@ std::vector<Setting> settings(ObjectConfig& c) {
   };
 }
 
+std::vector<Setting> settings(RecordedConfig& c) {
+  return {
+      {"recorded.folder", "", "scans that were taken elsewhere, instead of a simulated camera's: a folder or file",
+       &c.folder},
+      {"recorded.truth", "", "mesh of what was scanned, to compare with; it is aligned with the scans", &c.truth},
+      {"recorded.start", "", "frame to begin with, its name or number from 0; empty: the first", &c.start},
+      {"recorded.every", "", "takes each n-th frame", &c.every, from_to(1, 1e6)},
+      {"recorded.stand_off", "m", "distance of the scanner, which Stanford's range images do not tell", &c.stand_off,
+       from_to(0.01, 100)},
+  };
+}
+
 std::vector<Setting> settings(EvaluationConfig& c) {
   return {
       {"evaluation.enabled", "", "compare with the mesh after each view", &c.enabled},
@@ -59,6 +73,7 @@ std::vector<Setting> settings(Configuration& c) {
   std::vector<Setting> all = {{"seed", "", "seed of everything random", &c.seed}};
   const auto add = [&](std::vector<Setting> more) { all.insert(all.end(), more.begin(), more.end()); };
   add(settings(c.object));
+  add(settings(c.recorded));
   add({{"sensor.preset", "", "paper, narrow, wide, or a file; the other sensor settings override it",
         &c.sensor_preset}});
   add(settings(c.sensor));

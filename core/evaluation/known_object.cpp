@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "core/evaluation/any_pose.hpp"
+#include "core/evaluation/covering_order.hpp"
 #include "core/evaluation/visited_voxels.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/random/counter_random.hpp"
 
 namespace nextview {
 namespace {
@@ -88,32 +88,8 @@ void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, c
   state.coverage_paper.add(points, stop);
 }
 
-std::size_t KnownObject::new_samples(const EvaluationState& state, std::size_t candidate) const {
-  const auto& samples = seen_from_[candidate];
-  return static_cast<std::size_t>(
-      std::count_if(samples.begin(), samples.end(), [&](std::uint32_t s) { return !state.seen[s]; }));
-}
-
 std::vector<std::size_t> KnownObject::covering_order(std::uint64_t seed) const {
-  std::vector<std::size_t> cover, others(seen_from_.size());
-  std::iota(others.begin(), others.end(), std::size_t{0});
-  std::vector<std::uint8_t> covered(samples_.points.size());
-  const auto adds = [&](std::size_t view) {
-    return std::count_if(seen_from_[view].begin(), seen_from_[view].end(),
-                         [&](std::uint32_t s) { return !covered[s]; });
-  };
-  while (!others.empty()) {
-    const auto best = std::max_element(others.begin(), others.end(), [&](auto a, auto b) { return adds(a) < adds(b); });
-    if (adds(*best) == 0) break;
-    for (const std::uint32_t s : seen_from_[*best]) covered[s] = 1;
-    cover.push_back(*best);
-    others.erase(best);
-  }
-  const CounterRandom random(seed, random_stream::covering_order);
-  for (std::size_t i = cover.size(); i > 1; --i)  // Fisher-Yates
-    std::swap(cover[i - 1], cover[static_cast<std::size_t>(random.uniform(i)[0] * double(i))]);
-  cover.insert(cover.end(), others.begin(), others.end());
-  return cover;
+  return nextview::covering_order(seen_from_, samples_.points.size(), seed);
 }
 
 }  // namespace nextview

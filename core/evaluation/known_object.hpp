@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -53,14 +54,13 @@ class KnownObject {
   void add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                 const std::stop_token& stop = {}) const;
 
-  /// How many surface samples the candidate would see that no view has seen yet (the oracle's gain).
-  std::size_t new_samples(const EvaluationState& state, std::size_t candidate) const;
   /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
   std::vector<std::size_t> covering_order(std::uint64_t seed) const;
 
   /// Which surface samples the candidate sees, in ascending order.
   std::span<const std::uint32_t> seen_from(std::size_t candidate) const { return seen_from_[candidate]; }
   std::size_t candidate_count() const { return seen_from_.size(); }
+  std::size_t visible_samples() const { return std::size_t(std::count(visible_.begin(), visible_.end(), 1)); }
 
   const GroundTruth& truth() const { return truth_; }
   const SurfaceSamples& samples() const { return samples_; }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <sstream>
 #include <stdexcept>
 
 #include "core/config/input_files.hpp"
@@ -11,40 +10,13 @@
 #include "core/progress/stopped.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/taken_views.hpp"
 #include "core/source/simulated_source.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The poses that views.csv says were taken. Where that is a candidate's or the start view it is looked up, as the text
-/// of a pose rounds.
-std::vector<Pose> views_taken(const fs::path& file, const Configuration& configuration) {
-  const auto candidates = candidate_views(configuration.views, view_target(configuration));
-  const Pose start = configured_start_view(configuration);
-  std::istringstream text(read_file(file, std::uintmax_t{1} << 24));
-  std::string line;
-  std::getline(text, line);
-  std::vector<Pose> poses;
-  for (int number = 2; std::getline(text, line); ++number) {
-    for (char& c : line) c = c == ',' ? ' ' : c;
-    std::istringstream row(line);
-    int step = 0, view = 0;
-    Vector3 p;
-    Eigen::Quaterniond q;
-    row >> step >> view >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
-    const bool whole = !row.fail() && (row >> std::ws).eof();
-    if (!whole || view < -1 || view >= int(candidates.size()) || std::abs(q.norm() - 1.0) > 1e-6 || !p.allFinite())
-      throw std::runtime_error(fmt::format("{}:{}: not a view of this scan", file.string(), number));
-    const Pose written = make_pose(p, q);
-    const Pose& exact = view >= 0 ? candidates[view] : start;
-    const bool is_exact = (view >= 0 || step == 1) && written.isApprox(exact, 1e-6);
-    poses.push_back(is_exact ? exact : written);
-  }
-  if (poses.empty()) throw std::runtime_error(fmt::format("{}: holds no view", file.string()));
-  return poses;
-}
 
 /// The openings that stand beside a part of ours, moved as its mesh was. A JSON of that name may be anything: if it
 /// does not list openings there are none, and a notice says so.

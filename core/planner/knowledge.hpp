@@ -36,6 +36,14 @@ struct Knowledge {
   }
 };
 
+/// The frames of a recording that were taken, in order; other views are passed over.
+inline std::vector<std::size_t> frames_taken(const Knowledge& known) {
+  std::vector<std::size_t> frames;
+  for (const TakenView& view : known.taken)
+    if (view.wanted.frame) frames.push_back(*view.wanted.frame);
+  return frames;
+}
+
 /// How scans enter the maps.
 struct FusionConfig {
   Insertion insertion = Insertion::direct;

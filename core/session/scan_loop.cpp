@@ -6,6 +6,7 @@
 #include "core/progress/stopped.hpp"
 #include "core/progress/stopwatch.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/start_map.hpp"
 
 namespace nextview {
 namespace {
@@ -149,6 +150,7 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
   compare_maps(state.known, after.known, record);
   report(progress, stop, 0.6, "comparing with the object");
   evaluate(setup, after, *scan, record, stop);
+  if (setup.recorded) record.coverage_recorded = setup.recorded->coverage(frames_taken(after.known)).back();
   after.T_world_camera = record.T_world_camera;
   after.scans.push_back(scan);
   after.records.push_back(std::make_shared<const StepRecord>(std::move(record)));
@@ -194,6 +196,7 @@ void remake(const ScanSetup& setup, ScanState& state, const ScanState& from, con
 ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera) {
   ScanState state;
   state.known = nothing_known(setup.configuration, setup.region, setup.planner->needs());
+  if (setup.start_map) begin_with(*setup.start_map, state.known.map);
   // Noise makes points of the same surface lie apart.
   state.known.scanned = std::make_shared<const ScannedSurface>(
       std::max(setup.configuration.evaluation.d_reg, 3.0 * setup.source.range_noise));

@@ -7,6 +7,7 @@
 #include "core/cloud/point_cloud.hpp"
 #include "core/config/configuration.hpp"
 #include "core/evaluation/known_object.hpp"
+#include "core/evaluation/recorded_surface.hpp"
 #include "core/planner/planner.hpp"
 #include "core/robot/robot.hpp"
 #include "core/session/step_record.hpp"
@@ -21,10 +22,12 @@ struct ScanSetup {
   VoxelGrid region;  ///< of interest
   RayBundle bundle;  ///< that scores a view
   View start;
+  std::shared_ptr<const OccupancyMap> start_map = {};  ///< that it begins with; null: nothing is known
   std::shared_ptr<const CandidateGenerator> candidates;
   std::shared_ptr<const Planner> planner;
-  std::shared_ptr<const KnownObject> truth;  ///< null without evaluation
-  std::vector<std::uint8_t> any_pose = {};   ///< KnownObject::seen_from_any_pose; empty unless it is asked for
+  std::shared_ptr<const KnownObject> truth;              ///< null without evaluation
+  std::shared_ptr<const RecordedSurface> recorded = {};  ///< null if the source is no recording
+  std::vector<std::uint8_t> any_pose = {};  ///< KnownObject::seen_from_any_pose; empty unless it is asked for
 };
 
 /// The view that is taken next.

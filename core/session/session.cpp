@@ -4,10 +4,13 @@
 
 #include <stdexcept>
 
+#include "core/config/known_objects.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/planner/look_ahead_planner.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/start_map.hpp"
 
 namespace nextview {
 
@@ -16,39 +19,84 @@ Session::Session(Configuration configuration, const Progress& progress, std::sto
 
 Session::Session(Configuration configuration, SessionParts parts, const Progress& progress, std::stop_token stop) {
   Configuration& c = setup_.configuration = validated(std::move(configuration));
+  if (!c.map.start.empty()) setup_.start_map = read_start_map(c);
   source_ = std::move(parts.source);
+  const bool map_alone = !source_ && c.recorded.folder.empty() && is_map(c.object.file);
   std::shared_ptr<const SimulatedWorld> world;
-  if (!source_ || c.evaluation.enabled)
-    world = make_world(stop);
+  if (!source_ && !c.recorded.folder.empty())
+    world = replay(progress, stop);
+  else if (map_alone)
+    open_map();
+  else if (!source_ || c.evaluation.enabled)
+    world = simulate(stop);
   else
     c = affordable(std::move(c));
-  if (!source_) source_ = std::make_unique<SimulatedSource>(world, c.seed);
   setup_.source = source_->describe();
   setup_.region = configured_region(c, setup_.source);
   setup_.bundle = scoring_rays(c, setup_.source.camera);
   robot_ = std::move(parts.robot);
-  setup_.start = start_view(c, setup_.source, robot_.get());
+  setup_.start =
+      recording_ ? setup_.source.frames.at(start_frame(c, *recording_)) : start_view(c, setup_.source, robot_.get());
   if (!robot_) robot_ = std::make_unique<FreeFlyingCamera>(setup_.start.T_world_camera);
   setup_.planner = std::move(parts.planner);
   if (!setup_.planner) setup_.planner = make_planner(c.planner);
   setup_.candidates = std::move(parts.candidates);
   if (!setup_.candidates) setup_.candidates = configured_candidates(c, setup_.source);
-  if (c.evaluation.enabled)
-    setup_.truth =
-        std::make_shared<KnownObject>(object_->surroundings(), evaluation_samples(c, object_->mesh),
-                                      std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
-                                      poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
-                                      setup_.region, c.evaluation.d_reg, progress, stop);
-  if (setup_.truth && (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive))
-    setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
-  adopt(nothing_scanned(setup_, robot_->pose()));
+  if (world && c.evaluation.enabled) compare_with(world, progress, stop);
+  ScanState nothing = nothing_scanned(setup_, robot_->pose());
+  if (map_alone) nothing.finished = "this is a map alone, and nothing can be scanned";
+  adopt(std::move(nothing));
 }
 
-std::shared_ptr<const SimulatedWorld> Session::make_world(const std::stop_token& stop) {
-  ConfiguredObject object = load_object(setup_.configuration, stop);
+/// The object of the configuration, which becomes the source if there is no other.
+std::shared_ptr<const SimulatedWorld> Session::simulate(const std::stop_token& stop) {
+  Configuration& c = setup_.configuration;
+  ConfiguredObject object = load_object(c, stop);
+  name_ = object_name(object.file);
   object_file_ = std::move(object.file);
   object_ = std::move(object.placed);
-  return std::make_shared<const SimulatedWorld>(object_, setup_.configuration.sensor, stop);
+  const auto world = std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
+  if (!source_) source_ = std::make_unique<SimulatedSource>(world, c.seed);
+  return world;
+}
+
+/// The recording of the configuration. Returns the world that it was taken of, if that is known.
+std::shared_ptr<const SimulatedWorld> Session::replay(const Progress& progress, const std::stop_token& stop) {
+  Configuration& c = setup_.configuration;
+  auto source = open_configured_recording(c, progress, stop);
+  name_ = recording_name(c.recorded.folder);
+  recording_ = &source->recording();
+  source_ = std::move(source);
+  setup_.recorded = recorded_surface(c, *recording_, progress, stop);
+  if (c.recorded.truth.empty()) return nullptr;
+  AlignedTruth truth = aligned_truth(c, setup_.recorded->samples(), stop);
+  object_file_ = std::move(truth.file);
+  object_ = std::move(truth.placed);
+  truth_alignment_ = truth.alignment;
+  return std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
+}
+
+/// A map of others, to be looked at.
+void Session::open_map() {
+  Configuration& c = setup_.configuration;
+  name_ = std::filesystem::path(c.object.file).filename().string();
+  Configuration with_map = c;
+  with_map.map.start = c.object.file;
+  setup_.start_map = read_start_map(with_map);
+  c = affordable(validated(framed_by(*setup_.start_map, with_map)));
+  source_ = std::make_unique<RecordedSource>(Recording{.camera = c.sensor.camera()});
+}
+
+void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
+                           const std::stop_token& stop) {
+  const Configuration& c = setup_.configuration;
+  setup_.truth =
+      std::make_shared<KnownObject>(object_->surroundings(), evaluation_samples(c, object_->mesh),
+                                    std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
+                                    poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
+                                    setup_.region, c.evaluation.d_reg, progress, stop);
+  if (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive)
+    setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
 }
 
 std::shared_ptr<const TriangleMesh> Session::mesh() const {
@@ -123,6 +171,8 @@ void Session::override_next_view(std::size_t candidate) {
 void Session::override_next_view(const Pose& T_world_camera) {
   if (!is_rigid(T_world_camera))
     throw std::invalid_argument("a view must be a finite position and a rotation, without scale or reflection");
+  if (recording_)
+    throw std::invalid_argument("a recording has no views but those that were taken; choose one of its frames");
   if (const std::string reason = unreachable({T_world_camera}); !reason.empty())
     throw std::invalid_argument("the robot cannot reach the view: " + reason);
   require_first_step();

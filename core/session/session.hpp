@@ -5,7 +5,9 @@
 #include <stop_token>
 
 #include "core/mesh/mesh_file.hpp"
+#include "core/registration/alignment.hpp"
 #include "core/session/scan_loop.hpp"
+#include "core/source/recorded_source.hpp"
 #include "core/source/simulated_source.hpp"
 
 namespace nextview {
@@ -65,7 +67,14 @@ class Session {
 
   const ScanSetup& setup() const { return setup_; }
   const Configuration& configuration() const { return setup_.configuration; }
-  const std::filesystem::path& object_file() const { return object_file_; }  ///< empty if there is none
+  /// Of the mesh; empty if there is none.
+  const std::filesystem::path& object_file() const { return object_file_; }
+  /// What is scanned, for people: the name of an object, a recording, a map.
+  const std::string& name() const { return name_; }
+  /// The recording that it goes through, if it does; else null.
+  const Recording* recording() const { return recording_; }
+  /// How a recording lies on the mesh of what was scanned; none without.
+  const std::optional<Alignment>& truth_alignment() const { return truth_alignment_; }
   /// The object, if one was loaded; else null.
   std::shared_ptr<const TriangleMesh> mesh() const;
   const PlacedMesh& object() const { return *object_; }                      ///< @pre mesh()
@@ -95,14 +104,21 @@ class Session {
 
  private:
   std::optional<ScanState> next_state(const Progress& progress, const std::stop_token& stop, const Accept& accept);
-  std::shared_ptr<const SimulatedWorld> make_world(const std::stop_token& stop);
+  std::shared_ptr<const SimulatedWorld> simulate(const std::stop_token& stop);
+  std::shared_ptr<const SimulatedWorld> replay(const Progress& progress, const std::stop_token& stop);
+  void open_map();
+  void compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
+                    const std::stop_token& stop);
   void adopt(ScanState state);
   void require_first_step() const;
   std::string unreachable(const View& view) const;
 
   ScanSetup setup_;
+  std::string name_;
   std::filesystem::path object_file_;
   std::shared_ptr<const PlacedMesh> object_;
+  std::optional<Alignment> truth_alignment_;
+  const Recording* recording_ = nullptr;  ///< of the source
   std::unique_ptr<ScanSource> source_;
   std::unique_ptr<Robot> robot_;
   ScanState state_;

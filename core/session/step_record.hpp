@@ -46,8 +46,9 @@ struct StepRecord {
   std::size_t points = 0;      ///< hits left after cleaning
   std::size_t new_voxels = 0;  ///< voxels measured for the first time
 
-  double entropy = 0.0;        ///< of the maximum-likelihood map (Eq. 18) [bits]
-  double total_entropy = 0.0;  ///< sum of H(p) [bits]
+  double entropy = 0.0;                     ///< of the maximum-likelihood map (Eq. 18) [bits]
+  double total_entropy = 0.0;               ///< sum of H(p) [bits]
+  std::optional<double> coverage_recorded;  ///< of a recording: share of what all its frames show, at d_reg
   // With evaluation:
   double coverage = 0.0;                    ///< of all the surface, at d_reg (Eq. 17)
   double coverage_visible = 0.0;            ///< of the surface that some candidate sees, at d_reg

@@ -10,23 +10,25 @@
 namespace nextview {
 namespace {
 
-/// The true surface as the views so far have seen it.
+/// The true surface as the views so far have seen it: that of a known object, or what a recording's frames show.
+template <class Surface>
 class SurfaceLeft : public TrueSurface {
  public:
-  SurfaceLeft(const KnownObject& object, const EvaluationState& state) : object_(object), state_(state) {}
-  std::size_t new_samples(std::size_t candidate) const override { return object_.new_samples(state_, candidate); }
+  SurfaceLeft(const Surface& surface, std::vector<std::uint8_t> seen) : surface_(surface), seen_(std::move(seen)) {}
+  std::size_t new_samples(std::size_t candidate) const override {
+    return std::size_t(std::ranges::count_if(surface_.seen_from(candidate), [&](auto s) { return !seen_[s]; }));
+  }
   std::vector<std::uint32_t> unseen_samples(std::size_t candidate) const override {
     std::vector<std::uint32_t> unseen;
-    std::ranges::copy_if(object_.seen_from(candidate), std::back_inserter(unseen),
-                         [&](std::uint32_t s) { return !state_.seen[s]; });
+    std::ranges::copy_if(surface_.seen_from(candidate), std::back_inserter(unseen), [&](auto s) { return !seen_[s]; });
     return unseen;
   }
-  std::size_t visible_samples() const override { return std::size_t(std::ranges::count(object_.visible(), 1)); }
-  std::vector<std::size_t> covering_order(std::uint64_t seed) const override { return object_.covering_order(seed); }
+  std::size_t visible_samples() const override { return surface_.visible_samples(); }
+  std::vector<std::size_t> covering_order(std::uint64_t seed) const override { return surface_.covering_order(seed); }
 
  private:
-  const KnownObject& object_;
-  const EvaluationState& state_;
+  const Surface& surface_;
+  std::vector<std::uint8_t> seen_;
 };
 
 /// What a planner is given besides the knowledge; valid as long as the setup and the state are.
@@ -39,11 +41,16 @@ struct PlanningInput {
               scan.bundle,
               nullptr,
               scan.configuration.termination.surface_left} {
-    if (state.evaluation) setup.true_surface = &surface.emplace(*scan.truth, *state.evaluation);
+    if (scan.recorded)
+      surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
+                                                               scan.recorded->seen(frames_taken(state.known)));
+    else if (state.evaluation)
+      surface = std::make_unique<SurfaceLeft<KnownObject>>(*scan.truth, state.evaluation->seen);
+    setup.true_surface = surface.get();
   }
   PlanningInput(const PlanningInput&) = delete;
 
-  std::optional<SurfaceLeft> surface;
+  std::unique_ptr<TrueSurface> surface;
   PlanningSetup setup;
 };
 
@@ -122,7 +129,7 @@ std::string termination(const TerminationConfig& config, const ScanState& state)
   const StepRecord& last = *state.records.back();
   ScanProgress progress;
   progress.views = static_cast<int>(state.records.size());
-  progress.coverage = last.coverage_visible;
+  progress.coverage = last.coverage_recorded.value_or(last.coverage_visible);
   progress.candidates_left = last.ranking.best.has_value();
   progress.surface_left = last.surface_left;
   progress.best_gain = best_gain(last);

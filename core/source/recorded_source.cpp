@@ -2,19 +2,44 @@
 
 #include <fmt/format.h>
 
-namespace nextview {
+#include <memory>
+#include <stdexcept>
 
-RecordedSource::RecordedSource(std::vector<RecordedScan> scans, double max_range, const PinholeCamera& camera)
-    : scans_(std::move(scans)), description_{camera, max_range, 0.0} {
-  for (std::uint32_t k = 0; k < scans_.size(); ++k) description_.frames.push_back({scans_[k].T_world_camera, k});
-  if (!scans_.empty()) description_.start = scans_.front().T_world_camera;
+namespace nextview {
+namespace {
+
+Recording recording_of(std::vector<RecordedScan> scans, double max_range, const PinholeCamera& camera) {
+  Recording recording;
+  recording.format = "scene";
+  recording.camera = camera;
+  recording.max_range = max_range;
+  const auto all = std::make_shared<const std::vector<RecordedScan>>(std::move(scans));
+  for (std::size_t k = 0; k < all->size(); ++k)
+    recording.frames.push_back(
+        {fmt::format("scan {}", k + 1), (*all)[k].T_world_camera, [all, k] { return Measured((*all)[k].points); }});
+  return recording;
 }
 
-Result<Capture> RecordedSource::capture(const View& view, std::uint32_t, std::stop_token) {
-  if (!view.frame || *view.frame >= scans_.size())
-    return Failure{Failure::no_data, fmt::format("the recording has {} scans, and none from there", scans_.size())};
-  const RecordedScan& scan = scans_[*view.frame];
-  return Capture{scan.points, scan.T_world_camera, description_.max_range};
+}  // namespace
+
+RecordedSource::RecordedSource(Recording recording) : recording_(std::move(recording)) {
+  description_ = {recording_.camera, recording_.max_range, 0.0};
+  description_.region = recording_.region;
+  for (const RecordedFrame& frame : recording_.frames)
+    description_.frames.push_back({frame.T_world_camera, std::uint32_t(description_.frames.size())});
+}
+
+RecordedSource::RecordedSource(std::vector<RecordedScan> scans, double max_range, const PinholeCamera& camera)
+    : RecordedSource(recording_of(std::move(scans), max_range, camera)) {}
+
+Result<Capture> RecordedSource::capture(const View& view, std::uint32_t, std::stop_token) try {
+  const auto& frames = recording_.frames;
+  if (!view.frame || *view.frame >= frames.size())
+    return Failure{Failure::no_data, fmt::format("the recording has {} frames, and none from there", frames.size())};
+  const RecordedFrame& frame = frames[*view.frame];
+  return Capture{frame.read(), frame.T_world_camera, description_.max_range};
+} catch (const std::runtime_error& error) {
+  return Failure{Failure::no_data, error.what()};
 }
 
 }  // namespace nextview

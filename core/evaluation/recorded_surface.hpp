@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+#include "core/progress/progress.hpp"
+
+namespace nextview {
+
+/// What all frames of a recording show together: where no mesh is known, the final cloud is what coverage is a share
+/// of. Never changes.
+class RecordedSurface {
+ public:
+  /// `cloud_of` gives the cleaned points of a frame [m, world]; each is asked for once. Samples are the final cloud
+  /// with one point per cube of half of `d_reg` [m]; a frame shows those that have a point of its own, thinned
+  /// likewise, within d_reg.
+  /// @throws std::invalid_argument if there are no points at all, and what cloud_of throws; Stopped
+  RecordedSurface(std::size_t frames, const std::function<PointCloud(std::size_t)>& cloud_of, double d_reg,
+                  const Progress& progress = {}, const std::stop_token& stop = {});
+
+  std::size_t frames() const { return seen_from_.size(); }
+  const PointCloud& samples() const { return samples_; }
+  double d_reg() const { return d_reg_; }
+  /// Which samples a frame shows, in ascending order.
+  std::span<const std::uint32_t> seen_from(std::size_t frame) const { return seen_from_[frame]; }
+  std::size_t visible_samples() const { return samples_.size(); }  ///< some frame shows each
+  /// One per sample, 1: one of these frames shows it.
+  std::vector<std::uint8_t> seen(std::span<const std::size_t> frames) const;
+
+  /// Share of the samples that are seen after the first, the second, … of these frames.
+  std::vector<double> coverage(std::span<const std::size_t> order) const;
+  /// The same in the mean over `runs` orders that begin with `first` and go on at random.
+  std::vector<double> random_coverage(std::size_t first, std::uint64_t seed, int runs = 20) const;
+  /// Frames in the order of a greedy set cover, shuffled by the seed (covering_order).
+  std::vector<std::size_t> covering_order(std::uint64_t seed) const;
+
+ private:
+  double d_reg_;
+  PointCloud samples_;
+  std::vector<std::vector<std::uint32_t>> seen_from_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,216 @@
+#include "core/session/recording_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "core/config/object_lengths.hpp"
+#include "core/file/read_file.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/session/taken_views.hpp"
+#include "core/source/simulated_source.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double margin = 0.1;  // around what was measured, of its longest side
+
+bool is_scan_folder(const fs::path& folder) { return is_there(folder / "config.toml"); }
+
+/// What was given for this session goes before what the scan had.
+void adopt_settings(Configuration& c, Configuration of_scan) {
+  auto to = settings(c), from = settings(of_scan);
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const std::string& key = to[i].key;
+    const bool own = key.starts_with("recorded.") || key.starts_with("termination.") || key.starts_with("object.");
+    if (own || key == "sensor.preset" || is_given(c, key) || to[i].text() == from[i].text()) continue;
+    to[i].set(from[i].text());
+    c.fitted[key] = to[i].text();
+  }
+}
+
+/// The views of a simulated scan, taken again: the same bytes.
+Recording simulated_again(const fs::path& folder, Configuration of_scan, const std::stop_token& stop) {
+  const std::vector<Pose> views = views_taken(folder / "views.csv", of_scan);
+  const ConfiguredObject object = load_object(of_scan, stop);
+  const auto world = std::make_shared<const SimulatedWorld>(object.placed, of_scan.sensor, stop);
+  Recording recording;
+  recording.format = "scan";
+  recording.camera = world->camera.camera();
+  recording.max_range = of_scan.sensor.max_range;
+  for (std::uint32_t k = 0; k < views.size(); ++k)
+    recording.frames.push_back({fmt::format("step {}", k + 1), views[k], [world, pose = views[k], k, of_scan] {
+                                  return Measured(world->camera.sense(world->scene, pose, of_scan.seed, k + 1));
+                                }});
+  recording.region = Eigen::AlignedBox3d(configured_region(of_scan).lower(), configured_region(of_scan).upper());
+  return recording;
+}
+
+/// Frames of a recording in the order in which a scan took them.
+Recording taken_again(const fs::path& folder, Recording recording, const Configuration& of_scan) {
+  std::vector<RecordedFrame> taken;
+  for (const Pose& pose : views_taken(folder / "views.csv", of_scan)) {
+    const auto frame = std::ranges::find_if(
+        recording.frames, [&](const RecordedFrame& f) { return f.T_world_camera.isApprox(pose, 1e-6); });
+    if (frame == recording.frames.end())
+      throw std::runtime_error(fmt::format("{}: names a view that is no frame of {}", (folder / "views.csv").string(),
+                                           of_scan.recorded.folder));
+    taken.push_back(*frame);
+  }
+  recording.frames = std::move(taken);
+  return recording;
+}
+
+Recording open_scan_folder(Configuration& c, const fs::path& folder, const Progress& progress,
+                           const std::stop_token& stop) {
+  Configuration of_scan = read_configuration(folder / "config.toml");
+  Recording recording;
+  if (of_scan.recorded.folder.empty()) {
+    recording = simulated_again(folder, of_scan, stop);
+  } else {
+    const auto source = open_configured_recording(of_scan, progress, stop);
+    recording = taken_again(folder, source->recording(), of_scan);
+    recording.region = of_scan.map.region_box();
+  }
+  adopt_settings(c, std::move(of_scan));
+  std::vector<RecordedFrame> each;
+  for (std::size_t k = 0; k < recording.frames.size(); k += std::size_t(c.recorded.every))
+    each.push_back(std::move(recording.frames[k]));
+  recording.frames = std::move(each);
+  return recording;
+}
+
+/// The recording's own camera; another one that was asked for is an error, not a wish.
+void follow_camera(Configuration& c, const PinholeCamera& camera) {
+  const auto follow = [&](const std::string& key, const std::string& text) {
+    auto all = settings(c);
+    Setting& setting = find_setting(all, key);
+    const std::string asked = setting.text();
+    setting.set(text);
+    if (c.sources.contains(key) && asked != setting.text())
+      throw std::invalid_argument(
+          fmt::format("{}: the recording has a camera of its own, with {}; leave it out", key, setting.text()));
+    c.fitted[key] = setting.text();
+  };
+  follow("sensor.width", fmt::format("{}", camera.width));
+  follow("sensor.height", fmt::format("{}", camera.height));
+  follow("sensor.intrinsics", fmt::format("{} {} {} {}", camera.fx, camera.fy, camera.cx, camera.cy));
+}
+
+void follow_region(Configuration& c, const Recording& recording) {
+  Eigen::AlignedBox3d box = recording.region.value_or(recording.extent);
+  if (!recording.region) {
+    const Vector3 around = Vector3::Constant(margin * box.sizes().maxCoeff());
+    box = {box.min() - around, box.max() + around};
+  }
+  if (c.map.region.empty() && is_given(c, "map.region_edge"))
+    box = {box.center() - Vector3::Constant(0.5 * c.map.region_edge),
+           box.center() + Vector3::Constant(0.5 * c.map.region_edge)};
+  const double voxel = c.map.resolution;
+  const Vector3 low = (box.min() / voxel).array().floor() * voxel, high = (box.max() / voxel).array().ceil() * voxel;
+  set_unless_given(c, "map.region",
+                   fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}", low.x(), low.y(), low.z(), high.x(),
+                               high.y(), high.z()));
+}
+
+/// The way from the farthest frame to behind the region [m].
+double farthest_way(const Recording& recording, const Eigen::AlignedBox3d& region) {
+  double farthest = 0.0;
+  for (const RecordedFrame& frame : recording.frames)
+    farthest = std::max(farthest, (frame.T_world_camera.translation() - region.center()).norm());
+  return farthest + 0.5 * region.diagonal().norm();
+}
+
+/// A recording ends when its frames do; what else may end it holds where it was given.
+void follow_end(Configuration& c, const Recording& recording) {
+  Configuration endless;
+  endless.termination = TerminationConfig::unlimited();
+  endless.termination.views = int(recording.frames.size());
+  for (const Setting& setting : settings(endless.termination)) set_unless_given(c, setting.key, setting.text());
+}
+
+Recording open_recording(Configuration& c, const Progress& progress, const std::stop_token& stop) {
+  const fs::path path = c.recorded.folder;
+  if (is_scan_folder(path)) return open_scan_folder(c, path, progress, stop);
+  Recording recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
+  const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
+  const Eigen::AlignedBox3d region = c.map.region.empty() ? seen : c.map.region_box();
+  fit_lengths(c, region.sizes().maxCoeff());
+  return recording;
+}
+
+}  // namespace
+
+std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, const Progress& progress,
+                                                          const std::stop_token& stop) try {
+  Recording recording = open_recording(c, progress, stop);
+  follow_camera(c, recording.camera);
+  set_unless_given(c, "sensor.min_range", "0");
+  if (!c.sources.contains("sensor.max_range")) {
+    c.sensor.max_range = recording.max_range;
+    c.fitted["sensor.max_range"] = fmt::format("{}", recording.max_range);
+  }
+  recording.max_range = std::min(recording.max_range, c.sensor.max_range);
+  follow_region(c, recording);
+  const double way = farthest_way(recording, c.map.region_box());
+  if (c.planner.ray_length < way) set_unless_given(c, "planner.ray_length", fmt::format("{:.6g}", 1.01 * way));
+  follow_end(c, recording);
+  recording.region.reset();  // which is the configuration's from here on
+  c = affordable(validated(std::move(c)));
+  return std::make_unique<RecordedSource>(std::move(recording));
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(c.as_given(error.what()));
+}
+
+std::uint32_t start_frame(const Configuration& c, const Recording& recording) {
+  const std::string& wanted = c.recorded.start;
+  if (wanted.empty()) return 0;
+  const auto named = std::ranges::find(recording.frames, wanted, &RecordedFrame::name);
+  if (named != recording.frames.end()) return std::uint32_t(named - recording.frames.begin());
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+  if (error == std::errc() && end == wanted.data() + wanted.size() && number < recording.frames.size()) return number;
+  throw std::invalid_argument(
+      c.as_given(fmt::format("recorded.start: there is no frame '{}'; there are {}, from {} to {}", wanted,
+                             recording.frames.size(), recording.frames.front().name, recording.frames.back().name)));
+}
+
+std::shared_ptr<const RecordedSurface> recorded_surface(const Configuration& c, const Recording& recording,
+                                                        const Progress& progress, const std::stop_token& stop) {
+  const VoxelGrid region = configured_region(c);
+  const auto cloud_of = [&](std::size_t frame) {
+    const RecordedFrame& f = recording.frames[frame];
+    PointCloud hits = to_scan({f.read(), f.T_world_camera, recording.max_range}, &c.cloud, stop).scan.hits;
+    std::erase_if(hits, [&](const Eigen::Vector3f& p) { return !region.contains(region.cell_at(p.cast<double>())); });
+    return hits;
+  };
+  try {
+    return std::make_shared<const RecordedSurface>(recording.frames.size(), cloud_of, c.evaluation.d_reg, progress,
+                                                   stop);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(
+        c.as_given(fmt::format("{}: {} within the region of interest (map.region)", c.recorded.folder, error.what())));
+  }
+}
+
+AlignedTruth aligned_truth(const Configuration& c, const PointCloud& scanned, const std::stop_token& stop) {
+  AlignedTruth truth{resolve_object(c.recorded.truth), nullptr, {}};
+  ObjectConfig as_it_stands = c.object;
+  as_it_stands.centred = false;
+  auto placed = std::make_shared<PlacedMesh>(load_placed_mesh(truth.file, placement(as_it_stands, truth.file), stop));
+  try {
+    truth.alignment = align(scanned, placed->mesh, stop);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", c.recorded.folder, error.what()));
+  }
+  const Pose T_scans_mesh = truth.alignment.T_surface_cloud.inverse();
+  for (Eigen::Vector3f& vertex : placed->mesh.vertices) vertex = (T_scans_mesh * vertex.cast<double>()).cast<float>();
+  truth.placed = std::move(placed);
+  return truth;
+}
+
+}  // namespace nextview
