@@ -24,17 +24,27 @@ constexpr double on_surface = 0.02;   // of the surface's longest side
 constexpr double good_overlap = 0.9;  // is not searched for a better one
 constexpr std::size_t least_points = 100;
 
+Point point_at(const Vector3& position, const Vector3& normal = Vector3::Zero()) {
+  Point point;
+  point.x = float(position.x());
+  point.y = float(position.y());
+  point.z = float(position.z());
+  point.normal_x = float(normal.x());
+  point.normal_y = float(normal.y());
+  point.normal_z = float(normal.z());
+  return point;
+}
+Vector3 position(const Point& point) { return {point.x, point.y, point.z}; }
+Vector3 normal(const Point& point) { return {point.normal_x, point.normal_y, point.normal_z}; }
+
 Cloud::Ptr surface_cloud(const TriangleMesh& mesh) {
   auto cloud = std::make_shared<Cloud>();
   const SurfaceSamples samples = sample_surface(mesh, surface_points, 1);
   for (std::size_t i = 0; i < samples.points.size(); ++i) {
     const auto& [a, b, c] = mesh.triangles[samples.triangles[i]];
-    const Eigen::Vector3f normal =
-        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized();
-    Point point;
-    point.getVector3fMap() = samples.points[i];
-    point.getNormalVector3fMap() = normal;
-    cloud->push_back(point);
+    const Vector3 at = mesh.vertices[a].cast<double>();
+    const Vector3 across = (mesh.vertices[b].cast<double>() - at).cross(mesh.vertices[c].cast<double>() - at);
+    cloud->push_back(point_at(samples.points[i].cast<double>(), across.normalized()));
   }
   return cloud;
 }
@@ -42,11 +52,8 @@ Cloud::Ptr surface_cloud(const TriangleMesh& mesh) {
 Cloud::Ptr thinned(const PointCloud& points, std::size_t count) {
   auto cloud = std::make_shared<Cloud>();
   const double stride = std::max(1.0, double(points.size()) / double(count));
-  for (double at = 0.0; at < double(points.size()); at += stride) {
-    Point point;
-    point.getVector3fMap() = points[std::size_t(at)];
-    cloud->push_back(point);
-  }
+  for (double at = 0.0; at < double(points.size()); at += stride)
+    cloud->push_back(point_at(points[std::size_t(at)].cast<double>()));
   return cloud;
 }
 
@@ -86,13 +93,12 @@ class Aligner {
     std::vector<int> index(1);
     std::vector<float> squared(1);
     for (const Point& point : cloud) {
-      Point moved;
-      moved.getVector3fMap() = (T_surface_cloud * point.getVector3fMap().cast<double>()).cast<float>();
-      if (tree_->nearestKSearch(moved, 1, index, squared) < 1 || squared[0] > std::pow(on_surface * longest_, 2))
-        continue;
+      const Vector3 moved = T_surface_cloud * position(point);
+      if (tree_->nearestKSearch(point_at(moved), 1, index, squared) < 1) continue;
+      if (squared[0] > std::pow(on_surface * longest_, 2)) continue;
       // To the plane: samples of the surface lie apart.
-      const Point& at = (*target_)[std::size_t(index[0])];
-      squares += std::pow(double((moved.getVector3fMap() - at.getVector3fMap()).dot(at.getNormalVector3fMap())), 2);
+      const Point& nearest = (*target_)[std::size_t(index[0])];
+      squares += std::pow((moved - position(nearest)).dot(normal(nearest)), 2);
       ++near;
     }
     alignment.overlap = double(near) / double(cloud.size());
