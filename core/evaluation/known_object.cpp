@@ -70,7 +70,7 @@ std::vector<std::uint8_t> KnownObject::seen_by_any() const {
 }
 
 std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera, const std::stop_token& stop) const {
-  return visible_samples(surface(), *scene_, camera_, T_world_camera, all_samples_, any_slant, stop);
+  return nextview::visible_samples(surface(), *scene_, camera_, T_world_camera, all_samples_, any_slant, stop);
 }
 
 std::vector<std::uint8_t> KnownObject::seen_from_any_pose(const Progress& progress, const std::stop_token& stop) const {

@@ -133,7 +133,7 @@ void follow_end(Configuration& c, const Recording& recording) {
   for (const Setting& setting : settings(endless.termination)) set_unless_given(c, setting.key, setting.text());
 }
 
-Recording open_recording(Configuration& c, const Progress& progress, const std::stop_token& stop) {
+Recording open_and_fit(Configuration& c, const Progress& progress, const std::stop_token& stop) {
   const fs::path path = c.recorded.folder;
   if (is_scan_folder(path)) return open_scan_folder(c, path, progress, stop);
   Recording recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
@@ -147,7 +147,7 @@ Recording open_recording(Configuration& c, const Progress& progress, const std::
 
 std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, const Progress& progress,
                                                           const std::stop_token& stop) try {
-  Recording recording = open_recording(c, progress, stop);
+  Recording recording = open_and_fit(c, progress, stop);
   follow_camera(c, recording.camera);
   set_unless_given(c, "sensor.min_range", "0");
   if (!c.sources.contains("sensor.max_range")) {

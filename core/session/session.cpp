@@ -84,7 +84,9 @@ void Session::open_map() {
   with_map.map.start = c.object.file;
   setup_.start_map = read_start_map(with_map);
   c = affordable(validated(framed_by(*setup_.start_map, with_map)));
-  source_ = std::make_unique<RecordedSource>(Recording{.camera = c.sensor.camera()});
+  Recording nothing;
+  nothing.camera = c.sensor.camera();
+  source_ = std::make_unique<RecordedSource>(std::move(nothing));
 }
 
 void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
