@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "core/config/opened_input.hpp"
 #include "core/file/read_file.hpp"
 
 namespace nextview {
@@ -22,6 +23,10 @@ constexpr std::array short_names = {
     ShortName{"--semantics", "planner.semantics"},
     ShortName{"--sensor", "sensor.preset"},
     ShortName{"--resolution", "map.resolution"},
+    ShortName{"--recorded", "recorded.folder"},
+    ShortName{"--truth", "recorded.truth"},
+    ShortName{"--every", "recorded.every"},
+    ShortName{"--start", "recorded.start"},
 };
 
 std::string describe(const Setting& setting) {
@@ -43,8 +48,10 @@ std::filesystem::path find_configuration(const std::string& name) {
 }  // namespace
 
 void ConfigurationOptions::add_to(CLI::App& app) {
-  app.add_option("OBJECT", object_,
-                 "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …");
+  app.add_option(
+      "OBJECT", object_,
+      "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …; or recorded scans: "
+      "a folder, .graph, .log or .txt");
   add_settings_to(app, {""});
 }
 
@@ -87,7 +94,17 @@ bool ConfigurationOptions::takes(const std::string& key) const {
 Configuration ConfigurationOptions::configuration() const {
   Configuration configuration;
   apply_to(configuration);
-  if (!object_.empty()) configuration.object.file = object_;
+  if (object_.empty()) return configuration;
+  if (given_.contains("recorded.folder"))
+    throw std::invalid_argument(fmt::format(
+        "{}: recorded scans are no scan of an object; give --truth {} to compare them with it", object_, object_));
+  const RecordedConfig recorded = configuration.recorded;
+  configuration = with_input(std::move(configuration), object_);
+  if (!configuration.recorded.folder.empty()) {  // the other options say how
+    const std::string folder = configuration.recorded.folder;
+    configuration.recorded = recorded;
+    configuration.recorded.folder = folder;
+  }
   return configuration;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -9,12 +10,12 @@
 #include "app/commands/shell_text.hpp"
 #include "app/commands/surface_output.hpp"
 #include "core/config/input_files.hpp"
-#include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/export/scan_files.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/session/setup_warnings.hpp"
+#include "core/setting/length_text.hpp"
 #include "ui/figures/session_figure.hpp"
 
 namespace nextview {
@@ -26,27 +27,51 @@ struct ScanArguments {
   bool no_pictures = false, no_surfaces = false;
 };
 
+std::string object_text(const Session& session) {
+  const LengthUnit unit = session.object().unit;
+  return fmt::format("{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()),
+                     size_text(*session.mesh()),
+                     unit == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit)),
+                     session.object_topology().summary(), lengths_text(session.configuration()));
+}
+
+/// What was recorded, what was guessed of it, and how it lies on the mesh that it is compared with.
+std::string recording_text(const Session& session) {
+  const Recording& recording = *session.recording();
+  const Configuration& c = session.configuration();
+  std::string text =
+      fmt::format("{}: {} ({}), {} x {} pixels; voxels {}, region {}, d_reg {}\n", printable(session.name()),
+                  counted(recording.frames.size(), "recorded frame"), recording.format, recording.camera.width,
+                  recording.camera.height, length_text(c.map.resolution), size_text(session.setup().region.box()),
+                  length_text(c.evaluation.d_reg));
+  for (const std::string& guess : recording.guessed) text += fmt::format("  {}\n", printable(guess));
+  if (const auto& alignment = session.truth_alignment())
+    text += fmt::format("Compared with {}: {:.0f} % of the points lie on it, {} from it (root mean square)\n",
+                        printable(session.object_file().filename().string()), 100.0 * alignment->overlap,
+                        length_text(alignment->residual));
+  return text;
+}
+
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = session.planner().unit();
-  const LengthUnit unit_taken = session.object().unit;
-  fmt::print("{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()), size_text(*session.mesh()),
-             unit_taken == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit_taken)),
-             session.object_topology().summary(), lengths_text(c));
-  fmt::print("{}, ranked by {}{} ({} semantics)\n\n", counted(session.candidates().size(), "candidate view"),
+  fmt::print("{}", session.recording() ? recording_text(session) : object_text(session));
+  fmt::print("{}, ranked by {}{} ({} semantics)\n\n",
+             counted(session.candidates().size(), session.recording() ? "frame to choose from" : "candidate view",
+                     session.recording() ? "frames to choose from" : "candidate views"),
              c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
              "new", "coverage", "entropy", "log loss", "seconds");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "cm²",
-             "% visible", "kbit", "nats*", "");
+             session.recording() ? "% of all" : "% visible", "kbit", "nats*", "");
 }
 
 void print_step(const StepRecord& r) {
   const StageSeconds& s = r.seconds;
   fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9.0f} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
              r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.hits, r.new_surface,
-             100.0 * r.coverage_visible, r.entropy / 1e3, r.quality_near_surface.log_loss,
+             100.0 * r.coverage_recorded.value_or(r.coverage_visible), r.entropy / 1e3, r.quality_near_surface.log_loss,
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
   if (r.refinement) {
     const auto view = [](const auto& v) { return v ? fmt::format("{}", *v) : std::string("none"); };
@@ -59,11 +84,26 @@ void print_step(const StepRecord& r) {
   std::fflush(stdout);
 }
 
+/// How soon this order showed what all frames do, beside others.
+void print_orders(const Session& session) {
+  const CoverageByOrder orders =
+      session.setup().recorded->compare_orders(frames_taken(session.state().known), session.configuration().seed);
+  const auto views_to = [](const std::vector<double>& coverage, double share) {
+    const auto there = std::ranges::find_if(coverage, [&](double c) { return c >= share; });
+    return there == coverage.end() ? std::string("-") : fmt::format("{}", there - coverage.begin() + 1);
+  };
+  fmt::print("Coverage: of what all frames show, within d_reg = {}. Views to reach it:\n{:>12} {:>8} {:>10} {:>8}\n",
+             length_text(session.setup().recorded->d_reg()), "", "planned", "recorded", "random");
+  for (const double share : {0.9, 0.95, 0.99})
+    fmt::print("{:>10.0f} % {:>8} {:>10} {:>8}\n", 100.0 * share, views_to(orders.planned, share),
+               views_to(orders.recorded, share), views_to(orders.random, share));
+}
+
 void print_end(const Session& session) {
   fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
   if (session.records().empty()) return;
   const StepRecord& last = session.records().back();
-  if (last.surface_left && session.known_object())
+  if (last.surface_left && session.known_object() && !session.recording())
     fmt::print("Surface expected to be left: {:.2g} %; truly left of what the candidates can see: {:.2g} %.\n",
                100.0 * *last.surface_left, 100.0 * (1.0 - last.coverage_visible));
   if (session.known_object())
@@ -72,6 +112,7 @@ void print_end(const Session& session) {
         "of all the\n"
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
         1e3 * session.configuration().evaluation.d_reg, 100.0 * last.coverage, 100.0 * last.coverage_paper);
+  if (session.setup().recorded) print_orders(session);
   if (last.coverage_any_pose)
     fmt::print("  Of the surface that any pose could see {:.1f} %.\n", 100.0 * *last.coverage_any_pose);
 }
@@ -82,11 +123,13 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
   fmt::print(
       "  map.ot, map.bt  the occupancy map (OctoMap: full, binary)\n"
       "{}  cloud.ply       the cleaned point cloud\n{}"
-      "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n"
+      "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n{}"
       "  config.toml     the configuration; this repeats the scan:\n"
       "                  nextview scan --config {} --out {}\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
-      surfaces, shell_text(out / "config.toml"), shell_text(free_folder(out)));
+      surfaces,
+      session.recording() ? "  orders.csv      coverage by views: this order, the recorded one, random ones\n" : "",
+      shell_text(out / "config.toml"), shell_text(free_folder(out)));
 }
 
 int run(const ScanArguments& arguments) {
@@ -97,9 +140,11 @@ int run(const ScanArguments& arguments) {
   Session session(configuration, progress, stop.token());
   progress.clear();
   print_head(session);
-  for (const std::string& warning : setup_warnings(session.configuration(), *session.mesh(), session.candidates()))
-    fmt::print(stderr, "warning: {}\n", warning);
-  out.begin("scan", session.object_file());
+  if (!session.finished().empty()) throw std::invalid_argument(session.name() + ": " + session.finished());
+  if (!session.recording())
+    for (const std::string& warning : setup_warnings(session.configuration(), *session.mesh(), session.candidates()))
+      fmt::print(stderr, "warning: {}\n", warning);
+  out.begin("scan", session.object_file().empty() ? std::nullopt : std::optional(session.object_file()));
   std::unique_ptr<SessionFigure> figure;
   if (!arguments.no_pictures) figure = std::make_unique<SessionFigure>();
   while (session.finished().empty() && session.step(progress, stop.token())) {
@@ -113,8 +158,8 @@ int run(const ScanArguments& arguments) {
   if (!arguments.no_surfaces && !session.records().empty()) {
     const auto surfaces = scan_surfaces(session, progress, stop.token());
     progress.clear();
-    surface_files = write_and_print_surfaces(surfaces, object_name(session.object_file()), session.records().size(),
-                                             out, figure != nullptr);
+    surface_files =
+        write_and_print_surfaces(surfaces, session.name(), session.records().size(), out, figure != nullptr);
   }
   print_end(session);
   print_files(session, out.path(), figure != nullptr, surface_files);
@@ -134,6 +179,7 @@ void add_scan_command(CLI::App& program) {
   app->footer(
       "Examples:\n  nextview scan --out out\n  nextview scan bunny.ply --gain rear-side-entropy --views 10 --seed 7 "
       "--out bunny\n"
+      "  nextview scan --recorded frames --out recorded\n"
       "  nextview scan --config out/config.toml --sensor.range_noise 0.005 --out noisy");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
 }

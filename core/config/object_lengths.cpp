@@ -70,6 +70,14 @@ void set_unless_given(Configuration& configuration, const std::string& key, cons
   configuration.fitted[key] = setting.text();
 }
 
+void forget_fitted(Configuration& configuration) {
+  Configuration defaults;
+  auto all = settings(configuration), unset = settings(defaults);
+  for (const auto& [key, text] : configuration.fitted)
+    if (Setting& setting = find_setting(all, key); setting.text() == text) setting.set(find_setting(unset, key).text());
+  configuration.fitted.clear();
+}
+
 bool awaits_object(const Configuration& configuration, const std::string& key) {
   return configuration.fitted.empty() && !is_given(configuration, key);
 }
@@ -84,8 +92,10 @@ MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::pat
           .ground = object.ground};
 }
 
-std::string size_text(const TriangleMesh& object) {
-  const Vector3 size = object.bounding_box().sizes().cast<double>();
+std::string size_text(const TriangleMesh& object) { return size_text(object.bounding_box()); }
+
+std::string size_text(const Eigen::AlignedBox3d& box) {
+  const Vector3 size = box.sizes();
   const bool small = size.maxCoeff() < 1.0;
   const Vector3 shown = (small ? 1e3 : 1.0) * size;
   return fmt::format("{:.4g} x {:.4g} x {:.4g} {}", shown.x(), shown.y(), shown.z(), small ? "mm" : "m");

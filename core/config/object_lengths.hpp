@@ -14,6 +14,9 @@ bool is_given(const Configuration& configuration, const std::string& key);
 /// Sets a setting that follows from what is scanned, if it was not given.
 void set_unless_given(Configuration& configuration, const std::string& key, const std::string& text);
 
+/// Settings that follow from what is scanned are as they are by default again.
+void forget_fitted(Configuration& configuration);
+
 /// Whether fit_lengths has not set this length yet, and will: what it is now means nothing.
 bool awaits_object(const Configuration& configuration, const std::string& key);
 
@@ -25,6 +28,7 @@ MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::pat
 
 /// "506 x 500.5 x 320.5 mm"
 std::string size_text(const TriangleMesh& object);
+std::string size_text(const Eigen::AlignedBox3d& box);
 /// Lengths that fit_lengths sets, as they are now: "voxels 10 mm, region 1.3 m, …".
 std::string lengths_text(const Configuration& configuration);
 

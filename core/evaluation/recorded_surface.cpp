@@ -37,6 +37,14 @@ PointCloud first_of_each_cell(const PointCloud& points, double edge, Cells& take
   return first;
 }
 
+/// The numbers below `count`, `first` before the others.
+std::vector<std::size_t> in_order_from(std::size_t first, std::size_t count) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::rotate(order.begin(), order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(first) + 1);
+  return order;
+}
+
 std::vector<std::uint32_t> observed_by(SurfaceCoverage nothing, const PointCloud& points, const std::stop_token& stop) {
   nothing.add(points, stop);
   std::vector<std::uint32_t> observed;
@@ -83,12 +91,11 @@ std::vector<double> RecordedSurface::coverage(std::span<const std::size_t> order
   return shares;
 }
 
-std::vector<double> RecordedSurface::random_coverage(std::size_t first, std::uint64_t seed, int runs) const {
+std::vector<double> RecordedSurface::random_coverage(std::size_t first, std::uint64_t seed) const {
+  constexpr int runs = 20;
   std::vector<double> mean(frames());
   for (int run = 0; run < runs; ++run) {
-    std::vector<std::size_t> order(frames());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::swap(order.front(), order[first]);
+    std::vector<std::size_t> order = in_order_from(first, frames());
     const CounterRandom random(seed, random_stream::frame_orders, std::uint32_t(run));
     for (std::size_t i = order.size(); i > 2; --i)  // Fisher-Yates; the first stays
       std::swap(order[i - 1], order[1 + static_cast<std::size_t>(random.uniform(i)[0] * double(i - 1))]);
@@ -96,6 +103,11 @@ std::vector<double> RecordedSurface::random_coverage(std::size_t first, std::uin
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += shares[k] / runs;
   }
   return mean;
+}
+
+CoverageByOrder RecordedSurface::compare_orders(std::span<const std::size_t> taken, std::uint64_t seed) const {
+  const std::size_t first = taken.front();
+  return {coverage(taken), coverage(in_order_from(first, frames())), random_coverage(first, seed)};
 }
 
 std::vector<std::size_t> RecordedSurface::covering_order(std::uint64_t seed) const {

@@ -10,6 +10,13 @@
 
 namespace nextview {
 
+/// How much of what a recording shows was seen after each view, by three orders that begin with the same frame.
+struct CoverageByOrder {
+  std::vector<double> planned;   ///< that of the views taken
+  std::vector<double> recorded;  ///< that in which it was recorded
+  std::vector<double> random;    ///< mean of 20 random ones
+};
+
 /// What all frames of a recording show together: where no mesh is known, the final cloud is what coverage is a share
 /// of. Never changes.
 class RecordedSurface {
@@ -32,12 +39,14 @@ class RecordedSurface {
 
   /// Share of the samples that are seen after the first, the second, … of these frames.
   std::vector<double> coverage(std::span<const std::size_t> order) const;
-  /// The same in the mean over `runs` orders that begin with `first` and go on at random.
-  std::vector<double> random_coverage(std::size_t first, std::uint64_t seed, int runs = 20) const;
+  /// The frames taken beside the orders that were not: theirs are of all frames. @pre !taken.empty()
+  CoverageByOrder compare_orders(std::span<const std::size_t> taken, std::uint64_t seed) const;
   /// Frames in the order of a greedy set cover, shuffled by the seed (covering_order).
   std::vector<std::size_t> covering_order(std::uint64_t seed) const;
 
  private:
+  std::vector<double> random_coverage(std::size_t first, std::uint64_t seed) const;
+
   double d_reg_;
   PointCloud samples_;
   std::vector<std::vector<std::uint32_t>> seen_from_;

@@ -20,20 +20,22 @@ std::string steps_csv(const Session& session) {
       "misses,new_voxels,"
       "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
       "nats],brier,"
-      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}\n",
+      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}{}\n",
       unit, 1e3 * d_reg, 1e3 * d_reg,
-      session.setup().any_pose.empty() ? "" : fmt::format(",coverage_any_pose@{:g}mm", 1e3 * d_reg));
+      session.setup().any_pose.empty() ? "" : fmt::format(",coverage_any_pose@{:g}mm", 1e3 * d_reg),
+      session.recording() ? fmt::format(",coverage_recorded@{:g}mm", 1e3 * d_reg) : "");
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", r.step,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}\n", r.step,
                        r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
                        r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
                        r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
                        r.quality.brier, r.quality_near_surface.log_loss, r.quality_near_surface.brier,
                        r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()),
                        r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "",
-                       r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "");
+                       r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "",
+                       r.coverage_recorded ? fmt::format(",{}", *r.coverage_recorded) : "");
   }
   return csv;
 }
@@ -73,6 +75,22 @@ std::string views_csv(const Session& session) {
     const Vector3 p = r.T_world_camera.translation();
     const Eigen::Quaterniond q(r.T_world_camera.linear());
     csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", r.step, r.view, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  return csv;
+}
+
+/// Of a recording: which frame was taken when, and how soon other orders would have shown as much.
+std::string orders_csv(const Session& session) {
+  const std::vector<std::size_t> taken = frames_taken(session.state().known);
+  const RecordedSurface& surface = *session.setup().recorded;
+  std::string csv = "views,frame,name,coverage,coverage_in_recorded_order,coverage_in_random_order\n";
+  if (taken.empty()) return csv;
+  const CoverageByOrder orders = surface.compare_orders(taken, session.configuration().seed);
+  for (std::size_t k = 0; k < surface.frames(); ++k) {
+    const bool was_taken = k < taken.size();
+    csv += fmt::format("{},{},{},{},{},{}\n", k + 1, was_taken ? fmt::format("{}", taken[k]) : "",
+                       was_taken ? session.recording()->frames[taken[k]].name : "",
+                       was_taken ? fmt::format("{}", orders.planned[k]) : "", orders.recorded[k], orders.random[k]);
   }
   return csv;
 }
@@ -128,17 +146,22 @@ std::string metrics_json(const Session& session, const PointCloud& cloud) {
     path += r.motion.distance;
     rotation += r.motion.rotation;
   }
-  nlohmann::ordered_json json = {{"object", session.object_file().filename().string()},
-                                 {"gain", session.configuration().planner.gain},
-                                 {"views", records.size()},
-                                 {"finished", session.finished()},
-                                 {"path_m", path},
-                                 {"rotation_rad", rotation}};
+  nlohmann::ordered_json json = {
+      {"object", session.object_file().empty() ? session.name() : session.object_file().filename().string()},
+      {"gain", session.configuration().planner.gain},
+      {"views", records.size()},
+      {"finished", session.finished()},
+      {"path_m", path},
+      {"rotation_rad", rotation}};
+  if (const auto& alignment = session.truth_alignment())
+    json["alignment"] = {{"residual_m", alignment->residual}, {"overlap", alignment->overlap}};
   if (!records.empty()) {
+    if (records.back().coverage_recorded) json["coverage_recorded"] = *records.back().coverage_recorded;
     json["entropy_bits"] = records.back().entropy;
     json["total_entropy_bits"] = records.back().total_entropy;
     if (records.back().surface_left) json["surface_left"]["expected_share"] = *records.back().surface_left;
-    if (session.known_object()) json["surface_left"]["true_share"] = 1.0 - records.back().coverage_visible;
+    if (session.known_object() && !session.recording())
+      json["surface_left"]["true_share"] = 1.0 - records.back().coverage_visible;
     if (session.known_object()) json.update(evaluation_json(session, cloud));
   }
   return json.dump(2) + "\n";
@@ -154,6 +177,7 @@ void write_scan(const Session& session, OutputFolder& out) {
   write_file(out.claim("scores.csv"), scores_csv(session));
   write_file(out.claim("views.csv"), views_csv(session));
   write_file(out.claim("timings.csv"), timings_csv(session));
+  if (session.recording()) write_file(out.claim("orders.csv"), orders_csv(session));
   write_file(out.claim("metrics.json"), metrics_json(session, cloud));
   write_octree(session.map(), out.claim("map.ot"));
   write_octree(session.map(), out.claim("map.bt"));

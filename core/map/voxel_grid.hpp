@@ -33,6 +33,7 @@ struct VoxelGrid {
   }
   Vector3 lower() const { return first.cast<double>() * resolution; }
   Vector3 upper() const { return (first + size).cast<double>() * resolution; }
+  Eigen::AlignedBox3d box() const { return {lower(), upper()}; }
   Vector3 centre(std::uint32_t index) const {
     return ((first + cell(index)).cast<double>() + Vector3::Constant(0.5)) * resolution;
   }

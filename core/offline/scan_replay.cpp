@@ -3,12 +3,14 @@
 #include <stdexcept>
 
 #include "core/config/input_files.hpp"
+#include "core/config/known_objects.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
 #include "core/offline/refinement.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
 #include "core/source/simulated_source.hpp"
@@ -40,6 +42,30 @@ void require_scanned_object(const fs::path& folder, const Configuration& c) {
   require_same_object(folder, resolve_object(c));
 }
 
+/// What both kinds of scans have.
+RefinementJob job_of(const Configuration& c, const PinholeCamera& camera) {
+  RefinementJob job;
+  job.grid = configured_region(c);
+  job.model = c.map.model;
+  job.ray_length = c.planner.ray_length;
+  job.bundle = scoring_rays(c, camera);
+  job.sampler = posterior_sampler_config(c);
+  job.configuration = c;
+  job.inputs = input_files(c);
+  return job;
+}
+
+/// A scan that went through recorded data.
+RefinementJob recorded_job(Configuration c, const fs::path& views, const Progress& progress,
+                           const std::stop_token& stop) {
+  const auto source = open_configured_recording(c, progress, stop);
+  RefinementJob job = job_of(c, source->describe().camera);
+  job.name = recording_name(c.recorded.folder);
+  job.candidates = poses_of(source->describe().frames);
+  job.scans = take_scans(*source, frames_listed(views, *source), &c.cloud, progress, stop);
+  return job;
+}
+
 }  // namespace
 
 RefinementJob refinement_job(const fs::path& folder, const std::function<void(Configuration&)>& override_settings,
@@ -47,8 +73,13 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   Configuration c = read_configuration(folder / "config.toml");
   if (override_settings) override_settings(c);
   c.validate();
-  require_scanned_object(folder, c);
-  RefinementJob job = refinement_job(c, views_taken(folder / "views.csv", c), progress, stop);
+  RefinementJob job;
+  if (c.recorded.folder.empty()) {
+    require_scanned_object(folder, c);
+    job = refinement_job(c, views_taken(folder / "views.csv", c), progress, stop);
+  } else {
+    job = recorded_job(c, folder / "views.csv", progress, stop);
+  }
   job.inputs.push_back({folder, "the scan that is read"});
   job.inputs.push_back({folder / "views.csv", "the list of the views that are taken again"});
   return job;
@@ -60,17 +91,10 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
   const auto [object, mesh] = load_object(c, stop);
   const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);
 
-  RefinementJob job;
+  RefinementJob job = job_of(c, world->camera.camera());
   job.name = object.stem().string();
   job.object = object;
-  job.grid = configured_region(c);
-  job.model = c.map.model;
-  job.ray_length = c.planner.ray_length;
   job.candidates = candidate_views(c.views, view_target(c));
-  job.bundle = scoring_rays(c, world->camera.camera());
-  job.sampler = posterior_sampler_config(c);
-  job.configuration = c;
-  job.inputs = input_files(c);
   SimulatedSource source(world, c.seed);
   job.scans = take_scans(source, views_at(views), &c.cloud, progress, stop);
   const KnownObject known(mesh->surroundings(), evaluation_samples(c, mesh->mesh),

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t largest_manifest = std::uintmax_t{1} << 20;  // [bytes]
 
-constexpr std::array<std::string_view, 35> names = {"calibration.json",
+constexpr std::array<std::string_view, 36> names = {"calibration.json",
                                                     "calibration.png",
                                                     "cloud.ply",
                                                     "config.toml",
@@ -28,6 +28,7 @@ constexpr std::array<std::string_view, 35> names = {"calibration.json",
                                                     "map.bt",
                                                     "map.ot",
                                                     "metrics.json",
+                                                    "orders.csv",
                                                     "new_surface.toml",
                                                     "posterior.bt",
                                                     "posterior.ot",

@@ -51,16 +51,10 @@ Recording simulated_again(const fs::path& folder, Configuration of_scan, const s
 }
 
 /// Frames of a recording in the order in which a scan took them.
-Recording taken_again(const fs::path& folder, Recording recording, const Configuration& of_scan) {
+Recording taken_again(const fs::path& folder, const RecordedSource& source) {
+  Recording recording = source.recording();
   std::vector<RecordedFrame> taken;
-  for (const Pose& pose : views_taken(folder / "views.csv", of_scan)) {
-    const auto frame = std::ranges::find_if(
-        recording.frames, [&](const RecordedFrame& f) { return f.T_world_camera.isApprox(pose, 1e-6); });
-    if (frame == recording.frames.end())
-      throw std::runtime_error(fmt::format("{}: names a view that is no frame of {}", (folder / "views.csv").string(),
-                                           of_scan.recorded.folder));
-    taken.push_back(*frame);
-  }
+  for (const View& view : frames_listed(folder / "views.csv", source)) taken.push_back(recording.frames[*view.frame]);
   recording.frames = std::move(taken);
   return recording;
 }
@@ -73,7 +67,7 @@ Recording open_scan_folder(Configuration& c, const fs::path& folder, const Progr
     recording = simulated_again(folder, of_scan, stop);
   } else {
     const auto source = open_configured_recording(of_scan, progress, stop);
-    recording = taken_again(folder, source->recording(), of_scan);
+    recording = taken_again(folder, *source);
     recording.region = of_scan.map.region_box();
   }
   adopt_settings(c, std::move(of_scan));
@@ -164,6 +158,20 @@ std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, cons
   return std::make_unique<RecordedSource>(std::move(recording));
 } catch (const std::invalid_argument& error) {
   throw std::invalid_argument(c.as_given(error.what()));
+}
+
+std::vector<View> frames_listed(const fs::path& file, const RecordedSource& source) {
+  const std::vector<View>& frames = source.describe().frames;
+  const std::vector<Pose> poses = poses_of(frames);
+  std::vector<View> listed;
+  for (const Pose& pose : views_taken(file, poses, poses.front())) {
+    const auto frame =
+        std::ranges::find_if(frames, [&](const View& view) { return view.T_world_camera.matrix() == pose.matrix(); });
+    if (frame == frames.end())
+      throw std::runtime_error(fmt::format("{}: names a view that is no frame of the recording", file.string()));
+    listed.push_back(*frame);
+  }
+  return listed;
 }
 
 std::uint32_t start_frame(const Configuration& c, const Recording& recording) {

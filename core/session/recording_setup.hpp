@@ -19,6 +19,10 @@ namespace nextview {
 std::unique_ptr<RecordedSource> open_configured_recording(Configuration& configuration, const Progress& progress,
                                                           const std::stop_token& stop);
 
+/// The frames that views.csv of a scan of this recording says were taken.
+/// @throws std::runtime_error naming the file, and the line where it is wrong inside
+std::vector<View> frames_listed(const std::filesystem::path& file, const RecordedSource& source);
+
 /// The frame that `recorded.start` names. @throws std::invalid_argument if there is none of this name or number.
 std::uint32_t start_frame(const Configuration& configuration, const Recording& recording);
 

@@ -94,9 +94,10 @@ double see_surface(const ScanSetup& setup, Knowledge& known, const Scan& scan, c
 StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
   StepRecord record;
   record.step = static_cast<int>(state.records.size()) + 1;
+  if (acquired.wanted.frame) record.view = static_cast<int>(*acquired.wanted.frame);
   const NextView& next = state.next;
   if (next.view == acquired.wanted) {
-    record.view = next.candidate ? static_cast<int>(*next.candidate) : -1;
+    if (next.candidate) record.view = static_cast<int>(*next.candidate);
     record.overridden = next.overridden;
     record.gain = next.gain;
     record.utility = next.utility;

@@ -10,9 +10,7 @@
 
 namespace nextview {
 
-std::vector<Pose> views_taken(const std::filesystem::path& file, const Configuration& configuration) {
-  const auto candidates = candidate_views(configuration.views, view_target(configuration));
-  const Pose start = configured_start_view(configuration);
+std::vector<Pose> views_taken(const std::filesystem::path& file, std::span<const Pose> candidates, const Pose& start) {
   std::istringstream text(read_file(file, std::uintmax_t{1} << 24));
   std::string line;
   std::getline(text, line);
@@ -34,6 +32,10 @@ std::vector<Pose> views_taken(const std::filesystem::path& file, const Configura
   }
   if (poses.empty()) throw std::runtime_error(fmt::format("{}: holds no view", file.string()));
   return poses;
+}
+
+std::vector<Pose> views_taken(const std::filesystem::path& file, const Configuration& c) {
+  return views_taken(file, candidate_views(c.views, view_target(c)), configured_start_view(c));
 }
 
 }  // namespace nextview

@@ -31,7 +31,7 @@ StepPicture step_picture(const Session& session) {
   StepPicture picture;
   picture.step = last.step;
   picture.step_count = c.termination.views;
-  picture.object_name = session.object_file().stem().string();
+  picture.object_name = session.object_file().empty() ? session.name() : session.object_file().stem().string();
   picture.gain_name = c.planner.gain;
   picture.gain_unit = session.planner().unit();
   picture.object = session.mesh().get();
@@ -58,8 +58,10 @@ StepPicture step_picture(const Session& session) {
   }
   ChartSeries unmeasured{"unmeasured voxels (Eq. 18)", {}, {}}, total{"all voxels, sum of H(p)", {}, {}};
   ChartSeries visible{"of the visible surface", {}, {}}, all{"of all the surface", {}, {}};
+  ChartSeries recorded{"of what all frames show", {}, {}};
   for (const StepRecord& r : session.records()) {
-    for (ChartSeries* series : {&unmeasured, &total, &visible, &all}) series->x.push_back(r.step);
+    for (ChartSeries* series : {&unmeasured, &total, &visible, &all, &recorded}) series->x.push_back(r.step);
+    recorded.y.push_back(100.0 * r.coverage_recorded.value_or(0.0));
     unmeasured.y.push_back(r.entropy / 1e6);
     total.y.push_back(r.total_entropy / 1e6);
     visible.y.push_back(100.0 * r.coverage_visible);
@@ -69,6 +71,7 @@ StepPicture step_picture(const Session& session) {
   picture.entropy.series = {unmeasured, total};
   picture.coverage.title = fmt::format("Surface coverage at d_reg = {:g} mm", 1e3 * c.evaluation.d_reg);
   if (session.known_object()) picture.coverage.series = {visible, all};
+  if (session.recording()) picture.coverage.series.insert(picture.coverage.series.begin(), recorded);
   return picture;
 }
 

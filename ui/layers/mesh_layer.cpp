@@ -146,7 +146,7 @@ MeshLayer::MeshLayer(vtkRenderer& renderer)
 void MeshLayer::show(const TriangleMesh& mesh, MeshStyle style) {
   mapper_->SetInputDataObject(with_normals(triangle_polydata(mesh)));
   set_style(style);
-  describe(corners(mesh.bounding_box()), {});
+  describe(mesh.vertices.empty() ? std::vector<Vector3>{} : corners(mesh.bounding_box()), {});
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {

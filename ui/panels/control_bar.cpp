@@ -116,9 +116,10 @@ float draw_figures(const PanelContext& context, float least, float right, float 
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return right;
   const bool any = !s.records.empty();
-  if (s.configuration.evaluation.enabled) {
-    const double coverage = any ? s.records.back().coverage_visible : 0.0;
-    right = draw_figure(context, least, right, y, fmt::format("{:.1f} %", 100 * coverage), "of visible surface");
+  if (s.truth || s.is_recording()) {
+    const double coverage = any ? s.records.back().coverage_recorded.value_or(s.records.back().coverage_visible) : 0.0;
+    right = draw_figure(context, least, right, y, fmt::format("{:.1f} %", 100 * coverage),
+                        s.is_recording() ? "of all frames" : "of visible surface");
   }
   const double bits = any ? s.records.back().entropy : double(s.grid.voxel_count());
   right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy");

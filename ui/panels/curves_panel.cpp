@@ -53,6 +53,31 @@ ChartContent entropy_content(const SessionSnapshot& s) {
   return content;
 }
 
+/// What all frames of a recording show, by this order of them and by others.
+ChartContent recorded_coverage_content(const SessionSnapshot& s) {
+  ChartContent content{fmt::format("Of what all frames show, within {:g} mm [%]", 1e3 * s.setup->recorded->d_reg()),
+                       "view",
+                       "",
+                       "coverage",
+                       "%",
+                       {},
+                       100.0,
+                       true};
+  if (!s.orders) return content;
+  const auto add = [&](const char* name, const std::vector<double>& shares) {
+    ChartSeries series{name, {}, {}};
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      series.x.push_back(double(k + 1));
+      series.y.push_back(100.0 * shares[k]);
+    }
+    content.series.push_back(std::move(series));
+  };
+  add("planned", s.orders->planned);
+  add("as recorded", s.orders->recorded);
+  add("random", s.orders->random);
+  return content;
+}
+
 ChartContent coverage_content(const SessionSnapshot& s) {
   ChartContent content{fmt::format("Surface within {:g} mm of a point [%]", 1e3 * s.configuration.evaluation.d_reg),
                        "view",
@@ -128,9 +153,18 @@ void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle&
 }  // namespace
 
 ChartContent curve_content(const SessionSnapshot& s, CurveKind kind) {
+  if (kind == CurveKind::coverage && s.is_recording()) return recorded_coverage_content(s);
   const bool needs_truth = kind == CurveKind::coverage || kind == CurveKind::divergence;
-  if (needs_truth && !s.configuration.evaluation.enabled)
-    return {"The true surface is not looked at: evaluation is off", "view", "", "", "", {}, {}, true};
+  if (needs_truth && !s.truth)
+    return {s.configuration.evaluation.enabled ? "The true surface is not known"
+                                               : "The true surface is not looked at: evaluation is off",
+            "view",
+            "",
+            "",
+            "",
+            {},
+            {},
+            true};
   switch (kind) {
     case CurveKind::coverage:
       return coverage_content(s);

@@ -16,8 +16,11 @@ std::string last_step(const SessionSnapshot& s) {
 
 std::string scanned(const SessionSnapshot& s) {
   if (!s.loaded()) return "";
-  return fmt::format("{} · {} triangles · {} × {} × {} voxels of {:g} mm", s.object_name, s.mesh->triangles.size(),
-                     s.grid.size.x(), s.grid.size.y(), s.grid.size.z(), 1e3 * s.grid.resolution);
+  const std::string of = s.is_recording() ? fmt::format(" · {} frames", s.candidates.size())
+                         : s.mesh         ? fmt::format(" · {} triangles", s.mesh->triangles.size())
+                                          : "";
+  return fmt::format("{}{} · {} × {} × {} voxels of {:g} mm", s.object_name, of, s.grid.size.x(), s.grid.size.y(),
+                     s.grid.size.z(), 1e3 * s.grid.resolution);
 }
 
 }  // namespace

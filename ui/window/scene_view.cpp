@@ -101,7 +101,7 @@ void SceneView::show_mesh(const SessionSnapshot& s, const LayerChoice& choice) {
         *s.missed->mesh,
         MeshClasses{s.missed->observed, {{"missed so far", theme::missed}, {"measured", theme::object}}, "surface"});
   } else {
-    scene_.mesh().show(*s.mesh, choice.object_style);
+    scene_.mesh().show(s.mesh ? *s.mesh : TriangleMesh{}, choice.object_style);
   }
 }
 
@@ -201,7 +201,7 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
 }
 
 void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice) {
-  scene_.mesh().set_visible(choice.object || (choice.missed && s.missed));
+  scene_.mesh().set_visible((choice.object && s.mesh) || (choice.missed && s.missed));
   scene_.cloud().set_visible(choice.cloud);
   scene_.octree().set_visible(choice.octree);
   scene_.views().set_visible(choice.views);

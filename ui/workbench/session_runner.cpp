@@ -143,7 +143,7 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
   OutputFolder out(folder, input_files(session_->configuration()), "");
-  out.begin("scan", session_->object_file());
+  out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
   control.progress(0.0, "writing the scan");
   write_scan(*session_, out);
   const auto surfaces = scan_surfaces(*session_, part(control.progress, 0.2, 0.9), control.stop);

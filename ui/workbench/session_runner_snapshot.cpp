@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "core/config/known_objects.hpp"
 #include "core/evaluation/map_quality.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "ui/workbench/session_runner.hpp"
@@ -58,10 +57,11 @@ void SessionRunner::remember_run(SessionSnapshot& snapshot) {
 void SessionRunner::show_session(SessionSnapshot& next) const {
   next.setup = std::make_shared<const ScanSetup>(session_->setup());
   next.mesh = session_->mesh();
-  next.surface_points = std::make_shared<const SurfacePoints>(
-      points_of(*next.mesh, session_->object_topology(), session_->configuration().seed));
+  next.surface_points = next.mesh ? std::make_shared<const SurfacePoints>(points_of(
+                                        *next.mesh, session_->object_topology(), session_->configuration().seed))
+                                  : nullptr;
   next.truth = seen_->truth();
-  next.object_name = object_name(session_->object_file());
+  next.object_name = session_->name();
   next.grid = session_->map().grid();
   next.camera = session_->camera();
   next.gain_unit = session_->planner().unit();
@@ -80,6 +80,10 @@ void SessionRunner::show_map(SessionSnapshot next) {
   seen_->follow(*session_);
   next.cloud = seen_->cloud();
   next.missed = seen_->missed();
+  next.orders = nullptr;
+  if (const auto taken = frames_taken(session_->state().known); next.is_recording() && !taken.empty())
+    next.orders =
+        std::make_shared<const CoverageByOrder>(next.setup->recorded->compare_orders(taken, next.configuration.seed));
   if (session_->refinement() && !next.records.empty()) show_refinement(next, *session_->refinement());
   show_next_view(next);
   publish(std::move(next));

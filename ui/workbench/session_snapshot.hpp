@@ -72,13 +72,14 @@ struct SessionSnapshot {
   std::shared_ptr<const ScanSetup> setup;               ///< null without a session
   ScanState state;                                      ///< shares its maps with the session
   std::string object_name;                              ///< for people
-  std::shared_ptr<const TriangleMesh> mesh;             ///< null without a session; so are the next two
-  std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread; null without a session
-  std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one per voxel of the grid
+  std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, as the next
+  std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread
+  std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one per voxel; null without a session
   std::shared_ptr<const SeenCloud> cloud;
   std::shared_ptr<const GibbsMap> gibbs;     ///< null if there is none
   std::shared_ptr<const GroundTruth> truth;  ///< null without evaluation; so is the next
   std::shared_ptr<const MissedPicture> missed;
+  std::shared_ptr<const CoverageByOrder> orders;   ///< of a recording, once a view was taken; else null
   std::vector<std::shared_ptr<const Scan>> scans;  ///< one per step
   VoxelGrid grid;
   PinholeCamera camera;
@@ -96,6 +97,8 @@ struct SessionSnapshot {
   bool can_undo = false, can_redo = false;
 
   bool loaded() const { return session > 0; }
+  /// Goes through recorded data, whose frames are the candidates.
+  bool is_recording() const { return setup && setup->recorded; }
   /// The candidate that the planner would take; the next view, unless that was overridden.
   std::optional<std::size_t> proposal() const { return records.empty() ? std::nullopt : records.back().ranking.best; }
   bool available(std::size_t candidate) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 
+#include "core/config/opened_input.hpp"
 #include "core/progress/stopped.hpp"
 #include "ui/workbench/overloaded.hpp"
 #include "ui/workbench/request_kind.hpp"
@@ -15,12 +16,6 @@ namespace {
 constexpr double min_progress = 0.01;
 /// Nobody needs to be told how long a shorter job will take [s].
 constexpr double min_to_estimate = 1.0;
-
-Configuration with_file(Configuration configuration, const std::filesystem::path& file) {
-  if (file.extension() == ".toml") return read_configuration(file, configuration);
-  configuration.object.file = file.string();
-  return configuration;
-}
 
 }  // namespace
 
@@ -161,7 +156,7 @@ void SessionWorker::execute(const SessionRequest& request) {
   std::visit(
       Overloaded{
           [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
-          [&](const request::OpenFile& r) { runner_.load(with_file(runner_.configuration(), r.file), job_control()); },
+          [&](const request::OpenFile& r) { runner_.load(with_input(runner_.configuration(), r.file), job_control()); },
           [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
           [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
           [&](request::Step) { runner_.step(job_control()); },

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/config/object_lengths.hpp"
+#include "core/file/counted.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/workbench/request_kind.hpp"
 #include "ui/workbench/session_worker.hpp"
@@ -21,6 +22,10 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
                         : is<request::OpenFile>(request) ? "Another file"
                                                          : "Start over",
                         views == 1 ? "view" : fmt::format("{} views", views)));
+  if (!now.mesh || now.is_recording())
+    return log.add(Level::note,
+                   fmt::format("{}: region {}, {}, {:g} mm voxels", now.object_name, size_text(now.grid.box()),
+                               counted(now.candidates.size(), "recorded frame"), 1e3 * now.grid.resolution));
   log.add(Level::note,
           fmt::format("{}: {}, {} triangles, {} candidate views, {:g} mm voxels", now.object_name, size_text(*now.mesh),
                       now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
@@ -30,8 +35,8 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
 
 void log_view(const SessionSnapshot& now, SessionLog& log) {
   const StepRecord& r = now.records.back();
-  const std::string from =
-      r.view < 0 ? r.overridden ? "your custom view" : "the start view" : fmt::format("candidate {}", r.view);
+  const std::string from = r.view < 0 ? r.overridden ? "your custom view" : "the start view"
+                                      : fmt::format("{} {}", now.is_recording() ? "frame" : "candidate", r.view);
   log.add(Level::note, fmt::format("View {} from {}{}: {} points, {:.0f} cm² of new surface", r.step, from,
                                    r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.new_surface));
   if (!r.ranking.degenerate.empty())
