@@ -17,7 +17,8 @@ namespace nextview {
 /// What one frame measured: ranges, or points in the camera frame [m].
 using Measured = std::variant<DepthImage, std::vector<Vector3>>;
 
-/// A view that was taken elsewhere. What it measured is read when it is asked for: recordings may be larger than memory.
+/// A view that was taken elsewhere. What it measured is read when it is asked for: recordings may be larger than
+/// memory.
 struct RecordedFrame {
   std::string name;  ///< for people: "frame-000003", "bun045"
   Pose T_world_camera = Pose::Identity();
