@@ -30,7 +30,7 @@ void CloudCamera::see(const Vector3& point) {
 
 PinholeCamera CloudCamera::camera() const {
   Eigen::Array2d low = low_, high = high_;
-  if (outside_ > 0) {  // as wide as it may be
+  if (outside_ == points_) {  // all behind it
     low.fill(-steepest);
     high.fill(steepest);
   }

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void say(GuessedDataset& guess, std::string_view line) { guess.guessed.push_back(fmt::format("{}", line)); }
+
 std::string intrinsics_text(const PinholeCamera& c) { return fmt::format("{} {} {} {}", c.fx, c.fy, c.cx, c.cy); }
 
 bool has(const fs::path& folder, const std::string& pattern) { return !find_frame_files(folder, pattern).empty(); }
@@ -27,7 +29,8 @@ std::string first_there(const fs::path& folder, std::initializer_list<const char
 
 std::optional<GuessedDataset> stanford(const fs::path& folder) {
   if (!has(folder, "*.conf")) return std::nullopt;
-  GuessedDataset guess{{}, {"its .conf file says that these are range images as Stanford's"}};
+  GuessedDataset guess;
+  say(guess, "its .conf file says that these are range images as Stanford's");
   guess.description.format = RecordingFormat::stanford;
   return guess;
 }
@@ -54,11 +57,10 @@ std::optional<GuessedDataset> visp_castle(const fs::path& folder) {
   d.depth.scale = 0.000030518;
   d.intrinsics = intrinsics_text(
       {0, 0, 700.0 * d.depth.width / 640, 700.0 * d.depth.width / 640, d.depth.width / 2.0, d.depth.height / 2.0});
-  guess.guessed = {
-      fmt::format("its files' names and headers say that these are depths as of ViSP's simulated castle, {} "
-                  "x {} pixels; intrinsics, the depths' scale of 0.000030518 m and poses from world to "
-                  "sensor are that scene's",
-                  d.depth.width, d.depth.height)};
+  say(guess, fmt::format("its files' names and headers say that these are depths as of ViSP's simulated castle, {} "
+                         "x {} pixels; intrinsics, the depths' scale of 0.000030518 m and poses from world to "
+                         "sensor are that scene's",
+                         d.depth.width, d.depth.height));
   return guess;
 }
 
@@ -71,11 +73,12 @@ std::optional<GuessedDataset> princeton(const fs::path& folder) {
   d.depth.scale = 1e-4;
   d.depth.encoding = DepthEncoding::rotate3;
   d.intrinsics = intrinsics_text(read_intrinsics(folder / "cam.info.txt", "Color camera intrinsic"));
-  guess.guessed = {
+  say(guess,
       "cam.info.txt says that this is a scene of Princeton's Amazon Picking Challenge: depths in 0.1 mm, their bits "
-      "rotated by three, poses from camera to world",
+      "rotated by three, poses from camera to world");
+  say(guess,
       "its depth images are aligned to the color camera: they take the color camera's intrinsics, and no "
-      "depth-to-color transformation"};
+      "depth-to-color transformation");
   return guess;
 }
 
@@ -85,11 +88,11 @@ void guess_intrinsics(const fs::path& folder, GuessedDataset& guess) {
       folder, {"camera-intrinsics.txt", "intrinsics.txt", "intrinsic_depth.txt", "intrinsic.txt", "camera.txt"});
   if (!file.empty()) {
     guess.description.intrinsics = intrinsics_text(read_intrinsics(folder / file));
-    guess.guessed.push_back(fmt::format("intrinsics are those of {}", file));
+    say(guess, fmt::format("intrinsics are those of {}", file));
     return;
   }
   guess.description.intrinsics = "525 525 319.5 239.5";
-  guess.guessed.push_back("intrinsics are not told: 525 px and the centre of 640 x 480, usual of structured light");
+  say(guess, "intrinsics are not told: 525 px and the centre of 640 x 480, usual of structured light");
 }
 
 std::optional<GuessedDataset> pose_beside_each(const fs::path& folder) {
@@ -100,9 +103,9 @@ std::optional<GuessedDataset> pose_beside_each(const fs::path& folder) {
   GuessedDataset guess;
   guess.description.frames = frames;
   guess.description.poses = poses;
-  guess.guessed = {
+  say(guess,
       "its files' names say that these are depth images as of 3DMatch or 7-Scenes: depths in mm along z, "
-      "poses from camera to world"};
+      "poses from camera to world");
   guess_intrinsics(folder, guess);
   return guess;
 }
@@ -116,10 +119,9 @@ std::optional<GuessedDataset> tum(const fs::path& folder) {
   guess.description.poses = poses;
   guess.description.poses_format = PoseFormat::tum;
   guess.description.depth.scale = 1.0 / 5000.0;
-  guess.guessed = {
-      fmt::format("depth/ and {} say that this is a recording as of TUM RGB-D: depths in 1/5000 m along z, "
-                  "poses from camera to world, each frame's the nearest in time",
-                  poses)};
+  say(guess, fmt::format("depth/ and {} say that this is a recording as of TUM RGB-D: depths in 1/5000 m along z, "
+                         "poses from camera to world, each frame's the nearest in time",
+                         poses));
   guess_intrinsics(folder, guess);
   return guess;
 }
@@ -155,12 +157,12 @@ std::optional<GuessedDataset> clouds(const fs::path& folder) {
   d.frames = frames;
   d.poses = poses;
   if (poses.empty()) {
-    guess.guessed = {"clouds whose own VIEWPOINT places them; their points are in the sensor's frame"};
+    say(guess, "clouds whose own VIEWPOINT places them; their points are in the sensor's frame");
     return guess;
   }
   d.poses_format = format_of_poses(find_frame_files(folder, poses).front().file);
-  guess.guessed = {fmt::format("clouds, placed by {}: {}, sensor to world, optical axes (z forward)", poses,
-                               d.poses_format == PoseFormat::matrix4x4 ? "matrices" : "x y z qx qy qz qw")};
+  say(guess, fmt::format("clouds, placed by {}: {}, sensor to world, optical axes (z forward)", poses,
+                         d.poses_format == PoseFormat::matrix4x4 ? "matrices" : "x y z qx qy qz qw"));
   return guess;
 }
 
@@ -182,7 +184,8 @@ std::runtime_error unknown(const fs::path& folder) {
 }
 
 DescribedDataset described_file(const fs::path& file) {
-  if (file.extension() == ".toml") return {file.parent_path(), read_dataset(file), {}, file};
+  if (file.extension() == ".toml")
+    return {file.has_parent_path() ? file.parent_path() : fs::path("."), read_dataset(file), {}, file};
   DescribedDataset found{file.parent_path(), {}, {}, {}};
   found.description.frames = file.filename().string();
   const fs::path extension = file.extension();
