@@ -4,6 +4,8 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,7 +22,12 @@ constexpr std::uintmax_t largest_file = 1 << 15;
 
 const std::vector<std::string> format_names = {"depth-images", "clouds", "stanford", "scan-graph", "scene"};
 constexpr const char* intrinsics_form = "four numbers: fx fy cx cy [px], fx and fy over 0";
+constexpr const char* offset_form = "three or seven numbers: x y z [m], maybe qx qy qz qw of length 1";
 constexpr const char* region_form = "six numbers: the least x y z, the greatest x y z [m]";
+
+bool is_list(const Setting& setting) {
+  return setting.key == "intrinsics" || setting.key == "region" || setting.key == "camera_offset";
+}
 
 bool holds_text(const Setting& setting) {
   return std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
@@ -75,11 +82,10 @@ class DatasetReader {
   }
 
   std::string value_text(const Setting& setting, const toml::node& node) const {
-    const bool is_list = setting.key == "intrinsics" || setting.key == "region";
-    if (const auto* list = node.as_array(); list && is_list) return list_text(setting, *list);
+    if (const auto* list = node.as_array(); list && is_list(setting)) return list_text(setting, *list);
     if (holds_text(setting) != node.is_string())
       throw std::invalid_argument(fmt::format("{} takes {}", setting.key,
-                                              is_list               ? "a list of numbers"
+                                              is_list(setting)      ? "a list of numbers"
                                               : holds_text(setting) ? "a text in quotes"
                                                                     : "a number without quotes"));
     if (const auto* text = node.as_string()) return text->get();
@@ -114,6 +120,7 @@ bool says_something(const DatasetDescription& d, const std::string& key) {
   if (key == "poses") return !d.poses.empty();
   if (key.starts_with("pose")) return (images || clouds) && !d.poses.empty();
   if (key == "width" || key == "height" || key == "type" || key == "offset") return images && d.depth.width > 0;
+  if (key == "camera_offset") return !d.camera_offset.empty();
   if (key == "intrinsics" || key.starts_with("depth.")) return images;
   if (key == "mask") return !d.mask.empty();
   if (key == "unit") return clouds;
@@ -121,7 +128,7 @@ bool says_something(const DatasetDescription& d, const std::string& key) {
 }
 
 std::string value_of(const Setting& setting) {
-  if (setting.key == "intrinsics" || setting.key == "region") {
+  if (is_list(setting)) {
     std::istringstream words(setting.text());
     std::string list;
     for (std::string word; words >> word;) list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
@@ -150,6 +157,8 @@ std::vector<Setting> settings(DatasetDescription& d) {
       {"pose_direction", "", "what poses take to what",
        choice(d.pose_direction, {"sensor-to-world", "world-to-sensor"})},
       {"pose_axes", "", "optical: z forward, y down; body: x forward, z up", choice(d.pose_axes, {"optical", "body"})},
+      {"camera_offset", "m", "where the camera stands in the one that poses place: x, y, z, maybe qx, qy, qz, qw",
+       &d.camera_offset},
       {"intrinsics", "px", "fx, fy, cx, cy", &d.intrinsics},
       {"mask", "", "image of pixels to ignore: those that are not 0", &d.mask},
       {"unit", "", "of the clouds and of their poses", choice(d.unit, {"auto", "m", "cm", "mm"})},
@@ -169,6 +178,18 @@ PinholeCamera DatasetDescription::camera() const {
   return {0, 0, v[0], v[1], v[2], v[3]};
 }
 
+Pose DatasetDescription::offset() const {
+  if (camera_offset.empty()) return Pose::Identity();
+  std::istringstream words(camera_offset);
+  const auto count = std::distance(std::istream_iterator<std::string>(words), {});
+  std::vector<double> v = numbers("camera_offset", camera_offset, count == 3 ? 3 : 7, offset_form);
+  if (v.size() == 3) v.insert(v.end(), {0, 0, 0, 1});
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!(std::abs(q.norm() - 1.0) <= 1e-3))
+    throw std::invalid_argument(fmt::format("camera_offset takes {}", offset_form));
+  return make_pose({v[0], v[1], v[2]}, q);
+}
+
 std::optional<Eigen::AlignedBox3d> DatasetDescription::region_box() const {
   if (region.empty()) return std::nullopt;
   const std::vector<double> v = numbers("region", region, 6, region_form);
@@ -183,6 +204,7 @@ void DatasetDescription::validate() const {
     if (!good) throw std::invalid_argument(what);
   };
   camera();
+  offset();
   region_box();
   require((depth.width == 0) == (depth.height == 0), "width and height are to be given together");
   if (format == RecordingFormat::stanford) return;

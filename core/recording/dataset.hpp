@@ -22,15 +22,18 @@ struct DatasetDescription {
   PoseFormat poses_format = PoseFormat::matrix4x4;
   PoseDirection pose_direction = PoseDirection::sensor_to_world;
   PoseAxes pose_axes = PoseAxes::optical;
-  std::string intrinsics;  ///< fx fy cx cy [px], as text
-  DepthFormat depth;       ///< width, height, type, offset and depth.*
-  std::string mask;        ///< image of pixels to ignore, relative to the folder
+  std::string camera_offset;  ///< where the camera stands in the one that the poses place (optical axes, [m]), as text:
+                              ///< x y z or x y z qx qy qz qw; empty: there
+  std::string intrinsics;     ///< fx fy cx cy [px], as text
+  DepthFormat depth;          ///< width, height, type, offset and depth.*
+  std::string mask;           ///< image of pixels to ignore, relative to the folder
   CloudUnit unit = CloudUnit::automatic;
   std::string region;  ///< min x y z, max x y z [m, world], as text; empty: none
 
   /// @throws std::invalid_argument naming the key and what it takes.
   void validate() const;
   PinholeCamera camera() const;  ///< without a size; fx is 0 if no intrinsics are given
+  Pose offset() const;           ///< T_posed_camera
   std::optional<Eigen::AlignedBox3d> region_box() const;
 };
 

@@ -58,9 +58,11 @@ std::optional<GuessedDataset> visp_castle(const fs::path& folder) {
   d.intrinsics = intrinsics_text(
       {0, 0, 700.0 * d.depth.width / 640, 700.0 * d.depth.width / 640, d.depth.width / 2.0, d.depth.height / 2.0});
   say(guess, fmt::format("its files' names and headers say that these are depths as of ViSP's simulated castle, {} "
-                         "x {} pixels; intrinsics, the depths' scale of 0.000030518 m and poses from world to "
-                         "sensor are that scene's",
+                         "x {} pixels; intrinsics and the depths' scale of 0.000030518 m are that scene's",
                          d.depth.width, d.depth.height));
+  // Checked on its mesh: points lie 0.2 mm off it in the median; without the offset, 23 mm.
+  d.camera_offset = "0.05 0 0";
+  say(guess, "its poses are from world to the color camera; the depth camera stands 0.05 m to the right of that");
   return guess;
 }
 

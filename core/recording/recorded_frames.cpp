@@ -32,13 +32,13 @@ fs::path single_file(const DescribedDataset& dataset) {
 }
 
 /// Leaves out what has no pose, and says so.
-void place_frames(Recording& recording, const FramePoses& poses) {
+void place_frames(Recording& recording, const FramePoses& poses, const Pose& T_posed_camera) {
   std::vector<RecordedFrame> placed;
   std::string first;
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
     if (poses.T_world_camera[i]) {
       placed.push_back(std::move(recording.frames[i]));
-      placed.back().T_world_camera = *poses.T_world_camera[i];
+      placed.back().T_world_camera = *poses.T_world_camera[i] * T_posed_camera;
     } else if (first.empty()) {
       first = recording.frames[i].name;
     }
@@ -67,7 +67,7 @@ void list_images(const DescribedDataset& dataset, Recording& recording) {
            return read_depth_image(file, format, camera, mask.get());
          }});
   }
-  place_frames(recording, find_poses(dataset.folder, files, d));
+  place_frames(recording, find_poses(dataset.folder, files, d), d.offset());
 }
 
 std::vector<Vector3> cloud_points(const fs::path& file, double unit, PoseAxes axes) {
@@ -102,7 +102,7 @@ void list_clouds(const DescribedDataset& dataset, double unit, Recording& record
   FramePoses poses = d.poses.empty() ? viewpoints(files, d.pose_axes) : find_poses(dataset.folder, files, d);
   for (auto& pose : poses.T_world_camera)
     if (pose) pose->translation() *= unit;
-  place_frames(recording, poses);
+  place_frames(recording, poses, d.offset());
 }
 
 void list_graph(const DescribedDataset& dataset, Recording& recording) {
