@@ -95,6 +95,7 @@ class DatasetReader {
   std::string list_text(const Setting& setting, const toml::array& list) const {
     std::string text;
     for (const toml::node& entry : list) text += number_text(setting, entry) + " ";
+    if (!text.empty()) text.pop_back();
     return text;
   }
   std::string number_text(const Setting& setting, const toml::node& node) const {
