@@ -179,7 +179,8 @@ std::optional<GuessedDataset> scan_graph(const fs::path& folder) {
 
 std::runtime_error unknown(const fs::path& folder) {
   return std::runtime_error(
-      fmt::format("{}: holds no recorded data that are known; looked for {}; a description of others can be begun with "
+      fmt::format("{}: holds neither results of Nextview (manifest.json) nor recorded data that are known; looked for "
+                  "{}; a description of others can be begun with "
                   "`nextview info "
                   "{} --write-dataset`",
                   folder.string(), known_datasets(), folder.string()));

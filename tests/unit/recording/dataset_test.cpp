@@ -34,8 +34,7 @@ TEST(Dataset, WhatIsWrittenIsReadBack) {
   DatasetDescription read = read_dataset(folder.write("dataset.toml", to_toml(d)));
   DatasetDescription copy = d;
   const auto expected = settings(copy), found = settings(read);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_EQ(found[i].text(), expected[i].text()) << found[i].key;
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].text(), expected[i].text()) << found[i].key;
   EXPECT_EQ(read.camera().fy, 501.5);
   EXPECT_EQ(read.region_box()->max(), Vector3(1, 1, 2.5));
   EXPECT_EQ(read.offset().translation(), Vector3(0.1, 0.2, 0.3));
