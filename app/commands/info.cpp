@@ -8,11 +8,14 @@
 #include "core/cloud/point_cloud.hpp"
 #include "core/cloud/range_scan_folder.hpp"
 #include "core/config/object_lengths.hpp"
+#include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "core/recording/dataset_guess.hpp"
+#include "core/recording/recording.hpp"
 #include "core/results/manifest.hpp"
 #include "core/setting/length_text.hpp"
 
@@ -114,6 +117,40 @@ std::string results_info(const fs::path& folder, const Manifest& manifest) {
   return text;
 }
 
+std::string recording_info(const fs::path& path) {
+  const Recording recording = open_recording(path);
+  const PinholeCamera& camera = recording.camera;
+  std::string text = fmt::format(
+      "recorded data ({}): {} with {}\n  {}\n  camera of {} x {} pixels, fx {:.6g}, fy {:.6g}, cx {:.6g}, cy {:.6g}; "
+      "ranges up to {}",
+      recording.format, counted(recording.frames.size(), "frame"), counted(recording.points, "point"),
+      extents(recording.extent), camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy,
+      length_text(recording.max_range));
+  if (recording.region) text += "\n  region of interest: " + extents(*recording.region);
+  for (const std::string& line : recording.guessed) text += "\n  " + printable(line);
+  return text;
+}
+
+/// Writes down what was guessed of a folder, to be corrected by hand; of one that nothing is known of, a template.
+std::string write_dataset(const fs::path& folder) {
+  const fs::path file = folder / "dataset.toml";
+  if (!fs::is_directory(folder))
+    throw std::runtime_error(fmt::format("{}: is no folder; --write-dataset takes folders", folder.string()));
+  if (is_there(file))
+    throw std::runtime_error(fmt::format("{}: is there already; it is not written over", file.string()));
+  const auto guess = guess_dataset(folder);
+  if (!guess) {
+    DatasetDescription example;
+    example.frames = "depth/*.png";
+    example.poses = "poses/*.txt";
+    example.intrinsics = "525 525 319.5 239.5";
+    write_file(file, to_toml(example));
+    return "dataset.toml is written as a template: nothing about the folder is known, so fill it in";
+  }
+  write_file(file, to_toml(guess->description));
+  return "dataset.toml is written\n  " + recording_info(folder);
+}
+
 std::string folder_info(const fs::path& folder) {
   if (const auto manifest = read_manifest(folder)) return results_info(folder, *manifest);
   for (const auto& entry : fs::directory_iterator(folder))
@@ -123,23 +160,23 @@ std::string folder_info(const fs::path& folder) {
                                                          [&](const std::string& text) { notice += "\n  " + text; });
       return "range scans (Stanford): " + scene_info(scene) + notice;
     }
-  throw std::runtime_error(fmt::format("{}: holds neither results of Nextview (manifest.json) nor range scans (.conf)",
-                                       printable(folder.string())));
+  return recording_info(folder);
 }
 
 std::string info(const fs::path& path) {
   if (fs::is_directory(path)) return folder_info(path);
   const std::string extension = path.extension().string();
   if (extension == ".ot" || extension == ".bt") return map_info(path);
+  if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".toml") return configuration_info(path);
   if (extension == ".txt") return "a scene of recorded scans: " + scene_info(read_recorded_scene(path));
   return mesh_or_cloud_info(resolve_object(path.string()));
 }
 
-int run(const std::vector<std::string>& paths) {
+int run(const std::vector<std::string>& paths, bool writes_dataset) {
   int code = 0;
   for (const std::string& path : paths) try {
-      fmt::print("{}: {}\n", printable(path), info(path));
+      fmt::print("{}: {}\n", printable(path), writes_dataset ? write_dataset(path) : info(path));
     } catch (const std::exception& error) {
       fmt::print(stderr, "nextview: {}\n", printable(error.what()));
       code = exit_bad_input;
@@ -155,11 +192,17 @@ void add_info_command(CLI::App& program) {
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
   app->add_option(
          "PATH", *paths,
-         "mesh, cloud (PLY), map (.ot, .bt), scene of scans (.txt), configuration (.toml), a folder of results or "
-         "of range scans, or gearbox, bunny, …")
+         "mesh, cloud (PLY), map (.ot, .bt), scene of scans (.txt), scan graph (.graph, .log), configuration (.toml), "
+         "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required();
-  app->footer("Examples:\n  nextview info part.stl\n  nextview info out out/map.ot out/cloud.ply");
-  app->callback([paths] { throw CLI::RuntimeError(run(*paths)); });
+  auto writes_dataset = std::make_shared<bool>(false);
+  app->add_flag(
+      "--write-dataset", *writes_dataset,
+      "write FOLDER/dataset.toml: what was guessed of recorded data, to be corrected; never over one that is there");
+  app->footer(
+      "Examples:\n  nextview info part.stl\n  nextview info out out/map.ot out/cloud.ply\n  nextview info scans "
+      "--write-dataset");
+  app->callback([paths, writes_dataset] { throw CLI::RuntimeError(run(*paths, *writes_dataset)); });
 }
 
 }  // namespace nextview

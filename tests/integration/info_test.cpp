@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 const std::string quick =
@@ -47,6 +48,31 @@ TEST(Info, TellsWhatFilesHold) {
   EXPECT_THAT(run.out, HasSubstr("map.ot: an occupancy map (OctoMap): "));
   EXPECT_THAT(run.out, AllOf(HasSubstr("a configuration that gives"), HasSubstr("map.resolution = 0.01")));
   EXPECT_EQ(run.err, "");
+}
+
+TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
+  const TemporaryFolder folder;
+  const fs::path scans = folder.path() / "scans", unknown = folder.path() / "unknown";
+  fs::create_directories(scans);
+  fs::create_directories(unknown);
+  write_file(scans / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+             "end_header\n0 0 1\n0.5 0 1\n");
+  write_file(scans / "poses.txt", "0 0 0 0 0 0 1\n");
+  write_file(folder.path() / "a.log", "NODE 0 0 0 0 0 0\n1 0 0\n");
+  const std::string scans_text = scans.string(), log = (folder.path() / "a.log").string();
+  EXPECT_THAT(
+      nextview("info " + scans_text + " " + log).out,
+      AllOf(HasSubstr("recorded data (clouds): 1 frame with 2 points"), HasSubstr("clouds, placed by poses.txt"),
+            HasSubstr("recorded data (scan-graph): 1 frame with 1 point\n")));
+  ASSERT_EQ(nextview("info --write-dataset " + scans_text).exit_code, 0);
+  EXPECT_THAT(read_file(scans / "dataset.toml"), HasSubstr("poses_format = \"quaternion_xyzw\""));
+  EXPECT_THAT(nextview("info " + scans_text + "/dataset.toml").out, Not(HasSubstr("placed by")));
+  const Result again = nextview("info --write-dataset " + scans_text);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("is there already"));
+  EXPECT_THAT(nextview("info " + unknown.string() + " --write-dataset").out, HasSubstr("as a template"));
+  EXPECT_EQ(nextview("info " + unknown.string()).exit_code, 2);
 }
 
 TEST(Info, WhatCannotBeReadIsALineAndTheRestIsTold) {

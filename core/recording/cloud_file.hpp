@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "core/cloud/point_cloud.hpp"
+
+namespace nextview {
+
+/// A cloud as its file holds it: in the file's unit, in the sensor's frame.
+struct CloudFile {
+  PointCloud points;                   ///< finite ones
+  std::optional<Pose> viewpoint = {};  ///< PCD's VIEWPOINT, T_world_sensor, if it is not the identity
+};
+
+/// Reads PLY, or PCD with float32 fields x y z (ascii or binary), plain or compressed with gzip (.gz). Points that are
+/// not finite, as PCD has them where nothing was measured, are left out.
+/// @throws std::runtime_error "FILE: reason"
+CloudFile read_cloud_file(const std::filesystem::path& file);
+
+}  // namespace nextview
