@@ -152,6 +152,7 @@ std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, cons
   follow_region(c, recording);
   const double way = farthest_way(recording, c.map.region_box());
   if (c.planner.ray_length < way) set_unless_given(c, "planner.ray_length", fmt::format("{:.6g}", 1.01 * way));
+  set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
   follow_end(c, recording);
   recording.region.reset();  // which is the configuration's from here on
   c = affordable(validated(std::move(c)));
