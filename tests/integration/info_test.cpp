@@ -66,7 +66,7 @@ TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
       AllOf(HasSubstr("recorded data (clouds): 1 frame with 2 points"), HasSubstr("clouds, placed by poses.txt"),
             HasSubstr("recorded data (scan-graph): 1 frame with 1 point\n")));
   ASSERT_EQ(nextview("info --write-dataset " + scans_text).exit_code, 0);
-  EXPECT_THAT(read_file(scans / "dataset.toml"), HasSubstr("poses_format = \"quaternion_xyzw\""));
+  EXPECT_THAT(read_file(scans / "dataset.toml"), HasSubstr("poses_format = 'quaternion_xyzw'"));
   EXPECT_THAT(nextview("info " + scans_text + "/dataset.toml").out, Not(HasSubstr("placed by")));
   const Result again = nextview("info --write-dataset " + scans_text);
   EXPECT_EQ(again.exit_code, 2);

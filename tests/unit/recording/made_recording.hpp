@@ -1,4 +1,5 @@
 #pragma once
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/view/pose.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 /// Files of recordings, written without the code that reads them.
@@ -68,6 +70,13 @@ inline std::string npy(int rows, int columns, const std::string& type, const std
   std::string bytes = "\x93NUMPY";
   bytes += std::string("\x01\x00\x76\x00", 4);  // version 1.0; 118 bytes
   return bytes + header + data;
+}
+
+/// Four rows.
+inline std::string matrix(const Pose& pose) {
+  std::string text;
+  for (int i = 0; i < 16; ++i) text += fmt::format("{:.17g}{}", pose.matrix()(i / 4, i % 4), i % 4 == 3 ? "\n" : " ");
+  return text;
 }
 
 /// What `read` throws, to be one line that names the file. Empty if it throws nothing.

@@ -20,12 +20,6 @@ const std::vector<Pose> poses = {make_pose({0, 0, 0}, Eigen::Quaterniond::Identi
                                  make_pose({0.5, 0, -1}, Eigen::Quaterniond::Identity()),
                                  make_pose({0, 1, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3::UnitY())))};
 
-std::string matrix(const Pose& pose) {
-  std::string text;
-  for (int i = 0; i < 16; ++i) text += fmt::format("{:.17g}{}", pose.matrix()(i / 4, i % 4), i % 4 == 3 ? "\n" : " ");
-  return text;
-}
-
 std::string frame(std::uint16_t value) { return depth_png(4, 3, std::vector<std::uint16_t>(12, value)); }
 
 /// The frame's points in the world, as the definition of a pinhole puts them.
