@@ -44,11 +44,7 @@ std::string recording_text(const Session& session) {
                   counted(recording.frames.size(), "recorded frame"), recording.format, recording.camera.width,
                   recording.camera.height, length_text(c.map.resolution), size_text(session.setup().region.box()),
                   length_text(c.evaluation.d_reg));
-  for (const std::string& guess : recording.guessed) text += fmt::format("  {}\n", printable(guess));
-  if (const auto& alignment = session.truth_alignment())
-    text += fmt::format("Compared with {}: {:.0f} % of the points lie on it, {} from it (root mean square)\n",
-                        printable(session.object_file().filename().string()), 100.0 * alignment->overlap,
-                        length_text(alignment->residual));
+  for (const std::string& note : session.notes()) text += fmt::format("  {}\n", printable(note));
   return text;
 }
 

@@ -51,7 +51,7 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   };
   const double longest = six_digits(longest_side);
   const double voxel = round_length(longest / 50.0);
-  fit("map.resolution", voxel);
+  if (configuration.map.start.empty()) fit("map.resolution", voxel);  // else it is that map's
   fit("map.occlusion_distance", 30.0 * voxel);
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
 }

@@ -11,6 +11,7 @@
 #include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/start_map.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 
@@ -41,6 +42,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   setup_.planner = std::move(parts.planner);
   if (!setup_.planner) setup_.planner = make_planner(c.planner);
   setup_.candidates = std::move(parts.candidates);
+  if (map_alone) setup_.candidates = std::make_shared<FixedCandidates>(std::vector<View>{});
   if (!setup_.candidates) setup_.candidates = configured_candidates(c, setup_.source);
   if (world && c.evaluation.enabled) compare_with(world, progress, stop);
   ScanState nothing = nothing_scanned(setup_, robot_->pose());
@@ -103,6 +105,16 @@ void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, c
 
 std::shared_ptr<const TriangleMesh> Session::mesh() const {
   return object_ ? std::shared_ptr<const TriangleMesh>(object_, &object_->mesh) : nullptr;
+}
+
+std::vector<std::string> Session::notes() const {
+  std::vector<std::string> notes;
+  if (recording_) notes = recording_->guessed;
+  if (truth_alignment_)
+    notes.push_back(fmt::format("{:.0f} % of its points lie on {}, {} from it (root mean square)",
+                                100.0 * truth_alignment_->overlap, object_file_.filename().string(),
+                                length_text(truth_alignment_->residual)));
+  return notes;
 }
 
 /// One turn of Algorithm 2. Whatever ends it early, the state is as it was.

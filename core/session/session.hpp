@@ -75,6 +75,8 @@ class Session {
   const Recording* recording() const { return recording_; }
   /// How a recording lies on the mesh of what was scanned; none without.
   const std::optional<Alignment>& truth_alignment() const { return truth_alignment_; }
+  /// What was guessed and found when the recording was opened, a line each, for people.
+  std::vector<std::string> notes() const;
   /// The object, if one was loaded; else null.
   std::shared_ptr<const TriangleMesh> mesh() const;
   const PlacedMesh& object() const { return *object_; }                      ///< @pre mesh()

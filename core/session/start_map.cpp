@@ -17,7 +17,6 @@ std::shared_ptr<const OccupancyMap> read_start_map(Configuration& c) {
   auto map = std::make_shared<const OccupancyMap>(read_octree(c.map.start, c.map.model));
   const double resolution = map->grid().resolution;
   set_unless_given(c, "map.resolution", fmt::format("{}", resolution));
-  c.sources.try_emplace("map.resolution", SettingSource{"map.resolution", c.map.start, fmt::format("{}", resolution)});
   if (std::abs(c.map.resolution / resolution - 1.0) > 1e-6)
     throw std::invalid_argument(
         c.as_given(fmt::format("map.resolution, {}, must be that of the map to begin with, {} ({})",

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 
+#include "core/setting/length_text.hpp"
 #include "ui/commands/window_commands.hpp"
 #include "ui/panels/plot.hpp"
 
@@ -55,7 +56,7 @@ ChartContent entropy_content(const SessionSnapshot& s) {
 
 /// What all frames of a recording show, by this order of them and by others.
 ChartContent recorded_coverage_content(const SessionSnapshot& s) {
-  ChartContent content{fmt::format("Of what all frames show, within {:g} mm [%]", 1e3 * s.setup->recorded->d_reg()),
+  ChartContent content{fmt::format("Of what all frames show, within {} [%]", length_text(s.setup->recorded->d_reg())),
                        "view",
                        "",
                        "coverage",

@@ -47,10 +47,15 @@ void draw_way_back(const PanelContext& context, const Setting& setting, const st
   tooltip(fmt::format("Back to the default, {}", default_text.empty() ? "nothing" : default_text));
 }
 
-constexpr std::array groups = {std::pair{"object", "Object"},         std::pair{"sensor", "Sensor"},
-                               std::pair{"cloud", "Cloud"},           std::pair{"map", "Map"},
-                               std::pair{"views", "Candidate views"}, std::pair{"planner", "Planner"},
-                               std::pair{"gibbs", "Gibbs sampler"},   std::pair{"termination", "Termination"},
+constexpr std::array groups = {std::pair{"object", "Object"},
+                               std::pair{"recorded", "Recorded data"},
+                               std::pair{"sensor", "Sensor"},
+                               std::pair{"cloud", "Cloud"},
+                               std::pair{"map", "Map"},
+                               std::pair{"views", "Candidate views"},
+                               std::pair{"planner", "Planner"},
+                               std::pair{"gibbs", "Gibbs sampler"},
+                               std::pair{"termination", "Termination"},
                                std::pair{"evaluation", "Evaluation"}};
 
 }  // namespace

@@ -62,6 +62,7 @@ void SessionRunner::show_session(SessionSnapshot& next) const {
                                   : nullptr;
   next.truth = seen_->truth();
   next.object_name = session_->name();
+  next.notes = session_->notes();
   next.grid = session_->map().grid();
   next.camera = session_->camera();
   next.gain_unit = session_->planner().unit();

@@ -72,6 +72,7 @@ struct SessionSnapshot {
   std::shared_ptr<const ScanSetup> setup;               ///< null without a session
   ScanState state;                                      ///< shares its maps with the session
   std::string object_name;                              ///< for people
+  std::vector<std::string> notes;                       ///< Session::notes
   std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, as the next
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread
   std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one per voxel; null without a session

@@ -22,10 +22,12 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
                         : is<request::OpenFile>(request) ? "Another file"
                                                          : "Start over",
                         views == 1 ? "view" : fmt::format("{} views", views)));
-  if (!now.mesh || now.is_recording())
-    return log.add(Level::note,
-                   fmt::format("{}: region {}, {}, {:g} mm voxels", now.object_name, size_text(now.grid.box()),
-                               counted(now.candidates.size(), "recorded frame"), 1e3 * now.grid.resolution));
+  if (!now.mesh || now.is_recording()) {
+    log.add(Level::note, fmt::format("{}: region {}, {}, {:g} mm voxels", now.object_name, size_text(now.grid.box()),
+                                     counted(now.candidates.size(), "recorded frame"), 1e3 * now.grid.resolution));
+    for (const std::string& note : now.notes) log.add(Level::note, note);
+    return;
+  }
   log.add(Level::note,
           fmt::format("{}: {}, {} triangles, {} candidate views, {:g} mm voxels", now.object_name, size_text(*now.mesh),
                       now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
