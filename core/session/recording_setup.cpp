@@ -10,6 +10,7 @@
 #include "core/file/read_file.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
+#include "core/setting/length_text.hpp"
 #include "core/source/simulated_source.hpp"
 
 namespace nextview {
@@ -204,6 +205,20 @@ std::shared_ptr<const RecordedSurface> recorded_surface(const Configuration& c, 
     throw std::invalid_argument(
         c.as_given(fmt::format("{}: {} within the region of interest (map.region)", c.recorded.folder, error.what())));
   }
+}
+
+std::string alignment_note(const Alignment& alignment, const std::string& mesh_name, const PointCloud& scanned,
+                           const TriangleMesh& mesh) {
+  constexpr double doubtful = 0.9;
+  std::string note = fmt::format("{:.0f} % of its points lie on {}, {} from it (root mean square)",
+                                 100.0 * alignment.overlap, mesh_name, length_text(alignment.residual));
+  if (alignment.overlap >= doubtful) return note;
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : scanned) box.extend(p);
+  return note + fmt::format(
+                    "; is it the same object? The scans are {} long, the mesh {}: object.unit or "
+                    "object.longest_side sets its size",
+                    length_text(box.sizes().maxCoeff()), length_text(mesh.bounding_box().sizes().maxCoeff()));
 }
 
 AlignedTruth aligned_truth(const Configuration& c, const PointCloud& scanned, const std::stop_token& stop) {

@@ -36,6 +36,9 @@ struct AlignedTruth {
   std::shared_ptr<const PlacedMesh> placed;
   Alignment alignment;  ///< of the scans with the mesh as its file has it
 };
+/// How well they agree, for people; where they hardly do, what may be the reason.
+std::string alignment_note(const Alignment& alignment, const std::string& mesh_name, const PointCloud& scanned,
+                           const TriangleMesh& mesh);
 /// @throws std::runtime_error, std::invalid_argument naming the file; Stopped
 AlignedTruth aligned_truth(const Configuration& configuration, const PointCloud& scanned, const std::stop_token& stop);
 

@@ -11,7 +11,6 @@
 #include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/start_map.hpp"
-#include "core/setting/length_text.hpp"
 
 namespace nextview {
 
@@ -111,9 +110,8 @@ std::vector<std::string> Session::notes() const {
   std::vector<std::string> notes;
   if (recording_) notes = recording_->guessed;
   if (truth_alignment_)
-    notes.push_back(fmt::format("{:.0f} % of its points lie on {}, {} from it (root mean square)",
-                                100.0 * truth_alignment_->overlap, object_file_.filename().string(),
-                                length_text(truth_alignment_->residual)));
+    notes.push_back(
+        alignment_note(*truth_alignment_, object_file_.filename().string(), setup_.recorded->samples(), object_->mesh));
   return notes;
 }
 

@@ -1,0 +1,53 @@
+#include "core/config/opened_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/config/object_lengths.hpp"
+
+namespace nextview {
+namespace {
+
+TEST(WithInput, TellsRecordingsFromObjects) {
+  EXPECT_EQ(with_input({}, "part.stl").object.file, "part.stl");
+  EXPECT_EQ(with_input({}, "bunny").object.file, "bunny");
+  EXPECT_EQ(with_input({}, "scans.graph").recorded.folder, "scans.graph");
+  EXPECT_EQ(with_input({}, "scene.txt").recorded.folder, "scene.txt");
+  EXPECT_EQ(with_input({}, testing::TempDir()).recorded.folder, testing::TempDir());
+}
+
+TEST(WithInput, ForgetsTheRecordingBefore) {
+  Configuration c = with_input({}, "scene.txt");
+  c.recorded.truth = "part.stl";
+  c.recorded.every = 3;
+  c = with_input(c, "part.stl");
+  EXPECT_EQ(c.recorded.folder, "");
+  EXPECT_EQ(c.recorded.truth, "");
+  EXPECT_EQ(c.recorded.every, 3) << "is how recordings are read, not which";
+}
+
+TEST(WithInput, ForgetsWhatFollowedFromTheObjectBefore) {
+  Configuration c;
+  c.map.resolution = 0.003;  // given
+  fit_lengths(c, 2.0);
+  set_unless_given(c, "termination.views", "7");
+  ASSERT_NE(c.views.radius, Configuration().views.radius);
+  c = with_input(c, "part.stl");
+  EXPECT_EQ(c.views.radius, Configuration().views.radius);
+  EXPECT_EQ(c.termination.views, Configuration().termination.views);
+  EXPECT_EQ(c.map.resolution, 0.003);
+}
+
+TEST(SetUnlessGiven, LeavesWhatSomeoneWants) {
+  Configuration c;
+  give(c, "termination.views", "20", "--views");  // as by default, and yet given
+  set_unless_given(c, "termination.views", "7");
+  EXPECT_EQ(c.termination.views, 20);
+  set_unless_given(c, "planner.cost_weight", "0");
+  EXPECT_EQ(c.planner.cost_weight, 0.0);
+  EXPECT_FALSE(is_given(c, "planner.cost_weight"));
+}
+
+}  // namespace
+}  // namespace nextview

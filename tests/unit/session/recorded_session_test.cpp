@@ -1,0 +1,183 @@
+// Sessions on recorded data.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/export/scan_files.hpp"
+#include "core/session/recording_setup.hpp"
+#include "core/session/session.hpp"
+#include "tests/unit/session/small_scan.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordedSession : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::path(testing::TempDir()) / "recorded_session";
+    fs::remove_all(folder_);
+    Session session(small_scan());
+    while (session.finished().empty()) session.step();
+    OutputFolder out(folder_, {});
+    out.begin("scan");
+    write_scan(session, out);
+    original_ = std::make_unique<ScanState>(session.state());
+  }
+  static void TearDownTestSuite() {
+    original_.reset();
+    fs::remove_all(folder_);
+  }
+
+  static Configuration replay() {
+    Configuration c;
+    c.recorded.folder = folder_.string();
+    return c;
+  }
+
+  static inline fs::path folder_;
+  static inline std::unique_ptr<ScanState> original_;
+};
+
+bool same_maps(const OccupancyMap& a, const OccupancyMap& b) {
+  if (a.grid().size != b.grid().size || a.grid().first != b.grid().first) return false;
+  for (std::size_t v = 0; v < a.grid().voxel_count(); ++v)
+    if (a.voxels()[v].measured != b.voxels()[v].measured || a.log_odds(v) != b.log_odds(v)) return false;
+  return true;
+}
+
+void finish(Session& session) {
+  while (session.finished().empty()) ASSERT_TRUE(session.step());
+}
+
+TEST_F(RecordedSession, AScanReplayedInItsOrderGivesItsMapToTheBit) {
+  Configuration c = replay();
+  c.planner.gain = "fixed-order";
+  Session session(c);
+  finish(session);
+  EXPECT_TRUE(same_maps(session.map(), original_->known.map));
+  ASSERT_EQ(session.scans().size(), original_->scans.size());
+  for (std::size_t k = 0; k < session.scans().size(); ++k) {
+    EXPECT_EQ(session.records()[k].view, int(k));
+    EXPECT_EQ(session.scans()[k]->hits, original_->scans[k]->hits);
+  }
+  EXPECT_DOUBLE_EQ(*session.records().back().coverage_recorded, 1.0);
+}
+
+TEST_F(RecordedSession, AnyPlannerTakesEachFrameOnce) {
+  for (const char* gain : {"new-surface", "occlusion-aware", "random", "oracle"}) {
+    Configuration c = replay();
+    c.planner.gain = gain;
+    Session session(c);
+    finish(session);
+    std::vector<int> frames;
+    double before = 0.0;
+    for (const StepRecord& r : session.records()) {
+      frames.push_back(r.view);
+      EXPECT_GE(*r.coverage_recorded, before);
+      before = *r.coverage_recorded;
+    }
+    EXPECT_THAT(frames, testing::UnorderedElementsAre(0, 1, 2, 3, 4)) << gain;
+    EXPECT_FALSE(session.known_object());
+  }
+}
+
+TEST_F(RecordedSession, TheOracleIsTheGreedyOrderOfWhatFramesShow) {
+  Configuration c = replay();
+  c.planner.gain = "oracle";
+  Session session(c);
+  const RecordedSurface& surface = *session.setup().recorded;
+  finish(session);
+  std::vector<std::size_t> taken = {0};
+  for (std::size_t k = 1; k < session.records().size(); ++k) {
+    const auto with = [&](std::size_t frame) {
+      std::vector<std::size_t> more = taken;
+      more.push_back(frame);
+      return surface.coverage(more).back();
+    };
+    const auto chosen = std::size_t(session.records()[k].view);
+    for (std::size_t frame = 0; frame < surface.frames(); ++frame) EXPECT_LE(with(frame), with(chosen) + 1e-12);
+    taken.push_back(chosen);
+  }
+}
+
+TEST_F(RecordedSession, BeginsWhereItIsToldAndTakesEachNth) {
+  Configuration c = replay();
+  c.recorded.start = "step 3";
+  Session named(c);
+  named.step();
+  EXPECT_EQ(named.records().front().view, 2);
+  c.recorded.start = "1";
+  c.recorded.every = 2;
+  Session numbered(c);
+  EXPECT_EQ(numbered.candidates().size(), 3u);
+  numbered.step();
+  EXPECT_EQ(numbered.scans().front()->hits, original_->scans[2]->hits);
+  c.recorded.start = "step 2";
+  EXPECT_THROW(Session{c}, std::invalid_argument) << "is left out";
+}
+
+TEST_F(RecordedSession, WhatWasGivenEndsItEarlier) {
+  Configuration c = replay();
+  c.termination.views = 2;
+  Session session(c);
+  finish(session);
+  EXPECT_EQ(session.records().size(), 2u);
+}
+
+TEST_F(RecordedSession, AnotherCameraIsRefused) {
+  Configuration c = replay();
+  give(c, "sensor.width", "100", "--sensor.width");
+  try {
+    Session session(c);
+    FAIL() << "the recording has 160 pixels a row";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("--sensor.width: the recording has a camera of its own, with 160"));
+  }
+}
+
+TEST_F(RecordedSession, CustomViewsCannotBeTaken) {
+  Session session(replay());
+  session.step();
+  EXPECT_THROW(session.override_next_view(session.candidates().front()), std::invalid_argument);
+  EXPECT_NO_THROW(session.override_next_view(std::size_t{3}));
+}
+
+TEST_F(RecordedSession, TheTruthIsFoundWhereverItLies) {
+  Configuration c = replay();
+  c.recorded.truth = "sphere";
+  Session session(c);
+  finish(session);
+  ASSERT_TRUE(session.known_object() && session.truth_alignment());
+  EXPECT_GT(session.truth_alignment()->overlap, 0.99);
+  EXPECT_NEAR(session.truth_alignment()->residual, 0.002, 0.001);
+  EXPECT_NEAR(session.records().back().coverage, original_->records.back()->coverage, 0.02);
+}
+
+TEST_F(RecordedSession, ItsConfigurationRepeatsIt) {
+  Session first(replay());
+  finish(first);
+  const fs::path out = fs::path(testing::TempDir()) / "recorded_session_config.toml";
+  std::ofstream(out) << to_toml(first.configuration());
+  Session second(read_configuration(out));
+  finish(second);
+  EXPECT_EQ(to_toml(first.configuration()), to_toml(second.configuration()));
+  EXPECT_TRUE(same_maps(first.map(), second.map()));
+  fs::remove(out);
+}
+
+TEST_F(RecordedSession, GoesBackToAnyView) {
+  Session session(replay());
+  session.step();
+  const ScanState early = session.state();
+  session.step();
+  const int second = session.records().back().view;
+  session.restore(early);
+  session.step();
+  EXPECT_EQ(session.records().back().view, second);
+}
+
+}  // namespace
+}  // namespace nextview
