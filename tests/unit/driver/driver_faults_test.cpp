@@ -1,0 +1,263 @@
+// Whatever a driver does wrong: nothing hangs, the reason is said, and the connection can go on.
+#include <random>
+
+#include "tests/unit/driver/fake_scanner.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Lt;
+using testing::Not;
+
+constexpr double limit = 1.5;  // of one request, that of 0.2 s and the driver's end included, on a busy machine [s]
+
+struct Fault {
+  const char* name;
+  const char* request;
+  Failure::Kind kind;
+  const char* reason;
+};
+
+/// Does what a request is for, and says how it failed.
+Failure ask_for(DriverConnection& connection, const std::string& request) {
+  if (request == "reach")
+    return failure_of(connection.reach(Pose::Identity(), std::vector<Pose>{at(1, 0, 0), at(0, 1, 0)}));
+  if (request == "move") return failure_of(connection.move(at(1, 2, 3), {}));
+  if (request == "capture") return failure_of(connection.capture(1, 7, {}));
+  return connection.reconnect().value_or(Failure{Failure::refused, "it worked"});
+}
+
+void expect_all_is_well(DriverConnection& connection) {
+  for (const char* request : {"reach", "move", "capture"})
+    EXPECT_EQ(ask_for(connection, request).reason, "it worked") << request;
+  EXPECT_EQ(connection.pose().matrix(), at(1, 2, 3).matrix());
+}
+
+std::vector<Fault> faults_of_any_request(const char* request) {
+  constexpr auto lost = Failure::disconnected;
+  const bool hello = request == std::string("hello");
+  const auto wrong = hello ? lost : Failure::no_data;
+  const auto own = request == std::string("move") ? Failure::unreachable : wrong;
+  const bool reach = request == std::string("reach");
+  return {{"die", request, lost, "it ended with exit code 3"},
+          {"killed", request, lost, "signal 9"},
+          {"complain", request, lost, "exit code 4; it last said: the arm is not switched on"},
+          {"garbage", request, lost, "its answer is no JSON: hello, world"},
+          {"list", request, lost, "no JSON object"},
+          {"no_id", request, lost, "no 'id'"},
+          {"wrong_id", request, lost, "the id 123456"},
+          {"neither", request, lost, "neither 'ok': true nor an 'error'"},
+          {"error", request, reach ? lost : own, "the arm is\\njammed"},
+          {"odd_error", request, lost, "'error' is not a text but 7"},
+          {"partial_die", request, lost, "exit code 0"},
+          {"huge", request, lost, "a line of more than 16 MiB"},
+          {"nan", request, lost, "no JSON (which has no NaN"},
+          {"null", request, wrong, hello ? "there is no 'max_range'" : "null"}};
+}
+
+std::vector<Fault> quick_faults() {
+  std::vector<Fault> faults;
+  for (const char* request : {"hello", "reach", "move", "capture"})
+    for (Fault fault : faults_of_any_request(request)) {
+      if (fault.name == std::string("null") && request == std::string("reach")) fault.reason = "there is no 'rotation'";
+      faults.push_back(fault);
+    }
+  constexpr auto lost = Failure::disconnected, no_data = Failure::no_data;
+  const std::vector<Fault> others = {
+      {"version", "hello", lost, "it speaks version 2 of the protocol, and this program version 1"},
+      {"wrong_size", "hello", lost, "'width' is not from 1 to 16384 but -4"},
+      {"another", "hello", lost, "another scanner"},
+      {"wrong_size", "reach", no_data, "each of 2 poses"},
+      {"negative", "reach", no_data, "'distance' is not at least 0 but -1"},
+      {"wrong_type", "move", no_data, "'pose' is not a list of 16 numbers but \"here\""},
+      {"few", "move", no_data, "'pose' is not a list of 16 numbers but [1,0,0]"},
+      {"not_rigid", "move", no_data, "'pose' is no rigid pose"},
+      {"none_said", "move", no_data, "there is no 'pose'"},
+      {"none_said", "capture", no_data, "there is no 'pose'"},
+      {"not_rigid", "capture", no_data, "'pose' is no rigid pose"},
+      {"wrong_size", "capture", no_data, "has 4 x 4 pixels; the driver's camera has 4 x 3"},
+      {"doubles", "capture", no_data, "'<f8'"},
+      {"short_file", "capture", no_data, "bytes of values"},
+      {"negative", "capture", no_data, "holds the range -1"},
+      {"missing_file", "capture", no_data, "missing.npy"},
+      {"folder", "capture", no_data, "of no kind"},
+  };
+  faults.insert(faults.end(), others.begin(), others.end());
+  return faults;
+}
+
+std::vector<Fault> slow_faults() {
+  std::vector<Fault> faults;
+  for (const char* request : {"hello", "reach", "move", "capture"}) {
+    for (const char* name : {"silence", "partial", "late", "stubborn", "flood"})
+      faults.push_back({name, request, Failure::disconnected, "no answer within 0.2 s"});
+    faults.push_back({"close", request, Failure::disconnected, "closed its standard"});
+  }
+  return faults;
+}
+
+void strike(const FakeScanner& fake, DriverConnection& connection, const Fault& fault) {
+  SCOPED_TRACE(std::string(fault.name) + " at " + fault.request);
+  fake.misbehave(fault.name, fault.request);
+  const Seconds seconds;
+  const Failure failure = ask_for(connection, fault.request);
+  EXPECT_LT(seconds.passed(), limit);
+  EXPECT_EQ(failure.kind, fault.kind) << failure.reason;
+  EXPECT_THAT(failure.reason, AllOf(HasSubstr("driver "), HasSubstr("fake"), HasSubstr(fault.reason)));
+  EXPECT_THAT(failure.reason, Not(HasSubstr("\n")));
+  fake.behave();
+}
+
+TEST(DriverFaults, EachFailsWithItsReasonAndReconnectingGoesOn) {
+  const FakeScanner fake;
+  const auto connection = fake.connect();
+  std::vector<Fault> faults = quick_faults();
+  for (const Fault& fault : slow_faults()) faults.push_back(fault);
+  for (const Fault& fault : faults) {
+    strike(fake, *connection, fault);
+    const Seconds seconds;
+    const auto failure = connection->reconnect();
+    EXPECT_FALSE(failure) << fault.name << " at " << fault.request << ": " << failure->reason;
+    EXPECT_LT(seconds.passed(), limit);
+    expect_all_is_well(*connection);
+  }
+}
+
+TEST(DriverFaults, AThousandAtRandomNeverHang) {
+  const FakeScanner fake;
+  const auto connection = fake.connect();
+  const std::vector<Fault> quick = quick_faults(), slow = slow_faults();
+  std::mt19937 random(7);
+  const Seconds whole;
+  for (int i = 0; i < 1000; ++i) {
+    const bool is_slow = random() % 20 == 0;
+    const auto& faults = is_slow ? slow : quick;
+    strike(fake, *connection, faults[random() % faults.size()]);
+    const auto failure = connection->reconnect();
+    ASSERT_FALSE(failure) << failure->reason;
+    if (i % 10 == 0) expect_all_is_well(*connection);
+  }
+  EXPECT_LT(whole.passed(), 120.0);
+}
+
+TEST(DriverFaults, OfTheFirstGreetingAreExceptions) {
+  FakeScanner fake;
+  for (const Fault& fault : quick_faults()) {
+    if (fault.request != std::string("hello") || fault.name == std::string("another")) continue;
+    fake.misbehave(fault.name, "hello");
+    EXPECT_THAT(fake.refusal(), HasSubstr(fault.reason)) << fault.name;
+  }
+  fake.misbehave("silence", "hello");
+  EXPECT_THAT(fake.refusal(), HasSubstr("hello: no answer within 0.2 s"));
+}
+
+TEST(DriverFaults, WhatIsWrongWithAnAnswerLosesNoConnection) {
+  const FakeScanner fake;
+  const auto connection = fake.connect();
+  for (const Fault& fault : quick_faults()) {
+    if (fault.request == std::string("hello") || fault.kind == Failure::disconnected) continue;
+    strike(fake, *connection, fault);
+    expect_all_is_well(*connection);
+  }
+}
+
+TEST(DriverFaults, AnAnswerThatComesTooLateIsDropped) {
+  const FakeScanner fake;
+  const auto connection = fake.connect();
+  fake.misbehave("late", "move");
+  EXPECT_THAT(failure_of(connection->move(at(5, 5, 5), {})).reason, HasSubstr("no answer"));
+  EXPECT_TRUE(connection->is_lost());
+  fake.behave();
+  expect_all_is_well(*connection);
+  EXPECT_FALSE(connection->is_lost());
+}
+
+TEST(DriverFaults, WhoHasDiedIsSaidToUntilItIsReconnected) {
+  const FakeScanner fake;
+  const auto connection = fake.connect();
+  fake.misbehave("die", "move");
+  ask_for(*connection, "move");
+  fake.behave();
+  EXPECT_THAT(ask_for(*connection, "move").reason, HasSubstr("does not run any more; reconnect"));
+  fake.misbehave("die", "hello");
+  EXPECT_THAT(ask_for(*connection, "hello").reason, HasSubstr("exit code 3"));
+  EXPECT_THAT(ask_for(*connection, "move").reason, HasSubstr("does not run; reconnect"));
+  EXPECT_TRUE(connection->is_lost());
+  fake.behave();
+  EXPECT_FALSE(connection->reconnect());
+  expect_all_is_well(*connection);
+}
+
+TEST(DriverFaults, AStopEndsADriverThatCannotStop) {
+  const FakeScanner fake("for-ever");
+  const auto connection = fake.connect();
+  fake.misbehave("silence", "move");
+  std::stop_source stop;
+  const std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    stop.request_stop();
+  });
+  const Seconds seconds;
+  const Failure failure = failure_of(connection->move(at(1, 0, 0), stop.get_token()));
+  EXPECT_GT(seconds.passed(), 0.35) << "it is waited for longer than the time-out of others";
+  EXPECT_LT(seconds.passed(), 0.4 + limit);
+  EXPECT_EQ(failure.kind, Failure::cancelled);
+  EXPECT_THAT(failure.reason, HasSubstr("no ability to stop"));
+  fake.behave();
+  EXPECT_FALSE(connection->reconnect());
+  expect_all_is_well(*connection);
+}
+
+TEST(DriverFaults, AStopIsSentToADriverThatCan) {
+  const FakeScanner fake("stop for-ever");
+  const auto connection = fake.connect();
+  for (const char* request : {"move", "capture"}) {
+    fake.misbehave("slow", request);
+    std::stop_source stop;
+    const std::jthread stopper([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      stop.request_stop();
+    });
+    const Failure failure = request == std::string("move") ? failure_of(connection->move(at(1, 0, 0), stop.get_token()))
+                                                           : failure_of(connection->capture(1, 1, stop.get_token()));
+    EXPECT_EQ(failure.kind, Failure::cancelled);
+    EXPECT_THAT(failure.reason, HasSubstr(std::string(request) + ": stopped"));
+    EXPECT_FALSE(connection->is_lost());
+    fake.behave();
+    expect_all_is_well(*connection);
+  }
+}
+
+TEST(DriverFaults, WhoSaysItStopsAndDoesNotIsEnded) {
+  const FakeScanner fake("stop for-ever");
+  const auto connection = fake.connect();
+  fake.misbehave("stubborn", "move");
+  std::stop_source stop;
+  const std::jthread stopper([&] { stop.request_stop(); });
+  const Seconds seconds;
+  EXPECT_EQ(failure_of(connection->move(at(1, 0, 0), stop.get_token())).kind, Failure::cancelled);
+  EXPECT_LT(seconds.passed(), limit);
+}
+
+TEST(DriverFaults, AStopBeforehandAsksNothing) {
+  const FakeScanner fake;
+  const auto connection = fake.connect();
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(failure_of(connection->move(at(1, 0, 0), stop.get_token())).kind, Failure::cancelled);
+  expect_all_is_well(*connection);
+}
+
+TEST(DriverFaults, ManyViewsAreAskedForInOneExchange) {
+  FakeScanner fake;
+  fake.options.timeout = 20.0;
+  const auto connection = fake.connect();
+  const auto answer = connection->reach(Pose::Identity(), std::vector<Pose>(20000, at(0.1, 0.2, 0.3)));
+  ASSERT_TRUE(std::holds_alternative<std::vector<Reach>>(answer)) << failure_of(answer).reason;
+  EXPECT_EQ(std::get<std::vector<Reach>>(answer).size(), 20000u);
+}
+
+}  // namespace
+}  // namespace nextview

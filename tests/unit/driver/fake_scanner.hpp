@@ -1,0 +1,62 @@
+#pragma once
+#include <gmock/gmock.h>
+
+#include <chrono>
+
+#include "core/driver/driver_scanner.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
+
+namespace nextview {
+
+/// A driver that does what a test says (fake/fake_driver.cpp).
+class FakeScanner {
+ public:
+  explicit FakeScanner(const std::string& abilities = {}) { options.command += abilities; }
+
+  /// What goes wrong from now on, at a request: "nan", "move".
+  void misbehave(const std::string& fault, const std::string& request) const {
+    folder.write("fault", fault + " " + request);
+  }
+  void behave() const { folder.write("fault", ""); }
+
+  std::shared_ptr<DriverConnection> connect() const { return std::make_shared<DriverConnection>(options); }
+  /// Why there is no connection.
+  std::string refusal() const {
+    try {
+      connect();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "it is connected";
+  }
+
+  TemporaryFolder folder;
+  DriverOptions options = {
+      .command = std::string("'") + NEXTVIEW_FAKE_DRIVER + "' '" + (folder / "fault").string() + "' ",
+      .timeout = 0.2,
+      .folder = folder / "captures",
+      .stop_time = 0.2,
+      .grace = 0.05};
+};
+
+inline Pose at(double x, double y, double z) {
+  return make_pose({x, y, z}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3(1, 2, 3).normalized())));
+}
+
+/// Why something failed; of no meaning if it did not.
+template <class T>
+Failure failure_of(const Result<T>& result) {
+  const auto* failure = std::get_if<Failure>(&result);
+  return failure ? *failure : Failure{Failure::refused, "it worked"};
+}
+
+/// What a part of a test took.
+class Seconds {
+ public:
+  double passed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace nextview
