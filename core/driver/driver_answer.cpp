@@ -117,11 +117,13 @@ std::vector<std::string> DriverAnswer::texts(const char* key) const {
   return list.get<std::vector<std::string>>();
 }
 
-Pose DriverAnswer::pose(const char* key) const try {
-  return pose_of(numbers(key, 16));
-} catch (const std::invalid_argument& error) {
-  const std::string reason = error.what();
-  throw std::invalid_argument(reason.find(key) != reason.npos ? reason : fmt::format("'{}' {}", key, reason));
+Pose DriverAnswer::pose(const char* key) const {
+  const std::vector<double> values = numbers(key, 16);
+  try {
+    return pose_of(values);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("'{}' {}", key, error.what()));
+  }
 }
 
 std::vector<Reach> DriverAnswer::reaches(const char* key, std::size_t count) const {
