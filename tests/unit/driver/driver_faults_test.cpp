@@ -237,7 +237,10 @@ TEST(DriverFaults, WhoSaysItStopsAndDoesNotIsEnded) {
   const auto connection = fake.connect();
   fake.misbehave("stubborn", "move");
   std::stop_source stop;
-  const std::jthread stopper([&] { stop.request_stop(); });
+  const std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop.request_stop();
+  });
   const Seconds seconds;
   EXPECT_EQ(failure_of(connection->move(at(1, 0, 0), stop.get_token())).kind, Failure::cancelled);
   EXPECT_LT(seconds.passed(), limit);
