@@ -43,7 +43,6 @@ DriverConnection::DriverConnection(DriverOptions options, std::stop_token stop)
     : options_(std::move(options)), words_(words_of(options_.command)) {
   require_time("driver.timeout", options_.timeout);
   if (options_.folder.empty()) throw std::invalid_argument("a driver needs a folder for its captures");
-  std::filesystem::create_directories(options_.folder);
   options_.folder = std::filesystem::absolute(options_.folder);
   const Result<DriverGreeting> greeting = start(stop);
   if (const auto* failure = std::get_if<Failure>(&greeting)) {
@@ -127,6 +126,10 @@ Result<Pose> DriverConnection::move(const Pose& T_world_camera, std::stop_token 
 
 Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed, std::stop_token stop) {
   if (!protocol_) return not_running();
+  std::error_code error;
+  if (std::filesystem::create_directories(options_.folder, error); error)
+    return Failure{Failure::no_data, fmt::format("{}: the folder for captures cannot be made: {}",
+                                                 printable(options_.folder.string()), error.message())};
   const Result<CapturedFile> captured =
       noted(protocol_->capture(step, seed, options_.folder, {patience(), std::move(stop)}));
   if (const auto* failure = std::get_if<Failure>(&captured)) return *failure;
@@ -135,8 +138,8 @@ Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed
         read_capture(std::get<CapturedFile>(captured), options_.folder, greeting_.camera, greeting_.max_range);
     pose_ = capture.T_world_camera;
     return capture;
-  } catch (const std::runtime_error& error) {
-    return Failure{Failure::no_data, fmt::format("driver {}: capture: {}", protocol_->name(), error.what())};
+  } catch (const std::runtime_error& unreadable) {
+    return Failure{Failure::no_data, fmt::format("driver {}: capture: {}", protocol_->name(), unreadable.what())};
   }
 }
 

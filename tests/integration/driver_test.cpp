@@ -6,9 +6,10 @@
 #include <cstring>
 
 #include "core/driver/driver_scanner.hpp"
+#include "core/file/read_file.hpp"
 #include "core/session/session.hpp"
 #include "core/session/session_parts.hpp"
-#include "tests/integration/program.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -79,7 +80,7 @@ TEST(DriverSimulated, GivesTheBytesOfTheBuiltInSource) {
   for (const char* object : {"box", "slotted_plate"}) {
     const Configuration c = small_scan(object, true);
     Session plain(c);
-    const auto connection = std::make_shared<DriverConnection>(simulated(object, folder.path()));
+    const auto connection = std::make_shared<DriverConnection>(simulated(object, folder / "captures"));
     EXPECT_EQ(connection->greeting().object, plain.object_file().string());
     Session driven(c, parts_of(connection, c));
     while (plain.finished().empty()) plain.step();
@@ -93,7 +94,7 @@ TEST(DriverSimulated, GivesTheBytesOfTheBuiltInSource) {
 TEST(DriverSimulated, NeedsNoObjectInTheSession) {
   const TemporaryFolder folder;
   const Configuration c = small_scan("box", false);
-  const auto connection = std::make_shared<DriverConnection>(simulated("box", folder.path()));
+  const auto connection = std::make_shared<DriverConnection>(simulated("box", folder / "captures"));
   Session plain(c), driven(c, parts_of(connection, c));
   for (int step = 0; step < 3; ++step) {
     plain.step();
@@ -105,7 +106,7 @@ TEST(DriverSimulated, NeedsNoObjectInTheSession) {
 TEST(DriverSimulated, GoesBackAndOnAndSurvivesItsDriver) {
   const TemporaryFolder folder;
   const Configuration c = small_scan("box", false);
-  const auto connection = std::make_shared<DriverConnection>(simulated("box", folder.path()));
+  const auto connection = std::make_shared<DriverConnection>(simulated("box", folder / "captures"));
   Session plain(c), driven(c, parts_of(connection, c));
   plain.step();
   driven.step();
@@ -124,7 +125,7 @@ TEST(DriverSimulated, GoesBackAndOnAndSurvivesItsDriver) {
 TEST(DriverSimulated, StandsWhereItIsConfigured) {
   const TemporaryFolder folder;
   Configuration c = small_scan("box", false);
-  const DriverConnection connection(simulated("box", folder.path(), "--planner.start_azimuth 30"));
+  const DriverConnection connection(simulated("box", folder / "captures", "--planner.start_azimuth 30"));
   load_object(c);
   c.planner.start_azimuth = 30.0;
   EXPECT_EQ(connection.greeting().start->matrix(), configured_start_view(c).matrix());
@@ -135,7 +136,7 @@ TEST(DriverSimulated, SaysWhatIsWrongWithItsOptions) {
   const TemporaryFolder folder;
   const auto reason = [&](const std::string& object, const std::string& more) -> std::string {
     try {
-      DriverConnection connection(simulated(object, folder.path(), more));
+      DriverConnection connection(simulated(object, folder / "captures", more));
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -143,10 +144,17 @@ TEST(DriverSimulated, SaysWhatIsWrongWithItsOptions) {
   };
   EXPECT_THAT(reason("none.ply", ""), AllOf(HasSubstr("exit code 2"), HasSubstr("none.ply")));
   EXPECT_THAT(reason("box", "--sensor.max_range -1"), AllOf(HasSubstr("exit code 2"), HasSubstr("sensor.max_range")));
-  EXPECT_EQ(nextview("driver").exit_code, 2);
-  EXPECT_THAT(
-      nextview_behind("echo '{\"id\": 1, \"request\": \"hello\", \"protocol\": 1}' |", "driver simulated box").out,
-      AllOf(HasSubstr("\"ok\":true"), HasSubstr("\"abilities\":[\"stop\",\"simulated\"]")));
+}
+
+TEST(DriverSimulated, CanBeSpokenToFromAShell) {
+  const TemporaryFolder folder;
+  const std::string answers = (folder / "answers").string();
+  const std::string command =
+      "echo '{\"id\": 1, \"request\": \"hello\", \"protocol\": 1}' | env -u DISPLAY '" NEXTVIEW_PROGRAM
+      "' driver simulated box >'" +
+      answers + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_THAT(read_file(answers), AllOf(HasSubstr("\"ok\":true"), HasSubstr("\"abilities\":[\"stop\",\"simulated\"]")));
 }
 
 }  // namespace

@@ -144,6 +144,16 @@ TEST(DriverScanner, ALostDriverIsAnErrorAndNoUnreachableView) {
   EXPECT_THROW(robot.reach(robot.pose(), std::vector<View>{{at(1, 0, 1)}}), std::runtime_error);
 }
 
+TEST(DriverScanner, TheFolderIsMadeWithTheFirstCapture) {
+  FakeScanner fake;
+  const auto connection = fake.connect();
+  EXPECT_FALSE(std::filesystem::exists(fake.options.folder));
+  EXPECT_TRUE(std::holds_alternative<Capture>(connection->capture(1, 1, {})));
+  fake.options.folder = fake.folder.write("file", "") / "captures";
+  EXPECT_THAT(failure_of(fake.connect()->capture(1, 1, {})).reason,
+              AllOf(HasSubstr("file/captures"), HasSubstr("cannot be made")));
+}
+
 TEST(DriverScanner, OptionsAreChecked) {
   const auto with = [](const auto& change) {
     FakeScanner fake;

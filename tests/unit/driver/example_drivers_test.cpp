@@ -11,6 +11,10 @@ using testing::HasSubstr;
 
 class ExampleDriver : public testing::Test {
  protected:
+  void SetUp() override {
+    if (std::system("command -v python3 >/dev/null") != 0) GTEST_SKIP() << "there is no python3";
+  }
+
   DriverOptions run(const std::string& script, const std::string& more = {}) {
     std::filesystem::create_directories(scans);
     return {.command = "python3 '" NEXTVIEW_DRIVERS "/" + script + "' '" + scans.string() + "' " + more,

@@ -50,6 +50,24 @@ Failure failure_of(const Result<T>& result) {
   return failure ? *failure : Failure{Failure::refused, "it worked"};
 }
 
+/// Of one request, that of 0.2 s and the driver's end included, on a busy machine [s].
+inline constexpr double limit = 1.5;
+
+/// Does what a request is for, and says how it failed.
+inline Failure ask_for(DriverConnection& connection, const std::string& request) {
+  if (request == "reach")
+    return failure_of(connection.reach(Pose::Identity(), std::vector<Pose>{at(1, 0, 0), at(0, 1, 0)}));
+  if (request == "move") return failure_of(connection.move(at(1, 2, 3), {}));
+  if (request == "capture") return failure_of(connection.capture(1, 7, {}));
+  return connection.reconnect().value_or(Failure{Failure::refused, "it worked"});
+}
+
+inline void expect_all_is_well(DriverConnection& connection) {
+  for (const char* request : {"reach", "move", "capture"})
+    EXPECT_EQ(ask_for(connection, request).reason, "it worked") << request;
+  EXPECT_EQ(connection.pose().matrix(), at(1, 2, 3).matrix());
+}
+
 /// What a part of a test took.
 class Seconds {
  public:
