@@ -1,4 +1,5 @@
 #pragma once
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -11,7 +12,13 @@ namespace nextview {
 /// A driver that does what a test says (fake/fake_driver.cpp).
 class FakeScanner {
  public:
-  explicit FakeScanner(const std::string& abilities = {}) { options.command += abilities; }
+  explicit FakeScanner(const std::string& abilities = {}) {
+    options.command = fmt::format("'{}' '{}' {}", NEXTVIEW_FAKE_DRIVER, (folder / "fault").string(), abilities);
+    options.timeout = 0.2;
+    options.folder = folder / "captures";
+    options.stop_time = 0.2;
+    options.grace = 0.05;
+  }
 
   /// What goes wrong from now on, at a request: "nan", "move".
   void misbehave(const std::string& fault, const std::string& request) const {
@@ -31,12 +38,7 @@ class FakeScanner {
   }
 
   TemporaryFolder folder;
-  DriverOptions options = {
-      .command = std::string("'") + NEXTVIEW_FAKE_DRIVER + "' '" + (folder / "fault").string() + "' ",
-      .timeout = 0.2,
-      .folder = folder / "captures",
-      .stop_time = 0.2,
-      .grace = 0.05};
+  DriverOptions options;
 };
 
 inline Pose at(double x, double y, double z) {
