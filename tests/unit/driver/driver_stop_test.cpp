@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(DriverStop, EndsADriverThatCannotStop) {
-  const FakeScanner fake("for-ever");
+  const FakeScanner fake("for-ever", 0.2);
   const auto connection = fake.connect();
   fake.misbehave("silence", "move");
   std::stop_source stop;
@@ -29,7 +29,7 @@ TEST(DriverStop, EndsADriverThatCannotStop) {
 }
 
 TEST(DriverStop, IsSentToADriverThatCan) {
-  const FakeScanner fake("stop for-ever");
+  const FakeScanner fake("stop for-ever", 2.0);
   const auto connection = fake.connect();
   for (const char* request : {"move", "capture"}) {
     fake.misbehave("slow", request);
@@ -49,7 +49,7 @@ TEST(DriverStop, IsSentToADriverThatCan) {
 }
 
 TEST(DriverStop, EndsWhoSaysItStopsAndDoesNot) {
-  const FakeScanner fake("stop for-ever");
+  const FakeScanner fake("stop for-ever", 2.0);
   const auto connection = fake.connect();
   fake.misbehave("stubborn", "move");
   std::stop_source stop;

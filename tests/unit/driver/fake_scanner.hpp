@@ -12,9 +12,9 @@ namespace nextview {
 /// A driver that does what a test says (fake/fake_driver.cpp).
 class FakeScanner {
  public:
-  explicit FakeScanner(const std::string& abilities = {}) {
+  explicit FakeScanner(const std::string& abilities = {}, double time_out = 20.0) {
     options.command = fmt::format("'{}' '{}' {}", NEXTVIEW_FAKE_DRIVER, (folder / "fault").string(), abilities);
-    options.timeout = 0.2;
+    options.timeout = time_out;
     options.folder = folder / "captures";
     options.stop_time = 0.2;
     options.grace = 0.05;
@@ -53,7 +53,7 @@ Failure failure_of(const Result<T>& result) {
 }
 
 /// Of one request, that of 0.2 s and the driver's end included, on a busy machine [s].
-inline constexpr double limit = 1.5;
+inline constexpr double limit = 3.0;
 
 /// Does what a request is for, and says how it failed.
 inline Failure ask_for(DriverConnection& connection, const std::string& request) {
