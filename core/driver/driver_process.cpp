@@ -57,7 +57,12 @@ DriverProcess::DriverProcess(const std::vector<std::string>& words, std::functio
   to_ = std::move(started.input);
   from_ = std::move(started.output);
   for (const Descriptor* end : {&to_, &from_}) ::fcntl(end->get(), F_SETFL, O_NONBLOCK);
-  errors_ = std::make_unique<ErrorStream>(std::move(started.errors), std::move(log));
+  try {
+    errors_ = std::make_unique<ErrorStream>(std::move(started.errors), std::move(log));
+  } catch (...) {  // there can be no more threads
+    end();
+    throw;
+  }
 }
 
 DriverProcess::~DriverProcess() { end(); }

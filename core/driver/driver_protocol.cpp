@@ -97,8 +97,7 @@ Result<T> read_answer(const Result<DriverAnswer>& answer, const Read& read, cons
 }  // namespace
 
 Result<DriverGreeting> DriverProtocol::hello(const Wait& wait) {
-  const auto answer =
-      ask(Json{{"request", "hello"}, {"protocol", driver_protocol_version}}.dump(), Failure::disconnected, wait);
+  const auto answer = ask("hello", Json{{"protocol", driver_protocol_version}}.dump(), Failure::disconnected, wait);
   auto greeting = read_answer<DriverGreeting>(answer, greeting_of, [&](const std::string& reason) {
     return failure(Failure::disconnected, "hello: " + reason);
   });
@@ -112,16 +111,15 @@ Result<DriverGreeting> DriverProtocol::hello(const Wait& wait) {
 Result<std::vector<Reach>> DriverProtocol::reach(const Pose& from, std::span<const Pose> poses, const Wait& wait) {
   Json list = Json::array();
   for (const Pose& pose : poses) list.push_back(by_rows(pose));
-  const auto answer = ask(Json{{"request", "reach"}, {"from", by_rows(from)}, {"poses", std::move(list)}}.dump(),
-                          Failure::disconnected, wait);
+  const auto answer =
+      ask("reach", Json{{"from", by_rows(from)}, {"poses", std::move(list)}}.dump(), Failure::disconnected, wait);
   return read_answer<std::vector<Reach>>(
       answer, [&](const DriverAnswer& a) { return a.reaches("reach", poses.size()); },
       [&](const std::string& reason) { return failure(Failure::no_data, "reach: " + reason); });
 }
 
 Result<Pose> DriverProtocol::move(const Pose& T_world_camera, const Wait& wait) {
-  const auto answer =
-      ask(Json{{"request", "move"}, {"pose", by_rows(T_world_camera)}}.dump(), Failure::unreachable, wait);
+  const auto answer = ask("move", Json{{"pose", by_rows(T_world_camera)}}.dump(), Failure::unreachable, wait);
   return read_answer<Pose>(
       answer, [](const DriverAnswer& a) { return a.pose("pose"); },
       [&](const std::string& reason) { return failure(Failure::no_data, "move: " + reason); });
@@ -130,8 +128,7 @@ Result<Pose> DriverProtocol::move(const Pose& T_world_camera, const Wait& wait) 
 Result<CapturedFile> DriverProtocol::capture(std::uint32_t step, std::uint64_t seed,
                                              const std::filesystem::path& folder, const Wait& wait) try {
   const auto answer =
-      ask(Json{{"request", "capture"}, {"step", step}, {"seed", seed}, {"folder", folder.string()}}.dump(),
-          Failure::no_data, wait);
+      ask("capture", Json{{"step", step}, {"seed", seed}, {"folder", folder.string()}}.dump(), Failure::no_data, wait);
   return read_answer<CapturedFile>(answer, captured_file_of, [&](const std::string& reason) {
     return failure(Failure::no_data, "capture: " + reason);
   });
@@ -139,14 +136,13 @@ Result<CapturedFile> DriverProtocol::capture(std::uint32_t step, std::uint64_t s
   return failure(Failure::no_data, "capture: the folder's name is not UTF-8: " + printable(folder.string()));
 }
 
-/// `request` is a JSON object without an id.
-Result<DriverAnswer> DriverProtocol::ask(std::string request, Failure::Kind on_error, const Wait& wait) {
-  Json json = Json::parse(request);
-  const std::string what = json["request"];
-  const std::uint64_t id = json["id"] = ++last_id_;
+/// `what` it is asked, and with it a JSON object that is not empty.
+Result<DriverAnswer> DriverProtocol::ask(const std::string& what, std::string_view with, Failure::Kind on_error,
+                                         const Wait& wait) {
+  const std::uint64_t id = ++last_id_;
   if (process_.has_ended()) return failure(Failure::disconnected, "it does not run any more; reconnect");
   if (wait.stop.stop_requested()) return failure(Failure::cancelled, what + ": stopped");
-  process_.send(json.dump());
+  process_.send(fmt::format(R"({{"id":{},"request":"{}",{})", id, what, with.substr(1)));
   auto deadline = deadline_of(wait.seconds);
   bool stopping = false;
   for (std::string line;;) switch (process_.receive(line, deadline, stopping ? std::stop_token{} : wait.stop)) {
@@ -157,6 +153,7 @@ Result<DriverAnswer> DriverProtocol::ask(std::string request, Failure::Kind on_e
           if (answer.id() == 0 || answer.id() > last_id_)
             throw std::invalid_argument(fmt::format("its answer has the id {}, which nobody asked with", answer.id()));
         } catch (const std::invalid_argument& error) {
+          abandon();
           return failure(Failure::disconnected, fmt::format("{}: {}", what, error.what()));
         }
         // An answer that came too late, or that of the stop. A flood of them is no answer.
@@ -201,9 +198,13 @@ Failure DriverProtocol::silent(const std::string& request, double seconds, bool 
     process_.end();
     return failure(Failure::cancelled, request + ": it did not stop and was ended; reconnect");
   }
-  // Nobody waits for it any more: it is not to go on moving.
-  if (can_stop_) process_.send(Json{{"id", ++last_id_}, {"request", "stop"}}.dump());
+  abandon();
   return failure(Failure::disconnected, fmt::format("{}: no answer within {:g} s", request, seconds));
+}
+
+/// Nobody waits for what it does any more: it is not to go on moving.
+void DriverProtocol::abandon() {
+  if (can_stop_) process_.send(Json{{"id", ++last_id_}, {"request", "stop"}}.dump());
 }
 
 Failure DriverProtocol::closed() {

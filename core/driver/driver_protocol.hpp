@@ -81,10 +81,11 @@ class DriverProtocol {
   bool has_ended() const { return process_.has_ended(); }
 
  private:
-  Result<DriverAnswer> ask(std::string request, Failure::Kind on_error, const Wait& wait);
+  Result<DriverAnswer> ask(const std::string& what, std::string_view with, Failure::Kind on_error, const Wait& wait);
   Result<DriverAnswer> settle(DriverAnswer answer, const std::string& request, Failure::Kind on_error, bool stopping);
   std::optional<Failure> stop_or_end(const std::string& request);
   Failure silent(const std::string& request, double seconds, bool stopping);
+  void abandon();
   Failure closed();
   Failure failure(Failure::Kind kind, const std::string& reason) const;
 

@@ -16,6 +16,8 @@ namespace {
 
 constexpr int look_every = 50;              // for the end [ms]
 constexpr std::size_t longest_line = 4096;  // longer ones are broken
+constexpr std::size_t read_at_once = 4096;
+constexpr int most_at_end = 16;  // reads of what a full pipe holds
 /// A program that has ended may have children that keep its standard error open.
 constexpr auto patience = std::chrono::milliseconds(200);
 
@@ -39,13 +41,12 @@ std::string ErrorStream::last_line() {
 }
 
 void ErrorStream::run(const std::stop_token& stop) {
-  for (bool open = true; open;) {
+  for (int left = most_at_end; left > 0;) {
     pollfd waiting = {pipe_.get(), POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, stop.stop_requested() ? 0 : look_every);
-    if (ready > 0)
-      open = read_some();
-    else if (stop.stop_requested())
-      open = false;
+    const bool stopping = stop.stop_requested();
+    const int ready = ::poll(&waiting, 1, stopping ? 0 : look_every);
+    left -= stopping;
+    if (ready > 0 ? !read_some() : stopping) break;
   }
   if (!line_.empty()) say();
   const std::lock_guard lock(mutex_);
@@ -54,7 +55,7 @@ void ErrorStream::run(const std::stop_token& stop) {
 }
 
 bool ErrorStream::read_some() {
-  std::array<char, 4096> bytes;
+  std::array<char, read_at_once> bytes;
   const ssize_t got = ::read(pipe_.get(), bytes.data(), bytes.size());
   if (got < 0) return errno == EINTR || errno == EAGAIN;
   take({bytes.data(), static_cast<std::size_t>(got)});

@@ -153,6 +153,16 @@ TEST(DriverProcess, EndsWithAllThatItStarted) {
   }
 }
 
+/// What has left the process group is not ours to end; its complaints are not waited for.
+TEST(DriverProcess, DoesNotWaitForWhoHasLeft) {
+  const Seconds seconds;
+  {
+    DriverProcess process(shell("setsid timeout 3 yes >&2 & echo started; sleep 60"), {}, 0.05);
+    EXPECT_EQ(line_of(process), "started");
+  }
+  EXPECT_LT(seconds.passed(), 2.0);
+}
+
 TEST(DriverProcess, SaysByeBeforeItEnds) {
   const TemporaryFolder folder;
   const std::string file = (folder / "said").string();

@@ -71,5 +71,15 @@ TEST(DriverStop, BeforehandAsksNothing) {
   expect_all_is_well(*connection);
 }
 
+/// What it was doing when it was last heard of, it may still do.
+TEST(DriverStop, IsSentToWhoIsNotWaitedForAnyMore) {
+  const FakeScanner fake("stop", 0.2);
+  const auto connection = fake.connect();
+  fake.misbehave("slow", "move");
+  EXPECT_THAT(failure_of(connection->move(at(1, 0, 0), {})).reason, HasSubstr("no answer within 0.2 s"));
+  fake.behave();
+  expect_all_is_well(*connection);  // it would not answer had it not been told to stop
+}
+
 }  // namespace
 }  // namespace nextview
