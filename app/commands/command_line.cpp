@@ -15,7 +15,7 @@
 namespace nextview {
 namespace {
 
-constexpr std::array subcommands = {"scan", "score", "refine", "posterior", "calibrate", "info", "window"};
+constexpr std::array subcommands = {"scan", "score", "refine", "posterior", "calibrate", "info", "driver", "window"};
 constexpr std::array drawing = {"scan", "refine", "calibrate"};
 
 template <class List>

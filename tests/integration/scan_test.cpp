@@ -98,7 +98,7 @@ TEST(Scan, EveryGainAndBaselineRuns) {
 }
 
 TEST(Help, EverySubcommandHasAnExample) {
-  for (const char* command : {"", "scan", "score", "refine", "calibrate", "window", "info"}) {
+  for (const char* command : {"", "scan", "score", "refine", "calibrate", "window", "info", "driver"}) {
     const Result run = nextview(std::string(command) + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("Example"));

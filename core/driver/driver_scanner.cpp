@@ -1,0 +1,81 @@
+#include "core/driver/driver_scanner.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <stdexcept>
+
+namespace nextview {
+
+DriverSource::DriverSource(std::shared_ptr<DriverConnection> connection, std::uint64_t seed)
+    : connection_(std::move(connection)), seed_(seed), description_(connection_->description()) {}
+
+Result<Capture> DriverSource::capture(const View&, std::uint32_t step, std::stop_token stop) {
+  return connection_->capture(step, seed_, std::move(stop));
+}
+
+DriverRobot::DriverRobot(std::shared_ptr<DriverConnection> connection, const Pose& start)
+    : connection_(std::move(connection)) {
+  if (!connection_->greeting().start) connection_->set_pose(start);
+}
+
+std::vector<Reach> DriverRobot::reach(const Pose& from, std::span<const View> views) {
+  std::vector<Reach> result;
+  std::vector<Pose> asked;
+  for (const View& view : views) {
+    result.push_back({forbidden(view.T_world_camera), {}});
+    if (result.back().unreachable.empty()) asked.push_back(view.T_world_camera);
+  }
+  if (asked.empty()) return result;
+  const Result<std::vector<Reach>> answer = connection_->reach(from, asked);
+  if (const auto* failure = std::get_if<Failure>(&answer)) throw std::runtime_error(failure->reason);
+  auto next = std::get<std::vector<Reach>>(answer).begin();
+  for (Reach& reach : result)
+    if (reach.unreachable.empty()) reach = *next++;
+  return result;
+}
+
+Result<Pose> DriverRobot::move_to(const View& view, std::stop_token stop) {
+  const Pose& wanted = view.T_world_camera;
+  if (stop.stop_requested()) return Failure{Failure::cancelled, "the move was cancelled"};
+  if (const std::string reason = forbidden(wanted); !reason.empty()) return Failure{Failure::unreachable, reason};
+  const bool real = !connection_->is_simulated() && !connection_->is_free_hand();
+  if (const auto& confirm = connection_->options().confirm; real && confirm && !confirm(pose(), wanted))
+    return Failure{Failure::refused, "the operator refused the move"};
+  Result<Pose> reached = connection_->move(wanted, stop);
+  if (std::holds_alternative<Failure>(reached)) return reached;
+  if (stop.stop_requested()) return Failure{Failure::cancelled, "the move was cancelled"};
+  if (const std::string reason = missed_by(wanted, std::get<Pose>(reached)); !reason.empty())
+    return Failure{Failure::unreachable, reason};
+  return reached;
+}
+
+void DriverRobot::restored(const Pose& T_world_camera) {
+  if (!connection_->is_simulated()) return;
+  // Where it should be, even if it cannot be told now: moves say where to, not how far.
+  if (!connection_->is_lost() && forbidden(T_world_camera).empty()) connection_->move(T_world_camera, {});
+  connection_->set_pose(T_world_camera);
+}
+
+/// Why a pose is not even asked for; empty if it is.
+std::string DriverRobot::forbidden(const Pose& T_world_camera) const {
+  if (!is_rigid(T_world_camera)) return "the pose is not finite, or not rigid";
+  const auto& volume = connection_->options().working_volume;
+  const Vector3 p = T_world_camera.translation();
+  if (!volume || volume->contains(p)) return {};
+  return fmt::format("the camera at ({:.3g}, {:.3g}, {:.3g}) m would leave the working volume (robot.working_volume)",
+                     p.x(), p.y(), p.z());
+}
+
+/// Empty where it is near enough, or where a hand moves it.
+std::string DriverRobot::missed_by(const Pose& wanted, const Pose& reached) const {
+  const DriverOptions& options = connection_->options();
+  const double distance = (reached.translation() - wanted.translation()).norm();
+  const double angle = rotation_angle(wanted, reached) * 180.0 / std::numbers::pi;
+  if (connection_->is_free_hand() || (distance <= options.reached_within && angle <= options.turned_within)) return {};
+  return fmt::format(
+      "the robot stopped {:.3g} m and {:.3g} degrees from the view (at most {:g} m and {:g} degrees are taken)",
+      distance, angle, options.reached_within, options.turned_within);
+}
+
+}  // namespace nextview
