@@ -45,7 +45,7 @@ TEST(SetUnlessGiven, LeavesWhatSomeoneWants) {
   set_unless_given(c, "termination.views", "7");
   EXPECT_EQ(c.termination.views, 20);
   set_unless_given(c, "planner.cost_weight", "0");
-  EXPECT_EQ(c.planner.cost_weight, 0.0);
+  EXPECT_EQ(c.planner.weights.cost, 0.0);
   EXPECT_FALSE(is_given(c, "planner.cost_weight"));
 }
 

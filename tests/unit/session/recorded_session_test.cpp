@@ -48,10 +48,6 @@ bool same_maps(const OccupancyMap& a, const OccupancyMap& b) {
   return true;
 }
 
-void finish(Session& session) {
-  while (session.finished().empty()) ASSERT_TRUE(session.step());
-}
-
 TEST_F(RecordedSession, AScanReplayedInItsOrderGivesItsMapToTheBit) {
   Configuration c = replay();
   c.planner.gain = "fixed-order";
@@ -79,7 +75,7 @@ TEST_F(RecordedSession, AnyPlannerTakesEachFrameOnce) {
       EXPECT_GE(*r.coverage_recorded, before);
       before = *r.coverage_recorded;
     }
-    EXPECT_THAT(frames, testing::UnorderedElementsAre(0, 1, 2, 3, 4)) << gain;
+    EXPECT_THAT(frames, testing::UnorderedElementsAre(0, 1, 2, 3)) << gain;
     EXPECT_FALSE(session.known_object());
   }
 }
@@ -112,7 +108,7 @@ TEST_F(RecordedSession, BeginsWhereItIsToldAndTakesEachNth) {
   c.recorded.start = "1";
   c.recorded.every = 2;
   Session numbered(c);
-  EXPECT_EQ(numbered.candidates().size(), 3u);
+  EXPECT_EQ(numbered.candidates().size(), 2u);
   numbered.step();
   EXPECT_EQ(numbered.scans().front()->hits, original_->scans[2]->hits);
   c.recorded.start = "step 2";
@@ -132,9 +128,9 @@ TEST_F(RecordedSession, AnotherCameraIsRefused) {
   give(c, "sensor.width", "100", "--sensor.width");
   try {
     Session session(c);
-    FAIL() << "the recording has 160 pixels a row";
+    FAIL() << "the recording has 80 pixels a row";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("--sensor.width: the recording has a camera of its own, with 160"));
+    EXPECT_THAT(error.what(), testing::StartsWith("--sensor.width: the recording has a camera of its own, with 80"));
   }
 }
 
@@ -147,7 +143,7 @@ TEST_F(RecordedSession, CustomViewsCannotBeTaken) {
 
 TEST_F(RecordedSession, TheTruthIsFoundWhereverItLies) {
   Configuration c = replay();
-  c.recorded.truth = "sphere";
+  c.recorded.truth = "box";
   Session session(c);
   finish(session);
   ASSERT_TRUE(session.known_object() && session.truth_alignment());
