@@ -7,6 +7,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/scanner.hpp"
 #include "app/commands/shell_text.hpp"
 #include "app/commands/surface_output.hpp"
 #include "core/config/input_files.hpp"
@@ -21,10 +22,13 @@
 namespace nextview {
 namespace {
 
+constexpr int most_failures = 3;  // of a live scanner, one after the other
+
 struct ScanArguments {
   ConfigurationOptions options;
   std::string out = "out";
   bool no_pictures = false, no_surfaces = false;
+  ScannerOptions scanner;
 };
 
 std::string object_text(const Session& session) {
@@ -51,7 +55,9 @@ std::string recording_text(const Session& session) {
 void print_head(const Session& session) {
   const Configuration& c = session.configuration();
   const std::string unit = session.planner().unit();
-  fmt::print("{}", session.recording() ? recording_text(session) : object_text(session));
+  fmt::print("{}", session.recording() ? recording_text(session)
+                   : session.mesh()    ? object_text(session)
+                                       : fmt::format("{}: {}\n", printable(session.name()), lengths_text(c)));
   fmt::print("{}, ranked by {}{} ({} semantics)\n\n",
              counted(session.candidates().size(), session.recording() ? "frame to choose from" : "candidate view",
                      session.recording() ? "frames to choose from" : "candidate views"),
@@ -128,37 +134,69 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
       shell_text(out / "config.toml"), shell_text(free_folder(out)));
 }
 
-int run(const ScanArguments& arguments) {
-  const Configuration configuration = arguments.options.configuration();
-  OutputFolder out(arguments.out, input_files(configuration));
-  const StopOnInterrupt stop;
-  const ProgressLine progress;
-  Session session(configuration, progress, stop.token());
-  progress.clear();
-  print_head(session);
-  if (!session.finished().empty()) throw std::invalid_argument(session.name() + ": " + session.finished());
-  if (!session.recording())
-    for (const std::string& warning : setup_warnings(session.configuration(), *session.mesh(), session.candidates()))
-      fmt::print(stderr, "warning: {}\n", warning);
-  out.begin("scan", session.object_file().empty() ? std::nullopt : std::optional(session.object_file()));
+/// Takes the views, one after the other, with a picture of each. A live scanner that fails is reached again.
+void take_views(Session& session, Scanner* scanner, OutputFolder& out, bool pictures, const ProgressLine& progress,
+                const std::stop_token& stop) {
   std::unique_ptr<SessionFigure> figure;
-  if (!arguments.no_pictures) figure = std::make_unique<SessionFigure>();
-  while (session.finished().empty() && session.step(progress, stop.token())) {
+  if (pictures) figure = std::make_unique<SessionFigure>();
+  int failures = 0;  // one after the other
+  while (session.finished().empty()) {
+    try {
+      if (!session.step(progress, stop)) break;
+    } catch (const std::runtime_error& error) {
+      progress.clear();
+      if (!scanner || ++failures > most_failures) throw;
+      fmt::print(stderr, "{}\n", printable(error.what()));
+      scanner->reconnect(stop);
+      continue;
+    }
+    failures = 0;
     progress.clear();
     print_step(session.records().back());
     if (figure) figure->write(session, out.claim(fmt::format("step_{:02}.png", session.records().size())));
   }
+}
+
+void write_results(const Session& session, const ScanArguments& arguments, OutputFolder& out,
+                   const ProgressLine& progress, const std::stop_token& stop) {
   progress(1.0, "writing the files");
   write_scan(session, out);
   std::string surface_files;
   if (!arguments.no_surfaces && !session.records().empty()) {
-    const auto surfaces = scan_surfaces(session, progress, stop.token());
+    const auto surfaces = scan_surfaces(session, progress, stop);
     progress.clear();
     surface_files =
-        write_and_print_surfaces(surfaces, session.name(), session.records().size(), out, figure != nullptr);
+        write_and_print_surfaces(surfaces, session.name(), session.records().size(), out, !arguments.no_pictures);
   }
   print_end(session);
-  print_files(session, out.path(), figure != nullptr, surface_files);
+  print_files(session, out.path(), !arguments.no_pictures, surface_files);
+}
+
+int run(const ScanArguments& arguments) {
+  Configuration configuration = arguments.options.configuration();
+  OutputFolder out(arguments.out, input_files(configuration));
+  const StopOnInterrupt stop;
+  const ProgressLine progress;
+  std::optional<Scanner> scanner;
+  if (arguments.scanner.wanted()) scanner.emplace(arguments.scanner, configuration, stop.token());
+  SessionParts parts = scanner ? scanner->parts(configuration) : SessionParts{};
+  Session session(configuration, std::move(parts), progress, stop.token());
+  progress.clear();
+  if (!session.finished().empty()) throw std::invalid_argument(session.name() + ": " + session.finished());
+  print_head(session);
+  if (!session.recording() && session.mesh())
+    for (const std::string& warning : setup_warnings(session.configuration(), *session.mesh(), session.candidates()))
+      fmt::print(stderr, "warning: {}\n", warning);
+  out.begin("scan", session.object_file().empty() ? std::nullopt : std::optional(session.object_file()));
+  std::string failure;
+  try {
+    take_views(session, scanner ? &*scanner : nullptr, out, !arguments.no_pictures, progress, stop.token());
+  } catch (const std::runtime_error& error) {
+    if (!scanner) throw;
+    failure = error.what();  // what was taken is written all the same
+  }
+  write_results(session, arguments, out, progress, stop.token());
+  if (!failure.empty()) throw std::runtime_error(failure);
   return session.finished().empty() || stop.token().stop_requested() ? exit_stopped : 0;
 }
 
@@ -169,6 +207,7 @@ void add_scan_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("scan", "Scan an object without a display: pictures, map, cloud, surfaces and numbers");
   arguments->options.add_to(*app);
+  arguments->scanner.add_to(*app);
   app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
   app->add_flag("--no-surfaces", arguments->no_surfaces, "make no surfaces: faster");
@@ -176,6 +215,7 @@ void add_scan_command(CLI::App& program) {
       "Examples:\n  nextview scan --out out\n  nextview scan bunny.ply --gain rear-side-entropy --views 10 --seed 7 "
       "--out bunny\n"
       "  nextview scan --recorded frames --out recorded\n"
+      "  nextview scan --driver \"python3 turntable.py scans\" --map.region \"-0.1 -0.1 0 0.1 0.1 0.2\" --out part\n"
       "  nextview scan --config out/config.toml --sensor.range_noise 0.005 --out noisy");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
 }

@@ -159,6 +159,8 @@ void require_valid(const Configuration& c) {
   c.map.model.validate();
   c.gibbs.validate();
   c.planner.validate();
+  c.driver.volume();
+  c.driver.T_flange_camera();
   require_region(c);
   require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
           fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));

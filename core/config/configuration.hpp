@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,18 @@ struct RecordedConfig {
   std::string start;       ///< name or number of the frame to begin with; empty: the first
   int every = 1;           ///< takes each n-th frame
   double stand_off = 0.7;  ///< of the scanner that took Stanford's range images, which do not tell [m]
+};
+
+/// A live scanner (core/driver). Its command is no setting: no file may start a program.
+struct DriverConfig {
+  double timeout = 30.0;       ///< of each request [s]; 0: for ever where something is moved or captured
+  std::string hand_eye;        ///< T_flange_camera, `x y z qx qy qz qw`, where the driver's poses are the flange's
+  std::string working_volume;  ///< that the camera must not leave, `x y z x y z` of its corners [m, world]; empty: any
+
+  /// None where any place will do. @throws std::invalid_argument if it is no box
+  std::optional<Eigen::AlignedBox3d> volume() const;
+  /// @throws std::invalid_argument if it is no pose
+  Pose T_flange_camera() const;
 };
 
 struct MapConfig {
@@ -73,6 +86,7 @@ struct Configuration {
   std::uint64_t seed = 1;
   ObjectConfig object;
   RecordedConfig recorded;
+  DriverConfig driver;
   std::string sensor_preset = "paper";
   DepthCameraConfig sensor;
   CloudConfig cloud;

@@ -14,10 +14,10 @@ struct FittedLength {
   const char* key;
   double share;  ///< of the longest side
 };
-constexpr std::array fitted_lengths = {FittedLength{"map.region_edge", 2.56},    FittedLength{"views.radius", 1.8},
-                                       FittedLength{"planner.ray_length", 3.0},  FittedLength{"evaluation.d_reg", 0.01},
-                                       FittedLength{"sensor.min_range", 0.4},    FittedLength{"sensor.max_range", 3.0},
-                                       FittedLength{"sensor.range_noise", 0.004}};
+constexpr std::array fitted_lengths = {
+    FittedLength{"map.region_edge", 2.56},  FittedLength{"planner.ray_length", 3.0},
+    FittedLength{"evaluation.d_reg", 0.01}, FittedLength{"sensor.min_range", 0.4},
+    FittedLength{"sensor.max_range", 3.0},  FittedLength{"sensor.range_noise", 0.004}};
 
 /// Of 1, 2 and 5 x 10^k the one that is nearest in ratio.
 double round_length(double length) {
@@ -53,6 +53,10 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   const double voxel = round_length(longest / 50.0);
   if (configuration.map.start.empty()) fit("map.resolution", voxel);  // else it is that map's
   fit("map.occlusion_distance", 30.0 * voxel);
+  if (configuration.sensor.working_distance > 0.0)
+    fit("views.radius", configuration.sensor.working_distance);
+  else
+    fit("views.radius", 1.8 * longest);
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
 }
 

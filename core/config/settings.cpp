@@ -22,11 +22,30 @@ std::vector<Setting> settings(MapConfig& c) {
   return all;
 }
 
-Eigen::AlignedBox3d MapConfig::region_box() const {
-  if (region.empty()) return {Vector3::Constant(-0.5 * region_edge), Vector3::Constant(0.5 * region_edge)};
-  const std::vector<double> v = numbers("map.region", region, 6, "x y z of two opposite corners");
+namespace {
+
+Eigen::AlignedBox3d box_of(const char* key, const std::string& text) {
+  const std::vector<double> v = numbers(key, text, 6, "x y z of two opposite corners");
   Eigen::AlignedBox3d box(Vector3(v[0], v[1], v[2]));
   return box.extend(Vector3(v[3], v[4], v[5]));
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d MapConfig::region_box() const {
+  if (region.empty()) return {Vector3::Constant(-0.5 * region_edge), Vector3::Constant(0.5 * region_edge)};
+  return box_of("map.region", region);
+}
+
+std::optional<Eigen::AlignedBox3d> DriverConfig::volume() const {
+  if (working_volume.empty()) return std::nullopt;
+  return box_of("robot.working_volume", working_volume);
+}
+
+Pose DriverConfig::T_flange_camera() const try {
+  return hand_eye.empty() ? Pose::Identity() : parse_view(hand_eye);
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(std::string("driver.hand_eye: ") + error.what());
 }
 
 std::vector<Setting> settings(ObjectConfig& c) {
@@ -52,6 +71,17 @@ std::vector<Setting> settings(RecordedConfig& c) {
   };
 }
 
+std::vector<Setting> settings(DriverConfig& c) {
+  return {
+      {"driver.timeout", "s", "of each request to a live scanner; 0: for ever where it moves or captures", &c.timeout,
+       from_to(0, 1e6)},
+      {"driver.hand_eye", "", "T_flange_camera as x y z qx qy qz qw, where the driver's poses are those of the flange",
+       &c.hand_eye},
+      {"robot.working_volume", "m", "box that the camera must not leave, x y z of two opposite corners; empty: any",
+       &c.working_volume},
+  };
+}
+
 std::vector<Setting> settings(EvaluationConfig& c) {
   return {
       {"evaluation.enabled", "", "compare with the mesh after each view", &c.enabled},
@@ -74,6 +104,7 @@ std::vector<Setting> settings(Configuration& c) {
   const auto add = [&](std::vector<Setting> more) { all.insert(all.end(), more.begin(), more.end()); };
   add(settings(c.object));
   add(settings(c.recorded));
+  add(settings(c.driver));
   add({{"sensor.preset", "", "paper, narrow, wide, or a file; the other sensor settings override it",
         &c.sensor_preset}});
   add(settings(c.sensor));

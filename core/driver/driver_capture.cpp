@@ -1,15 +1,13 @@
 #include "core/driver/driver_capture.hpp"
 
 #include <fmt/format.h>
-#include <stb/stb_image.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "core/cloud/point_cloud.hpp"
-#include "core/driver/npy_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
+#include "core/recording/depth_image_file.hpp"
 
 namespace nextview {
 namespace {
@@ -26,44 +24,28 @@ void require_size(const fs::path& file, int width, int height, const PinholeCame
                              camera.height));
 }
 
-DepthImage ranges_of_npy(const fs::path& file, const PinholeCamera& camera) {
-  NpyTable table = read_npy(file);
-  require_size(file, table.columns, table.rows, camera);
-  for (const float range : table.values)
-    if (range <= 0.0f)
-      refuse(file, fmt::format("holds the range {:g}; ranges are over 0, NaN is an invalid pixel, inf one beyond range",
-                               range));
-  return {camera, std::move(table.values)};
-}
-
-/// Grey values of 16 bits, row by row, of an image of the camera's size.
-std::vector<std::uint16_t> read_png(const fs::path& file, const PinholeCamera& camera) {
-  const std::string bytes = read_file(file, std::uintmax_t{256} << 20);
-  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int size = static_cast<int>(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  if (!stbi_info_from_memory(data, size, &width, &height, &channels)) refuse(file, "is no image that can be read");
-  require_size(file, width, height, camera);
-  if (channels != 1 || !stbi_is_16_bit_from_memory(data, size)) refuse(file, "is no image of 16-bit grey values");
-  const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
-      stbi_load_16_from_memory(data, size, &width, &height, &channels, 1), stbi_image_free);
-  if (!pixels) refuse(file, fmt::format("is damaged ({})", stbi_failure_reason()));
-  return {pixels.get(), pixels.get() + std::size_t(width) * std::size_t(height)};
+DepthImage image_of(const fs::path& file, DepthFormat format, const PinholeCamera& camera) {
+  DepthImage image = read_depth_image(file, format, camera);
+  require_size(file, image.camera.width, image.camera.height, camera);
+  image.camera = camera;
+  return image;
 }
 
 DepthImage ranges_of_png(const fs::path& file, const CapturedFile& captured, const PinholeCamera& camera) {
   if (captured.scale <= 0.0) refuse(file, "is an image, and the driver does not say its 'scale' [m]");
   if (captured.measures != "z" && captured.measures != "range")
     refuse(file, "is an image, and the driver does not say what it 'measures': \"z\" or \"range\"");
-  const std::vector<std::uint16_t> pixels = read_png(file, camera);
-  DepthImage image{camera, std::vector<float>(pixels.size(), DepthImage::invalid)};
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    if (pixels[i] == 0) continue;
-    const auto column = i % std::size_t(camera.width), row = i / std::size_t(camera.width);
-    const double z_of_ray = camera.direction(double(column), double(row)).z();
-    image.range[i] = float(pixels[i] * captured.scale / (captured.measures == "z" ? z_of_ray : 1.0));
-  }
-  return image;
+  DepthFormat format;
+  format.scale = captured.scale;
+  format.measures = captured.measures == "z" ? DepthMeasures::z : DepthMeasures::range;
+  return image_of(file, format, camera);
+}
+
+DepthImage ranges_of_npy(const fs::path& file, const PinholeCamera& camera) {
+  DepthFormat metres;
+  metres.scale = 1.0;
+  metres.measures = DepthMeasures::range;
+  return image_of(file, metres, camera);
 }
 
 std::vector<Vector3> points_of_ply(const fs::path& file) {

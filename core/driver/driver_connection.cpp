@@ -59,7 +59,9 @@ Result<DriverGreeting> DriverConnection::start(const std::stop_token& stop) try 
   protocol_.reset();
   protocol_ = std::make_unique<DriverProtocol>(words_, options_.log, options_.grace, options_.stop_time);
   Result<DriverGreeting> greeting = protocol_->hello({limit(), stop});
-  if (std::holds_alternative<Failure>(greeting)) protocol_.reset();
+  auto* const said = std::get_if<DriverGreeting>(&greeting);
+  if (!said) protocol_.reset();
+  if (said && said->start) *said->start = *said->start * options_.T_flange_camera;
   return greeting;
 } catch (const std::runtime_error& error) {
   return Failure{Failure::disconnected, error.what()};
@@ -114,13 +116,17 @@ Result<T> DriverConnection::noted(Result<T> result) {
 
 Result<std::vector<Reach>> DriverConnection::reach(const Pose& from, std::span<const Pose> poses) {
   if (!protocol_) return not_running();
-  return noted(protocol_->reach(from, poses, {limit()}));
+  const Pose T_camera_flange = options_.T_flange_camera.inverse();
+  std::vector<Pose> flanges;
+  for (const Pose& pose : poses) flanges.push_back(pose * T_camera_flange);
+  return noted(protocol_->reach(from * T_camera_flange, flanges, {limit()}));
 }
 
 Result<Pose> DriverConnection::move(const Pose& T_world_camera, std::stop_token stop) {
   if (!protocol_) return not_running();
-  Result<Pose> reached = noted(protocol_->move(T_world_camera, {patience(), std::move(stop)}));
-  if (const auto* pose = std::get_if<Pose>(&reached)) pose_ = *pose;
+  Result<Pose> reached =
+      noted(protocol_->move(T_world_camera * options_.T_flange_camera.inverse(), {patience(), std::move(stop)}));
+  if (auto* const pose = std::get_if<Pose>(&reached)) pose_ = *pose = *pose * options_.T_flange_camera;
   return reached;
 }
 
@@ -136,7 +142,7 @@ Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed
   try {
     Capture capture =
         read_capture(std::get<CapturedFile>(captured), options_.folder, greeting_.camera, greeting_.max_range);
-    pose_ = capture.T_world_camera;
+    pose_ = capture.T_world_camera = capture.T_world_camera * options_.T_flange_camera;
     return capture;
   } catch (const std::runtime_error& unreadable) {
     return Failure{Failure::no_data, fmt::format("driver {}: capture: {}", protocol_->name(), unreadable.what())};

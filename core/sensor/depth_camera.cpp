@@ -76,6 +76,8 @@ std::vector<Setting> settings(DepthCameraConfig& c) {
        from_to(0, 1)},
       {"sensor.grazing_limit", "deg", "surfaces met at more than this from their normal give invalid pixels",
        &c.grazing_limit, from_to(0, 90)},
+      {"sensor.working_distance", "m", "at which views are laid out; 0: 1.8 times the object's longest side",
+       &c.working_distance, zero_or(0.001, 1000)},
       {"sensor.seconds", "s", "that a scan takes, for planner.utility gain-per-second", &c.seconds,
        from_to(0.001, 1e5)},
   };

@@ -23,8 +23,9 @@ struct DepthCameraConfig {
   double dropout = 0.0;         ///< share of pixels that return nothing, at random
   /// Share of the other pixels that return a range drawn evenly between min_range and max_range, whatever they look at.
   double outliers = 0.0;
-  double grazing_limit = 85.0;  ///< surfaces met at more than this from their normal give invalid pixels [deg]
-  double seconds = 4.0;         ///< that a scan takes, as planning by the second has it; not simulated
+  double grazing_limit = 85.0;    ///< surfaces met at more than this from their normal give invalid pixels [deg]
+  double working_distance = 0.0;  ///< that suits it, at which views are laid out [m]; 0: what suits the object
+  double seconds = 4.0;           ///< that a scan takes, as planning by the second has it; not simulated
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;

@@ -21,6 +21,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   Configuration& c = setup_.configuration = validated(std::move(configuration));
   if (!c.map.start.empty()) setup_.start_map = read_start_map(c);
   source_ = std::move(parts.source);
+  name_ = std::move(parts.name);
   const bool map_alone = !source_ && c.recorded.folder.empty() && is_map(c.object.file);
   std::shared_ptr<const SimulatedWorld> world;
   if (!source_ && !c.recorded.folder.empty())
@@ -53,7 +54,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
 std::shared_ptr<const SimulatedWorld> Session::simulate(const std::stop_token& stop) {
   Configuration& c = setup_.configuration;
   ConfiguredObject object = load_object(c, stop);
-  name_ = object_name(object.file);
+  if (name_.empty()) name_ = object_name(object.file);
   object_file_ = std::move(object.file);
   object_ = std::move(object.placed);
   const auto world = std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
@@ -119,20 +120,26 @@ std::vector<std::string> Session::notes() const {
 bool Session::step(const Progress& progress, std::stop_token stop, const Accept& accept) {
   if (!finished().empty()) throw std::logic_error("the scan is finished: " + finished());
   std::optional<ScanState> after;
+  const auto put_back = [&] {
+    if (!taken_) robot_->restored(state_.T_world_camera);
+  };
   try {
     after = next_state(progress, stop, accept);
   } catch (const Stopped&) {
+    taken_.reset();
   } catch (const std::bad_alloc&) {
-    robot_->restored(state_.T_world_camera);
+    taken_.reset();
+    put_back();
     throw OutOfMemory(not_enough_memory(configuration()));
   } catch (...) {
-    robot_->restored(state_.T_world_camera);
+    put_back();
     throw;
   }
   if (!after) {
-    robot_->restored(state_.T_world_camera);
+    put_back();
     return false;
   }
+  taken_.reset();
   adopt(*std::move(after));
   if (progress) progress(1.0, "done");
   return true;
@@ -141,18 +148,26 @@ bool Session::step(const Progress& progress, std::stop_token stop, const Accept&
 /// None if it was cancelled or refused.
 std::optional<ScanState> Session::next_state(const Progress& progress, const std::stop_token& stop,
                                              const Accept& accept) {
+  if (taken_ && !(taken_->wanted == state_.next.view)) taken_.reset();  // another one is wanted by now
+  if (!taken_ && !take_view(progress, stop, accept)) return std::nullopt;
+  return plan(setup_, absorb(setup_, state_, *taken_, progress, stop), *robot_, progress, stop);
+}
+
+/// False if it was cancelled or refused.
+bool Session::take_view(const Progress& progress, const std::stop_token& stop, const Accept& accept) {
   const auto step = static_cast<std::uint32_t>(state_.scans.size() + 1);
-  const Result<Acquired> result = acquire(state_.next.view, step, *source_, *robot_, progress, stop);
+  Result<Acquired> result = acquire(state_.next.view, step, *source_, *robot_, progress, stop);
   if (const auto* failure = std::get_if<Failure>(&result)) {
-    if (failure->kind == Failure::cancelled) return std::nullopt;
+    if (failure->kind == Failure::cancelled || failure->kind == Failure::refused) return false;
     throw std::runtime_error(failure->reason);
   }
-  const Acquired& acquired = std::get<Acquired>(result);
-  if (accept && !accept(acquired)) return std::nullopt;
-  return plan(setup_, absorb(setup_, state_, acquired, progress, stop), *robot_, progress, stop);
+  if (accept && !accept(std::get<Acquired>(result))) return false;
+  taken_ = std::get<Acquired>(std::move(result));
+  return true;
 }
 
 void Session::restore(ScanState state) {
+  taken_.reset();
   robot_->restored(state.T_world_camera);
   adopt(std::move(state));
 }

@@ -15,6 +15,7 @@ namespace nextview {
 /// What a session is made of. What is null is what the configuration says: a simulated camera that flies freely around
 /// the object, its planner, its candidates.
 struct SessionParts {
+  std::string name = {};  ///< for people; empty: the object's
   std::unique_ptr<ScanSource> source = {};
   std::unique_ptr<Robot> robot = {};
   std::unique_ptr<Planner> planner = {};
@@ -38,7 +39,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// Takes the next view and ranks the candidates for the one after. Returns false, with the state as it was, if a stop
-  /// is requested before all of that is done or the view is refused; the state is as it was too where it throws.
+  /// is requested before all of that is done or the view is refused; the state is as it was too where it throws. What
+  /// was captured before it threw is not lost: the next step goes on with it.
   /// @throws OutOfMemory; std::runtime_error if the robot or the source fails @pre finished().empty()
   bool step(const Progress& progress = {}, std::stop_token stop = {}, const Accept& accept = {});
 
@@ -106,6 +108,7 @@ class Session {
 
  private:
   std::optional<ScanState> next_state(const Progress& progress, const std::stop_token& stop, const Accept& accept);
+  bool take_view(const Progress& progress, const std::stop_token& stop, const Accept& accept);
   std::shared_ptr<const SimulatedWorld> simulate(const std::stop_token& stop);
   std::shared_ptr<const SimulatedWorld> replay(const Progress& progress, const std::stop_token& stop);
   void open_map();
@@ -124,6 +127,7 @@ class Session {
   std::unique_ptr<ScanSource> source_;
   std::unique_ptr<Robot> robot_;
   ScanState state_;
+  std::optional<Acquired> taken_;    ///< captured, and not yet in the state: a step failed after that
   std::vector<StepRecord> records_;  ///< the state's; so are the next
   std::vector<Pose> candidates_;
 };

@@ -1,0 +1,56 @@
+#include "app/commands/scanner.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <stdexcept>
+
+#include "core/file/printable.hpp"
+
+namespace nextview {
+namespace {
+
+std::string text(const Pose& pose) {
+  const Vector3 p = pose.translation();
+  const Vector3 forward = pose.linear().col(2);
+  return fmt::format("({:.3f}, {:.3f}, {:.3f}) m, looking along ({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z(),
+                     forward.x(), forward.y(), forward.z());
+}
+
+/// A robot moves when someone looks.
+bool confirmed(const Pose& from, const Pose& to) {
+  if (!::isatty(STDIN_FILENO))
+    throw std::runtime_error(
+        "a real robot is to move, and no terminal is there to confirm it: --driver-confirm never moves without asking");
+  fmt::print(stderr, "\nMove the camera {:.3g} m to {}? [y/N] ", (to.translation() - from.translation()).norm(),
+             text(to));
+  std::string answer;
+  return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
+}
+
+}  // namespace
+
+void ScannerOptions::add_to(CLI::App& app) {
+  app.add_option("--driver", command, "scan with a live scanner: the program that drives it, with its arguments")
+      ->type_name("COMMAND")
+      ->group("Live scanner");
+  app.add_option("--driver-confirm", confirm, "ask before each move of a real robot: always or never")
+      ->check(CLI::IsMember({"always", "never"}))
+      ->capture_default_str()
+      ->group("Live scanner");
+}
+
+Scanner::Scanner(const ScannerOptions& options, Configuration& configuration, const std::stop_token& stop) {
+  ScannerWishes wishes{options.command};
+  if (options.confirm == "always") wishes.confirm = confirmed;
+  wishes.log = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };
+  connection_ = connect_scanner(configuration, wishes, stop);
+}
+
+void Scanner::reconnect(const std::stop_token& stop) {
+  if (const auto failure = connection_->reconnect(stop)) throw std::runtime_error(failure->reason);
+  fmt::print(stderr, "The scanner is reached again.\n");
+}
+
+}  // namespace nextview

@@ -1,0 +1,89 @@
+#include "core/session/driver_setup.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "core/config/object_lengths.hpp"
+#include "core/driver/driver_scanner.hpp"
+#include "core/session/session_parts.hpp"
+
+namespace nextview {
+namespace {
+
+/// Of its own for each program that runs: captures of two must not meet.
+std::filesystem::path captures_folder() {
+  return std::filesystem::temp_directory_path() / fmt::format("nextview-captures-{}", ::getpid());
+}
+
+/// The scanner's own; another one that was asked for is an error, not a wish.
+void follow(Configuration& c, const std::string& key, const std::string& text) {
+  auto all = settings(c);
+  Setting& setting = find_setting(all, key);
+  const std::string asked = setting.text();
+  setting.set(text);
+  const std::string own = setting.text();
+  if (c.sources.contains(key) && asked != own) {
+    setting.set(asked);  // which the message names as it was given
+    throw std::invalid_argument(c.as_given(fmt::format("{}: the scanner's own is {}; leave it out", key, own)));
+  }
+  c.sources[key] = {key, "", own};
+}
+
+std::string text(const Vector3& p) { return fmt::format("{} {} {}", p.x(), p.y(), p.z()); }
+
+void follow_greeting(Configuration& c, const DriverGreeting& greeting) {
+  const PinholeCamera& camera = greeting.camera;
+  follow(c, "sensor.width", fmt::format("{}", camera.width));
+  follow(c, "sensor.height", fmt::format("{}", camera.height));
+  follow(c, "sensor.intrinsics", fmt::format("{} {} {} {}", camera.fx, camera.fy, camera.cx, camera.cy));
+  follow(c, "sensor.max_range", fmt::format("{}", greeting.max_range));
+  follow(c, "sensor.range_noise", fmt::format("{}", greeting.range_noise));
+  if (greeting.region) follow(c, "map.region", text(greeting.region->min()) + " " + text(greeting.region->max()));
+}
+
+/// Of an object that no one has a mesh of.
+void follow_region(Configuration& c, const std::string& name) {
+  if (c.map.region.empty())
+    throw std::invalid_argument(
+        fmt::format("{} does not say where the object stands: give its box as map.region, six numbers [m]", name));
+  fit_lengths(c, c.map.region_box().sizes().maxCoeff() / 1.2);  // as large as a margin of a tenth leaves
+  set_unless_given(c, "sensor.min_range", "0");
+  c.evaluation.enabled = false;
+}
+
+}  // namespace
+
+std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const ScannerWishes& wishes,
+                                                  const std::stop_token& stop) try {
+  DriverOptions options;
+  options.command = wishes.command;
+  options.timeout = c.driver.timeout;
+  options.working_volume = c.driver.volume();
+  options.T_flange_camera = c.driver.T_flange_camera();
+  options.folder = captures_folder();
+  options.confirm = wishes.confirm;
+  options.log = wishes.log;
+  auto connection = std::make_shared<DriverConnection>(std::move(options), stop);
+  const DriverGreeting& greeting = connection->greeting();
+  follow_greeting(c, greeting);
+  c.recorded.folder.clear();
+  if (greeting.object.empty())
+    follow_region(c, greeting.name);
+  else
+    c.object.file = greeting.object;
+  return connection;
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(c.as_given(error.what()));
+}
+
+SessionParts scanner_parts(const Configuration& c, std::shared_ptr<DriverConnection> connection) {
+  SessionParts parts;
+  parts.name = connection->greeting().name;
+  parts.source = std::make_unique<DriverSource>(connection, c.seed);
+  parts.robot = std::make_unique<DriverRobot>(connection, configured_start_view(c));
+  return parts;
+}
+
+}  // namespace nextview

@@ -1,0 +1,31 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "core/driver/driver_connection.hpp"
+#include "core/session/session.hpp"
+
+namespace nextview {
+
+// What a session with a live scanner is made of.
+
+/// How a user reaches a scanner.
+struct ScannerWishes {
+  std::string command;                                                 ///< "PROGRAM ARG…"
+  std::function<bool(const Pose& from, const Pose& to)> confirm = {};  ///< of each real move; null: never asked
+  std::function<void(const std::string&)> log = {};                    ///< hears the driver's standard error
+};
+
+/// Starts the driver, and lets the configuration follow what it says of itself: camera, range and noise; the object of
+/// a simulator, which is then evaluated; the region of interest.
+/// @throws std::invalid_argument naming a setting that conflicts, or that is missing; std::runtime_error with the
+/// reason; Stopped
+std::shared_ptr<DriverConnection> connect_scanner(Configuration& configuration, const ScannerWishes& wishes,
+                                                  const std::stop_token& stop = {});
+
+/// The parts of a session that scans through it, with a configuration that follows it.
+SessionParts scanner_parts(const Configuration& configuration, std::shared_ptr<DriverConnection> connection);
+
+}  // namespace nextview
