@@ -8,11 +8,12 @@ namespace nextview {
 
 /// One candidate view as the planner ranks it.
 struct Candidate {
-  bool available = true;  ///< not yet taken, and reachable
-  double gain = 0.0;      ///< in the gain's own unit
-  double cost = 0.0;      ///< of going there (distance [m])
-  double utility = 0.0;   ///< set by rank()
-  double seconds = 0.0;   ///< of going there, as the robot says
+  bool available = true;         ///< not yet taken, and reachable
+  double gain = 0.0;             ///< in the gain's own unit
+  double cost = 0.0;             ///< of going there (distance [m])
+  double utility = 0.0;          ///< set by rank()
+  double seconds = 0.0;          ///< of going there, as the robot says
+  std::string unreachable = {};  ///< why the robot cannot go there; empty if it can
 };
 
 struct UtilityWeights {

@@ -62,6 +62,7 @@ std::vector<Candidate> reachable_candidates(const ScanState& state, Robot& robot
   for (std::size_t v = 0; v < views.size(); ++v) {
     candidates[v].cost = reach.at(v).cost.distance;
     candidates[v].seconds = reach[v].cost.seconds;
+    candidates[v].unreachable = reach[v].unreachable;
     candidates[v].available = reach[v].unreachable.empty() && !state.known.has_taken(views[v]);
   }
   return candidates;

@@ -31,6 +31,7 @@ inline constexpr Colour free = from_hex(0x9CCBD9);
 
 inline constexpr Colour missed = from_hex(0xD9722E);  ///< surface that no view has seen
 
+inline constexpr Colour unreachable = from_hex(0xC9A0C8);  ///< views that the robot cannot take
 inline constexpr Colour chosen = from_hex(0xD1401F);
 inline constexpr Colour muted = from_hex(0x6E7781);
 

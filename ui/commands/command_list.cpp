@@ -8,6 +8,7 @@
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/gibbs_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
+#include "ui/commands/scanner_commands.hpp"
 #include "ui/commands/scene_commands.hpp"
 #include "ui/commands/selection_commands.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -18,9 +19,11 @@ std::span<const std::reference_wrapper<const Command>> commands() {
   using namespace command;
   static const std::vector<std::reference_wrapper<const Command>> all = {
       // File
-      open, set, reset_setting, reset_settings, export_scan, save_picture, save_script, quit,
+      open, set, reset_setting, reset_settings, connect, disconnect, reconnect, export_scan, save_picture, save_script,
+      quit,
       // Scan
-      step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, cancel, undo, redo, reset,
+      step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, allow_move, refuse_move, cancel,
+      undo, redo, reset,
       // Gibbs
       refine, pause_refinement, resume_refinement,
       // Select

@@ -79,10 +79,11 @@ void set_from(CommandTarget& target, const std::string& key, Configuration wante
 const CommandOf<std::string> command::open{
     {"open",
      "File",
-     "Open an object or settings…",
-     "Scans another object (a mesh file or a known name), or with the settings of a .toml file.",
+     "Open an object, recorded scans, a map or settings…",
+     "Scans another object (a mesh file or a known name), goes through recorded scans (a folder, .graph, .log, .txt), "
+     "shows a map (.ot, .bt), or takes the settings of a .toml file.",
      {{key('O'), true}}},
-    argument::file("file", "a mesh file, a known object, or a .toml file", objects),
+    argument::file("file", "a mesh file, a known object, recorded scans, a map, or a .toml file", objects),
     [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};
 
 const CommandOf<std::string, std::string> command::set{
@@ -123,6 +124,7 @@ const CommandOf<> command::reset_settings{{"reset-settings",
                                           [](CommandTarget& t) {
                                             Configuration configuration;
                                             configuration.object = t.session.configuration.object;
+                                            configuration.recorded = t.session.configuration.recorded;
                                             t.worker.post(request::Load{configuration});
                                           }};
 

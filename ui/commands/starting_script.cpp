@@ -20,6 +20,10 @@ std::vector<std::string> starting_script(const Configuration& configuration) {
     script.push_back(command::open(place_of(wanted.object.file)).text());
     reached.object.file = wanted.object.file;
   }
+  if (!wanted.recorded.folder.empty()) {
+    script.push_back(command::open(place_of(wanted.recorded.folder)).text());
+    reached.recorded.folder = wanted.recorded.folder;
+  }
   if (wanted.sensor_preset != reached.sensor_preset) {  // sets other settings, too
     script.push_back(command::set("sensor.preset", wanted.sensor_preset).text());
     apply_sensor_preset(reached, wanted.sensor_preset);

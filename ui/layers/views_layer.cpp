@@ -49,8 +49,8 @@ void check(const ViewsPicture& picture) {
         fmt::format("scores: {} for {} candidates", picture.scores.size(), picture.candidates.size()));
   }
   const auto beyond = [&](std::size_t index) { return index >= picture.candidates.size(); };
-  if (std::any_of(picture.taken.begin(), picture.taken.end(), beyond)) {
-    throw std::invalid_argument("taken: an index is no candidate's");
+  if (std::ranges::any_of(picture.taken, beyond) || std::ranges::any_of(picture.unreachable, beyond)) {
+    throw std::invalid_argument("taken, unreachable: an index is no candidate's");
   }
   if (picture.range && !(picture.range->first < picture.range->second)) {
     throw std::invalid_argument("the scores' range is empty");
@@ -61,13 +61,15 @@ void check(const ViewsPicture& picture) {
 struct Scores {
   double low = 0.0, high = 0.0;       ///< of the colours
   bool below = false, above = false;  ///< some scores are beyond these
-  std::vector<bool> taken;
+  std::vector<bool> taken, unreachable;
 
-  explicit Scores(const ViewsPicture& picture) : taken(picture.candidates.size(), false) {
+  explicit Scores(const ViewsPicture& picture)
+      : taken(picture.candidates.size(), false), unreachable(picture.candidates.size(), false) {
     for (const std::size_t index : picture.taken) taken[index] = true;
+    for (const std::size_t index : picture.unreachable) unreachable[index] = true;
     bool first = true;
     for (std::size_t i = 0; i < picture.scores.size(); ++i) {
-      if (taken[i]) continue;
+      if (taken[i] || unreachable[i]) continue;
       low = first ? picture.scores[i] : std::min(low, picture.scores[i]);
       high = first ? picture.scores[i] : std::max(high, picture.scores[i]);
       first = false;
@@ -81,6 +83,7 @@ struct Scores {
   Colour colour(const ViewsPicture& picture, std::size_t candidate) const {
     if (picture.chosen == candidate && !picture.custom_view) return theme::chosen;
     if (taken[candidate]) return theme::muted;
+    if (unreachable[candidate]) return theme::unreachable;
     return picture.scores.empty() ? theme::object : ColourMap::score().at(picture.scores[candidate], low, high);
   }
 };
@@ -91,6 +94,7 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
   if (picture.chosen && !picture.custom_view) views.swatches.push_back({"chosen", theme::chosen});
   if (picture.custom_view) views.swatches.push_back({"custom view", theme::chosen});
   if (!picture.taken.empty()) views.swatches.push_back({"taken", theme::muted});
+  if (!picture.unreachable.empty()) views.swatches.push_back({"not reachable", theme::unreachable});
   if (picture.scores.empty() && !picture.candidates.empty()) views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
   if (!picture.scores.empty()) {

@@ -12,11 +12,12 @@ namespace nextview {
 
 /// Candidate views, what was scored, chosen and taken. Spans need to live during show() only.
 struct ViewsPicture {
-  PinholeCamera camera;                ///< gives the frustums' shape
-  std::span<const Pose> candidates;    ///< T_world_camera
-  std::span<const double> scores;      ///< one per candidate, or none
-  std::span<const std::size_t> taken;  ///< candidates
-  std::optional<std::size_t> chosen;   ///< a candidate
+  PinholeCamera camera;                           ///< gives the frustums' shape
+  std::span<const Pose> candidates;               ///< T_world_camera
+  std::span<const double> scores;                 ///< one per candidate, or none
+  std::span<const std::size_t> taken;             ///< candidates
+  std::span<const std::size_t> unreachable = {};  ///< candidates
+  std::optional<std::size_t> chosen;              ///< a candidate
   std::optional<Pose> custom_view =
       {};                           ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place
   std::optional<Vector3> eye = {};  ///< views from here (or nearly) are not drawn: they would be in the way [m, world]

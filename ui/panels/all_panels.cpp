@@ -6,6 +6,7 @@
 #include "ui/commands/window_commands.hpp"
 #include "ui/panels/control_bar.hpp"
 #include "ui/panels/menu_bar.hpp"
+#include "ui/panels/question.hpp"
 #include "ui/panels/shortcut_sheet.hpp"
 #include "ui/panels/status_line.hpp"
 #include "ui/panels/tabs.hpp"
@@ -48,6 +49,7 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   const Rectangle beneath_menu{0, layout.menu.height, layout.menu.width, layout.height - layout.menu.height};
   const Rectangle& front = layout.scene.width < context.style.px(420) ? beneath_menu : layout.scene;
   notifications_.draw(context, front, log_count, seconds);
+  draw_question(context, front);
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});
   palette_.draw(context, front);
 }

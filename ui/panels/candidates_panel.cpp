@@ -61,6 +61,7 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
   if (!c.available) {
     const int step = step_of(s, candidate);
     ImGui::TextUnformatted(step > 0 ? fmt::format("taken, view {}", step).c_str() : "not reachable");
+    if (step == 0) tooltip(c.unreachable);
     return;
   }
   const Colour colour = is_proposed(s, candidate) ? theme::chosen : theme::series[0];

@@ -141,7 +141,7 @@ void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice,
 void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) {
   ViewsPicture picture;
   std::vector<double> utilities;
-  std::vector<std::size_t> taken;
+  std::vector<std::size_t> taken, unreachable;
   std::vector<Pose> path;
   for (const StepRecord& record : s.records) {
     path.push_back(record.T_world_camera);
@@ -150,6 +150,7 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   if (!s.records.empty()) {
     for (const Candidate& candidate : s.records.back().candidates) {
+      if (!candidate.unreachable.empty()) unreachable.push_back(utilities.size());
       utilities.push_back(candidate.utility);
       if (!candidate.available) continue;
       range = {std::min(range.first, candidate.utility), std::max(range.second, candidate.utility)};
@@ -161,6 +162,7 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   picture.candidates = s.candidates;
   picture.scores = utilities;
   picture.taken = taken;
+  picture.unreachable = unreachable;
   picture.path = path;
   picture.numbered_path = true;
   picture.score_name = "utility";

@@ -9,7 +9,8 @@ bool is(const SessionRequest& request) {
 }
 
 inline bool starts_anew(const SessionRequest& r) {
-  return is<request::Load>(r) || is<request::OpenFile>(r) || is<request::Reset>(r);
+  return is<request::Load>(r) || is<request::OpenFile>(r) || is<request::Reset>(r) || is<request::Connect>(r) ||
+         is<request::Disconnect>(r);
 }
 
 }  // namespace nextview

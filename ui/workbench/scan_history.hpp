@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/session/driver_setup.hpp"
 #include "core/session/session.hpp"
 #include "ui/workbench/seen_surface.hpp"
 
@@ -14,6 +15,7 @@ struct HistoryEntry {
   TerminationConfig termination;
   ScanState state;
   SeenSurface seen;
+  std::shared_ptr<DriverConnection> scanner = {};  ///< null unless it is a live one's
 };
 
 /// The states to go back to, and those to go forward to again. Their maps take no more memory than a limit: beyond it

@@ -18,6 +18,14 @@ struct Load {
 struct OpenFile {
   std::filesystem::path file;
 };
+/// Starts over with a live scanner: the program that drives it, with its arguments.
+struct Connect {
+  std::string command;
+};
+/// Leaves the scanner, and goes back to what was scanned before it.
+struct Disconnect {};
+/// Reaches a lost scanner again; the scan goes on.
+struct Reconnect {};
 /// Changes when the scan is done, and keeps it.
 struct SetTermination {
   TerminationConfig termination;
@@ -55,8 +63,9 @@ struct ForgetRuns {};
 }  // namespace request
 
 using SessionRequest =
-    std::variant<request::Load, request::OpenFile, request::SetTermination, request::Reset, request::Step,
-                 request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
-                 request::Redo, request::Refine, request::Export, request::ForgetRuns>;
+    std::variant<request::Load, request::OpenFile, request::Connect, request::Disconnect, request::Reconnect,
+                 request::SetTermination, request::Reset, request::Step, request::Play, request::Pause,
+                 request::TakeView, request::TakeCustomView, request::Undo, request::Redo, request::Refine,
+                 request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

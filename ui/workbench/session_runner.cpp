@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/config/input_files.hpp"
+#include "core/config/object_lengths.hpp"
+#include "core/config/opened_input.hpp"
 #include "core/export/scan_files.hpp"
 #include "core/export/scan_surfaces.hpp"
 #include "core/progress/stopped.hpp"
@@ -26,16 +28,46 @@ Progress part(const Progress& whole, double begin, double end) {
 }  // namespace
 
 HistoryEntry SessionRunner::now() const {
-  return {session_, session_->configuration().termination, session_->state(), *seen_};
+  return {session_, session_->configuration().termination, session_->state(), *seen_, scanner_};
 }
 
 void SessionRunner::load(Configuration configuration, const JobControl& control) {
+  start(std::move(configuration), scanner_, control);
+}
+
+void SessionRunner::open(const std::filesystem::path& input, const JobControl& control) {
+  start(with_input(scanner_ ? before_scanner_ : configuration(), input), nullptr, control);
+}
+
+void SessionRunner::disconnect(const JobControl& control) {
+  if (scanner_) start(before_scanner_, nullptr, control);
+}
+
+void SessionRunner::connect(const ScannerWishes& wishes, const JobControl& control) {
+  const Configuration before = scanner_ ? before_scanner_ : configuration();
+  Configuration following = before;
+  forget_fitted(following);
+  control.progress(0.0, "reaching the scanner");
+  auto scanner = connect_scanner(following, wishes, control.stop);
+  start(std::move(following), std::move(scanner), control);
+  before_scanner_ = before;
+}
+
+void SessionRunner::reconnect(const JobControl& control) {
+  if (!scanner_) return;
+  if (const auto failure = scanner_->reconnect(control.stop)) throw std::runtime_error(failure->reason);
+  show_next();
+}
+
+void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverConnection> scanner,
+                          const JobControl& control) {
   configuration.validate();
   if (!session_) wanted_ = configuration;
-  auto session = std::make_shared<Session>(std::move(configuration), control.progress, control.stop);
+  SessionParts parts = scanner ? scanner_parts(configuration, scanner) : SessionParts{};
+  auto session = std::make_shared<Session>(std::move(configuration), std::move(parts), control.progress, control.stop);
   if (session_) history_.push(now(), history_limit(*session_));
   const TerminationConfig termination = session->configuration().termination;
-  adopt({session, termination, session->state(), SeenSurface(*session)});
+  adopt({session, termination, session->state(), SeenSurface(*session), std::move(scanner)});
 }
 
 void SessionRunner::set_termination(const TerminationConfig& termination) {
@@ -88,6 +120,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_scan = same_session && session_->scans() == entry.state.scans;
   SessionSnapshot next = *snapshot_;
   session_ = std::move(entry.session);
+  scanner_ = std::move(entry.scanner);
   session_->restore(std::move(entry.state));
   session_->set_termination(entry.termination);
   session_->take_proposal();

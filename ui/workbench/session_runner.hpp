@@ -27,8 +27,15 @@ class SessionRunner {
   bool can_step() const { return session_ && session_->finished().empty(); }
   Configuration configuration() const { return session_ ? session_->configuration() : wanted_; }
 
-  /// The session before stays if this one cannot be made. @throws std::exception, Stopped
+  /// The session before stays if this one cannot be made; a live scanner, too. @throws std::exception, Stopped
   void load(Configuration configuration, const JobControl& control);
+  /// The same with what a user opens, or with what was scanned before a live scanner, which is left.
+  void open(const std::filesystem::path& input, const JobControl& control);
+  void disconnect(const JobControl& control);
+  /// The same with a live scanner. @throws as connect_scanner, too
+  void connect(const ScannerWishes& wishes, const JobControl& control);
+  /// @throws std::runtime_error with the reason
+  void reconnect(const JobControl& control);
   /// The scan stays; what it has taken so far may be all there is to it, or it may go on.
   /// @throws std::invalid_argument if it is not valid
   void set_termination(const TerminationConfig& termination);
@@ -47,6 +54,7 @@ class SessionRunner {
 
  private:
   HistoryEntry now() const;
+  void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
   void adopt(HistoryEntry entry);
   void show_next();
   static void remember_run(SessionSnapshot& snapshot);
@@ -63,6 +71,8 @@ class SessionRunner {
   std::optional<SeenSurface> seen_;
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
   ScanHistory history_;
+  std::shared_ptr<DriverConnection> scanner_;  ///< of the session, if it is a live one
+  Configuration before_scanner_;               ///< to go back to
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };
 

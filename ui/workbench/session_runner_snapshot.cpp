@@ -31,6 +31,8 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   snapshot.message.clear();
   snapshot.can_undo = history_.can_undo();
   snapshot.can_redo = history_.can_redo();
+  snapshot.live = scanner_ != nullptr;
+  snapshot.scanner_lost = scanner_ && scanner_->is_lost();
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(snapshot));
 }
 
@@ -38,6 +40,7 @@ void SessionRunner::set_message(const std::string& message) {
   SessionSnapshot next = *snapshot_;
   next.message = message;
   if (!session_) next.configuration = wanted_;
+  next.scanner_lost = scanner_ && scanner_->is_lost();
   ++next.failures;
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(next));
 }

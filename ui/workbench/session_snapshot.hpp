@@ -72,6 +72,8 @@ struct SessionSnapshot {
   std::shared_ptr<const ScanSetup> setup;               ///< null without a session
   ScanState state;                                      ///< shares its maps with the session
   std::string object_name;                              ///< for people
+  bool live = false;                                    ///< scans with a live scanner
+  bool scanner_lost = false;                            ///< which must be reached again
   std::vector<std::string> notes;                       ///< Session::notes
   std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, as the next
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread
@@ -117,6 +119,7 @@ struct WorkerProgress {
   bool paused = false;    ///< refining is paused
   double fraction = 0.0;  ///< of the job, 0 to 1
   std::string what;
+  std::string question;                               ///< that the job waits for an answer to; empty: it does not
   std::size_t waiting = 0;                            ///< requests behind it
   std::optional<double> seconds_left;                 ///< of the job, as it has gone so far; whole seconds
   double pause_between_views = 0.0;                   ///< while playing [s]

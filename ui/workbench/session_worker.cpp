@@ -1,11 +1,14 @@
 #include "ui/workbench/session_worker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <utility>
 
-#include "core/config/opened_input.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/length_text.hpp"
 #include "ui/workbench/overloaded.hpp"
 #include "ui/workbench/request_kind.hpp"
 
@@ -148,42 +151,81 @@ void SessionWorker::attempt(const SessionRequest& request) {
   const auto after = runner_.snapshot();
   if (!failed) finish(request, *before);
   const std::lock_guard lock(mutex_);
-  if (failed || !runner_.can_step()) progress_.playing = false;
+  const bool taken = after->records.size() > before->records.size();
+  if (failed || !runner_.can_step() || (is<request::Step>(request) && !taken)) progress_.playing = false;
   snapshot_ = after;
 }
 
 void SessionWorker::execute(const SessionRequest& request) {
-  std::visit(
-      Overloaded{
-          [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
-          [&](const request::OpenFile& r) { runner_.load(with_input(runner_.configuration(), r.file), job_control()); },
-          [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
-          [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
-          [&](request::Step) { runner_.step(job_control()); },
-          [&](request::Play) {
-            const std::lock_guard lock(mutex_);
-            progress_.playing = runner_.can_step();
-            next_play_ = Clock::now();
-          },
-          [](request::Pause) {},  // done when it was posted
-          [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
-          [&](const request::TakeCustomView& r) { runner_.take_custom_view(r.T_world_camera); },
-          [&](request::Undo) { runner_.undo(job_control()); },
-          [&](request::Redo) { runner_.redo(job_control()); },
-          [&](const request::Refine& r) {
-            {
-              const std::lock_guard lock(mutex_);
-              progress_.refining = true;
-            }
-            runner_.refine(r.chains, r.sweeps, job_control());
-          },
-          [&](const request::Export& r) {
-            for (const std::string& line : runner_.write(r.folder, job_control()))
-              log_.add(LogEntry::Level::note, line);
-          },
-          [&](request::ForgetRuns) { runner_.forget_runs(); },
-      },
-      request);
+  std::visit(Overloaded{
+                 [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
+                 [&](const request::OpenFile& r) { runner_.open(r.file, job_control()); },
+                 [&](const request::Connect& r) { runner_.connect(scanner_wishes(r.command), job_control()); },
+                 [&](request::Disconnect) { runner_.disconnect(job_control()); },
+                 [&](request::Reconnect) {
+                   runner_.reconnect(job_control());
+                   log_.add(LogEntry::Level::success, "The scanner is reached again");
+                 },
+                 [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
+                 [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
+                 [&](request::Step) { runner_.step(job_control()); },
+                 [&](request::Play) {
+                   const std::lock_guard lock(mutex_);
+                   progress_.playing = runner_.can_step();
+                   next_play_ = Clock::now();
+                 },
+                 [](request::Pause) {},  // done when it was posted
+                 [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
+                 [&](const request::TakeCustomView& r) { runner_.take_custom_view(r.T_world_camera); },
+                 [&](request::Undo) { runner_.undo(job_control()); },
+                 [&](request::Redo) { runner_.redo(job_control()); },
+                 [&](const request::Refine& r) {
+                   {
+                     const std::lock_guard lock(mutex_);
+                     progress_.refining = true;
+                   }
+                   runner_.refine(r.chains, r.sweeps, job_control());
+                 },
+                 [&](const request::Export& r) {
+                   for (const std::string& line : runner_.write(r.folder, job_control()))
+                     log_.add(LogEntry::Level::note, line);
+                 },
+                 [&](request::ForgetRuns) { runner_.forget_runs(); },
+             },
+             request);
+}
+
+void SessionWorker::answer(bool yes) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (progress_.question.empty()) return;
+    answer_ = yes;
+  }
+  wake_.notify_all();
+}
+
+/// Waits for the answer; what cancels the job says no.
+bool SessionWorker::ask(std::string question) {
+  std::unique_lock lock(mutex_);
+  progress_.question = std::move(question);
+  answer_.reset();
+  lock.unlock();
+  news();
+  lock.lock();
+  wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
+  progress_.question.clear();
+  return std::exchange(answer_, std::nullopt).value_or(false);
+}
+
+ScannerWishes SessionWorker::scanner_wishes(const std::string& command) {
+  ScannerWishes wishes{command};
+  wishes.confirm = [this](const Pose& from, const Pose& to) {
+    const Vector3 p = to.translation();
+    return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
+                           length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()));
+  };
+  wishes.log = [this](const std::string& line) { log_.add(LogEntry::Level::note, "Scanner: " + line); };
+  return wishes;
 }
 
 SessionRunner::JobControl SessionWorker::job_control() {

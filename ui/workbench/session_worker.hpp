@@ -30,6 +30,8 @@ class SessionWorker {
   void cancel();
   /// Pauses a refinement between two sweeps, or resumes it.
   void pause_refinement(bool pause);
+  /// Answers the question that the job waits with (WorkerProgress::question).
+  void answer(bool yes);
   /// Waits this long before each view but the first while playing [s].
   void set_pause_between_views(double seconds);
 
@@ -50,6 +52,8 @@ class SessionWorker {
   void report_progress(double fraction, std::string_view what);
   void report_sampler(const SamplerDiagnostics& so_far);
   SessionRunner::JobControl job_control();
+  bool ask(std::string question);
+  ScannerWishes scanner_wishes(const std::string& command);
   void news() const;
 
   const std::function<void()> on_news_;
@@ -61,7 +65,8 @@ class SessionWorker {
   std::deque<SessionRequest> queue_;
   std::stop_source job_;
   Clock::time_point job_start_, next_play_;
-  bool running_ = false;     ///< a request is being executed
+  bool running_ = false;  ///< a request is being executed
+  std::optional<bool> answer_;
   WorkerProgress progress_;  ///< but for what progress() works out
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 
