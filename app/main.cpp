@@ -19,6 +19,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/scanner.hpp"
 #include "app/commands/scarcity.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
@@ -98,6 +99,8 @@ int run(int argc, char** argv) {
       window->add_option("--script", script,
                          "does what this file says: a command a line, as in the palette (Ctrl+P); a line that fails is "
                          "reported as FILE:LINE, the others are done, and the exit code is 2");
+  ScannerOptions scanner;
+  scanner.add_to(*window);
   bool stop_on_error = false;
   window->add_flag("--stop-on-error", stop_on_error, "ends the program at the first line of the script that fails")
       ->needs(script_option);
@@ -118,7 +121,10 @@ int run(int argc, char** argv) {
     fmt::print("{}", command_table());
     return 0;
   }
-  return run_window(options.configuration(), {script, read_script(script), stop_on_error});
+  const Configuration configuration = options.configuration();
+  std::optional<request::Connect> live;
+  if (scanner.wanted()) live = {scanner.command, scanner.confirm == "always", configuration};
+  return run_window(configuration, {script, read_script(script), stop_on_error}, live);
 }
 
 }  // namespace

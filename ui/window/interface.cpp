@@ -35,6 +35,10 @@ void Interface::open(const Configuration& configuration) {
   parts_->recorder.begin(configuration);
   parts_->worker.post(request::Load{configuration});
 }
+void Interface::connect(const request::Connect& scanner) {
+  parts_->recorder.begin(*scanner.configuration);
+  parts_->worker.post(scanner);
+}
 void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
 bool Interface::script_is_done() const { return parts_->script.done() || parts_->state.quit; }
 ScriptPlayer& Interface::script() { return parts_->script; }

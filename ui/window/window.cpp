@@ -165,7 +165,8 @@ void run(WindowTarget& target, Interface& interface, const std::function<bool()>
 
 }  // namespace
 
-int run_window(const Configuration& configuration, const Script& script) {
+int run_window(const Configuration& configuration, const Script& script,
+               const std::optional<request::Connect>& scanner) {
   const auto [first_width, first_height] = first_size();
   WindowTarget target("Nextview", first_width, first_height);
   GLFWwindow* window = target.handle();
@@ -178,7 +179,7 @@ int run_window(const Configuration& configuration, const Script& script) {
   Interface interface(target, worker, inspector, scale);
   ScriptErrors errors(script.file);
   interface.script().set_on_failure([&](const ScriptFailure& failure) { errors.add(failure); });
-  interface.open(configuration);
+  scanner ? interface.connect(*scanner) : interface.open(configuration);
   interface.run_script(script.calls);
   listen(window, interface);
   run(target, interface, [&] { return script.stop_on_error && errors.any(); });

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/config/configuration.hpp"
 #include "ui/commands/command.hpp"
+#include "ui/workbench/session_request.hpp"
 
 namespace nextview {
 
@@ -11,10 +12,11 @@ struct Script {
   bool stop_on_error = false;  ///< the first call that fails ends the program
 };
 
-/// Opens the window, with the object loaded and ready to step, and does what the script says; returns the exit code
-/// once it is closed: 0, or 2 if a call of the script was not done, each of which is told on the standard error stream
-/// as `FILE:LINE: command: reason`.
+/// Opens the window, with the object loaded, or a live scanner reached, and ready to step, and does what the script
+/// says; returns the exit code once it is closed: 0, or 2 if a call of the script was not done, each of which is told
+/// on the standard error stream as `FILE:LINE: command: reason`.
 /// @throws std::runtime_error in one line if there is no display, no OpenGL 3.3 or no font.
-int run_window(const Configuration& configuration, const Script& script = {});
+int run_window(const Configuration& configuration, const Script& script = {},
+               const std::optional<request::Connect>& scanner = std::nullopt);
 
 }  // namespace nextview

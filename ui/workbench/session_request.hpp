@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <variant>
 
 #include "core/config/configuration.hpp"
@@ -18,9 +20,11 @@ struct Load {
 struct OpenFile {
   std::filesystem::path file;
 };
-/// Starts over with a live scanner: the program that drives it, with its arguments.
+/// Starts over with a live scanner.
 struct Connect {
-  std::string command;
+  std::string command;                              ///< the program that drives it, with its arguments
+  bool confirm = true;                              ///< each move of a real robot
+  std::optional<Configuration> configuration = {};  ///< none: that of now
 };
 /// Leaves the scanner, and goes back to what was scanned before it.
 struct Disconnect {};

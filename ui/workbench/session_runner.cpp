@@ -43,8 +43,10 @@ void SessionRunner::disconnect(const JobControl& control) {
   if (scanner_) start(before_scanner_, nullptr, control);
 }
 
-void SessionRunner::connect(const ScannerWishes& wishes, const JobControl& control) {
-  const Configuration before = scanner_ ? before_scanner_ : configuration();
+void SessionRunner::connect(const ScannerWishes& wishes, std::optional<Configuration> wanted,
+                            const JobControl& control) {
+  const Configuration before = wanted ? *std::move(wanted) : scanner_ ? before_scanner_ : configuration();
+  if (!session_) wanted_ = before;
   Configuration following = before;
   forget_fitted(following);
   control.progress(0.0, "reaching the scanner");

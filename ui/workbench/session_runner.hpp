@@ -33,7 +33,7 @@ class SessionRunner {
   void open(const std::filesystem::path& input, const JobControl& control);
   void disconnect(const JobControl& control);
   /// The same with a live scanner. @throws as connect_scanner, too
-  void connect(const ScannerWishes& wishes, const JobControl& control);
+  void connect(const ScannerWishes& wishes, std::optional<Configuration> configuration, const JobControl& control);
   /// @throws std::runtime_error with the reason
   void reconnect(const JobControl& control);
   /// The scan stays; what it has taken so far may be all there is to it, or it may go on.

@@ -160,7 +160,7 @@ void SessionWorker::execute(const SessionRequest& request) {
   std::visit(Overloaded{
                  [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
                  [&](const request::OpenFile& r) { runner_.open(r.file, job_control()); },
-                 [&](const request::Connect& r) { runner_.connect(scanner_wishes(r.command), job_control()); },
+                 [&](const request::Connect& r) { runner_.connect(scanner_wishes(r), r.configuration, job_control()); },
                  [&](request::Disconnect) { runner_.disconnect(job_control()); },
                  [&](request::Reconnect) {
                    runner_.reconnect(job_control());
@@ -217,13 +217,14 @@ bool SessionWorker::ask(std::string question) {
   return std::exchange(answer_, std::nullopt).value_or(false);
 }
 
-ScannerWishes SessionWorker::scanner_wishes(const std::string& command) {
-  ScannerWishes wishes{command};
-  wishes.confirm = [this](const Pose& from, const Pose& to) {
-    const Vector3 p = to.translation();
-    return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
-                           length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()));
-  };
+ScannerWishes SessionWorker::scanner_wishes(const request::Connect& request) {
+  ScannerWishes wishes{request.command};
+  if (request.confirm)
+    wishes.confirm = [this](const Pose& from, const Pose& to) {
+      const Vector3 p = to.translation();
+      return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
+                             length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()));
+    };
   wishes.log = [this](const std::string& line) { log_.add(LogEntry::Level::note, "Scanner: " + line); };
   return wishes;
 }

@@ -53,7 +53,7 @@ class SessionWorker {
   void report_sampler(const SamplerDiagnostics& so_far);
   SessionRunner::JobControl job_control();
   bool ask(std::string question);
-  ScannerWishes scanner_wishes(const std::string& command);
+  ScannerWishes scanner_wishes(const request::Connect& request);
   void news() const;
 
   const std::function<void()> on_news_;
