@@ -116,7 +116,7 @@ float draw_figures(const PanelContext& context, float least, float right, float 
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return right;
   const bool any = !s.records.empty();
-  if (s.truth || s.is_recording()) {
+  if (s.is_evaluated() || s.is_recording()) {
     const double coverage = any ? s.records.back().coverage_recorded.value_or(s.records.back().coverage_visible) : 0.0;
     right = draw_figure(context, least, right, y, fmt::format("{:.1f} %", 100 * coverage),
                         s.is_recording() ? "of all frames" : "of visible surface");

@@ -156,7 +156,7 @@ void draw_choice(const PanelContext& context, std::size_t plot, const Rectangle&
 ChartContent curve_content(const SessionSnapshot& s, CurveKind kind) {
   if (kind == CurveKind::coverage && s.is_recording()) return recorded_coverage_content(s);
   const bool needs_truth = kind == CurveKind::coverage || kind == CurveKind::divergence;
-  if (needs_truth && !s.truth)
+  if (needs_truth && !s.is_evaluated())
     return {s.configuration.evaluation.enabled ? "The true surface is not known"
                                                : "The true surface is not looked at: evaluation is off",
             "view",

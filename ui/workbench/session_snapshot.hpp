@@ -102,6 +102,8 @@ struct SessionSnapshot {
   bool loaded() const { return session > 0; }
   /// Goes through recorded data, whose frames are the candidates.
   bool is_recording() const { return setup && setup->recorded; }
+  /// Compares the scan with the true surface, where one is known.
+  bool is_evaluated() const { return configuration.evaluation.enabled && (!setup || setup->truth); }
   /// The candidate that the planner would take; the next view, unless that was overridden.
   std::optional<std::size_t> proposal() const { return records.empty() ? std::nullopt : records.back().ranking.best; }
   bool available(std::size_t candidate) const {
