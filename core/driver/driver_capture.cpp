@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/driver/npy_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/recording/depth_image_file.hpp"
@@ -24,13 +25,6 @@ void require_size(const fs::path& file, int width, int height, const PinholeCame
                              camera.height));
 }
 
-DepthImage image_of(const fs::path& file, DepthFormat format, const PinholeCamera& camera) {
-  DepthImage image = read_depth_image(file, format, camera);
-  require_size(file, image.camera.width, image.camera.height, camera);
-  image.camera = camera;
-  return image;
-}
-
 DepthImage ranges_of_png(const fs::path& file, const CapturedFile& captured, const PinholeCamera& camera) {
   if (captured.scale <= 0.0) refuse(file, "is an image, and the driver does not say its 'scale' [m]");
   if (captured.measures != "z" && captured.measures != "range")
@@ -38,14 +32,19 @@ DepthImage ranges_of_png(const fs::path& file, const CapturedFile& captured, con
   DepthFormat format;
   format.scale = captured.scale;
   format.measures = captured.measures == "z" ? DepthMeasures::z : DepthMeasures::range;
-  return image_of(file, format, camera);
+  DepthImage image = read_depth_image(file, format, camera);
+  require_size(file, image.camera.width, image.camera.height, camera);
+  return image;
 }
 
 DepthImage ranges_of_npy(const fs::path& file, const PinholeCamera& camera) {
-  DepthFormat metres;
-  metres.scale = 1.0;
-  metres.measures = DepthMeasures::range;
-  return image_of(file, metres, camera);
+  NpyTable table = read_npy(file);
+  require_size(file, table.columns, table.rows, camera);
+  for (const float range : table.values)
+    if (range <= 0.0f)
+      refuse(file, fmt::format("holds the range {:g}; ranges are over 0, NaN is an invalid pixel, inf one beyond range",
+                               range));
+  return {camera, std::move(table.values)};
 }
 
 std::vector<Vector3> points_of_ply(const fs::path& file) {

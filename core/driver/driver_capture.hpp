@@ -5,7 +5,7 @@
 namespace nextview {
 
 /// Reads what a driver says that it captured: by its name's ending
-///  - .npy: float32 ranges along the ray [m], height x width; inf: beyond range, NaN or 0: invalid
+///  - .npy: float32 ranges along the ray [m], height x width; inf: beyond range, NaN: invalid
 ///  - .png: 16-bit grey values, times `scale` [m], of what it `measures` (z or range); 0: invalid
 ///  - .ply: points in the camera frame [m]
 /// @param folder of the request

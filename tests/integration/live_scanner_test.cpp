@@ -1,0 +1,89 @@
+// Scanning with a live scanner, as a user does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string camera = "--sensor.width 80 --sensor.height 60 --sensor.range_noise 0.003 ";
+const std::string quick =
+    "--views 3 --views.count 12 --evaluation.surface_samples 2000 --no-pictures --no-surfaces --seed 5 ";
+
+class LiveScanner : public testing::Test {
+ protected:
+  std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
+  /// The program's own simulator behind the protocol.
+  static std::string simulated(const std::string& object) {
+    return "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated " + object + " " + camera + "' ";
+  }
+  /// A driver in shell: its first words, then what it answers to each further request.
+  std::string scripted(const std::string& answers) const {
+    write_file(in("driver.sh"),
+               "read line\necho '{\"id\":1,\"ok\":true,\"protocol\":1,\"name\":\"arm\",\"abilities\":[\"stop\"],"
+               "\"intrinsics\":[70,70,40,30],\"width\":80,\"height\":60,\"max_range\":2,\"range_noise\":0.001}'\n" +
+                   answers);
+    return "--driver 'sh " + in("driver.sh") + "' ";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LiveScanner, TheSimulatorBehindTheProtocolGivesTheSameFiles) {
+  ASSERT_EQ(nextview("scan box " + camera + quick + "--out " + in("built_in")).exit_code, 0);
+  const Result live = nextview("scan " + simulated("box") + quick + "--out " + in("live"));
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  EXPECT_THAT(live.out, HasSubstr("box.ply: 500 x 500 x 500 mm"));
+  for (const char* file : {"map.ot", "cloud.ply", "steps.csv", "scores.csv", "views.csv"})
+    EXPECT_EQ(read_file(in("built_in") + "/" + file), read_file(in("live") + "/" + file)) << file;
+}
+
+TEST_F(LiveScanner, TheConfigurationStartsNoProgram) {
+  ASSERT_EQ(nextview("scan " + simulated("box") + quick + "--out " + in("live")).exit_code, 0);
+  EXPECT_THAT(read_file(in("live") + "/config.toml"), testing::Not(HasSubstr("driver simulated")));
+}
+
+TEST_F(LiveScanner, ASettingThatConflictsIsAnErrorThatNamesIt) {
+  const Result run = nextview("scan " + simulated("box") + quick + "--sensor.width 81 --out " + in("out"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.err, "nextview: --sensor.width: the scanner's own is 80; leave it out\n");
+}
+
+TEST_F(LiveScanner, OfAnUnknownObjectTheRegionIsAskedFor) {
+  const Result run = nextview("scan " + scripted("cat >/dev/null\n") + quick + "--out " + in("out"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.err,
+            "nextview: arm does not say where the object stands: give its box as map.region, six numbers [m]\n");
+}
+
+TEST_F(LiveScanner, AMoveThatNoOneCanConfirmIsNotMade) {
+  const std::string reach =
+      "while read line; do case \"$line\" in *reach*) id=${line#*\\\"id\\\":}; id=${id%%,*}\n"
+      "echo "
+      "\"{\\\"id\\\":$id,\\\"ok\\\":true,\\\"reach\\\":[{\\\"distance\\\":1,\\\"rotation\\\":1,\\\"seconds\\\":1}]}\";;"
+      "\n"
+      "*move*) touch " +
+      in("moved") + ";; esac; done\n";
+  const Result run =
+      nextview("scan " + scripted(reach) + quick + "--map.region '-0.2 -0.2 -0.2 0.2 0.2 0.2' --out " + in("out"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--driver-confirm never"));
+  EXPECT_FALSE(fs::exists(in("moved")));
+}
+
+TEST_F(LiveScanner, ADriverThatCannotBeStartedIsToldInOneLine) {
+  const Result run = nextview("scan --driver no-such-program --out " + in("out"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("no-such-program"));
+  EXPECT_EQ(std::ranges::count(run.err, '\n'), 1);
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
+}  // namespace
+}  // namespace nextview
