@@ -60,7 +60,8 @@ for line in sys.stdin:
     if kind == "bye":
         break
     if kind == "hello":
-        result = dict(protocol=1, name="turntable", abilities=[], start=pose_at(angle), **SCANNER)
+        views = [pose_at(math.radians(a)) for a in range(0, 360, 15)]
+        result = dict(protocol=1, name="turntable", abilities=[], start=pose_at(angle), views=views, **SCANNER)
     elif kind == "reach":
         result = {"reach": [reach(request["from"], pose) for pose in request["poses"]]}
     elif kind == "move" and obstacle(request["pose"]):

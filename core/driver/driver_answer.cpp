@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -124,6 +125,23 @@ Pose DriverAnswer::pose(const char* key) const {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("'{}' {}", key, error.what()));
   }
+}
+
+std::vector<Pose> DriverAnswer::poses(const char* key) const {
+  constexpr std::size_t most_poses = 100'000;
+  const Json& list = member(object_->json, key);
+  if (!list.is_array() || list.size() > most_poses) wrong(key, "a list of at most 100,000 poses", list);
+  std::vector<Pose> result;
+  for (const Json& entry : list) {
+    if (!entry.is_array() || entry.size() != 16 || !std::ranges::all_of(entry, &Json::is_number))
+      wrong(key, "a list of poses of 16 numbers", list);
+    try {
+      result.push_back(pose_of(entry.get<std::vector<double>>()));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("'{}' {}", key, error.what()));
+    }
+  }
+  return result;
 }
 
 std::vector<Reach> DriverAnswer::reaches(const char* key, std::size_t count) const {

@@ -31,6 +31,8 @@ class DriverAnswer {
   /// 16 numbers by rows. What is a rotation but for the digits it was printed with is made one; what is one stays as it
   /// is to the bit.
   Pose pose(const char* key) const;
+  /// A list of poses, each of 16 numbers by rows; at most 100,000.
+  std::vector<Pose> poses(const char* key) const;
   /// A list with so many entries, each with `unreachable` or what the move costs.
   std::vector<Reach> reaches(const char* key, std::size_t count) const;
 

@@ -62,6 +62,8 @@ Result<DriverGreeting> DriverConnection::start(const std::stop_token& stop) try 
   auto* const said = std::get_if<DriverGreeting>(&greeting);
   if (!said) protocol_.reset();
   if (said && said->start) *said->start = *said->start * options_.T_flange_camera;
+  if (said)
+    for (Pose& view : said->views) view = view * options_.T_flange_camera;
   return greeting;
 } catch (const std::runtime_error& error) {
   return Failure{Failure::disconnected, error.what()};

@@ -57,6 +57,7 @@ DriverGreeting greeting_of(const DriverAnswer& answer) {
                           answer.number("range_noise", 0.0, most)};
   if (answer.has("start")) greeting.start = answer.pose("start");
   if (answer.has("region")) greeting.region = region_of(answer);
+  if (answer.has("views")) greeting.views = answer.poses("views");
   if (answer.has("object")) greeting.object = answer.text("object");
   if (answer.has("timeout")) greeting.timeout = answer.number("timeout", 0.0, longest_wait);
   return greeting;

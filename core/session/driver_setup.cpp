@@ -83,6 +83,8 @@ SessionParts scanner_parts(const Configuration& c, std::shared_ptr<DriverConnect
   parts.name = connection->greeting().name;
   parts.source = std::make_unique<DriverSource>(connection, c.seed);
   parts.robot = std::make_unique<DriverRobot>(connection, configured_start_view(c));
+  if (const auto& views = connection->greeting().views; !views.empty())
+    parts.candidates = std::make_unique<FixedCandidates>(views_at(views));
   return parts;
 }
 

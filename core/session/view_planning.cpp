@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -138,7 +140,12 @@ std::string termination(const TerminationConfig& config, const ScanState& state)
   progress.new_voxel_share = double(last.new_voxels) / double(state.known.map.voxels().size());
   if (state.records.size() > 1)
     progress.entropy_drop_share = 1.0 - last.entropy / state.records[state.records.size() - 2]->entropy;
-  return termination_reason(config, progress);
+  const auto unreachable = std::ranges::find_if(last.candidates, [&](const Candidate& candidate) {
+    return !progress.candidates_left && !candidate.unreachable.empty();
+  });
+  const std::string reason = termination_reason(config, progress);
+  if (unreachable == last.candidates.end() || progress.views >= config.views) return reason;
+  return fmt::format("{} that can be reached: {}", reason, unreachable->unreachable);
 }
 
 std::optional<ScoreExplanation> explain(const ScanSetup& setup, const ScanState& state, const Pose& T_world_camera) {

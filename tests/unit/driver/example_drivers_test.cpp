@@ -89,6 +89,7 @@ TEST_F(ExampleDriver, TurntableReachesItsCircle) {
   EXPECT_TRUE(connection->greeting().start->isApprox(seen_at(0), 1e-12)) << connection->greeting().start->matrix();
   DriverRobot robot(connection, Pose::Identity());
   DriverSource source(connection, 1);
+  EXPECT_EQ(connection->greeting().views.size(), 24u) << "every 15 degrees";
   const auto reach = robot.reach(robot.pose(), std::vector<View>{{seen_at(90)}, {at(0, 0, 3)}, {seen_at(-30)}});
   EXPECT_NEAR(reach[0].cost.rotation, std::numbers::pi / 2, 1e-9);
   EXPECT_NEAR(reach[2].cost.distance, 0.6 * std::numbers::pi / 6, 1e-9);
