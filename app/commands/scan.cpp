@@ -69,11 +69,18 @@ void print_head(const Session& session) {
              session.recording() ? "% of all" : "% visible", "kbit", "nats*", "");
 }
 
-void print_step(const StepRecord& r) {
+/// A share of the surface, and how good the map is, where they are known.
+std::string coverage_text(const Session& session, const StepRecord& r) {
+  if (r.coverage_recorded) return fmt::format("{:.1f}", 100.0 * *r.coverage_recorded);
+  return session.known_object() ? fmt::format("{:.1f}", 100.0 * r.coverage_visible) : "-";
+}
+
+void print_step(const Session& session, const StepRecord& r) {
   const StageSeconds& s = r.seconds;
-  fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9.0f} {:>9.1f} {:>9.1f} {:>9.3f} {:>8.2f}\n", r.step,
+  fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9.0f} {:>9} {:>9.1f} {:>9} {:>8.2f}\n", r.step,
              r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.hits, r.new_surface,
-             100.0 * r.coverage_recorded.value_or(r.coverage_visible), r.entropy / 1e3, r.quality_near_surface.log_loss,
+             coverage_text(session, r), r.entropy / 1e3,
+             session.known_object() ? fmt::format("{:.3f}", r.quality_near_surface.log_loss) : "-",
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
   if (r.refinement) {
     const auto view = [](const auto& v) { return v ? fmt::format("{}", *v) : std::string("none"); };
@@ -152,7 +159,7 @@ void take_views(Session& session, Scanner* scanner, OutputFolder& out, bool pict
     }
     failures = 0;
     progress.clear();
-    print_step(session.records().back());
+    print_step(session, session.records().back());
     if (figure) figure->write(session, out.claim(fmt::format("step_{:02}.png", session.records().size())));
   }
 }

@@ -107,8 +107,9 @@ std::string size_text(const Eigen::AlignedBox3d& box) {
 
 std::string lengths_text(const Configuration& c) {
   return fmt::format("voxels {}, region {}, views from {}, a camera for {} to {} with {} of noise, d_reg {}",
-                     length_text(c.map.resolution), length_text(c.map.region_edge), length_text(c.views.radius),
-                     length_text(c.sensor.min_range), length_text(c.sensor.max_range),
+                     length_text(c.map.resolution),
+                     c.map.region.empty() ? length_text(c.map.region_edge) : size_text(c.map.region_box()),
+                     length_text(c.views.radius), length_text(c.sensor.min_range), length_text(c.sensor.max_range),
                      length_text(c.sensor.range_noise), length_text(c.evaluation.d_reg));
 }
 

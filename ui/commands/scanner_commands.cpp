@@ -7,11 +7,6 @@ namespace {
 
 std::string needs_scanner(const CommandState& s) { return s.session.live ? "" : "no scanner is connected (connect)"; }
 
-std::string needs_lost_scanner(const CommandState& s) {
-  if (const std::string reason = needs_scanner(s); !reason.empty()) return reason;
-  return s.session.scanner_lost ? "" : "the scanner is connected";
-}
-
 std::string needs_question(const CommandState& s) {
   return s.progress.question.empty() ? "no robot waits for a move to be confirmed" : "";
 }
@@ -33,7 +28,7 @@ const CommandOf<> command::reconnect{{"reconnect",
                                       "Reach the scanner again",
                                       "Starts its program anew; the scan goes on where it is.",
                                       {},
-                                      needs_lost_scanner},
+                                      needs_scanner},
                                      [](CommandTarget& t) { t.worker.post(request::Reconnect{}); }};
 
 const CommandOf<> command::allow_move{
