@@ -236,8 +236,8 @@ Surface cloud_surface(std::span<const Scan> scans, double finest, const SurfaceP
 }
 
 Surface cloud_surface(const PointCloud& cloud, const SurfaceProgress& progress, std::stop_token stop) {
-  constexpr double finest = 1.0 / 500.0;  // of the longest side: averaged there, cells become some 1/400 of it
-  constexpr double cells_per_spacing = 1.5;
+  constexpr double finest = 1.0 / 500.0;     // of the longest side: averaged there, cells become some 1/280 of it
+  constexpr double cells_per_spacing = 2.0;  // points at random leave gaps
   const auto go_on = reporter(progress, stop);
   if (!go_on(0.0, "averaging the points")) return nothing("stopped");
   const Scan from_nowhere{.origin = Vector3::Zero(), .hits = cloud, .misses = {}};
