@@ -85,6 +85,7 @@ TEST_F(CloudObject, ViewsFollowWhatIsDoneToTheObject) {
   scaled.object.longest_side = 0.5;
   in_place.object.centred = false;
   in_place.map.region_edge = 2.0;
+  in_place.map.resolution = 0.02;
   in_metres.object.unit = LengthUnit::centimetres;
   in_metres.views.unit = LengthUnit::millimetres;
   for (Configuration* c : {&scaled, &in_place, &in_metres}) c->evaluation.enabled = false;
