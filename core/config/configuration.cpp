@@ -123,27 +123,31 @@ void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
 
-void require_region(const MapConfig& map) {
-  if (map.region.empty()) {
-    const double voxels = map.region_edge / map.resolution;
-    require(voxels >= 1.0 && voxels <= 512.0,
-            fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
-    return;
-  }
-  const Eigen::AlignedBox3d box = map.region_box();
-  const Vector3 voxels = box.sizes() / map.resolution;
-  require(
-      voxels.minCoeff() >= 1.0 - 1e-6 && voxels.maxCoeff() <= 512.0 + 1e-6,
-      fmt::format("map.region, {}, must be from 1 to 512 voxels of {} m along each side", map.region, map.resolution));
-  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  require(farthest <= std::min(1000.0, 32768.0 * map.resolution),
-          fmt::format("map.region, {}, must lie within {} m of the origin", map.region,
-                      std::min(1000.0, 32768.0 * map.resolution)));
-}
-
 /// Whether lengths can be compared with each other: the object sets those that were not given when it is opened.
 bool are_settled(const Configuration& c, std::initializer_list<const char*> lengths) {
   return std::none_of(lengths.begin(), lengths.end(), [&](const char* key) { return awaits_object(c, key); });
+}
+
+void require_region_cube(const Configuration& c) {
+  if (!are_settled(c, {"map.region_edge", "map.resolution"})) return;
+  const double voxels = c.map.region_edge / c.map.resolution;
+  require(voxels >= 1.0 && voxels <= 512.0,
+          fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
+}
+
+void require_region(const Configuration& c) {
+  const MapConfig& map = c.map;
+  if (map.region.empty()) return require_region_cube(c);
+  const Eigen::AlignedBox3d box = map.region_box();
+  require(box.sizes().minCoeff() > 0.0, fmt::format("map.region, {}, must be a box with a volume", map.region));
+  const bool settled = are_settled(c, {"map.resolution"});
+  const Vector3 voxels = box.sizes() / map.resolution;
+  require(
+      !settled || (voxels.minCoeff() >= 1.0 - 1e-6 && voxels.maxCoeff() <= 512.0 + 1e-6),
+      fmt::format("map.region, {}, must be from 1 to 512 voxels of {} m along each side", map.region, map.resolution));
+  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double limit = settled ? std::min(1000.0, 32768.0 * map.resolution) : 1000.0;
+  require(farthest <= limit, fmt::format("map.region, {}, must lie within {} m of the origin", map.region, limit));
 }
 
 /// All that Configuration::validate checks, in the words of the declarations.
@@ -155,8 +159,7 @@ void require_valid(const Configuration& c) {
   c.map.model.validate();
   c.gibbs.validate();
   c.planner.validate();
-  if (are_settled(c, {c.map.region.empty() ? "map.region_edge" : "map.region", "map.resolution"}))
-    require_region(c.map);
+  require_region(c);
   require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
           fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
   require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,

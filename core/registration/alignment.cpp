@@ -1,12 +1,9 @@
 #include "core/registration/alignment.hpp"
 
-#include <pcl/point_types.h>
-#include <pcl/registration/icp.h>
-#include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nanoflann.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -16,100 +13,119 @@
 namespace nextview {
 namespace {
 
-using Point = pcl::PointNormal;
-using Cloud = pcl::PointCloud<Point>;
-
 constexpr std::size_t surface_points = 30'000, few_points = 800, many_points = 10'000;
 constexpr double on_surface = 0.02;   // of the surface's longest side
 constexpr double good_overlap = 0.9;  // is not searched for a better one
 constexpr std::size_t least_points = 100;
+constexpr double settled = 1e-9;  // of a step [rad, longest sides]
 
-Point point_at(const Vector3& position, const Vector3& normal = Vector3::Zero()) {
-  Point point;
-  point.x = float(position.x());
-  point.y = float(position.y());
-  point.z = float(position.z());
-  point.normal_x = float(normal.x());
-  point.normal_y = float(normal.y());
-  point.normal_z = float(normal.z());
-  return point;
-}
-Vector3 position(const Point& point) { return {point.x, point.y, point.z}; }
-Vector3 normal(const Point& point) { return {point.normal_x, point.normal_y, point.normal_z}; }
-
-Cloud::Ptr surface_cloud(const TriangleMesh& mesh) {
-  auto cloud = std::make_shared<Cloud>();
-  const SurfaceSamples samples = sample_surface(mesh, surface_points, 1);
-  for (std::size_t i = 0; i < samples.points.size(); ++i) {
-    const auto& [a, b, c] = mesh.triangles[samples.triangles[i]];
-    const Vector3 at = mesh.vertices[a].cast<double>();
-    const Vector3 across = (mesh.vertices[b].cast<double>() - at).cross(mesh.vertices[c].cast<double>() - at);
-    cloud->push_back(point_at(samples.points[i].cast<double>(), across.normalized()));
-  }
-  return cloud;
-}
-
-Cloud::Ptr thinned(const PointCloud& points, std::size_t count) {
-  auto cloud = std::make_shared<Cloud>();
-  const double stride = std::max(1.0, double(points.size()) / double(count));
-  for (double at = 0.0; at < double(points.size()); at += stride)
-    cloud->push_back(point_at(points[std::size_t(at)].cast<double>()));
-  return cloud;
-}
-
-class Aligner {
+/// Points of a surface, and which of them is nearest.
+class SurfacePoints {
  public:
-  explicit Aligner(const TriangleMesh& surface)
-      : longest_(surface.bounding_box().sizes().maxCoeff()), target_(surface_cloud(surface)) {
-    tree_ = std::make_shared<pcl::search::KdTree<Point>>();
-    tree_->setInputCloud(target_);
-    icp_.setInputTarget(target_);
-    icp_.setSearchMethodTarget(tree_, true);
-    icp_.setTransformationEstimation(
-        std::make_shared<pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>>());
-    icp_.setTransformationEpsilon(1e-10);
+  explicit SurfacePoints(const TriangleMesh& mesh) : tree_(3, *this, {15}) {
+    const SurfaceSamples samples = sample_surface(mesh, surface_points, 1);
+    for (std::size_t i = 0; i < samples.points.size(); ++i) {
+      const auto& [a, b, c] = mesh.triangles[samples.triangles[i]];
+      const Vector3 at = mesh.vertices[a].cast<double>();
+      points_.push_back(samples.points[i].cast<double>());
+      normals_.push_back(
+          (mesh.vertices[b].cast<double>() - at).cross(mesh.vertices[c].cast<double>() - at).normalized());
+    }
+    tree_.buildIndex();
+  }
+  SurfacePoints(const SurfacePoints&) = delete;
+
+  struct Nearest {
+    double squared;    ///< distance [m^2]
+    double off_plane;  ///< distance from the surface's plane there, along its normal [m]
+    Vector3 normal;
+  };
+  Nearest nearest(const Vector3& point) const {
+    std::uint32_t index = 0;
+    double squared = 0.0;
+    tree_.knnSearch(point.data(), 1, &index, &squared);
+    return {squared, (point - points_[index]).dot(normals_[index]), normals_[index]};
   }
 
-  /// Refined from a first guess: pairs as far apart as `reach`, a share of the longest side, then ever nearer ones.
-  Alignment refine(const Cloud::Ptr& cloud, Pose guess, double reach, int iterations) {
-    for (; reach > 0.5 * on_surface; reach *= 0.5) {
-      icp_.setInputSource(cloud);
-      icp_.setMaxCorrespondenceDistance(reach * longest_);
-      icp_.setMaximumIterations(iterations);
-      Cloud moved;
-      icp_.align(moved, guess.matrix().cast<float>());
-      const Eigen::Matrix4d result = icp_.getFinalTransformation().cast<double>();
-      if (!result.allFinite()) break;
-      guess = make_pose(result.topRightCorner<3, 1>(), Eigen::Quaterniond(result.topLeftCorner<3, 3>().eval()));
-    }
-    return judged(*cloud, guess);
+  // As nanoflann asks for the points.
+  std::size_t kdtree_get_point_count() const { return points_.size(); }
+  double kdtree_get_pt(std::size_t point, std::size_t axis) const { return points_[point][Eigen::Index(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
   }
 
  private:
-  Alignment judged(const Cloud& cloud, const Pose& T_surface_cloud) const {
-    Alignment alignment{T_surface_cloud, 0.0, 0.0};
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SurfacePoints>, SurfacePoints,
+                                                   3, std::uint32_t>;
+  std::vector<Vector3> points_, normals_;
+  Tree tree_;
+};
+
+std::vector<Vector3> thinned(const PointCloud& points, std::size_t count) {
+  std::vector<Vector3> some;
+  const double stride = std::max(1.0, double(points.size()) / double(count));
+  for (double at = 0.0; at < double(points.size()); at += stride)
+    some.push_back(points[std::size_t(at)].cast<double>());
+  return some;
+}
+
+/// Moves points onto the planes that are nearest to them. PCL's own iterations end the program where too few points
+/// are near, or where the surface leaves a direction free.
+class Aligner {
+ public:
+  explicit Aligner(const TriangleMesh& surface)
+      : longest_(surface.bounding_box().sizes().maxCoeff()), surface_(surface) {}
+
+  /// Refined from a first guess: pairs as far apart as `reach`, a share of the longest side, then ever nearer ones.
+  Alignment refine(const std::vector<Vector3>& points, Pose pose, double reach, int iterations) const {
+    for (; reach > 0.5 * on_surface; reach *= 0.5)
+      for (int i = 0; i < iterations; ++i)
+        if (!step(points, pose, reach * longest_)) break;
+    return judged(points, pose);
+  }
+  double longest() const { return longest_; }
+
+ private:
+  /// One step of least squares; false once it no longer moves.
+  bool step(const std::vector<Vector3>& points, Pose& pose, double reach) const {
+    Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero(), row;
+    const Vector3 middle = pose * points[points.size() / 2];
+    for (const Vector3& point : points) {
+      const Vector3 moved = pose * point;
+      const SurfacePoints::Nearest nearest = surface_.nearest(moved);
+      if (nearest.squared > reach * reach) continue;
+      row << (moved - middle).cross(nearest.normal) / longest_, nearest.normal;
+      A += row * row.transpose();
+      b -= row * nearest.off_plane;
+    }
+    // What the surface leaves free stays as it is.
+    A.diagonal().array() += 1e-9 * (A.trace() + 1.0);
+    const Eigen::Matrix<double, 6, 1> x = A.ldlt().solve(b);
+    if (!x.allFinite()) return false;
+    const Vector3 turn = x.head<3>() / longest_;
+    const Eigen::AngleAxisd rotation(turn.norm(), turn.norm() > 0.0 ? turn.normalized() : Vector3::UnitZ());
+    const Pose moved = Eigen::Translation3d(middle + x.tail<3>()) * rotation * Eigen::Translation3d(-middle) * pose;
+    pose = make_pose(moved.translation(), Eigen::Quaterniond(moved.linear()));
+    return turn.norm() > settled || x.tail<3>().norm() > settled * longest_;
+  }
+
+  Alignment judged(const std::vector<Vector3>& points, const Pose& T_surface_cloud) const {
     std::size_t near = 0;
     double squares = 0.0;
-    std::vector<int> index(1);
-    std::vector<float> squared(1);
-    for (const Point& point : cloud) {
-      const Vector3 moved = T_surface_cloud * position(point);
-      if (tree_->nearestKSearch(point_at(moved), 1, index, squared) < 1) continue;
-      if (squared[0] > std::pow(on_surface * longest_, 2)) continue;
-      // To the plane: samples of the surface lie apart.
-      const Point& nearest = (*target_)[std::size_t(index[0])];
-      squares += std::pow((moved - position(nearest)).dot(normal(nearest)), 2);
+    for (const Vector3& point : points) {
+      const SurfacePoints::Nearest nearest = surface_.nearest(T_surface_cloud * point);
+      if (nearest.squared > std::pow(on_surface * longest_, 2)) continue;
+      squares += nearest.off_plane * nearest.off_plane;  // to the plane: samples of the surface lie apart
       ++near;
     }
-    alignment.overlap = double(near) / double(cloud.size());
-    alignment.residual = near > 0 ? std::sqrt(squares / double(near)) : longest_;
-    return alignment;
+    return {T_surface_cloud, near > 0 ? std::sqrt(squares / double(near)) : longest_,
+            double(near) / double(points.size())};
   }
 
   double longest_;
-  Cloud::Ptr target_;
-  pcl::search::KdTree<Point>::Ptr tree_;
-  pcl::IterativeClosestPoint<Point, Point> icp_;
+  SurfacePoints surface_;
 };
 
 bool better(const Alignment& a, const Alignment& b, double longest) {
@@ -145,19 +161,18 @@ Vector3 middle(const PointCloud& cloud) {
 Alignment align(const PointCloud& cloud, const TriangleMesh& surface, const std::stop_token& stop) {
   if (cloud.size() < least_points)
     throw std::invalid_argument("too few points to align with a mesh: at least 100 are needed");
-  Aligner aligner(surface);
-  const double longest = surface.bounding_box().sizes().maxCoeff();
-  const Cloud::Ptr few = thinned(cloud, few_points), many = thinned(cloud, many_points);
+  const Aligner aligner(surface);
+  const std::vector<Vector3> few = thinned(cloud, few_points);
   Alignment best = aligner.refine(few, Pose::Identity(), 0.1, 20);
   const Vector3 from = middle(cloud), to = surface.bounding_box().center().cast<double>();
   if (best.overlap < good_overlap)
     for (const Eigen::Quaterniond& turn : axis_rotations()) {
       throw_if_stopped(stop);
       const Alignment found = aligner.refine(few, make_pose(to - turn * from, turn), 0.3, 20);
-      if (better(found, best, longest)) best = found;
+      if (better(found, best, aligner.longest())) best = found;
     }
   throw_if_stopped(stop);
-  return aligner.refine(many, best.T_surface_cloud, on_surface, 50);
+  return aligner.refine(thinned(cloud, many_points), best.T_surface_cloud, on_surface, 50);
 }
 
 }  // namespace nextview

@@ -87,10 +87,13 @@ void follow_camera(Configuration& c, const PinholeCamera& camera) {
     Setting& setting = find_setting(all, key);
     const std::string asked = setting.text();
     setting.set(text);
-    if (c.sources.contains(key) && asked != setting.text())
+    const std::string own = setting.text();
+    if (c.sources.contains(key) && asked != own) {
+      setting.set(asked);  // which the message names as it was given
       throw std::invalid_argument(
-          fmt::format("{}: the recording has a camera of its own, with {}; leave it out", key, setting.text()));
-    c.fitted[key] = setting.text();
+          fmt::format("{}: the recording has a camera of its own, with {}; leave it out", key, own));
+    }
+    c.fitted[key] = own;
   };
   follow("sensor.width", fmt::format("{}", camera.width));
   follow("sensor.height", fmt::format("{}", camera.height));

@@ -37,7 +37,10 @@ TEST(CloudObject, IsScannedFromProjectionMatricesAndThatIsSaid) {
                 .exit_code,
             0);
   EXPECT_EQ(read_file(fs::path(again) / "views.csv"), read_file(out / "views.csv"));
-  EXPECT_EQ(nextview("refine " + out.string() + " --gibbs.sweeps 4 --no-pictures --no-surfaces --out " + again + "-refined").exit_code, 0);
+  EXPECT_EQ(
+      nextview("refine " + out.string() + " --gibbs.sweeps 4 --no-pictures --no-surfaces --out " + again + "-refined")
+          .exit_code,
+      0);
 }
 
 TEST(CloudObject, WhatIsWrongIsOneLine) {

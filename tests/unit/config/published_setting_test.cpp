@@ -7,9 +7,10 @@ namespace nextview {
 namespace {
 
 /// What is wrong with a configuration with this setting; empty if nothing is.
-std::string complaint(const std::string& key, const std::string& text) {
+std::string complaint(const std::string& key, const std::string& text, const std::string& resolution = "") {
   Configuration c;
   try {
+    if (!resolution.empty()) give(c, "map.resolution", resolution, "map.resolution");
     give(c, key, text, key);
     c.validate();
     return "";
@@ -35,8 +36,12 @@ TEST(PublishedSetting, BoundsAreKept) {
   using testing::HasSubstr;
   EXPECT_EQ(complaint("map.region", "-0.4 -0.4 0 0.4 0.4 0.8"), "");
   EXPECT_EQ(complaint("map.region", "0.4,0.4,0.8, -0.4,-0.4,0"), "") << "corners in any order";
-  for (const char* bad : {"1", "0 0 0 1 1 0", "0 0 0 1 1 nan", "0 0 0 1 1 5.2", "0 0 0 1 1 0.001", "5000 0 0 5001 1 1"})
+  for (const char* bad : {"1", "0 0 0 1 1 0", "0 0 0 1 1 nan", "5000 0 0 5001 1 1"})
     EXPECT_THAT(complaint("map.region", bad), HasSubstr("map.region")) << bad;
+  for (const char* bad : {"0 0 0 1 1 5.2", "0 0 0 1 1 0.001"}) {
+    EXPECT_EQ(complaint("map.region", bad), "") << "may suit the voxels that the object will have";
+    EXPECT_THAT(complaint("map.region", bad, "0.01"), HasSubstr("map.region")) << bad;
+  }
   EXPECT_EQ(complaint("planner.start_view", "-0.6 0 0.35 0 -0.70710678 0 -0.70710678"), "");
   for (const char* bad : {"1 2 3", "0 0 0 0 0 0 0", "x"})
     EXPECT_THAT(complaint("planner.start_view", bad), HasSubstr("planner.start_view")) << bad;

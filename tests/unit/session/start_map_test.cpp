@@ -84,10 +84,10 @@ TEST_F(StartMap, AloneIsShownAndNothingIsScanned) {
   EXPECT_FALSE(session.mesh() || session.known_object());
   EXPECT_TRUE(session.candidates().empty());
   EXPECT_DOUBLE_EQ(session.map().grid().resolution, 0.04);
-  for (std::uint32_t v = 0; v < voxels_.size(); ++v)
-    if (voxels_[v].measured) {
-      ASSERT_EQ(log_odds_at(session.map(), grid_.centre(v)), voxels_[v].log_odds);
-    }
+  for (std::uint32_t v = 0; v < voxels_.size(); ++v) {
+    if (!voxels_[v].measured) continue;
+    ASSERT_EQ(log_odds_at(session.map(), grid_.centre(v)), voxels_[v].log_odds);
+  }
 }
 
 }  // namespace
