@@ -10,6 +10,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
@@ -61,7 +62,7 @@ std::vector<TrainingObject> objects(const CalibrateArguments& arguments, const C
   for (const std::string& input : arguments.fitted) {
     const std::filesystem::path file = resolve_object(input);
     const auto object =
-        std::make_shared<const PlacedMesh>(load_placed_mesh(file, placement(configuration.object, file), stop));
+        std::make_shared<const PlacedMesh>(load_object_mesh(file, placement(configuration.object, file), stop));
     require_within_region(object->mesh, configuration, file);
     read.push_back({object_name(file), object});
   }

@@ -33,10 +33,12 @@ struct ScanArguments {
 
 std::string object_text(const Session& session) {
   const LengthUnit unit = session.object().unit;
-  return fmt::format("{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()),
-                     size_text(*session.mesh()),
-                     unit == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit)),
-                     session.object_topology().summary(), lengths_text(session.configuration()));
+  std::string text = fmt::format(
+      "{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()), size_text(*session.mesh()),
+      unit == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit)),
+      session.object_topology().summary(), lengths_text(session.configuration()));
+  for (const std::string& note : session.notes()) text += fmt::format("  {}\n", printable(note));
+  return text;
 }
 
 /// What was recorded, what was guessed of it, and how it lies on the mesh that it is compared with.

@@ -58,7 +58,7 @@ class TomlReader {
     constexpr std::array paths = {"object.file", "views.file", "map.start", "recorded.folder", "recorded.truth"};
     const bool names_file =
         std::ranges::find(paths, key) != paths.end() || (key == "sensor.preset" && !is_there(named_sensor(text)));
-    return names_file ? beside(file_, text, key == "recorded.folder") : text;
+    return names_file ? beside(file_, text, key == "recorded.folder" || key == "views.file") : text;
   }
 
   void apply(const toml::table& table, const std::string& prefix) {

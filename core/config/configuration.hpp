@@ -20,7 +20,7 @@
 namespace nextview {
 
 struct ObjectConfig {
-  std::string file;                         ///< mesh file; empty: the default object
+  std::string file;                         ///< mesh or cloud file; empty: the default object
   double longest_side = 0.0;                ///< the mesh is scaled to this [m]; 0 keeps its size
   LengthUnit unit = LengthUnit::automatic;  ///< of its file's coordinates, where it keeps its size
   bool centred = true;  ///< its bounding box is centred in the origin; else it stays where its file has it

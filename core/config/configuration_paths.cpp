@@ -20,7 +20,7 @@ std::string to_toml(const Configuration& configuration, const fs::path& folder) 
       file = named_from(folder, file);
   };
   name_from_folder(named.object.file);
-  name_from_folder(named.views.file);
+  name_from_folder(named.views.file, true);
   name_from_folder(named.map.start);
   name_from_folder(named.recorded.truth);
   name_from_folder(named.recorded.folder, true);

@@ -50,7 +50,7 @@ Pose DriverConfig::T_flange_camera() const try {
 
 std::vector<Setting> settings(ObjectConfig& c) {
   return {
-      {"object.file", "", "mesh file, or the name of an object that comes with the program", &c.file},
+      {"object.file", "", "mesh or cloud file, or the name of an object that comes with the program", &c.file},
       {"object.longest_side", "m", "scale the object to this; 0 keeps its size", &c.longest_side, zero_or(1e-3, 100)},
       {"object.unit", "", "of its file; auto: the file's own, else mm if it is longer than 10, else m",
        choice(c.unit, {"auto", "m", "mm", "cm", "inch"})},

@@ -12,11 +12,11 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/mesh/file_claims.hpp"
-#include "core/mesh/length_unit.hpp"
 #include "core/mesh/mesh_types.hpp"
 #include "core/mesh/scene_import.hpp"
 #include "core/mesh/weld.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/view/length_unit.hpp"
 
 namespace nextview {
 namespace {
@@ -163,7 +163,7 @@ PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options, co
                                 scaled ? options.longest_side / longest : own_scale(longest, unit)};
   TriangleMesh mesh = moved(imported, placement);
   topology.left_out = all - mesh.triangles.size();
-  return {std::move(mesh), placement, topology, unit, options.ground};
+  return {std::move(mesh), placement, topology, unit, options.ground, 0};
 }
 
 }  // namespace
@@ -180,6 +180,13 @@ TriangleMesh PlacedMesh::surroundings() const {
   all.triangles.push_back({first, first + 1, first + 3});
   all.triangles.push_back({first, first + 3, first + 2});
   return all;
+}
+
+PlacedMesh place_mesh(const TriangleMesh& in_file_units, const MeshFileOptions& options) {
+  ImportedTriangles triangles;
+  for (const Eigen::Vector3f& vertex : in_file_units.vertices) triangles.vertices.push_back(vertex.cast<double>());
+  triangles.triangles = in_file_units.triangles;
+  return placed(std::move(triangles), options, "");
 }
 
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options, std::stop_token stop) {

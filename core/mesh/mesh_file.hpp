@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "core/mesh/length_unit.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "core/view/length_unit.hpp"
 
 namespace nextview {
 
@@ -30,7 +30,8 @@ struct PlacedMesh {
   MeshPlacement placement;
   MeshTopology topology;                    ///< of the file's triangles as they come, those without an area included
   LengthUnit unit = LengthUnit::automatic;  ///< what the coordinates were taken for; automatic: scaled, whatever it is
-  bool on_ground = false;  ///< it stands on a horizontal plane that a camera sees, which is no part of it
+  bool on_ground = false;        ///< it stands on a horizontal plane that a camera sees, which is no part of it
+  std::size_t cloud_points = 0;  ///< of a file that is a cloud, of which the mesh is a surface; 0: it is a mesh
 
   /// What a camera sees: the mesh and, behind its triangles, the ground.
   TriangleMesh surroundings() const;
@@ -45,7 +46,10 @@ struct PlacedMesh {
 /// @throws Stopped
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {},
                        std::stop_token stop = {});
-/// The same, how its coordinates came out of the file's, and how its triangles joined in the file.
+/// A mesh in a file's coordinates, placed as load_placed_mesh places a file's own.
+/// @throws std::runtime_error with the reason alone: no area, absurdly large coordinates
+PlacedMesh place_mesh(const TriangleMesh& in_file_units, const MeshFileOptions& options);
+/// As load_mesh, how its coordinates came out of the file's, and how its triangles joined in the file.
 PlacedMesh load_placed_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {},
                             std::stop_token stop = {});
 

@@ -10,6 +10,7 @@
 #include "core/offline/refinement.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/object_mesh.hpp"
 #include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
@@ -66,34 +67,16 @@ RefinementJob recorded_job(Configuration c, const fs::path& views, const Progres
   return job;
 }
 
-}  // namespace
-
-RefinementJob refinement_job(const fs::path& folder, const std::function<void(Configuration&)>& override_settings,
-                             const Progress& progress, std::stop_token stop) {
-  Configuration c = read_configuration(folder / "config.toml");
-  if (override_settings) override_settings(c);
-  c.validate();
-  RefinementJob job;
-  if (c.recorded.folder.empty()) {
-    require_scanned_object(folder, c);
-    job = refinement_job(c, views_taken(folder / "views.csv", c), progress, stop);
-  } else {
-    job = recorded_job(c, folder / "views.csv", progress, stop);
-  }
-  job.inputs.push_back({folder, "the scan that is read"});
-  job.inputs.push_back({folder / "views.csv", "the list of the views that are taken again"});
-  return job;
-}
-
-RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views, const Progress& progress,
-                             std::stop_token stop) {
-  Configuration c = configuration;
-  const auto [object, mesh] = load_object(c, stop);
+/// A simulated scan of an object.
+RefinementJob simulated_job(const Configuration& c, const ConfiguredObject& configured, std::span<const Pose> views,
+                            const Progress& progress, const std::stop_token& stop) {
+  const auto& [object, mesh] = configured;
   const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);
 
   RefinementJob job = job_of(c, world->camera.camera());
   job.name = object.stem().string();
   job.object = object;
+  if (mesh->cloud_points > 0) job.notices.push_back(cloud_note(*mesh));
   job.candidates = candidate_views(c.views, view_target(c));
   SimulatedSource source(world, c.seed);
   job.scans = take_scans(source, views_at(views), &c.cloud, progress, stop);
@@ -109,6 +92,33 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
                               known.samples(),
                               {known.visible().begin(), known.visible().end()}};
   return job;
+}
+
+}  // namespace
+
+RefinementJob refinement_job(const fs::path& folder, const std::function<void(Configuration&)>& override_settings,
+                             const Progress& progress, std::stop_token stop) {
+  Configuration c = read_configuration(folder / "config.toml");
+  if (override_settings) override_settings(c);
+  c.validate();
+  RefinementJob job;
+  if (c.recorded.folder.empty()) {
+    require_scanned_object(folder, c);
+    const ConfiguredObject object = load_object(c, stop);
+    job = simulated_job(c, object, views_taken(folder / "views.csv", c), progress, stop);
+  } else {
+    job = recorded_job(c, folder / "views.csv", progress, stop);
+  }
+  job.inputs.push_back({folder, "the scan that is read"});
+  job.inputs.push_back({folder / "views.csv", "the list of the views that are taken again"});
+  return job;
+}
+
+RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views, const Progress& progress,
+                             std::stop_token stop) {
+  Configuration c = configuration;
+  const ConfiguredObject object = load_object(c, stop);
+  return simulated_job(c, object, views, progress, stop);
 }
 
 }  // namespace nextview

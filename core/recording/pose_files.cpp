@@ -164,40 +164,4 @@ PinholeCamera read_intrinsics(const fs::path& file, const std::string& heading) 
       fmt::format("{}: holds no matrix of intrinsics{}{}", file.string(), heading.empty() ? "" : " below ", heading));
 }
 
-DecomposedProjection decompose_projection(const Matrix34& projection) {
-  const auto refuse = [] { throw std::invalid_argument("the projection matrix is no camera's"); };
-  if (!projection.allFinite()) refuse();
-  Eigen::Matrix3d m = projection.leftCols<3>();
-  const double scale = (m.determinant() < 0.0 ? -1.0 : 1.0) * m.row(2).norm();  // P is known up to a factor
-  if (!(std::abs(scale) > 0.0)) refuse();
-  m /= scale;
-  // K by rows from below: the third row of R is m's, and each next one what is at right angles to those below.
-  const Vector3 r3 = m.row(2);
-  const double cy = m.row(1).dot(r3);
-  const Vector3 v2 = m.row(1).transpose() - cy * r3;
-  const double fy = v2.norm(), cx = m.row(0).dot(r3);
-  if (!(fy > 1e-12)) refuse();
-  const Vector3 r2 = v2 / fy;
-  const double skew = m.row(0).dot(r2);
-  const Vector3 v1 = m.row(0).transpose() - cx * r3 - skew * r2;
-  const double fx = v1.norm();
-  if (!(fx > 1e-12)) refuse();
-  Pose T_camera_world = Pose::Identity();
-  T_camera_world.linear() << (v1 / fx).transpose(), r2.transpose(), r3.transpose();
-  const Vector3 centre = -m.inverse() * projection.col(3) / scale;
-  T_camera_world.translation() = -(T_camera_world.linear() * centre);
-  return {fx, fy, cx, cy, T_camera_world.inverse()};
-}
-
-Matrix34 read_projection_matrix(const fs::path& file) {
-  for (const NumberBlock& block : number_blocks(read_text(file))) {
-    if (block.columns() != 4 || block.rows.size() < 3) continue;
-    Matrix34 projection;
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 4; ++c) projection(r, c) = block.rows[std::size_t(r)].numbers[std::size_t(c)];
-    return projection;
-  }
-  throw std::runtime_error(fmt::format("{}: holds no projection matrix of three rows of four numbers", file.string()));
-}
-
 }  // namespace nextview

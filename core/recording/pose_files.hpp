@@ -43,15 +43,4 @@ PinholeCamera read_intrinsics(const std::filesystem::path& file, const std::stri
 /// Turns the axes of a body (x forward, y left, z up) into those of a camera: T_body_camera.
 Pose camera_in_body();
 
-/// A camera projection matrix P = K [R | t] taken apart. K's skew is left out; its sign does not matter.
-struct DecomposedProjection {
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< [px]
-  Pose T_world_camera = Pose::Identity();
-};
-/// @throws std::invalid_argument if P is not finite or is no camera's (its left part cannot be inverted)
-DecomposedProjection decompose_projection(const Eigen::Matrix<double, 3, 4>& projection);
-
-/// The projection matrix of a file (DTU): three rows of four numbers. @throws std::runtime_error "FILE: reason"
-Eigen::Matrix<double, 3, 4> read_projection_matrix(const std::filesystem::path& file);
-
 }  // namespace nextview

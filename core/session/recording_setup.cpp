@@ -8,6 +8,7 @@
 
 #include "core/config/object_lengths.hpp"
 #include "core/file/read_file.hpp"
+#include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
 #include "core/setting/length_text.hpp"
@@ -36,8 +37,8 @@ void adopt_settings(Configuration& c, Configuration of_scan) {
 
 /// The views of a simulated scan, taken again: the same bytes.
 Recording simulated_again(const fs::path& folder, Configuration of_scan, const std::stop_token& stop) {
-  const std::vector<Pose> views = views_taken(folder / "views.csv", of_scan);
   const ConfiguredObject object = load_object(of_scan, stop);
+  const std::vector<Pose> views = views_taken(folder / "views.csv", of_scan);
   const auto world = std::make_shared<const SimulatedWorld>(object.placed, of_scan.sensor, stop);
   Recording recording;
   recording.format = "scan";
@@ -228,7 +229,7 @@ AlignedTruth aligned_truth(const Configuration& c, const PointCloud& scanned, co
   AlignedTruth truth{resolve_object(c.recorded.truth), nullptr, {}};
   ObjectConfig as_it_stands = c.object;
   as_it_stands.centred = false;
-  auto placed = std::make_shared<PlacedMesh>(load_placed_mesh(truth.file, placement(as_it_stands, truth.file), stop));
+  auto placed = std::make_shared<PlacedMesh>(load_object_mesh(truth.file, placement(as_it_stands, truth.file), stop));
   try {
     truth.alignment = align(scanned, placed->mesh, stop);
   } catch (const std::invalid_argument& error) {

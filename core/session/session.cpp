@@ -8,6 +8,7 @@
 #include "core/memory/available_memory.hpp"
 #include "core/planner/look_ahead_planner.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/object_mesh.hpp"
 #include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/start_map.hpp"
@@ -43,7 +44,10 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   if (!setup_.planner) setup_.planner = make_planner(c.planner);
   setup_.candidates = std::move(parts.candidates);
   if (map_alone) setup_.candidates = std::make_shared<FixedCandidates>(std::vector<View>{});
-  if (!setup_.candidates) setup_.candidates = configured_candidates(c, setup_.source);
+  if (!setup_.candidates) {
+    const auto notice = [this](const std::string& text) { views_notes_.push_back(text); };
+    setup_.candidates = configured_candidates(c, setup_.source, notice);
+  }
   if (world && c.evaluation.enabled) compare_with(world, progress, stop);
   ScanState nothing = nothing_scanned(setup_, robot_->pose());
   if (map_alone) nothing.finished = "this is a map alone, and nothing can be scanned";
@@ -110,6 +114,8 @@ std::shared_ptr<const TriangleMesh> Session::mesh() const {
 std::vector<std::string> Session::notes() const {
   std::vector<std::string> notes;
   if (recording_) notes = recording_->guessed;
+  if (object_ && object_->cloud_points > 0) notes.push_back(cloud_note(*object_));
+  notes.insert(notes.end(), views_notes_.begin(), views_notes_.end());
   if (truth_alignment_)
     notes.push_back(
         alignment_note(*truth_alignment_, object_file_.filename().string(), setup_.recorded->samples(), object_->mesh));

@@ -123,6 +123,7 @@ class Session {
   std::filesystem::path object_file_;
   std::shared_ptr<const PlacedMesh> object_;
   std::optional<Alignment> truth_alignment_;
+  std::vector<std::string> views_notes_;  // what was passed over where views were read
   const Recording* recording_ = nullptr;  ///< of the source
   std::unique_ptr<ScanSource> source_;
   std::unique_ptr<Robot> robot_;

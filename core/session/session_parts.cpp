@@ -11,6 +11,7 @@
 #include "core/memory/available_memory.hpp"
 #include "core/planner/adaptive_candidates.hpp"
 #include "core/planner/policy.hpp"
+#include "core/session/object_mesh.hpp"
 
 namespace nextview {
 namespace {
@@ -103,10 +104,10 @@ VoxelGrid configured_region(const Configuration& c, const SourceDescription& sou
   return region_of_interest(source.region->center(), source.region->sizes().maxCoeff(), c.map.resolution);
 }
 
-std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& c,
-                                                                const SourceDescription& source) {
+std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& c, const SourceDescription& source,
+                                                                const std::function<void(const std::string&)>& notice) {
   if (!source.frames.empty()) return std::make_shared<FixedCandidates>(source.frames);
-  std::vector<View> views = views_at(candidate_views(c.views, view_target(c)));
+  std::vector<View> views = views_at(candidate_views(c.views, view_target(c), notice));
   // What a planner is compared with knows no views but these.
   if (c.views.layout != ViewLayout::adaptive || policy_entry(c.planner.gain).baseline)
     return std::make_shared<FixedCandidates>(std::move(views));
@@ -117,11 +118,24 @@ std::shared_ptr<const CandidateGenerator> configured_candidates(const Configurat
       AdaptiveCandidatesConfig{c.views.adaptive, c.views.radius, c.planner.ray_length, c.planner.new_surface, c.seed});
 }
 
+ProjectionPlacement projection_placement(const Configuration& c, const PlacedMesh& object) {
+  const LengthUnit views = c.views.unit, own = object.unit == LengthUnit::automatic ? c.object.unit : object.unit;
+  const MeshPlacement& placed = object.placement;
+  if (views == LengthUnit::automatic) return {placed.centre, placed.scale};
+  if (own == LengthUnit::automatic && !c.views.file.empty())
+    throw std::invalid_argument(
+        "views.unit says what the projection matrices are in, but not what the object's file is in, which is scaled "
+        "whatever that is; set object.unit too, or leave views.unit out");
+  const double ratio = metres_per(views) / metres_per(own);  // of the object's units
+  return {placed.centre / ratio, placed.scale * ratio};
+}
+
 ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
   const std::filesystem::path file = resolve_object(c);
-  ConfiguredObject object{file, std::make_shared<PlacedMesh>(load_placed_mesh(file, placement(c.object, file), stop))};
+  ConfiguredObject object{file, std::make_shared<PlacedMesh>(load_object_mesh(file, placement(c.object, file), stop))};
   fit_lengths(c, object.placed->mesh.bounding_box().sizes().maxCoeff());
   c = affordable(validated(std::move(c)));
+  c.views.projections = projection_placement(c, *object.placed);
   require_within_region(object.placed->mesh, c, file);
   return object;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -28,7 +29,10 @@ struct ConfiguredObject {
   std::filesystem::path file;
   std::shared_ptr<const PlacedMesh> placed;
 };
-/// Reads it, and fits the lengths to its size (fit_lengths).
+/// How the coordinates of projection matrices (views.file) become the world's: as those of the object's file did.
+/// @throws std::invalid_argument if views.unit is set and nothing says the object's
+ProjectionPlacement projection_placement(const Configuration& configuration, const PlacedMesh& object);
+/// Reads it, fits the lengths to its size (fit_lengths), and puts the views of projection matrices where it is.
 /// @throws std::invalid_argument, std::runtime_error naming the file or the setting; OutOfMemory; Stopped
 ConfiguredObject load_object(Configuration& configuration, const std::stop_token& stop = {});
 
@@ -38,9 +42,11 @@ View start_view(const Configuration& configuration, const SourceDescription& sou
 VoxelGrid configured_region(const Configuration& configuration);
 /// The source's region, if it has one.
 VoxelGrid configured_region(const Configuration& configuration, const SourceDescription& source);
-/// A recording's frames, if the source is one.
-std::shared_ptr<const CandidateGenerator> configured_candidates(const Configuration& configuration,
-                                                                const SourceDescription& source);
+/// A recording's frames, if the source is one. `notice`, if given, hears what was passed over among views that are
+/// read.
+std::shared_ptr<const CandidateGenerator> configured_candidates(
+    const Configuration& configuration, const SourceDescription& source,
+    const std::function<void(const std::string&)>& notice = {});
 /// The points of an object that coverage is a share of.
 SurfaceSamples evaluation_samples(const Configuration& configuration, const TriangleMesh& object);
 /// @throws std::invalid_argument naming the file if the object reaches beyond the region of interest.

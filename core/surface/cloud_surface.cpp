@@ -6,21 +6,16 @@
 #include <pcl/point_types.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <vtkExtractSurface.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSignedDistance.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
-#include "core/mesh/weld.hpp"
 #include "core/surface/connected_pieces.hpp"
-#include "core/surface/vtk_mesh.hpp"
+#include "core/surface/integrated_planes.hpp"
+#include "core/surface/normal_orientation.hpp"
 
 namespace nextview {
 namespace {
@@ -30,8 +25,6 @@ using Tree = pcl::KdTreeFLANN<pcl::PointNormal>;
 
 constexpr int neighbours = 20;      ///< of a point, for its normal and for a vertex's uncertainty
 constexpr std::size_t fewest = 50;  ///< points that make a surface
-constexpr double reach = 2.0;       ///< of a point's plane [cells]
-constexpr double margin = 3.0;      ///< of the lattice around the points, over `reach` [cells]
 constexpr std::size_t speck = 200;  ///< pieces with fewer triangles than this, some 10 x 10 cells, go
 constexpr double largest_lattice = 1 << 28;
 
@@ -80,7 +73,7 @@ double point_spacing(std::span<const Scan> scans) {
 void check_lattice(const Cloud& points, double cell) {
   Eigen::AlignedBox3d box;
   for (const auto& p : points) box.extend(position(p).cast<double>());
-  if ((box.sizes() / cell + Vector3::Constant(2.0 * (reach + margin) + 2.0)).prod() > largest_lattice)
+  if ((box.sizes() / cell + Vector3::Constant(2.0 * integration_margin + 2.0)).prod() > largest_lattice)
     throw std::invalid_argument(
         fmt::format("surface of a cloud: cells of {:.3g} m are too small for points that lie {:.3g} m apart; remove "
                     "stray points or "
@@ -132,40 +125,6 @@ void fit_normals(Cloud& cloud, const Tree& tree) {
       });
 }
 
-/// Where the mean signed distance to the planes of the points around is zero.
-TriangleMesh integrate(const Cloud& cloud, double cell) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> normals;
-  normals->SetNumberOfComponents(3);
-  Eigen::AlignedBox3d box;
-  for (const auto& p : cloud) {
-    points->InsertNextPoint(p.data);
-    normals->InsertNextTuple(p.data_n);
-    box.extend(position(p).cast<double>());
-  }
-  vtkNew<vtkPolyData> input;
-  input->SetPoints(points);
-  input->GetPointData()->SetNormals(normals);
-
-  // VTK marks points out of reach with the radius in single precision and looks for it in double.
-  const double radius = static_cast<float>(reach * cell);
-  const Vector3 lower = box.min() - Vector3::Constant((reach + margin) * cell);
-  const Eigen::Vector3i size = ((box.sizes() / cell).array() + 2.0 * (reach + margin) + 2.0).cast<int>();
-  const Vector3 upper = lower + cell * (size - Eigen::Vector3i::Ones()).cast<double>();
-  vtkNew<vtkSignedDistance> distance;
-  distance->SetInputData(input);
-  distance->SetRadius(radius);
-  distance->SetBounds(lower.x(), upper.x(), lower.y(), upper.y(), lower.z(), upper.z());
-  distance->SetDimensions(size.x(), size.y(), size.z());
-  vtkNew<vtkExtractSurface> zero;
-  zero->SetInputConnection(distance->GetOutputPort());
-  zero->SetRadius(radius);
-  zero->HoleFillingOff();
-  zero->ComputeNormalsOff();
-  zero->Update();
-  return welded(to_mesh(*zero->GetOutput()));
-}
-
 std::vector<float> deviations(const TriangleMesh& mesh, const Cloud& cloud, const Tree& tree) {
   std::vector<float> result(mesh.vertices.size());
   with_neighbours(
@@ -184,40 +143,117 @@ std::vector<float> deviations(const TriangleMesh& mesh, const Cloud& cloud, cons
   return result;
 }
 
+std::vector<Eigen::Vector3f> positions(const Cloud& cloud) {
+  std::vector<Eigen::Vector3f> all;
+  for (const auto& p : cloud) all.push_back(position(p));
+  return all;
+}
+
+std::vector<Eigen::Vector3f> normals(const Cloud& cloud) {
+  std::vector<Eigen::Vector3f> all;
+  for (const auto& p : cloud) all.push_back(normal(p));
+  return all;
+}
+
+/// Of points that nobody knows the cameras of.
+void fit_oriented_normals(Cloud& cloud, const Tree& tree) {
+  constexpr std::size_t next_to = 10;
+  fit_normals(cloud, tree);
+  std::vector<std::vector<std::uint32_t>> nearest_of(cloud.size());
+  with_neighbours(
+      tree, cloud.size(), [&](std::size_t i) { return position(cloud[i]); },
+      [&](std::size_t i, const pcl::Indices& nearest) {
+        nearest_of[i].assign(nearest.begin(), nearest.begin() + std::ptrdiff_t(std::min(next_to, nearest.size())));
+      });
+  std::vector<Eigen::Vector3f> oriented = normals(cloud);
+  orient_normals(positions(cloud), nearest_of, oriented);
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud[i].getNormalVector3fMap() = oriented[i];
+}
+
+/// How far points would lie apart in rows and columns: of a surface's density, the median over some points.
+double grid_spacing(const Cloud::Ptr& cloud) {
+  constexpr int around = 8;
+  constexpr std::size_t samples = 2000;
+  Tree tree(false);
+  tree.setInputCloud(cloud);
+  std::vector<float> squares;
+  pcl::Indices indices;
+  std::vector<float> squared;
+  for (std::size_t i = 0; i < cloud->size(); i += std::max<std::size_t>(1, cloud->size() / samples)) {
+    tree.nearestKSearch((*cloud)[i], around + 1, indices, squared);
+    squares.push_back(squared.back());
+  }
+  const auto middle = squares.begin() + std::ptrdiff_t(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::sqrt(double(*middle) * std::numbers::pi / around);
+}
+
+Surface nothing(const std::string& reason) {
+  Surface surface;
+  surface.why_empty = reason;
+  return surface;
+}
+
+Surface too_few(std::size_t points) { return nothing(fmt::format("{} points are too few for a surface", points)); }
+
+/// What both kinds of clouds go through, once it is known how wide cells are and how normals get their signs.
+Surface surface_in_cells(const Cloud::Ptr& points, double cell, void (*fit)(Cloud&, const Tree&),
+                         const std::function<bool(double, std::string_view)>& go_on) {
+  check_lattice(*points, cell);
+  const Cloud::Ptr cloud = averaged(points, cell);
+  if (!go_on(0.2, "fitting normals")) return nothing("stopped");
+  Tree tree(false);
+  tree.setInputCloud(cloud);
+  fit(*cloud, tree);
+  if (!go_on(0.4, "integrating the points' planes")) return nothing("stopped");
+  Surface surface;
+  surface.mesh = without_small_pieces(integrated_planes(positions(*cloud), normals(*cloud), cell), speck);
+  if (surface.empty()) return nothing("the points lie too far apart for a surface");
+  if (!go_on(0.8, "measuring the uncertainty")) return nothing("stopped");
+  surface.uncertainty = deviations(surface.mesh, *cloud, tree);
+  surface.seen.assign(surface.mesh.vertices.size(), 1);
+  return surface;
+}
+
+std::function<bool(double, std::string_view)> reporter(const SurfaceProgress& progress, const std::stop_token& stop) {
+  return [&progress, stop](double fraction, std::string_view what) {
+    if (progress) progress(fraction, what);
+    return !stop.stop_requested();
+  };
+}
+
 }  // namespace
 
 Surface cloud_surface(std::span<const Scan> scans, double finest, const SurfaceProgress& progress,
                       std::stop_token stop) {
   if (!(finest > 0.0))
     throw std::invalid_argument(fmt::format("surface of a cloud: cells must be over 0 m wide, not {}", finest));
-  const auto empty = [](const std::string& reason) {
-    Surface surface;
-    surface.why_empty = reason;
-    return surface;
-  };
-  const auto go_on = [&](double fraction, std::string_view what) {
-    if (progress) progress(fraction, what);
-    return !stop.stop_requested();
-  };
-  const std::string stopped = "stopped";
-  if (!go_on(0.0, "averaging the points")) return empty(stopped);
+  const auto go_on = reporter(progress, stop);
+  if (!go_on(0.0, "averaging the points")) return nothing("stopped");
   const Cloud::Ptr points = to_pcl(scans);
-  if (points->size() < fewest) return empty(fmt::format("{} points are too few for a surface", points->size()));
-  const double cell = std::max(finest, 1.25 * point_spacing(scans));
-  check_lattice(*points, cell);
-  const Cloud::Ptr cloud = averaged(points, cell);
-  if (!go_on(0.2, "fitting normals")) return empty(stopped);
-  Tree tree(false);
-  tree.setInputCloud(cloud);
-  fit_normals(*cloud, tree);
-  if (!go_on(0.4, "integrating the points' planes")) return empty(stopped);
-  Surface surface;
-  surface.mesh = without_small_pieces(integrate(*cloud, cell), speck);
-  if (surface.empty()) return empty("the points lie too far apart for a surface");
-  if (!go_on(0.8, "measuring the uncertainty")) return empty(stopped);
-  surface.uncertainty = deviations(surface.mesh, *cloud, tree);
-  surface.seen.assign(surface.mesh.vertices.size(), 1);
-  return surface;
+  if (points->size() < fewest) return too_few(points->size());
+  return surface_in_cells(points, std::max(finest, 1.25 * point_spacing(scans)), fit_normals, go_on);
+}
+
+Surface cloud_surface(const PointCloud& cloud, const SurfaceProgress& progress, std::stop_token stop) {
+  constexpr double finest = 1.0 / 500.0;     // of the longest side: averaged there, cells become some 1/280 of it
+  constexpr double cells_per_spacing = 2.0;  // points at random leave gaps
+  const auto go_on = reporter(progress, stop);
+  if (!go_on(0.0, "averaging the points")) return nothing("stopped");
+  const Scan from_nowhere{.origin = Vector3::Zero(), .hits = cloud, .misses = {}};
+  const Cloud::Ptr points = to_pcl({&from_nowhere, 1});
+  Eigen::AlignedBox3d box;
+  for (auto& p : *points) {
+    box.extend(position(p).cast<double>());
+    p.getNormalVector3fMap().setZero();
+  }
+  if (points->size() < fewest) return too_few(points->size());
+  const double longest = box.sizes().maxCoeff();
+  if (!(longest > 0.0)) return nothing("all points lie at one place");
+  const Cloud::Ptr fine = averaged(points, finest * longest);
+  if (fine->size() < fewest) return too_few(fine->size());
+  return surface_in_cells(points, std::max(finest * longest, cells_per_spacing * grid_spacing(fine)),
+                          fit_oriented_normals, go_on);
 }
 
 }  // namespace nextview

@@ -26,4 +26,9 @@ using SurfaceProgress = std::function<void(double fraction, std::string_view wha
 Surface cloud_surface(std::span<const Scan> scans, double finest, const SurfaceProgress& progress = {},
                       std::stop_token stop = {});
 
+/// The surface through a cloud that nobody knows the cameras of, in whatever unit its coordinates are. Cells are twice
+/// as wide as points lie apart, and at least a 500th of the cloud's longest side: millions of points
+/// are averaged first. Normals are turned out of each connected piece (orient_normals). Else as above.
+Surface cloud_surface(const PointCloud& cloud, const SurfaceProgress& progress = {}, std::stop_token stop = {});
+
 }  // namespace nextview

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/file/read_file.hpp"
+#include "core/view/projection_matrix.hpp"
+
 namespace nextview {
 namespace {
 
@@ -66,6 +69,39 @@ std::vector<Vector3> equal_rings(int count, int rings) {
   return on_rings(elevations, share_out(count, std::vector<double>(rings, 1.0)));
 }
 
+/// The cameras of projection matrices where the object was put.
+std::vector<Pose> placed_projections(const CandidateViewsConfig& config,
+                                     const std::function<void(const std::string&)>& notice) {
+  constexpr double farthest = 1000.0;  // [m]
+  ProjectionPlacement placement = config.projections;
+  if (!(placement.scale > 0.0)) {
+    if (config.unit == LengthUnit::automatic)
+      throw std::invalid_argument(fmt::format(
+          "views.unit must be set for the projection matrices of {}: there is no object whose unit they share",
+          config.file));
+    placement = {Vector3::Zero(), metres_per(config.unit)};
+  }
+  std::vector<Pose> views = read_projections(config.file, notice);
+  for (Pose& view : views) {
+    view.translation() = placement.scale * (view.translation() - placement.centre);
+    if (!(view.translation().norm() <= farthest))
+      throw std::runtime_error(
+          fmt::format("{}: a camera lies {:.3g} m off, more than {:g} m; views.unit sets the unit of its projection "
+                      "matrices",
+                      config.file, view.translation().norm(), farthest));
+  }
+  return views;
+}
+
+std::vector<Pose> views_of_file(const CandidateViewsConfig& config,
+                                const std::function<void(const std::string&)>& notice) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(config.file, ignored)) return placed_projections(config, notice);
+  constexpr std::uintmax_t largest = std::uintmax_t{1} << 25;
+  return has_projections(read_file(config.file, largest)) ? placed_projections(config, notice)
+                                                          : read_views(config.file);
+}
+
 }  // namespace
 
 std::vector<Setting> settings(CandidateViewsConfig& c) {
@@ -75,7 +111,12 @@ std::vector<Setting> settings(CandidateViewsConfig& c) {
       {"views.count", "", "number of candidate views", &c.count, from_to(1, 10000)},
       {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(0.01, 100)},
       {"views.rings", "", "number of rings (layout rings)", &c.rings, from_to(1, 10000)},
-      {"views.file", "", "views file (layout file): a count or none, then x y z qx qy qz qw a line", &c.file},
+      {"views.file", "",
+       "views file (layout file): a count or none, then x y z qx qy qz qw a line; or a file or folder of 3 x 4 "
+       "projection matrices",
+       &c.file},
+      {"views.unit", "", "of projection matrices; auto: that of the object's file",
+       choice(c.unit, {"auto", "m", "mm", "cm", "inch"})},
       {"views.adaptive", "", "views made from the map at each step, beside those of a sphere (layout adaptive)",
        &c.adaptive, from_to(1, 1000)},
   };
@@ -89,9 +130,10 @@ void CandidateViewsConfig::validate() const {
     throw std::invalid_argument(fmt::format("views.rings, {}, must be at most views.count, {}", rings, count));
 }
 
-std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target) {
+std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vector3& target,
+                                  const std::function<void(const std::string&)>& notice) {
   config.validate();
-  if (config.layout == ViewLayout::file) return read_views(config.file);
+  if (config.layout == ViewLayout::file) return views_of_file(config, notice);
   const auto directions = config.layout == ViewLayout::hemisphere  ? latitude_rings(config.count, 0.0)
                           : config.layout == ViewLayout::rings     ? equal_rings(config.count, config.rings)
                           : config.layout == ViewLayout::fibonacci ? fibonacci(config.count)

@@ -96,7 +96,7 @@ constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
     {"evaluation.surface_samples", "50000"},
     {"evaluation.any_pose", "false"},
 }};
-const std::set<std::string> not_pinned = {"seed", "object.file", "sensor.preset", "views.file"};
+const std::set<std::string> not_pinned = {"seed", "object.file", "sensor.preset", "views.file", "views.unit"};
 
 Configuration paper(const Configuration& base) {
   return read_configuration(std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets/configurations/paper.toml", base);

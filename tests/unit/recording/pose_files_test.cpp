@@ -103,23 +103,6 @@ TEST(PoseFiles, NearlyRigidIsMadeRigidAndTheRestRefusedByLine) {
   EXPECT_THAT(why("hello\n"), HasSubstr("holds no pose"));
 }
 
-TEST(ProjectionMatrix, IsTakenApartAndPutTogetherAgain) {
-  Eigen::Matrix3d k;
-  k << 2892.3, 0.0, 823.2, 0.0, 2883.2, 619.1, 0.0, 0.0, 1.0;
-  for (const double factor : {1.0, -0.37, 250.0}) {
-    const Eigen::Matrix<double, 3, 4> p = factor * k * pose.inverse().matrix().topRows<3>();
-    const DecomposedProjection found = decompose_projection(p);
-    EXPECT_NEAR(found.fx, 2892.3, 1e-7);
-    EXPECT_NEAR(found.fy, 2883.2, 1e-7);
-    EXPECT_NEAR(found.cx, 823.2, 1e-7);
-    EXPECT_NEAR(found.cy, 619.1, 1e-7);
-    EXPECT_LT((found.T_world_camera.matrix() - pose.matrix()).cwiseAbs().maxCoeff(), 1e-10);
-    EXPECT_TRUE(is_rigid(found.T_world_camera));
-  }
-  EXPECT_THROW(decompose_projection(Eigen::Matrix<double, 3, 4>::Zero()), std::invalid_argument);
-  EXPECT_THROW(decompose_projection(Eigen::Matrix<double, 3, 4>::Constant(NAN)), std::invalid_argument);
-}
-
 TEST(PoseFiles, DamageIsSurvived) {
   const TemporaryFolder folder;
   made_recording::survives_damage(folder, "p.txt", "# heading\n" + rows(pose, 4) + rows(pose, 4),

@@ -1,0 +1,81 @@
+#include "core/session/object_mesh.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/cloud/ply_header.hpp"
+#include "core/file/counted.hpp"
+#include "core/file/printable.hpp"
+#include "core/file/read_file.hpp"
+#include "core/progress/stopped.hpp"
+#include "core/recording/cloud_file.hpp"
+#include "core/recording/frame_files.hpp"
+#include "core/surface/cloud_surface.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_case_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+/// Whether a PLY file has points alone. One that is damaged is for the mesh reader to refuse.
+bool has_no_faces(const fs::path& file) try {
+  const Descriptor descriptor = open_regular_file(file);
+  std::string begin(1 << 16, '\0');
+  const ssize_t got = ::read(descriptor.get(), begin.data(), begin.size());
+  const PlyHeader header = parse_ply_header(std::string_view(begin).substr(0, std::size_t(std::max<ssize_t>(0, got))));
+  const auto has = [&](std::initializer_list<const char*> names) {
+    return std::ranges::any_of(header.elements, [&](const PlyElement& element) {
+      return element.count > 0 && std::ranges::find(names, element.name) != names.end();
+    });
+  };
+  return has({"vertex"}) && !has({"face", "tristrips"});
+} catch (const std::runtime_error&) {
+  return false;
+}
+
+bool is_cloud(const fs::path& file) {
+  const std::string extension = lower_case_extension(without_gz(file));
+  return extension == ".pcd" || (extension == ".ply" && (file.extension() == ".gz" || has_no_faces(file)));
+}
+
+PlacedMesh load_cloud(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
+  const PointCloud points = read_cloud_file(file).points;
+  try {
+    const Surface surface = cloud_surface(points, {}, stop);
+    throw_if_stopped(stop);
+    if (surface.empty()) throw std::runtime_error(surface.why_empty);
+    PlacedMesh placed = place_mesh(surface.mesh, options);
+    placed.cloud_points = points.size();
+    return placed;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(fmt::format("{}: needs more memory than there is", printable(file.string())));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: is a cloud of {}, and no surface can be made of it: {}",
+                                         printable(file.string()), counted(points.size(), "point"), error.what()));
+  }
+}
+
+}  // namespace
+
+PlacedMesh load_object_mesh(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
+  return is_cloud(file) ? load_cloud(file, options, stop) : load_placed_mesh(file, options, stop);
+}
+
+std::string cloud_note(const PlacedMesh& object) {
+  if (object.cloud_points == 0) return "";
+  return fmt::format("the object is a cloud of {}: the program's own surface of it is scanned ({})",
+                     counted(object.cloud_points, "point"), counted(object.mesh.triangles.size(), "triangle"));
+}
+
+}  // namespace nextview
