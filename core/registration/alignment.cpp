@@ -57,6 +57,18 @@ Cloud::Ptr thinned(const PointCloud& points, std::size_t count) {
   return cloud;
 }
 
+/// Where pairs lie on a plane there is no one best move: PCL's is not a number then, and its search aborts at the next.
+class FinitePointToPlane : public pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point> {
+ public:
+  using pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>::estimateRigidTransformation;
+  void estimateRigidTransformation(const Cloud& from, const Cloud& to, const pcl::Correspondences& pairs,
+                                   Matrix4& T) const override {
+    pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>::estimateRigidTransformation(from, to,
+                                                                                                          pairs, T);
+    if (!T.allFinite()) T.setIdentity();
+  }
+};
+
 class Aligner {
  public:
   explicit Aligner(const TriangleMesh& surface)
@@ -65,8 +77,7 @@ class Aligner {
     tree_->setInputCloud(target_);
     icp_.setInputTarget(target_);
     icp_.setSearchMethodTarget(tree_, true);
-    icp_.setTransformationEstimation(
-        std::make_shared<pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>>());
+    icp_.setTransformationEstimation(std::make_shared<FinitePointToPlane>());
     icp_.setTransformationEpsilon(1e-10);
   }
 

@@ -26,8 +26,9 @@ constexpr int most_iterations = 30;                          // of each reach
 constexpr double settled = 1e-3;                             // a move below this ends it [spacings]
 constexpr double facing_alike = 0.7;                         // cosine between the normals of a pair
 constexpr int neighbours_tried = 5;                          // for one that faces alike
-/// What a direction must do to the mean squared distance to the planes, per squared move, to count as constrained.
-constexpr double least_constraint = 0.02;
+/// What a direction must do to the mean squared distance to the planes, per squared move, to count as constrained:
+/// this, and so many times what it seems to do on a plane, where normals differ by their noise alone.
+constexpr double least_constraint = 0.002, over_noise = 6.0;
 
 /// What was scanned before, to be searched.
 class Target {
@@ -93,8 +94,21 @@ struct Pairs {
   Matrix6 normal_matrix = Matrix6::Zero();  ///< sum of w J J^T
   Vector6 pull = Vector6::Zero();           ///< sum of w J d
   double weight = 0.0, squares = 0.0;       ///< sum of d^2 [m^2]
-  std::size_t count = 0;
+  std::vector<double> normals_apart = {};   ///< of each pair, the squared difference of its normals
+
+  std::size_t count() const { return normals_apart.size(); }
+  /// Below this, an eigenvalue of the normal matrix, per weight, says nothing.
+  double noise_floor() const;
 };
+
+double Pairs::noise_floor() const {
+  std::vector<double> apart = normals_apart;
+  const auto middle = apart.begin() + std::ptrdiff_t(apart.size() / 2);
+  std::ranges::nth_element(apart, middle);
+  // Two normals differ by errors of variance s^2 along two axes each: the median of the square is 2 s^2 of 2 ln 2.
+  const double variance = *middle / (4.0 * std::numbers::ln2);
+  return std::max(least_constraint, over_noise * variance);
+}
 
 class Registrar {
  public:
@@ -104,8 +118,8 @@ class Registrar {
   Pairs pairs(const Pose& T, double reach) const {
     Pairs all;
     for (const OrientedPoint& p : scan_) {
-      const Vector3 position = T * p.position;
-      const OrientedPoint* const nearest = target_.nearest(position, T.linear() * p.normal, reach);
+      const Vector3 position = T * p.position, normal = T.linear() * p.normal;
+      const OrientedPoint* const nearest = target_.nearest(position, normal, reach);
       if (!nearest) continue;
       const double distance = nearest->normal.dot(nearest->position - position);
       // Tukey's weight: a pair at the end of the reach counts for nothing, so none comes or goes at once.
@@ -116,22 +130,23 @@ class Registrar {
       all.pull += weight * distance * J;
       all.weight += weight;
       all.squares += distance * distance;
-      ++all.count;
+      all.normals_apart.push_back((nearest->normal - normal).squaredNorm());
     }
     return all;
   }
 
-  double share(const Pairs& pairs) const { return double(pairs.count) / double(scan_.size()); }
+  double share(const Pairs& pairs) const { return double(pairs.count()) / double(scan_.size()); }
 
   /// Moves the scan once, along the directions that the pairs constrain. Returns how far [m], and how many those are.
   double step(Pose& T, double reach, int& constrained) const {
     const Pairs all = pairs(T, reach);
     constrained = 0;
-    if (all.count < least_points) return 0.0;
+    if (all.count() < least_points) return 0.0;
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(all.normal_matrix / all.weight);
+    const double floor = all.noise_floor();
     Vector6 move = Vector6::Zero();
     for (int i = 0; i < 6; ++i) {
-      if (solver.eigenvalues()[i] < least_constraint) continue;
+      if (solver.eigenvalues()[i] < floor) continue;
       const Vector6 direction = solver.eigenvectors().col(i);
       move += direction * direction.dot(all.pull / all.weight) / solver.eigenvalues()[i];
       ++constrained;
@@ -153,7 +168,7 @@ class Registrar {
 };
 
 double root_mean_square(const Pairs& pairs) {
-  return pairs.count > 0 ? std::sqrt(pairs.squares / double(pairs.count)) : 0.0;
+  return pairs.count() > 0 ? std::sqrt(pairs.squares / double(pairs.count())) : 0.0;
 }
 
 Target target_of(std::span<const std::shared_ptr<const Scan>> so_far, double spacing, const Vector3& middle,

@@ -24,14 +24,13 @@ inline DepthCameraConfig noisy_camera(double range_noise) {
   return sensor;
 }
 
-/// Views all round the object, in turn above and below it [m].
+/// Views all round the object, from above [m].
 inline std::vector<View> views_around(std::uint32_t count, double height = 0.4, double radius = 0.9) {
   std::vector<View> views;
   for (std::uint32_t k = 0; k < count; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / count;
     const double across = std::sqrt(radius * radius - height * height);
-    views.push_back(
-        {look_at({across * std::cos(angle), across * std::sin(angle), k % 2 ? -height : height}, Vector3::Zero())});
+    views.push_back({look_at({across * std::cos(angle), across * std::sin(angle), height}, Vector3::Zero())});
   }
   return views;
 }
