@@ -4,11 +4,13 @@
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 
+#include "core/cloud/thinned_points.hpp"
 #include "core/progress/stopped.hpp"
 
 namespace nextview {
@@ -25,30 +27,15 @@ Cell cell_of(const Vector3& point, double spacing) {
           int(std::floor(point.z() / spacing))};
 }
 
-/// The mean of the points in each cube, and how many they are. Not PCL's voxel grid: it counts cubes with 32 bits.
-std::vector<OrientedPoint> thinned(const PointCloud& points, double spacing) {
-  std::map<Cell, std::size_t> at;
-  std::vector<OrientedPoint> means;
-  for (const Eigen::Vector3f& p : points) {
-    const Vector3 point = p.cast<double>();
-    const auto [found, is_new] = at.try_emplace(cell_of(point, spacing), means.size());
-    if (is_new) means.push_back({Vector3::Zero(), Vector3::Zero(), 0.0});
-    OrientedPoint& mean = means[found->second];
-    mean.weight += 1.0;
-    mean.position += (point - mean.position) / mean.weight;
-  }
-  return means;
-}
-
 }  // namespace
 
 std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, const std::stop_token& stop) {
-  const std::vector<OrientedPoint> means = thinned(scan.hits, spacing);
+  const ThinnedPoints means = thinned(scan.hits, spacing);
   throw_if_stopped(stop);
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   // Around the scan's origin: single precision is finest there, wherever the world's origin is.
-  for (const OrientedPoint& p : means) {
-    const Eigen::Vector3f from = (p.position - scan.origin).cast<float>();
+  for (const Vector3& p : means.positions) {
+    const Eigen::Vector3f from = (p - scan.origin).cast<float>();
     cloud->emplace_back(from.x(), from.y(), from.z());
   }
   const auto tree = std::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
@@ -57,7 +44,7 @@ std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, con
   std::vector<OrientedPoint> oriented;
   std::vector<int> neighbours;
   std::vector<float> squared;
-  for (std::size_t i = 0; i < means.size(); ++i) {
+  for (std::size_t i = 0; i < means.positions.size(); ++i) {
     if (i % 1024 == 0) throw_if_stopped(stop);
     tree->radiusSearch(int(i), normal_radius * spacing, neighbours, squared);
     float x, y, z, curvature;
@@ -65,8 +52,8 @@ std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, con
       continue;
     Vector3 normal = Eigen::Vector3f(x, y, z).cast<double>().normalized();
     if (!normal.allFinite()) continue;
-    if (normal.dot(scan.origin - means[i].position) < 0.0) normal = -normal;
-    oriented.push_back({means[i].position, normal, means[i].weight});
+    if (normal.dot(scan.origin - means.positions[i]) < 0.0) normal = -normal;
+    oriented.push_back({means.positions[i], normal, double(means.counts[i])});
   }
   return oriented;
 }

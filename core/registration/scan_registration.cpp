@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "core/progress/stopped.hpp"
@@ -192,7 +191,6 @@ std::string doubt(const ScanRegistration& found, const RegistrationLimits& limit
 
 ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr<const Scan>> so_far,
                                const RegistrationLimits& limits, const std::stop_token& stop) {
-  if (!(limits.spacing > 0.0)) throw std::invalid_argument("registration: the spacing of points must be over 0 m");
   ScanRegistration found;
   const auto points = fewer(oriented_points(scan, limits.spacing, stop));
   if (points.size() < least_points) {
