@@ -38,6 +38,7 @@ inline constexpr std::uint32_t adaptive_views = 9;
 inline constexpr std::uint32_t any_pose = 10;
 inline constexpr std::uint32_t drawn_worlds = 11;
 inline constexpr std::uint32_t frame_orders = 12;
+inline constexpr std::uint32_t pose_errors = 13;
 inline constexpr std::uint32_t gibbs = 1024;  ///< and on: chains and moves have streams of their own
 }  // namespace random_stream
 

@@ -1,0 +1,24 @@
+#pragma once
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/cloud/point_cloud.hpp"
+
+namespace nextview {
+
+/// A point of a surface, and where its outside is: towards the camera that saw it.
+struct OrientedPoint {
+  Vector3 position;     ///< [m, world]
+  Vector3 normal;       ///< unit length
+  double weight = 1.0;  ///< how many points it stands for
+};
+
+/// A scan's hits thinned to one point a cube of edge `spacing` [m], with the normals of the planes through their
+/// neighbours. Points without enough neighbours are left out. The same for the same input. @throws Stopped
+std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, const std::stop_token& stop = {});
+
+/// Several scans' points thinned together: in each cube one point for each side of a wall that was seen in it.
+std::vector<OrientedPoint> merged(std::span<const std::vector<OrientedPoint>> scans, double spacing);
+
+}  // namespace nextview

@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "core/setting/setting.hpp"
+
+namespace nextview {
+
+/// Whether new scans are registered with those before, and what is done where that moves one far.
+struct RegistrationConfig {
+  enum class Mode { off, check, correct } mode = Mode::off;  ///< check: says so alone; correct: moves the scan
+  enum class Beyond { ask, accept, reject } beyond_limits = Beyond::ask;  ///< without a window, ask rejects
+  double max_shift = 0.0;     ///< of the scan's middle [m]; 0: by the noise and the mode (registration_limits)
+  double max_rotation = 0.0;  ///< [deg]; 0: by the mode
+  double min_overlap = 0.25;  ///< share of a scan's points that lie on what was scanned before
+
+  /// @throws std::invalid_argument naming the setting and its bounds.
+  void validate() const;
+};
+std::vector<Setting> settings(RegistrationConfig& config);
+
+/// What register_scan goes by.
+struct RegistrationLimits {
+  double spacing = 0.005;     ///< between the points that are compared [m]
+  double max_shift = 0.004;   ///< of the scan's middle [m]
+  double max_rotation = 1.0;  ///< [deg]
+  double min_overlap = 0.25;
+};
+
+/// The limits of a scan whose sensor has this noise along its rays [m] and whose map has voxels of this edge [m].
+RegistrationLimits registration_limits(const RegistrationConfig& config, double range_noise, double resolution);
+
+}  // namespace nextview

@@ -1,0 +1,244 @@
+#include "core/registration/scan_registration.hpp"
+
+#include <fmt/format.h>
+#include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/progress/stopped.hpp"
+#include "core/registration/oriented_points.hpp"
+
+namespace nextview {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr std::size_t most_points = 4000, least_points = 100;
+constexpr double farthest_reach = 8.0, nearest_reach = 2.0;  // of pairs [spacings]
+constexpr int most_iterations = 30;                          // of each reach
+constexpr double settled = 1e-3;                             // a move below this ends it [spacings]
+constexpr double facing_alike = 0.7;                         // cosine between the normals of a pair
+constexpr int neighbours_tried = 5;                          // for one that faces alike
+/// What a direction must do to the mean squared distance to the planes, per squared move, to count as constrained:
+/// this, and so many times what it seems to do on a plane, where normals differ by their noise alone.
+constexpr double least_constraint = 0.002, over_noise = 6.0;
+
+/// What was scanned before, to be searched.
+class Target {
+ public:
+  explicit Target(std::vector<OrientedPoint> points, const Vector3& middle)
+      : points_(std::move(points)), middle_(middle), cloud_(std::make_shared<pcl::PointCloud<pcl::PointXYZ>>()) {
+    for (const OrientedPoint& p : points_) cloud_->push_back(at(p.position));
+    if (!points_.empty()) tree_.setInputCloud(cloud_);
+  }
+
+  /// The nearest point that faces alike; null if none is within reach [m].
+  const OrientedPoint* nearest(const Vector3& position, const Vector3& normal, double reach) const {
+    if (points_.empty()) return nullptr;
+    const int found = tree_.nearestKSearch(at(position), neighbours_tried, indices_, squared_);
+    for (int i = 0; i < found && double(squared_[std::size_t(i)]) < reach * reach; ++i) {
+      const OrientedPoint& point = points_[std::size_t(indices_[std::size_t(i)])];
+      if (point.normal.dot(normal) > facing_alike) return &point;
+    }
+    return nullptr;
+  }
+
+ private:
+  /// Around the scan's middle: single precision is finest there.
+  pcl::PointXYZ at(const Vector3& position) const {
+    const Eigen::Vector3f p = (position - middle_).cast<float>();
+    return {p.x(), p.y(), p.z()};
+  }
+
+  std::vector<OrientedPoint> points_;
+  Vector3 middle_;
+  pcl::PointCloud<pcl::PointXYZ>::Ptr cloud_;
+  pcl::search::KdTree<pcl::PointXYZ> tree_;
+  mutable std::vector<int> indices_ = std::vector<int>(neighbours_tried);
+  mutable std::vector<float> squared_ = std::vector<float>(neighbours_tried);
+};
+
+/// A scan's points, evenly left out down to `most_points`.
+std::vector<OrientedPoint> fewer(const std::vector<OrientedPoint>& points) {
+  std::vector<OrientedPoint> kept;
+  const double stride = std::max(1.0, double(points.size()) / double(most_points));
+  for (double i = 0.0; i < double(points.size()); i += stride) kept.push_back(points[std::size_t(i)]);
+  return kept;
+}
+
+/// The scan's middle, and how far its points lie from there (root mean square): with it, turns count as lengths.
+struct Extent {
+  Vector3 middle = Vector3::Zero();  ///< [m, world]
+  double radius = 0.0;               ///< [m]
+};
+
+Extent extent_of(const std::vector<OrientedPoint>& points) {
+  Extent extent;
+  for (const OrientedPoint& p : points) extent.middle += p.position / double(points.size());
+  for (const OrientedPoint& p : points)
+    extent.radius += (p.position - extent.middle).squaredNorm() / double(points.size());
+  extent.radius = std::max(std::sqrt(extent.radius), 1e-9);
+  return extent;
+}
+
+/// The pairs of a scan at a pose, as point-to-plane ICP sees them. The first three unknowns are a turn about the middle
+/// times the radius [m], the others a shift [m].
+struct Pairs {
+  Matrix6 normal_matrix = Matrix6::Zero();  ///< sum of w J J^T
+  Vector6 pull = Vector6::Zero();           ///< sum of w J d
+  double weight = 0.0, squares = 0.0;       ///< sum of d^2 [m^2]
+  std::vector<double> normals_apart = {};   ///< of each pair, the squared difference of its normals
+
+  std::size_t count() const { return normals_apart.size(); }
+  /// Below this, an eigenvalue of the normal matrix, per weight, says nothing.
+  double noise_floor() const;
+};
+
+double Pairs::noise_floor() const {
+  std::vector<double> apart = normals_apart;
+  const auto middle = apart.begin() + std::ptrdiff_t(apart.size() / 2);
+  std::ranges::nth_element(apart, middle);
+  // Two normals differ by errors of variance s^2 along two axes each: the median of the square is 2 s^2 of 2 ln 2.
+  const double variance = *middle / (4.0 * std::numbers::ln2);
+  return std::max(least_constraint, over_noise * variance);
+}
+
+class Registrar {
+ public:
+  Registrar(std::vector<OrientedPoint> scan, Target target, const Extent& extent)
+      : scan_(std::move(scan)), target_(std::move(target)), extent_(extent) {}
+
+  Pairs pairs(const Pose& T, double reach) const {
+    Pairs all;
+    for (const OrientedPoint& p : scan_) {
+      const Vector3 position = T * p.position, normal = T.linear() * p.normal;
+      const OrientedPoint* const nearest = target_.nearest(position, normal, reach);
+      if (!nearest) continue;
+      const double distance = nearest->normal.dot(nearest->position - position);
+      // Tukey's weight: a pair at the end of the reach counts for nothing, so none comes or goes at once.
+      const double weight = std::pow(1.0 - (nearest->position - position).squaredNorm() / (reach * reach), 2);
+      Vector6 J;
+      J << (position - extent_.middle).cross(nearest->normal) / extent_.radius, nearest->normal;
+      all.normal_matrix += weight * J * J.transpose();
+      all.pull += weight * distance * J;
+      all.weight += weight;
+      all.squares += distance * distance;
+      all.normals_apart.push_back((nearest->normal - normal).squaredNorm());
+    }
+    return all;
+  }
+
+  double share(const Pairs& pairs) const { return double(pairs.count()) / double(scan_.size()); }
+
+  /// Moves the scan once, along the directions that the pairs constrain. Returns how far [m], and how many those are.
+  double step(Pose& T, double reach, int& constrained) const {
+    const Pairs all = pairs(T, reach);
+    constrained = 0;
+    if (all.count() < least_points) return 0.0;
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(all.normal_matrix / all.weight);
+    const double floor = all.noise_floor();
+    Vector6 move = Vector6::Zero();
+    for (int i = 0; i < 6; ++i) {
+      if (solver.eigenvalues()[i] < floor) continue;
+      const Vector6 direction = solver.eigenvectors().col(i);
+      move += direction * direction.dot(all.pull / all.weight) / solver.eigenvalues()[i];
+      ++constrained;
+    }
+    const Vector3 turn = move.head<3>() / extent_.radius;
+    const Eigen::AngleAxisd rotation(turn.norm(), turn.norm() > 0.0 ? turn.normalized() : Vector3::UnitX());
+    // About the middle where it was at the start, as the unknowns are.
+    const Pose change =
+        Eigen::Translation3d(extent_.middle + move.tail<3>()) * rotation * Eigen::Translation3d(-extent_.middle);
+    const Pose next = change * T;
+    T = make_pose(next.translation(), Eigen::Quaterniond(next.linear()).normalized());
+    return move.norm();
+  }
+
+ private:
+  std::vector<OrientedPoint> scan_;
+  Target target_;
+  Extent extent_;
+};
+
+double root_mean_square(const Pairs& pairs) {
+  return pairs.count() > 0 ? std::sqrt(pairs.squares / double(pairs.count())) : 0.0;
+}
+
+Target target_of(std::span<const std::shared_ptr<const Scan>> so_far, double spacing, const Vector3& middle,
+                 const std::stop_token& stop) {
+  std::vector<std::vector<OrientedPoint>> scans;
+  for (const auto& scan : so_far) scans.push_back(oriented_points(*scan, spacing, stop));
+  return Target(merged(scans, spacing), middle);
+}
+
+/// Why nothing may be corrected; empty if it may.
+std::string doubt(const ScanRegistration& found, const RegistrationLimits& limits, bool has_settled) {
+  if (found.overlap < limits.min_overlap)
+    return fmt::format("{:.0f} % of the scan's points lie on what was scanned before; {:.0f} % are needed",
+                       100.0 * found.overlap, 100.0 * limits.min_overlap);
+  if (found.constrained == 0) return "the shape of what was scanned before does not tell where the scan lies";
+  if (!has_settled) return "it does not settle anywhere";
+  return "";
+}
+
+}  // namespace
+
+ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr<const Scan>> so_far,
+                               const RegistrationLimits& limits, const std::stop_token& stop) {
+  ScanRegistration found;
+  const auto points = fewer(oriented_points(scan, limits.spacing, stop));
+  if (points.size() < least_points) {
+    found.why_not = fmt::format("the scan has too few points with neighbours within {:.3g} m", limits.spacing);
+    return found;
+  }
+  const Extent extent = extent_of(points);
+  const Registrar registrar(points, target_of(so_far, limits.spacing, extent.middle, stop), extent);
+  const double near = nearest_reach * limits.spacing;
+  const Pairs before = registrar.pairs(found.T_corrected_believed, near);
+  Pose T = Pose::Identity();
+  double step = 0.0;
+  for (double reach = farthest_reach; reach >= nearest_reach; reach *= 0.5)
+    for (int i = 0; i < most_iterations; ++i) {
+      throw_if_stopped(stop);
+      step = registrar.step(T, reach * limits.spacing, found.constrained);
+      if (step < settled * limits.spacing) break;
+    }
+  const Pairs after = registrar.pairs(T, near);
+  found.overlap = registrar.share(after);
+  found.residual_before = root_mean_square(before);
+  found.residual_after = root_mean_square(after);
+  found.why_not = doubt(found, limits, step < 0.1 * limits.spacing);
+  found.reliable = found.why_not.empty();
+  if (!found.reliable) {
+    found.residual_after = found.residual_before;
+    return found;
+  }
+  found.T_corrected_believed = T;
+  found.shift = (T * extent.middle - extent.middle).norm();
+  found.rotation = rotation_angle(T, Pose::Identity());
+  return found;
+}
+
+std::string beyond_limits(const ScanRegistration& found, const RegistrationLimits& limits) {
+  const double degrees = found.rotation * 180.0 / std::numbers::pi;
+  if (found.shift <= limits.max_shift && degrees <= limits.max_rotation) return "";
+  return fmt::format(
+      "the scan lies {:.1f} mm and {:.2f} deg off those before it; the limits are {:.1f} mm and {:.2f} deg",
+      1e3 * found.shift, degrees, 1e3 * limits.max_shift, limits.max_rotation);
+}
+
+Scan moved(const Scan& scan, const Pose& T_corrected_believed) {
+  Scan result = scan;
+  result.origin = T_corrected_believed * scan.origin;
+  for (PointCloud* points : {&result.hits, &result.misses})
+    for (Eigen::Vector3f& p : *points) p = (T_corrected_believed * p.cast<double>()).cast<float>();
+  return result;
+}
+
+}  // namespace nextview
