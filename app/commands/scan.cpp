@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
@@ -71,6 +72,12 @@ void print_head(const Session& session) {
              session.recording() ? "% of all" : "% visible", "kbit", "nats*", "");
 }
 
+std::string registration_text(const ScanRegistration& r) {
+  if (!r.reliable) return "not registered: " + r.why_not;
+  return fmt::format("registered: {} and {:.2g} degrees off the scans before, {:.0f} % of it lie on them",
+                     length_text(r.shift), r.rotation * 180.0 / std::numbers::pi, 100.0 * r.overlap);
+}
+
 /// A share of the surface, and how good the map is, where they are known.
 std::string coverage_text(const Session& session, const StepRecord& r) {
   if (r.coverage_recorded) return fmt::format("{:.1f}", 100.0 * *r.coverage_recorded);
@@ -90,6 +97,7 @@ void print_step(const Session& session, const StepRecord& r) {
                r.refinement->quality_near_surface.log_loss, view(r.ranking.best), view(r.refinement->conventional_best),
                r.refinement->rank_correlation);
   }
+  if (r.registration) fmt::print("       {}\n", registration_text(*r.registration));
   if (!r.ranking.reason.empty()) fmt::print("       next: {}\n", r.ranking.reason);
   if (!r.ranking.degenerate.empty()) fmt::print("       ! no ranking: {}\n", r.ranking.degenerate);
   std::fflush(stdout);
@@ -201,7 +209,6 @@ int run(const ScanArguments& arguments) {
   try {
     take_views(session, scanner ? &*scanner : nullptr, out, !arguments.no_pictures, progress, stop.token());
   } catch (const std::runtime_error& error) {
-    if (!scanner) throw;
     failure = error.what();  // what was taken is written all the same
   }
   write_results(session, arguments, out, progress, stop.token());

@@ -12,6 +12,8 @@
 #include "core/mesh/mesh_file.hpp"
 #include "core/planner/planner_config.hpp"
 #include "core/planner/termination.hpp"
+#include "core/registration/registration_config.hpp"
+#include "core/robot/pose_error.hpp"
 #include "core/sensor/depth_camera.hpp"
 #include "core/setting/setting.hpp"
 #include "core/setting/setting_sources.hpp"
@@ -52,6 +54,7 @@ struct MapConfig {
   double resolution = 0.01;         ///< voxel edge [m]
   double region_edge = 1.28;        ///< edge of the region of interest, a cube around the origin [m]
   std::string start;                ///< octree (.ot, .bt) to begin with; empty: nothing is known
+  bool remove_planes = true;        ///< ground, table and walls are no part of an object that is looked for
   std::string region;               ///< region of interest, `x y z x y z` of its corners [m, world]; empty: that cube
   double occlusion_distance = 0.3;  ///< how far behind a surface voxels are marked [m]
   Insertion insertion = Insertion::direct;
@@ -87,6 +90,8 @@ struct Configuration {
   ObjectConfig object;
   RecordedConfig recorded;
   DriverConfig driver;
+  RobotConfig robot;
+  RegistrationConfig registration;
   std::string sensor_preset = "paper";
   DepthCameraConfig sensor;
   CloudConfig cloud;

@@ -11,6 +11,8 @@ std::vector<Setting> settings(MapConfig& c) {
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
       {"map.region", "m", "region of interest as a box, x y z of two opposite corners; empty: a cube of region_edge",
        &c.region},
+      {"map.remove_planes", "", "of an unknown object, whose first scan says where it is: leave ground and walls out",
+       &c.remove_planes},
       {"map.start", "", "octree (.ot, .bt) to begin with, in whose world the object lies; empty: nothing is known",
        &c.start},
       {"map.occlusion_distance", "m", "how far behind a surface voxels are marked; the reference code's is 0.3 m",
@@ -105,6 +107,8 @@ std::vector<Setting> settings(Configuration& c) {
   add(settings(c.object));
   add(settings(c.recorded));
   add(settings(c.driver));
+  add(settings(c.robot));
+  add(settings(c.registration));
   add({{"sensor.preset", "", "paper, narrow, wide, or a file; the other sensor settings override it",
         &c.sensor_preset}});
   add(settings(c.sensor));

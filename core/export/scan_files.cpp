@@ -12,6 +12,15 @@
 namespace nextview {
 namespace {
 
+bool is_registered(const Session& session) {
+  return session.configuration().registration.mode != RegistrationConfig::Mode::off;
+}
+
+std::string registration_text(const StepRecord& r) {
+  if (!r.registration) return ",,,";
+  return fmt::format(",{},{},{}", r.registration->shift, r.registration->rotation, r.registration->overlap);
+}
+
 std::string steps_csv(const Session& session) {
   const std::string unit = session.planner().unit();
   const auto d_reg = session.configuration().evaluation.d_reg;
@@ -20,22 +29,24 @@ std::string steps_csv(const Session& session) {
       "misses,new_voxels,"
       "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
       "nats],brier,"
-      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}{}\n",
+      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}{}{}\n",
       unit, 1e3 * d_reg, 1e3 * d_reg,
       session.setup().any_pose.empty() ? "" : fmt::format(",coverage_any_pose@{:g}mm", 1e3 * d_reg),
-      session.recording() ? fmt::format(",coverage_recorded@{:g}mm", 1e3 * d_reg) : "");
+      session.recording() ? fmt::format(",coverage_recorded@{:g}mm", 1e3 * d_reg) : "",
+      is_registered(session) ? ",registration_shift[m],registration_rotation[rad],registration_overlap" : "");
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}\n", r.step,
-                       r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}{}\n",
+                       r.step, r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
                        r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
                        r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
                        r.quality.brier, r.quality_near_surface.log_loss, r.quality_near_surface.brier,
                        r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()),
                        r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "",
                        r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "",
-                       r.coverage_recorded ? fmt::format(",{}", *r.coverage_recorded) : "");
+                       r.coverage_recorded ? fmt::format(",{}", *r.coverage_recorded) : "",
+                       is_registered(session) ? registration_text(r) : "");
   }
   return csv;
 }

@@ -5,8 +5,10 @@
 
 #include <stdexcept>
 
+#include "core/cloud/object_region.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/driver/driver_scanner.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
@@ -43,11 +45,34 @@ void follow_greeting(Configuration& c, const DriverGreeting& greeting) {
   if (greeting.region) follow(c, "map.region", text(greeting.region->min()) + " " + text(greeting.region->max()));
 }
 
+/// Where the object seems to stand, as the scanner sees it from where it is.
+std::string region_of_first_scan(const Configuration& c, DriverConnection& connection, const std::stop_token& stop) {
+  const std::string name = connection.greeting().name;
+  const Result<Capture> capture = connection.capture(1, c.seed, stop);
+  if (const auto* failure = std::get_if<Failure>(&capture)) {
+    if (failure->kind == Failure::cancelled) throw Stopped();
+    throw std::runtime_error(fmt::format(
+        "{}; the first scan was to show where the object stands: or give its box as map.region, six numbers [m]",
+        failure->reason));
+  }
+  const auto scan = std::make_shared<const Scan>(to_scan(std::get<Capture>(capture), &c.cloud, stop).scan);
+  ObjectRegionConfig config;
+  config.remove_planes = c.map.remove_planes;
+  config.range_noise = connection.greeting().range_noise;
+  const ObjectRegion found = find_object({&scan, 1}, config, stop);
+  if (found.box.isEmpty())
+    throw std::runtime_error(
+        fmt::format("{} sees no object from where it stands: give its box as map.region, six numbers [m]", name));
+  if (const auto& log = connection.options().log) log(found.text());
+  return text(found.box.min()) + " " + text(found.box.max());
+}
+
 /// Of an object that no one has a mesh of.
-void follow_region(Configuration& c, const std::string& name) {
-  if (c.map.region.empty())
-    throw std::invalid_argument(
-        fmt::format("{} does not say where the object stands: give its box as map.region, six numbers [m]", name));
+void follow_region(Configuration& c, DriverConnection& connection, const std::stop_token& stop) {
+  if (c.map.region.empty()) {
+    c.map.region = region_of_first_scan(c, connection, stop);
+    c.fitted["map.region"] = c.map.region;
+  }
   fit_lengths(c, c.map.region_box().sizes().maxCoeff() / 1.2);  // as large as a margin of a tenth leaves
   set_unless_given(c, "sensor.min_range", "0");
   c.evaluation.enabled = false;
@@ -70,7 +95,7 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const Scanne
   follow_greeting(c, greeting);
   c.recorded.folder.clear();
   if (greeting.object.empty())
-    follow_region(c, greeting.name);
+    follow_region(c, *connection, stop);
   else
     c.object.file = greeting.object;
   return connection;

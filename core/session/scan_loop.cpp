@@ -104,6 +104,7 @@ StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
   }
   record.T_world_camera = acquired.capture.T_world_camera;
   record.motion = acquired.motion;
+  record.registration = acquired.registration;
   record.seconds.sense = acquired.sense_seconds;
   return record;
 }
@@ -123,6 +124,25 @@ Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& sourc
   if (auto* failure = std::get_if<Failure>(&capture)) return *failure;
   acquired.capture = std::get<Capture>(std::move(capture));
   return acquired;
+}
+
+void register_capture(const ScanSetup& setup, const ScanState& state, Acquired& acquired, const std::stop_token& stop) {
+  const Configuration& c = setup.configuration;
+  if (c.registration.mode == RegistrationConfig::Mode::off || state.scans.empty()) return;
+  const RegistrationLimits limits = registration_limits(c.registration, setup.source.range_noise, c.map.resolution);
+  acquired.registration = register_scan(to_scan(acquired.capture, &c.cloud, stop).scan, state.scans, limits, stop);
+}
+
+std::string beyond_limits(const ScanSetup& setup, const Acquired& acquired) {
+  const Configuration& c = setup.configuration;
+  if (!acquired.registration) return "";
+  return beyond_limits(*acquired.registration,
+                       registration_limits(c.registration, setup.source.range_noise, c.map.resolution));
+}
+
+void correct(Acquired& acquired) {
+  if (!acquired.registration || !acquired.registration->reliable) return;
+  acquired.capture.T_world_camera = acquired.registration->T_corrected_believed * acquired.capture.T_world_camera;
 }
 
 ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired& acquired, const Progress& progress,

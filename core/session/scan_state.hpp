@@ -9,6 +9,7 @@
 #include "core/evaluation/known_object.hpp"
 #include "core/evaluation/recorded_surface.hpp"
 #include "core/planner/planner.hpp"
+#include "core/registration/scan_registration.hpp"
 #include "core/robot/robot.hpp"
 #include "core/session/step_record.hpp"
 #include "core/source/scan_source.hpp"
@@ -59,6 +60,7 @@ struct Acquired {
   Capture capture;
   MotionCost motion;  ///< of getting there
   double sense_seconds = 0.0;
+  std::optional<ScanRegistration> registration = {};  ///< with the scans before it; none: not asked for
 };
 
 }  // namespace nextview

@@ -12,6 +12,7 @@
 #include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/start_map.hpp"
+#include "core/source/inaccurate_source.hpp"
 
 namespace nextview {
 
@@ -63,6 +64,7 @@ std::shared_ptr<const SimulatedWorld> Session::simulate(const std::stop_token& s
   object_ = std::move(object.placed);
   const auto world = std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
   if (!source_) source_ = std::make_unique<SimulatedSource>(world, c.seed);
+  if (!c.robot.exact()) source_ = std::make_unique<InaccurateSource>(std::move(source_), c.robot, c.seed);
   return world;
 }
 
@@ -167,9 +169,28 @@ bool Session::take_view(const Progress& progress, const std::stop_token& stop, c
     if (failure->kind == Failure::cancelled || failure->kind == Failure::refused) return false;
     throw std::runtime_error(failure->reason);
   }
-  if (accept && !accept(std::get<Acquired>(result))) return false;
-  taken_ = std::get<Acquired>(std::move(result));
+  Acquired& acquired = std::get<Acquired>(result);
+  register_capture(setup_, state_, acquired, stop);
+  const Verdict wanted = verdict(acquired);
+  if (wanted == Verdict::reject) return false;
+  if (wanted == Verdict::correct) correct(acquired);
+  if (accept && !accept(acquired)) return false;
+  taken_ = std::move(acquired);
   return true;
+}
+
+/// @throws std::runtime_error with the reason where it is rejected and no one is there to be asked
+Session::Verdict Session::verdict(const Acquired& acquired) const {
+  const RegistrationConfig& config = configuration().registration;
+  const Verdict within = config.mode == RegistrationConfig::Mode::correct ? Verdict::correct : Verdict::accept;
+  const std::string reason = beyond_limits(setup_, acquired);
+  if (reason.empty()) return within;
+  if (config.beyond_limits == RegistrationConfig::Beyond::accept) return within;
+  if (config.beyond_limits == RegistrationConfig::Beyond::ask && judge_) return judge_(acquired, reason);
+  throw std::runtime_error(fmt::format(
+      "the scan is rejected: {}; registration.mode correct moves such scans, registration.beyond_limits accept takes "
+      "them",
+      reason));
 }
 
 void Session::restore(ScanState state) {

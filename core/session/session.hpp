@@ -28,6 +28,11 @@ class Session {
  public:
   /// Asked between capture and absorption; false refuses the view, and nothing of it is kept.
   using Accept = std::function<bool(const Acquired&)>;
+  /// What becomes of a scan that lies farther off those before it than the limits allow.
+  enum class Verdict { accept, correct, reject };
+  /// Asked where `registration.beyond_limits` says so, with the reason; without it, such scans are rejected.
+  using Judge = std::function<Verdict(const Acquired&, const std::string& reason)>;
+  void set_judge(Judge judge) { judge_ = std::move(judge); }
 
   /// Loads the object and prepares the truth.
   /// @throws std::invalid_argument, std::runtime_error for settings and files; OutOfMemory; Stopped
@@ -109,6 +114,7 @@ class Session {
  private:
   std::optional<ScanState> next_state(const Progress& progress, const std::stop_token& stop, const Accept& accept);
   bool take_view(const Progress& progress, const std::stop_token& stop, const Accept& accept);
+  Verdict verdict(const Acquired& acquired) const;
   std::shared_ptr<const SimulatedWorld> simulate(const std::stop_token& stop);
   std::shared_ptr<const SimulatedWorld> replay(const Progress& progress, const std::stop_token& stop);
   void open_map();
@@ -127,6 +133,7 @@ class Session {
   const Recording* recording_ = nullptr;  ///< of the source
   std::unique_ptr<ScanSource> source_;
   std::unique_ptr<Robot> robot_;
+  Judge judge_;
   ScanState state_;
   std::optional<Acquired> taken_;    ///< captured, and not yet in the state: a step failed after that
   std::vector<StepRecord> records_;  ///< the state's; so are the next

@@ -6,6 +6,7 @@
 #include "core/evaluation/map_quality.hpp"
 #include "core/gibbs/sampler_diagnostics.hpp"
 #include "core/planner/next_best_view.hpp"
+#include "core/registration/scan_registration.hpp"
 #include "core/robot/robot.hpp"
 
 namespace nextview {
@@ -56,6 +57,8 @@ struct StepRecord {
   double coverage_paper = 0.0;              ///< of all the surface, at the paper's 0.5 mm
   MapQuality quality;                       ///< over visited voxels, touch truth
   MapQuality quality_near_surface;          ///< over visited voxels of the band, touch truth
+
+  std::optional<ScanRegistration> registration;  ///< with the scans before it; none: not asked for, or the first
 
   std::optional<RefinementRecord> refinement;  ///< total_entropy, realised_gain and gains are then the Gibbs map's
 
