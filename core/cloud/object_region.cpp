@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/cloud/thinned_points.hpp"
@@ -28,15 +29,14 @@ constexpr int directions = 24;             // in a plane, in which it may go on 
 constexpr double going_on = 0.7;           // of those
 constexpr double beyond = 0.1;             // of the object's diameter, how far
 
-using Points = std::vector<Vector3>;
 using Indices = std::vector<std::size_t>;
 
 /// What was seen, thinned, and from which side.
 struct Seen {
   ThinnedPoints thinned;
-  Points towards_camera;   ///< of each thinned point, unit length
-  double spacing = 0.0;    ///< [m]
-  double thickness = 0.0;  ///< of a plane, to either side [m]
+  std::vector<Vector3> towards_camera;  ///< of each thinned point, unit length
+  double spacing = 0.0;                 ///< [m]
+  double thickness = 0.0;               ///< of a plane, to either side [m]
 };
 
 struct Plane {
@@ -134,11 +134,8 @@ bool goes_on_around(const Seen& seen, const Plane& plane, const Indices& object)
   for (int k = 0; k < directions; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / directions;
     const Vector3 direction = std::cos(angle) * u + std::sin(angle) * v;
-    const auto farthest = [&](const Indices& points) {
-      double most = -std::numeric_limits<double>::infinity();
-      for (const std::size_t i : points) most = std::max(most, direction.dot(seen.thinned.positions[i]));
-      return most;
-    };
+    const auto along = [&](std::size_t i) { return direction.dot(seen.thinned.positions[i]); };
+    const auto farthest = [&](const Indices& points) { return along(*std::ranges::max_element(points, {}, along)); };
     count += farthest(plane.points) > farthest(object) + enough;
   }
   return double(count) >= going_on * directions;
@@ -171,17 +168,18 @@ std::vector<Indices> pieces(const Seen& seen, const Indices& points) {
 
 Indices everything(const Seen& seen) {
   Indices all(seen.thinned.positions.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::iota(all.begin(), all.end(), std::size_t(0));
   return all;
 }
 
 std::vector<Plane> planes_behind(const Seen& seen, const std::stop_token& stop) {
   std::vector<Plane> behind;
   Indices rest = everything(seen);
-  for (std::size_t k = 0; k < most_planes; ++k) {
+  const double least = least_share * double(rest.size());
+  for (std::size_t k = 0; k < most_planes && double(rest.size()) >= least; ++k) {
     throw_if_stopped(stop);
     Plane plane = largest_plane(seen, rest);
-    if (double(plane.points.size()) < least_share * double(seen.thinned.positions.size())) break;
+    if (double(plane.points.size()) < least) break;
     rest = without(rest, plane.points);
     if (lies_behind(seen, plane)) behind.push_back(std::move(plane));
   }

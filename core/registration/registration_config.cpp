@@ -23,14 +23,21 @@ std::vector<Setting> settings(RegistrationConfig& c) {
 
 void RegistrationConfig::validate() const { require_in_bounds(*this); }
 
+// Measured on 20 good scans of half a metre of a box, a sphere, a slotted housing and a slotted plate, with noise of 1
+// and 2 mm at points 5 mm apart: those of the housing seemed to lie up to 0.5 mm and 0.1 deg off, those of the plate,
+// of which only the thin sides tell where it lies, up to 0.9 times the noise. So twice the noise is beyond what good
+// scans do, and half the spacing where there is less noise than spacing.
 RegistrationLimits registration_limits(const RegistrationConfig& config, double range_noise, double resolution) {
   config.validate();
   const bool corrects = config.mode == RegistrationConfig::Mode::correct;
   RegistrationLimits limits;
   limits.spacing = std::max(0.5 * resolution, 2.0 * range_noise);
-  const double check_shift = std::max(2.0 * range_noise, 0.5 * limits.spacing);
-  limits.max_shift = config.max_shift > 0.0 ? config.max_shift : corrects ? 8.0 * limits.spacing : check_shift;
-  limits.max_rotation = config.max_rotation > 0.0 ? config.max_rotation : corrects ? 5.0 : 1.0;
+  const double good_shift = std::max(2.0 * range_noise, 0.5 * limits.spacing), good_rotation = 0.5;
+  const double found_shift = 8.0 * limits.spacing, found_rotation = 5.0;  // what pairs are looked for within
+  limits.max_shift = corrects ? found_shift : good_shift;
+  limits.max_rotation = corrects ? found_rotation : good_rotation;
+  if (config.max_shift > 0.0) limits.max_shift = config.max_shift;
+  if (config.max_rotation > 0.0) limits.max_rotation = config.max_rotation;
   limits.min_overlap = config.min_overlap;
   return limits;
 }

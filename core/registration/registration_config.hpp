@@ -22,11 +22,12 @@ std::vector<Setting> settings(RegistrationConfig& config);
 struct RegistrationLimits {
   double spacing = 0.005;     ///< between the points that are compared [m]
   double max_shift = 0.004;   ///< of the scan's middle [m]
-  double max_rotation = 1.0;  ///< [deg]
+  double max_rotation = 0.5;  ///< [deg]
   double min_overlap = 0.25;
 };
 
-/// The limits of a scan whose sensor has this noise along its rays [m] and whose map has voxels of this edge [m].
+/// The limits of a scan whose sensor has this noise along its rays [m] and whose map has voxels of this edge [m]. Where
+/// the configuration sets none, check allows what good scans show, and correct what can be found.
 RegistrationLimits registration_limits(const RegistrationConfig& config, double range_noise, double resolution);
 
 }  // namespace nextview
