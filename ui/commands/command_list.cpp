@@ -22,8 +22,7 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       open, set, reset_setting, reset_settings, connect, disconnect, reconnect, export_scan, save_picture, save_script,
       quit,
       // Scan
-      step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, allow_move, refuse_move, cancel,
-      undo, redo, reset,
+      step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, answer, cancel, undo, redo, reset,
       // Gibbs
       refine, pause_refinement, resume_refinement,
       // Select

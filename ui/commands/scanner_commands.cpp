@@ -1,5 +1,11 @@
 #include "ui/commands/scanner_commands.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
 #include "ui/commands/command_target.hpp"
 
 namespace nextview {
@@ -8,7 +14,7 @@ namespace {
 std::string needs_scanner(const CommandState& s) { return s.session.live ? "" : "no scanner is connected (connect)"; }
 
 std::string needs_question(const CommandState& s) {
-  return s.progress.question.empty() ? "no robot waits for a move to be confirmed" : "";
+  return s.progress.question.empty() ? "nothing waits for an answer" : "";
 }
 
 }  // namespace
@@ -31,12 +37,19 @@ const CommandOf<> command::reconnect{{"reconnect",
                                       needs_scanner},
                                      [](CommandTarget& t) { t.worker.post(request::Reconnect{}); }};
 
-const CommandOf<> command::allow_move{
-    {"allow-move", "Scan", "Allow the robot's move", "Lets the robot move to the next view.", {}, needs_question},
-    [](CommandTarget& t) { t.worker.answer(true); }};
-
-const CommandOf<> command::refuse_move{
-    {"refuse-move", "Scan", "Refuse the robot's move", "Leaves the robot where it is.", {}, needs_question},
-    [](CommandTarget& t) { t.worker.answer(false); }};
+const CommandOf<std::string> command::answer{
+    {"answer",
+     "Scan",
+     "Answer the question…",
+     "Answers what a scan waits for: whether a robot may move, or what becomes of a scan that does not fit.",
+     {},
+     needs_question},
+    argument::text("answer", "as its button says"),
+    [](CommandTarget& t, const std::string& text) {
+      if (std::ranges::find(t.progress.answers, text) == t.progress.answers.end())
+        throw std::invalid_argument(
+            fmt::format("answer: '{}' is none; there are {}", text, fmt::join(t.progress.answers, ", ")));
+      t.worker.answer(text);
+    }};
 
 }  // namespace nextview

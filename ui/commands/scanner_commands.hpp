@@ -5,6 +5,6 @@ namespace nextview::command {
 
 extern const CommandOf<std::string> connect;  ///< the program that drives a scanner, with its arguments
 extern const CommandOf<> disconnect, reconnect;
-extern const CommandOf<> allow_move, refuse_move;  ///< of a real robot
+extern const CommandOf<std::string> answer;  ///< to what a job waits for
 
 }  // namespace nextview::command

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "ui/commands/scan_commands.hpp"
 #include "ui/commands/scanner_commands.hpp"
 
 namespace nextview {
@@ -22,9 +21,12 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextWrapped("%s", question.c_str());
   ImGui::Dummy({0, style.px(8)});
-  command_button(context, command::allow_move, Icon::play, "Move", true);
-  ImGui::SameLine();
-  command_button(context, command::refuse_move, Icon::cancel, "Refuse");
+  const std::vector<std::string>& answers = context.progress.answers;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    const Icon icon = i + 1 == answers.size() ? Icon::cancel : Icon::play;
+    if (icon_button(style, icon, answers[i].c_str(), i == 0)) context.post(command::answer(answers[i]));
+  }
   ImGui::End();
   ImGui::PopStyleVar(3);
 }

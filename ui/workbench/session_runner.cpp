@@ -88,8 +88,9 @@ void SessionRunner::show_next() {
   publish(std::move(next));
 }
 
-void SessionRunner::step(const JobControl& control) {
+void SessionRunner::step(const JobControl& control, const Session::Judge& judge) {
   if (!can_step()) return;
+  session_->set_judge(judge);
   HistoryEntry before = now();
   if (!session_->step(control.progress, control.stop)) return;
   history_.push(std::move(before), history_limit(*session_));

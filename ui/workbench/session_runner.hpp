@@ -40,7 +40,8 @@ class SessionRunner {
   /// @throws std::invalid_argument if it is not valid
   void set_termination(const TerminationConfig& termination);
   /// Nothing without a session that can step.
-  void step(const JobControl& control);
+  /// `judge` is asked of a scan that does not fit those before it (Session::Judge).
+  void step(const JobControl& control, const Session::Judge& judge = {});
   void take_view(std::size_t candidate);
   void take_custom_view(const Pose& T_world_camera);
   void undo(const JobControl& control);

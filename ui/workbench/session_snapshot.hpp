@@ -122,6 +122,7 @@ struct WorkerProgress {
   double fraction = 0.0;  ///< of the job, 0 to 1
   std::string what;
   std::string question;                               ///< that the job waits for an answer to; empty: it does not
+  std::vector<std::string> answers;                   ///< that there are, the last one the cautious one
   std::size_t waiting = 0;                            ///< requests behind it
   std::optional<double> seconds_left;                 ///< of the job, as it has gone so far; whole seconds
   double pause_between_views = 0.0;                   ///< while playing [s]

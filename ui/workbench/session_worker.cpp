@@ -168,7 +168,10 @@ void SessionWorker::execute(const SessionRequest& request) {
                  },
                  [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
                  [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
-                 [&](request::Step) { runner_.step(job_control()); },
+                 [&](request::Step) {
+                   runner_.step(job_control(),
+                                [this](const auto& acquired, const auto& reason) { return judge(acquired, reason); });
+                 },
                  [&](request::Play) {
                    const std::lock_guard lock(mutex_);
                    progress_.playing = runner_.can_step();
@@ -195,26 +198,36 @@ void SessionWorker::execute(const SessionRequest& request) {
              request);
 }
 
-void SessionWorker::answer(bool yes) {
+void SessionWorker::answer(const std::string& text) {
   {
     const std::lock_guard lock(mutex_);
     if (progress_.question.empty()) return;
-    answer_ = yes;
+    answer_ = text;
   }
   wake_.notify_all();
 }
 
-/// Waits for the answer; what cancels the job says no.
-bool SessionWorker::ask(std::string question) {
+/// Waits for the answer; what cancels the job gives the last one.
+std::string SessionWorker::ask(std::string question, std::vector<std::string> answers) {
+  const std::string cautious = answers.back();
   std::unique_lock lock(mutex_);
   progress_.question = std::move(question);
+  progress_.answers = std::move(answers);
   answer_.reset();
   lock.unlock();
   news();
   lock.lock();
   wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
   progress_.question.clear();
-  return std::exchange(answer_, std::nullopt).value_or(false);
+  return std::exchange(answer_, std::nullopt).value_or(cautious);
+}
+
+Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {
+  std::vector<std::string> answers = {"Take it", "Reject it"};
+  if (acquired.registration->reliable) answers.insert(answers.begin(), "Correct it");
+  const std::string answer = ask("This scan does not fit those before it: " + reason + ".", answers);
+  if (answer == "Correct it") return Session::Verdict::correct;
+  return answer == "Take it" ? Session::Verdict::accept : Session::Verdict::reject;
 }
 
 ScannerWishes SessionWorker::scanner_wishes(const request::Connect& request) {
@@ -223,7 +236,8 @@ ScannerWishes SessionWorker::scanner_wishes(const request::Connect& request) {
     wishes.confirm = [this](const Pose& from, const Pose& to) {
       const Vector3 p = to.translation();
       return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
-                             length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()));
+                             length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()),
+                 {"Move", "Refuse"}) == "Move";
     };
   wishes.log = [this](const std::string& line) { log_.add(LogEntry::Level::note, "Scanner: " + line); };
   return wishes;

@@ -31,7 +31,7 @@ class SessionWorker {
   /// Pauses a refinement between two sweeps, or resumes it.
   void pause_refinement(bool pause);
   /// Answers the question that the job waits with (WorkerProgress::question).
-  void answer(bool yes);
+  void answer(const std::string& text);
   /// Waits this long before each view but the first while playing [s].
   void set_pause_between_views(double seconds);
 
@@ -52,7 +52,8 @@ class SessionWorker {
   void report_progress(double fraction, std::string_view what);
   void report_sampler(const SamplerDiagnostics& so_far);
   SessionRunner::JobControl job_control();
-  bool ask(std::string question);
+  std::string ask(std::string question, std::vector<std::string> answers);
+  Session::Verdict judge(const Acquired& acquired, const std::string& reason);
   ScannerWishes scanner_wishes(const request::Connect& request);
   void news() const;
 
@@ -66,7 +67,7 @@ class SessionWorker {
   std::stop_source job_;
   Clock::time_point job_start_, next_play_;
   bool running_ = false;  ///< a request is being executed
-  std::optional<bool> answer_;
+  std::optional<std::string> answer_;
   WorkerProgress progress_;  ///< but for what progress() works out
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 

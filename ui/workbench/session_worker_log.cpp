@@ -1,9 +1,12 @@
 // What a session worker tells the log of what was done.
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "core/config/object_lengths.hpp"
 #include "core/file/counted.hpp"
 #include "core/session/setup_warnings.hpp"
+#include "core/setting/length_text.hpp"
 #include "ui/workbench/request_kind.hpp"
 #include "ui/workbench/session_worker.hpp"
 
@@ -46,6 +49,12 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
                                       : fmt::format("{} {}", now.is_recording() ? "frame" : "candidate", r.view);
   log.add(Level::note, fmt::format("View {} from {}{}: {} points, {:.0f} cm² of new surface", r.step, from,
                                    r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.new_surface));
+  if (r.registration)
+    log.add(Level::note,
+            r.registration->reliable
+                ? fmt::format("View {} lay {} and {:.2g}° off the scans before it", r.step,
+                              length_text(r.registration->shift), r.registration->rotation * 180.0 / std::numbers::pi)
+                : fmt::format("View {} was not registered: {}", r.step, r.registration->why_not));
   if (!r.ranking.degenerate.empty())
     log.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
   if (!now.finished.empty()) log.add(Level::success, "The scan is finished: " + now.finished);
