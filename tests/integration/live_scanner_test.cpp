@@ -55,11 +55,14 @@ TEST_F(LiveScanner, ASettingThatConflictsIsAnErrorThatNamesIt) {
   EXPECT_EQ(run.err, "nextview: --sensor.width: the scanner's own is 80; leave it out\n");
 }
 
-TEST_F(LiveScanner, OfAnUnknownObjectTheRegionIsAskedFor) {
-  const Result run = nextview("scan " + scripted("cat >/dev/null\n") + quick + "--out " + in("out"));
+TEST_F(LiveScanner, OfAnUnknownObjectTheFirstScanSaysWhereItIsOrTheRegionIsAskedFor) {
+  const std::string no_capture =
+      "while read line; do id=${line#*\\\"id\\\":}; id=${id%%,*}\n"
+      "echo \"{\\\"id\\\":$id,\\\"error\\\":\\\"the lens cap is on\\\"}\"; done\n";
+  const Result run = nextview("scan " + scripted(no_capture) + quick + "--out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_EQ(run.err,
-            "nextview: arm does not say where the object stands: give its box as map.region, six numbers [m]\n");
+  EXPECT_THAT(run.err, HasSubstr("the lens cap is on"));
+  EXPECT_THAT(run.err, HasSubstr("give its box as map.region"));
 }
 
 TEST_F(LiveScanner, AMoveThatNoOneCanConfirmIsNotMade) {
