@@ -144,11 +144,12 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
       "{}  cloud.ply       the cleaned point cloud\n{}"
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n{}"
       "  config.toml     the configuration; this repeats the scan:\n"
-      "                  nextview scan --config {} --out {}\n",
+      "                  nextview scan --config {}{} --out {}\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
       surfaces,
       session.recording() ? "  orders.csv      coverage by views: this order, the recorded one, random ones\n" : "",
-      shell_text(out / "config.toml"), shell_text(free_folder(out)));
+      shell_text(out / "config.toml"), session.configuration().driver.name.empty() ? "" : " --driver …",
+      shell_text(free_folder(out)));
 }
 
 /// Takes the views, one after the other, with a picture of each. A live scanner that fails is reached again.
@@ -209,6 +210,7 @@ int run(const ScanArguments& arguments) {
   try {
     take_views(session, scanner ? &*scanner : nullptr, out, !arguments.no_pictures, progress, stop.token());
   } catch (const std::runtime_error& error) {
+    if (session.records().empty()) throw;
     failure = error.what();  // what was taken is written all the same
   }
   write_results(session, arguments, out, progress, stop.token());

@@ -40,6 +40,7 @@ struct RecordedConfig {
 
 /// A live scanner (core/driver). Its command is no setting: no file may start a program.
 struct DriverConfig {
+  std::string name;            ///< of the scanner that took a scan, which no simulation can repeat; empty: none did
   double timeout = 30.0;       ///< of each request [s]; 0: for ever where something is moved or captured
   std::string hand_eye;        ///< T_flange_camera, `x y z qx qy qz qw`, where the driver's poses are the flange's
   std::string working_volume;  ///< that the camera must not leave, `x y z x y z` of its corners [m, world]; empty: any

@@ -75,6 +75,8 @@ std::vector<Setting> settings(RecordedConfig& c) {
 
 std::vector<Setting> settings(DriverConfig& c) {
   return {
+      {"driver.name", "", "the scanner that took this scan: only it can repeat it (--driver); empty: a simulation",
+       &c.name},
       {"driver.timeout", "s", "of each request to a live scanner; 0: for ever where it moves or captures", &c.timeout,
        from_to(0, 1e6)},
       {"driver.hand_eye", "", "T_flange_camera as x y z qx qy qz qw, where the driver's poses are those of the flange",

@@ -94,6 +94,7 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const Scanne
   const DriverGreeting& greeting = connection->greeting();
   follow_greeting(c, greeting);
   c.recorded.folder.clear();
+  c.driver.name = connection->is_simulated() ? "" : greeting.name;
   if (greeting.object.empty())
     follow_region(c, *connection, stop);
   else

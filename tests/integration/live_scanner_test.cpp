@@ -49,6 +49,13 @@ TEST_F(LiveScanner, TheConfigurationStartsNoProgram) {
   EXPECT_THAT(read_file(in("live") + "/config.toml"), testing::Not(HasSubstr("driver simulated")));
 }
 
+TEST_F(LiveScanner, ARealScanIsNotSimulatedInItsPlace) {
+  write_file(in("scan.toml"), "driver.name = 'arm'\n");
+  const Result run = nextview("scan --config " + in("scan.toml") + " " + quick + "--out " + in("out"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("scan.toml:1: driver.name: this scan was taken by the scanner arm"));
+}
+
 TEST_F(LiveScanner, ASettingThatConflictsIsAnErrorThatNamesIt) {
   const Result run = nextview("scan " + simulated("box") + quick + "--sensor.width 81 --out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
