@@ -74,6 +74,26 @@ void set_unless_given(Configuration& configuration, const std::string& key, cons
   configuration.fitted[key] = setting.text();
 }
 
+void decide(Configuration& configuration, const std::string& key, const std::string& text, const std::string& owner) {
+  auto all = settings(configuration);
+  Setting& setting = find_setting(all, key);
+  const std::string asked = setting.text();
+  setting.set(text);
+  const std::string own = setting.text();
+  if (configuration.sources.contains(key) && asked != own) {
+    setting.set(asked);  // which the message names as it was given
+    throw std::invalid_argument(
+        configuration.as_given(fmt::format("{}: {} has its own, {}; leave it out", key, owner, own)));
+  }
+}
+
+void decide_camera(Configuration& configuration, const PinholeCamera& camera, const std::string& owner) {
+  decide(configuration, "sensor.width", fmt::format("{}", camera.width), owner);
+  decide(configuration, "sensor.height", fmt::format("{}", camera.height), owner);
+  decide(configuration, "sensor.intrinsics", fmt::format("{} {} {} {}", camera.fx, camera.fy, camera.cx, camera.cy),
+         owner);
+}
+
 void forget_fitted(Configuration& configuration) {
   Configuration defaults;
   auto all = settings(configuration), unset = settings(defaults);

@@ -14,6 +14,12 @@ bool is_given(const Configuration& configuration, const std::string& key);
 /// Sets a setting that follows from what is scanned, if it was not given.
 void set_unless_given(Configuration& configuration, const std::string& key, const std::string& text);
 
+/// Sets a setting that what is scanned decides. Another value that was given is an error, not a wish.
+/// @throws std::invalid_argument naming the setting as it was given, and its `owner`: "the recording"
+void decide(Configuration& configuration, const std::string& key, const std::string& text, const std::string& owner);
+/// The same of a camera's size and intrinsics.
+void decide_camera(Configuration& configuration, const PinholeCamera& camera, const std::string& owner);
+
 /// Settings that follow from what is scanned are as they are by default again.
 void forget_fitted(Configuration& configuration);
 

@@ -53,7 +53,11 @@ DriverConnection::DriverConnection(DriverOptions options, std::stop_token stop)
   if (greeting_.start) pose_ = *greeting_.start;
 }
 
-DriverConnection::~DriverConnection() = default;
+DriverConnection::~DriverConnection() {
+  protocol_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(options_.folder, ignored);  // if it is empty
+}
 
 Result<DriverGreeting> DriverConnection::start(const std::stop_token& stop) try {
   protocol_.reset();
@@ -142,8 +146,12 @@ Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed
       noted(protocol_->capture(step, seed, options_.folder, {patience(), std::move(stop)}));
   if (const auto* failure = std::get_if<Failure>(&captured)) return *failure;
   try {
-    Capture capture =
-        read_capture(std::get<CapturedFile>(captured), options_.folder, greeting_.camera, greeting_.max_range);
+    const CapturedFile& file = std::get<CapturedFile>(captured);
+    Capture capture = read_capture(file, options_.folder, greeting_.camera, greeting_.max_range);
+    if (std::filesystem::path(file.file).filename() == file.file) {  // in our own folder, and read: no one else's
+      std::error_code ignored;
+      std::filesystem::remove(options_.folder / file.file, ignored);
+    }
     pose_ = capture.T_world_camera = capture.T_world_camera * options_.T_flange_camera;
     return capture;
   } catch (const std::runtime_error& unreadable) {

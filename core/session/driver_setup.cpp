@@ -19,30 +19,21 @@ std::filesystem::path captures_folder() {
   return std::filesystem::temp_directory_path() / fmt::format("nextview-captures-{}", ::getpid());
 }
 
-/// The scanner's own; another one that was asked for is an error, not a wish.
-void follow(Configuration& c, const std::string& key, const std::string& text) {
-  auto all = settings(c);
-  Setting& setting = find_setting(all, key);
-  const std::string asked = setting.text();
-  setting.set(text);
-  const std::string own = setting.text();
-  if (c.sources.contains(key) && asked != own) {
-    setting.set(asked);  // which the message names as it was given
-    throw std::invalid_argument(c.as_given(fmt::format("{}: the scanner's own is {}; leave it out", key, own)));
-  }
-  c.sources[key] = {key, "", own};
-}
-
 std::string text(const Vector3& p) { return fmt::format("{} {} {}", p.x(), p.y(), p.z()); }
 
+/// These are given from here on: no object's size changes them.
 void follow_greeting(Configuration& c, const DriverGreeting& greeting) {
-  const PinholeCamera& camera = greeting.camera;
-  follow(c, "sensor.width", fmt::format("{}", camera.width));
-  follow(c, "sensor.height", fmt::format("{}", camera.height));
-  follow(c, "sensor.intrinsics", fmt::format("{} {} {} {}", camera.fx, camera.fy, camera.cx, camera.cy));
-  follow(c, "sensor.max_range", fmt::format("{}", greeting.max_range));
-  follow(c, "sensor.range_noise", fmt::format("{}", greeting.range_noise));
-  if (greeting.region) follow(c, "map.region", text(greeting.region->min()) + " " + text(greeting.region->max()));
+  const std::string owner = "the scanner";
+  decide_camera(c, greeting.camera, owner);
+  decide(c, "sensor.max_range", fmt::format("{}", greeting.max_range), owner);
+  decide(c, "sensor.range_noise", fmt::format("{}", greeting.range_noise), owner);
+  if (greeting.region)
+    decide(c, "map.region", text(greeting.region->min()) + " " + text(greeting.region->max()), owner);
+  auto all = settings(c);
+  for (const char* key :
+       {"sensor.width", "sensor.height", "sensor.intrinsics", "sensor.max_range", "sensor.range_noise", "map.region"})
+    if (const Setting& setting = find_setting(all, key); !setting.text().empty())
+      c.sources[key] = {key, "", setting.text()};
 }
 
 /// Where the object seems to stand, as the scanner sees it from where it is.

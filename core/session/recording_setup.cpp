@@ -80,24 +80,11 @@ Recording open_scan_folder(Configuration& c, const fs::path& folder, const Progr
   return recording;
 }
 
-/// The recording's own camera; another one that was asked for is an error, not a wish.
 void follow_camera(Configuration& c, const PinholeCamera& camera) {
-  const auto follow = [&](const std::string& key, const std::string& text) {
-    auto all = settings(c);
-    Setting& setting = find_setting(all, key);
-    const std::string asked = setting.text();
-    setting.set(text);
-    const std::string own = setting.text();
-    if (c.sources.contains(key) && asked != own) {
-      setting.set(asked);  // which the message names as it was given
-      throw std::invalid_argument(
-          fmt::format("{}: the recording has a camera of its own, with {}; leave it out", key, own));
-    }
-    c.fitted[key] = own;
-  };
-  follow("sensor.width", fmt::format("{}", camera.width));
-  follow("sensor.height", fmt::format("{}", camera.height));
-  follow("sensor.intrinsics", fmt::format("{} {} {} {}", camera.fx, camera.fy, camera.cx, camera.cy));
+  decide_camera(c, camera, "the recording");
+  auto all = settings(c);
+  for (const char* key : {"sensor.width", "sensor.height", "sensor.intrinsics"})
+    c.fitted[key] = find_setting(all, key).text();
 }
 
 void follow_region(Configuration& c, const Recording& recording) {

@@ -59,7 +59,7 @@ TEST_F(LiveScanner, ARealScanIsNotSimulatedInItsPlace) {
 TEST_F(LiveScanner, ASettingThatConflictsIsAnErrorThatNamesIt) {
   const Result run = nextview("scan " + simulated("box") + quick + "--sensor.width 81 --out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_EQ(run.err, "nextview: --sensor.width: the scanner's own is 80; leave it out\n");
+  EXPECT_EQ(run.err, "nextview: --sensor.width: the scanner has its own, 80; leave it out\n");
 }
 
 TEST_F(LiveScanner, OfAnUnknownObjectTheFirstScanSaysWhereItIsOrTheRegionIsAskedFor) {

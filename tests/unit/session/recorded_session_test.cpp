@@ -130,7 +130,7 @@ TEST_F(RecordedSession, AnotherCameraIsRefused) {
     Session session(c);
     FAIL() << "the recording has 80 pixels a row";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("--sensor.width: the recording has a camera of its own, with 80"));
+    EXPECT_THAT(error.what(), testing::StartsWith("--sensor.width: the recording has its own, 80; leave it out"));
   }
 }
 

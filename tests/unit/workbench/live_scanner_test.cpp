@@ -1,0 +1,133 @@
+// A live scanner in the window, without the window.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+
+#include "ui/workbench/session_worker.hpp"
+
+namespace nextview {
+namespace {
+
+class LiveScannerTest : public testing::Test {
+ protected:
+  LiveScannerTest() { behave("", ""); }
+  ~LiveScannerTest() override { std::filesystem::remove(fault_); }
+
+  /// What goes wrong from now on, at a request (tests/unit/driver/fake).
+  void behave(const std::string& fault, const std::string& request) const {
+    std::ofstream(fault_) << fault << " " << request;
+  }
+  template <class Predicate>
+  void wait_until(Predicate good) {
+    std::unique_lock lock(mutex_);
+    while (!good()) news_.wait_for(lock, std::chrono::milliseconds(20));
+  }
+  void wait_until_idle() {
+    wait_until([&] { return !worker_.progress().busy; });
+  }
+  /// A wall, 1 m before the camera.
+  void connect() {
+    Configuration c;
+    c.map.region = "-1 -1 0.5 1 1 1.5";
+    c.map.resolution = 0.1;
+    c.views.count = 6;
+    worker_.post(request::Connect{std::string("'") + NEXTVIEW_FAKE_DRIVER + "' '" + fault_.string() + "'", true, c});
+    wait_until_idle();
+    ASSERT_TRUE(worker_.snapshot()->live) << worker_.snapshot()->message;
+  }
+  void step(const std::string& answer) {
+    worker_.post(request::Step{});
+    wait_until([&] { return !worker_.progress().question.empty() || !worker_.progress().busy; });
+    worker_.answer(answer);
+    wait_until_idle();
+  }
+  std::size_t views() const { return worker_.snapshot()->records.size(); }
+
+  std::filesystem::path fault_ = std::filesystem::path(testing::TempDir()) / "live_scanner_fault";
+  std::mutex mutex_;
+  std::condition_variable news_;
+  SessionWorker worker_{[this] { news_.notify_all(); }};
+};
+
+TEST_F(LiveScannerTest, MovesWhenTheOperatorAllowsIt) {
+  connect();
+  EXPECT_EQ(worker_.snapshot()->object_name, "fake");
+  step("Refuse");
+  EXPECT_EQ(views(), 0u);
+  step("Move");
+  EXPECT_EQ(views(), 1u);
+  EXPECT_TRUE(worker_.progress().question.empty());
+}
+
+TEST_F(LiveScannerTest, ARefusalEndsThePlay) {
+  connect();
+  worker_.post(request::Play{});
+  wait_until([&] { return !worker_.progress().question.empty(); });
+  worker_.answer("Refuse");
+  wait_until_idle();
+  EXPECT_FALSE(worker_.progress().playing);
+  EXPECT_EQ(views(), 0u);
+}
+
+TEST_F(LiveScannerTest, CancellingAnswersTheQuestion) {
+  connect();
+  worker_.post(request::Step{});
+  wait_until([&] { return !worker_.progress().question.empty(); });
+  worker_.cancel();
+  wait_until_idle();
+  EXPECT_EQ(views(), 0u);
+}
+
+TEST_F(LiveScannerTest, IsReachedAgainAndGoesOn) {
+  connect();
+  step("Move");
+  behave("die", "move");
+  step("Move");
+  EXPECT_EQ(views(), 1u) << "what was taken stays";
+  EXPECT_TRUE(worker_.snapshot()->scanner_lost);
+  EXPECT_THAT(worker_.snapshot()->message, testing::HasSubstr("driver"));
+  behave("", "");
+  worker_.post(request::Reconnect{});
+  wait_until_idle();
+  EXPECT_FALSE(worker_.snapshot()->scanner_lost);
+  step("Move");
+  EXPECT_EQ(views(), 2u);
+}
+
+TEST_F(LiveScannerTest, ACaptureOutlivesAFailureAfterIt) {
+  connect();
+  behave("error", "reach");
+  step("Move");
+  EXPECT_EQ(views(), 0u);
+  behave("", "");
+  step("Move");
+  EXPECT_EQ(views(), 1u);
+}
+
+TEST_F(LiveScannerTest, IsLeftForWhatWasScannedBefore) {
+  Configuration box;
+  box.object.file = "box";
+  box.evaluation.surface_samples = 500;
+  box.views.count = 6;
+  worker_.post(request::Load{box});
+  wait_until_idle();
+  connect();
+  worker_.post(request::Undo{});
+  wait_until_idle();
+  EXPECT_FALSE(worker_.snapshot()->live);
+  EXPECT_EQ(worker_.snapshot()->object_name, "box");
+  worker_.post(request::Redo{});
+  wait_until_idle();
+  EXPECT_TRUE(worker_.snapshot()->live);
+  worker_.post(request::OpenFile{"box"});
+  wait_until_idle();
+  EXPECT_FALSE(worker_.snapshot()->live);
+  EXPECT_EQ(worker_.snapshot()->object_name, "box");
+  EXPECT_TRUE(worker_.snapshot()->configuration.evaluation.enabled);
+}
+
+}  // namespace
+}  // namespace nextview
