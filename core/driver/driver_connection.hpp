@@ -12,7 +12,7 @@ struct DriverOptions {
   double timeout = 30.0;                                   ///< of each request [s]; 0: for ever
   std::optional<Eigen::AlignedBox3d> working_volume = {};  ///< that the camera centre must not leave [m, world]
   Pose T_flange_camera = Pose::Identity();                 ///< where the driver's poses are those of a flange
-  std::filesystem::path folder = {};                       ///< for captures; made with the first, if it is not there
+  std::filesystem::path folder = {};                       ///< for captures, which go once they are read
   std::function<bool(const Pose& from, const Pose& to)> confirm = {};  ///< of each real move; null: never asked
   std::function<void(const std::string&)> log = {};  ///< hears its standard error by the line, from another thread
   double reached_within = 0.05;                      ///< of the wanted position, or the view was not reached [m]
