@@ -15,11 +15,11 @@ namespace nextview {
 /// What a session is made of. What is null is what the configuration says: a simulated camera that flies freely around
 /// the object, its planner, its candidates.
 struct SessionParts {
-  std::string name = {};  ///< for people; empty: the object's
   std::unique_ptr<ScanSource> source = {};
   std::unique_ptr<Robot> robot = {};
   std::unique_ptr<Planner> planner = {};
   std::unique_ptr<CandidateGenerator> candidates = {};
+  std::string name = {};  ///< for people; empty: the object's
 };
 
 /// A scan of one object: Algorithm 2, step by step, with the robot and the source that it is taken with. Not safe to

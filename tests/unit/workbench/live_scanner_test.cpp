@@ -1,4 +1,5 @@
 // A live scanner in the window, without the window.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ class LiveScannerTest : public testing::Test {
     c.map.region = "-1 -1 0.5 1 1 1.5";
     c.map.resolution = 0.1;
     c.views.count = 6;
-    worker_.post(request::Connect{std::string("'") + NEXTVIEW_FAKE_DRIVER + "' '" + fault_.string() + "'", true, c});
+    worker_.post(request::Connect{fmt::format("'{}' '{}'", NEXTVIEW_FAKE_DRIVER, fault_.string()), true, c});
     wait_until_idle();
     ASSERT_TRUE(worker_.snapshot()->live) << worker_.snapshot()->message;
   }
@@ -46,7 +47,8 @@ class LiveScannerTest : public testing::Test {
   }
   std::size_t views() const { return worker_.snapshot()->records.size(); }
 
-  std::filesystem::path fault_ = std::filesystem::path(testing::TempDir()) / "live_scanner_fault";
+  std::filesystem::path fault_ = std::filesystem::path(testing::TempDir()) /
+                                 testing::UnitTest::GetInstance()->current_test_info()->name();
   std::mutex mutex_;
   std::condition_variable news_;
   SessionWorker worker_{[this] { news_.notify_all(); }};
