@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/cloud/point_cloud.hpp"
-#include "core/driver/npy_file.hpp"
+#include "core/file/npy_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/recording/depth_image_file.hpp"

@@ -12,7 +12,7 @@
 
 #include "core/driver/driver_answer.hpp"
 #include "core/driver/driver_protocol.hpp"
-#include "core/driver/npy_file.hpp"
+#include "core/file/npy_file.hpp"
 
 namespace nextview {
 namespace {

@@ -27,4 +27,10 @@ FileHash file_hash(const std::filesystem::path& file) {
   return hash;
 }
 
+FileHash hash_of(std::string_view bytes) {
+  const uLong crc =
+      ::crc32_z(::crc32(0, nullptr, 0), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  return {bytes.size(), fmt::format("{:08x}", crc)};
+}
+
 }  // namespace nextview

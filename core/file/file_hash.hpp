@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace nextview {
 
@@ -15,5 +16,7 @@ struct FileHash {
 
 /// @throws std::runtime_error naming the file and the reason if it cannot be read.
 FileHash file_hash(const std::filesystem::path& file);
+/// The same of bytes that are at hand.
+FileHash hash_of(std::string_view bytes);
 
 }  // namespace nextview

@@ -18,12 +18,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t largest_manifest = std::uintmax_t{1} << 20;  // [bytes]
 
-constexpr std::array<std::string_view, 36> names = {"calibration.json",
+constexpr std::array<std::string_view, 37> names = {"calibration.json",
                                                     "calibration.png",
                                                     "cloud.ply",
                                                     "config.toml",
                                                     "conventional.ot",
                                                     "descent.csv",
+                                                    "journal",
                                                     manifest_name,
                                                     "map.bt",
                                                     "map.ot",
@@ -99,13 +100,20 @@ const std::array<FormerResults, 3>& former_results() {
   return all;
 }
 
-/// step_01.png, step_100.png: as they are numbered, not step_1.png.
-bool is_step_picture(std::string_view name) {
-  constexpr std::string_view begin = "step_", end = ".png";
-  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + 2 + end.size()) return false;
+/// BEGIN, a number of at least so many digits and no more noughts than those ask for, END.
+bool is_numbered(std::string_view name, std::string_view begin, std::size_t digits, std::string_view end) {
+  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + digits + end.size())
+    return false;
   const std::string_view number = name.substr(begin.size(), name.size() - begin.size() - end.size());
-  const bool digits = std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return digits && (number.size() == 2 || (number.size() <= 6 && number[0] != '0'));
+  const bool all_digits = std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return all_digits && (number.size() == digits || (number.size() <= 9 && number[0] != '0'));
+}
+
+/// step_01.png, step_100.png: as they are numbered, not step_1.png.
+bool is_step_picture(std::string_view name) { return is_numbered(name, "step_", 2, ".png"); }
+
+bool is_capture(std::string_view name) {
+  return is_numbered(name, "scans/", 4, ".npy") || is_numbered(name, "scans/", 4, ".ply");
 }
 
 bool begins_with(const fs::path& file, std::string_view text) {
@@ -143,7 +151,7 @@ bool is_plain_file(const fs::path& path) {
 std::span<const std::string_view> fixed_result_names() { return names; }
 
 bool is_result_name(std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end() || is_step_picture(name);
+  return std::find(names.begin(), names.end(), name) != names.end() || is_step_picture(name) || is_capture(name);
 }
 
 std::optional<Manifest> read_manifest(const fs::path& folder) {

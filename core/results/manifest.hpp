@@ -36,7 +36,7 @@ bool is_plain_file(const std::filesystem::path& path);
 
 /// Every name that results have, but for the pictures of steps.
 std::span<const std::string_view> fixed_result_names();
-/// Whether results have this name: one of the above, or step_01.png, …
+/// Whether results have this name: one of the above, step_01.png, …, or scans/0001.npy, …
 bool is_result_name(std::string_view name);
 
 /// The names of what version 0.4.0 and earlier ones, which wrote no manifest, have left in a folder. None unless there

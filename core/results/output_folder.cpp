@@ -26,6 +26,8 @@ std::vector<fs::path> result_files(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     if (is_result_name(entry->path().filename().string())) files.push_back(entry->path());
+  for (fs::directory_iterator entry(folder / "scans", error), end; !error && entry != end; entry.increment(error))
+    if (is_result_name("scans/" + entry->path().filename().string())) files.push_back(entry->path());
   return files;
 }
 
@@ -73,15 +75,24 @@ void OutputFolder::begin(const std::string& command, const std::optional<fs::pat
   write_manifest(manifest_, folder_);
 }
 
+void OutputFolder::go_on(const std::string& command) {
+  make();
+  manifest_ = read_manifest(folder_).value_or(Manifest{"nextview " NEXTVIEW_VERSION, command, std::nullopt, {}});
+  write_manifest(manifest_, folder_);
+}
+
 void OutputFolder::remove_earlier_results() const {
   const std::optional<Manifest> earlier = read_manifest(folder_);
   for (const std::string& name : earlier ? earlier->files : results_without_manifest(folder_)) {
     if (name == manifest_name || !is_plain_file(folder_ / name)) continue;  // links and folders of this name stay
+    if (!fs::is_directory(fs::symlink_status((folder_ / name).parent_path())) && name.starts_with("scans/")) continue;
     std::error_code error;
     fs::remove(folder_ / name, error);
     if (error)
       throw std::runtime_error(fmt::format("{}: cannot be removed: {}", (folder_ / name).string(), error.message()));
   }
+  std::error_code not_empty;
+  if (fs::is_directory(fs::symlink_status(folder_ / "scans", not_empty))) fs::remove(folder_ / "scans", not_empty);
 }
 
 fs::path OutputFolder::claim(const std::string& name) {

@@ -26,7 +26,9 @@ class OutputFolder {
   /// Makes it, removes what an earlier run left, and begins the list of what `command` leaves. `object` is what is
   /// scanned, if it is known. @throws std::runtime_error naming the file and the reason.
   void begin(const std::string& command, const std::optional<std::filesystem::path>& object = std::nullopt);
-  /// Where to write the result of this name; it is on the list from now on. @pre begin() was called;
+  /// Goes on with the list that is there, or begins one; nothing is removed. @throws std::runtime_error likewise
+  void go_on(const std::string& command);
+  /// Where to write the result of this name; it is on the list from now on. @pre begin() or go_on() was called;
   /// is_result_name(name). @throws std::runtime_error if the list cannot be written.
   std::filesystem::path claim(const std::string& name);
 

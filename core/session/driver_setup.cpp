@@ -69,6 +69,22 @@ void follow_region(Configuration& c, DriverConnection& connection, const std::st
   c.evaluation.enabled = false;
 }
 
+/// A scanner that is not connected.
+class AbsentScanner : public ScanSource {
+ public:
+  explicit AbsentScanner(const Configuration& c)
+      : name_(c.driver.name), description_{c.sensor.camera(), c.sensor.max_range, c.sensor.range_noise} {}
+  const SourceDescription& describe() const override { return description_; }
+  Result<Capture> capture(const View&, std::uint32_t, std::stop_token) override {
+    return Failure{Failure::disconnected,
+                   fmt::format("this was scanned with the scanner {}, which is not connected (--driver)", name_)};
+  }
+
+ private:
+  std::string name_;
+  SourceDescription description_;
+};
+
 }  // namespace
 
 std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const ScannerWishes& wishes,
@@ -102,6 +118,13 @@ SessionParts scanner_parts(const Configuration& c, std::shared_ptr<DriverConnect
   parts.robot = std::make_unique<DriverRobot>(connection, configured_start_view(c));
   if (const auto& views = connection->greeting().views; !views.empty())
     parts.candidates = std::make_unique<FixedCandidates>(views_at(views));
+  return parts;
+}
+
+SessionParts absent_scanner_parts(const Configuration& c) {
+  SessionParts parts;
+  parts.name = c.driver.name;
+  parts.source = std::make_unique<AbsentScanner>(c);
   return parts;
 }
 

@@ -28,4 +28,7 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& configuration, 
 /// The parts of a session that scans through it, with a configuration that follows it.
 SessionParts scanner_parts(const Configuration& configuration, std::shared_ptr<DriverConnection> connection);
 
+/// The parts of a session that was scanned so, while the scanner is away: it can be looked at, and takes no view.
+SessionParts absent_scanner_parts(const Configuration& configuration);
+
 }  // namespace nextview

@@ -114,12 +114,15 @@ StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
 Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& source, Robot& robot,
                          const Progress& progress, const std::stop_token& stop) {
   if (progress) progress(0.0, "taking the view");
-  Acquired acquired{view, {}, robot.reach(robot.pose(), {&view, 1}).front().cost};
+  Acquired acquired;
+  acquired.wanted = view;
+  acquired.motion = robot.reach(robot.pose(), {&view, 1}).front().cost;
   const Result<Pose> reached = robot.move_to(view, stop);
   if (const auto* failure = std::get_if<Failure>(&reached)) return *failure;
+  acquired.reached = std::get<Pose>(reached);
   Result<Capture> capture = [&] {
     Stopwatch watch(acquired.sense_seconds);
-    return source.capture({std::get<Pose>(reached), view.frame}, step, stop);
+    return source.capture({acquired.reached, view.frame}, step, stop);
   }();
   if (auto* failure = std::get_if<Failure>(&capture)) return *failure;
   acquired.capture = std::get<Capture>(std::move(capture));

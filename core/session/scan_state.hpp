@@ -57,6 +57,7 @@ struct ScanState {
 /// A view that was taken and is not absorbed yet: the operator may look at it, and refuse it.
 struct Acquired {
   View wanted;
+  Pose reached = Pose::Identity();  ///< as the robot knows it; the capture's counts
   Capture capture;
   MotionCost motion;  ///< of getting there
   double sense_seconds = 0.0;

@@ -153,6 +153,14 @@ bool Session::step(const Progress& progress, std::stop_token stop, const Accept&
   return true;
 }
 
+bool Session::step_again(const NextView& choice, Acquired acquired, const Progress& progress, std::stop_token stop) {
+  state_.next = choice;
+  state_.finished.clear();
+  robot_->restored(acquired.reached);
+  taken_ = std::move(acquired);
+  return step(progress, std::move(stop));
+}
+
 /// None if it was cancelled or refused.
 std::optional<ScanState> Session::next_state(const Progress& progress, const std::stop_token& stop,
                                              const Accept& accept) {

@@ -49,6 +49,10 @@ class Session {
   /// @throws OutOfMemory; std::runtime_error if the robot or the source fails @pre finished().empty()
   bool step(const Progress& progress = {}, std::stop_token stop = {}, const Accept& accept = {});
 
+  /// Takes a view that was captured before, as it was chosen then: the world is not touched, and no limit keeps it from
+  /// being taken. The same bytes as when it was taken first. @throws, returns as step()
+  bool step_again(const NextView& choice, Acquired acquired, const Progress& progress = {}, std::stop_token stop = {});
+
   /// All that evolves; what step() leaves is another value, this one can be kept.
   const ScanState& state() const { return state_; }
   /// Goes on from a state of this session's, or of one of the same configuration. Nothing is captured; a simulated

@@ -5,6 +5,7 @@
 #include <vtkContextScene.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
+#include <vtkLightCollection.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
@@ -171,6 +172,10 @@ void Scene::frame(std::span<const Vector3> points, const ViewDirection& directio
   camera.SetViewAngle(vertical_angle);
   renderer_->ResetCameraClippingRange();
   overlay_->item->scale_reference = box.center();
+  // The lights go with the camera, but shaders hear of it only if the lights themselves change.
+  vtkLightCollection& lights = *renderer_->GetLights();
+  lights.InitTraversal();
+  while (vtkLight* light = lights.GetNextItem()) light->Modified();
 }
 
 }  // namespace nextview

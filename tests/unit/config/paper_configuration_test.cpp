@@ -96,8 +96,9 @@ constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
     {"evaluation.surface_samples", "50000"},
     {"evaluation.any_pose", "false"},
 }};
-const std::set<std::string> not_pinned = {"seed",       "object.file",          "sensor.preset",  "views.file",
-                                          "views.unit", "robot.working_volume", "driver.hand_eye"};
+const std::set<std::string> not_pinned = {
+    "seed",       "object.file",          "sensor.preset",   "views.file",
+    "views.unit", "robot.working_volume", "driver.hand_eye", "registration.min_overlap"};
 
 Configuration paper(const Configuration& base) {
   return read_configuration(std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets/configurations/paper.toml", base);

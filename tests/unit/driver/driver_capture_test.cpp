@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/cloud/point_cloud.hpp"
-#include "core/driver/npy_file.hpp"
+#include "core/file/npy_file.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -75,7 +75,7 @@ TEST(DriverCapture, OfAnImage) {
   ASSERT_EQ(range.size(), 12u);
   EXPECT_TRUE(std::isnan(range[0]) && std::isnan(z[0])) << "0 is invalid";
   EXPECT_FLOAT_EQ(range[1], 1.0f);
-  EXPECT_FLOAT_EQ(range[3], 65.535f);
+  EXPECT_TRUE(std::isnan(range[3])) << "65535: the sensor was saturated";
   EXPECT_FLOAT_EQ(range[11], 0.8f);
   EXPECT_FLOAT_EQ(z[1], 1.0f * float(Vector3(-0.5 / 4, -1.0 / 4, 1).norm()));
   EXPECT_FLOAT_EQ(z[11], 0.8f * float(Vector3(1.5 / 4, 1.0 / 4, 1).norm()));
@@ -88,9 +88,9 @@ TEST(DriverCapture, AnImageNeedsItsMeaning) {
   EXPECT_THAT(reason(file("a.png", 0.001), folder), HasSubstr("'measures'"));
   EXPECT_THAT(reason(file("a.png", 0.001, "depth"), folder), HasSubstr("'measures'"));
   folder.write("a.png", png8);
-  EXPECT_THAT(reason(file("a.png", 0.001, "z"), folder), HasSubstr("16-bit grey"));
+  EXPECT_THAT(reason(file("a.png", 0.001, "z"), folder), HasSubstr("16 are needed"));
   folder.write("a.png", "no image");
-  EXPECT_THAT(reason(file("a.png", 0.001, "z"), folder), HasSubstr("no image"));
+  EXPECT_THAT(reason(file("a.png", 0.001, "z"), folder), HasSubstr("neither PNG"));
   for (std::size_t size = 0; size < 60; ++size) {
     folder.write("a.png", png16.substr(0, size));
     EXPECT_NE(reason(file("a.png", 0.001, "z"), folder), "it was read") << size;

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "core/driver/driver_answer.hpp"
-#include "core/driver/npy_file.hpp"
+#include "core/file/npy_file.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {

@@ -113,16 +113,18 @@ inline void open_all_ways(Desk& desk) {
 
 /// What may be under way: nothing, playing, refining, a refinement that is paused.
 inline std::vector<WorkerProgress> all_progress() {
-  std::vector<WorkerProgress> all(4);
-  for (std::size_t i = 1; i < 4; ++i) {
+  std::vector<WorkerProgress> all(5);
+  for (std::size_t i = 1; i < 5; ++i) {
     all[i].busy = true;
     all[i].what = "doing what it does";
     all[i].fraction = 0.4;
     all[i].seconds_left = 12;
     all[i].playing = i == 1;
-    all[i].refining = i > 1;
+    all[i].refining = i == 2 || i == 3;
     all[i].paused = i == 3;
   }
+  all[4].question = "Move the camera?";
+  all[4].answers = {"Move", "Refuse"};
   return all;
 }
 

@@ -51,21 +51,26 @@ void click_menu(Desk& desk, double x, std::set<float>& menus, std::set<std::stri
 
 using Snapshots = std::vector<std::shared_ptr<const SessionSnapshot>>;
 
-/// The desk's, and that with the scan finished.
-Snapshots under_way_and_finished(const Desk& desk) {
+/// The desk's, that with the scan finished, and that of a live scanner.
+Snapshots all_snapshots(const Desk& desk) {
   const auto finished = std::make_shared<SessionSnapshot>(*desk.snapshot);
   finished->finished = "5 views taken";
-  return {desk.snapshot, finished};
+  const auto live = std::make_shared<SessionSnapshot>(*desk.snapshot);
+  live->live = true;
+  return {desk.snapshot, finished, live};
 }
 
 TEST(Reach, EveryCommandByMouseThroughTheMenu) {
   std::set<std::string> reached;
-  for (std::size_t state = 0; state <= all_progress().size(); ++state) {
+  std::vector<std::pair<std::size_t, WorkerProgress>> states;  // of a snapshot
+  for (const WorkerProgress& progress : all_progress()) states.push_back({0, progress});
+  states.push_back({1, {}});
+  states.push_back({2, {}});
+  for (const auto& [snapshot, progress] : states) {
     Desk desk;
     open_all_ways(desk);
-    const bool is_finished = state == all_progress().size();
-    desk.progress = all_progress()[is_finished ? 0 : state];
-    if (is_finished) desk.snapshot = under_way_and_finished(desk).back();
+    desk.progress = progress;
+    desk.snapshot = all_snapshots(desk)[snapshot];
     std::set<float> menus;
     for (double x = 10; x < 500; x += 15) click_menu(desk, x, menus, reached);
     EXPECT_EQ(menus.size(), nextview::menus().size());
@@ -94,7 +99,7 @@ void prepare_for(const Command& command, Desk& desk, const Snapshots& snapshots)
 TEST(Reach, EveryCommandThroughThePalette) {
   Desk desk;
   open_all_ways(desk);
-  const Snapshots snapshots = under_way_and_finished(desk);
+  const Snapshots snapshots = all_snapshots(desk);
   const WindowState before = desk.window;
   for (const Command& command : commands()) {
     prepare_for(command, desk, snapshots);
@@ -141,7 +146,7 @@ TEST(Reach, ThePaletteSaysWhatIsWrongAndStays) {
 TEST(Reach, EveryKeyDoesItsCommand) {
   Desk desk;
   open_all_ways(desk);
-  const Snapshots snapshots = under_way_and_finished(desk);
+  const Snapshots snapshots = all_snapshots(desk);
   const WindowState before = desk.window;
   for (const Command& command : commands())
     for (const Shortcut& shortcut : command.shortcuts()) {

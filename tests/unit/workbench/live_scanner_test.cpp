@@ -35,6 +35,7 @@ class LiveScannerTest : public testing::Test {
     c.map.region = "-1 -1 0.5 1 1 1.5";
     c.map.resolution = 0.1;
     c.views.count = 6;
+    c.termination = TerminationConfig::unlimited();
     worker_.post(request::Connect{fmt::format("'{}' '{}'", NEXTVIEW_FAKE_DRIVER, fault_.string()), true, c});
     wait_until_idle();
     ASSERT_TRUE(worker_.snapshot()->live) << worker_.snapshot()->message;
@@ -47,8 +48,8 @@ class LiveScannerTest : public testing::Test {
   }
   std::size_t views() const { return worker_.snapshot()->records.size(); }
 
-  std::filesystem::path fault_ = std::filesystem::path(testing::TempDir()) /
-                                 testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::filesystem::path fault_ =
+      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
   std::mutex mutex_;
   std::condition_variable news_;
   SessionWorker worker_{[this] { news_.notify_all(); }};
@@ -124,11 +125,14 @@ TEST_F(LiveScannerTest, IsLeftForWhatWasScannedBefore) {
   worker_.post(request::Redo{});
   wait_until_idle();
   EXPECT_TRUE(worker_.snapshot()->live);
-  worker_.post(request::OpenFile{"box"});
+  const std::filesystem::path file = fault_.string() + ".toml";
+  std::ofstream(file) << "[object]\nfile = 'box'\n[map]\nregion = ''\n";  // the wall's is not the box's
+  worker_.post(request::OpenFile{file});
   wait_until_idle();
   EXPECT_FALSE(worker_.snapshot()->live);
   EXPECT_EQ(worker_.snapshot()->object_name, "box");
   EXPECT_TRUE(worker_.snapshot()->configuration.evaluation.enabled);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

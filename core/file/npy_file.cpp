@@ -1,4 +1,4 @@
-#include "core/driver/npy_file.hpp"
+#include "core/file/npy_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/source/scan_source.hpp"
+
+namespace nextview {
+
+/// Writes what a source saw, to the bit, durable when it returns: NUMBER.npy, ranges along the rays as float32 (inf:
+/// beyond range, NaN: invalid), or NUMBER.ply, points in the camera frame as doubles [m]. Returns the file's name.
+/// @throws std::runtime_error naming the file and the reason
+std::string write_capture(const Capture& capture, std::uint32_t number, const std::filesystem::path& folder);
+
+/// Reads it again. Ranges need the camera that took them; points ignore it.
+/// @throws std::runtime_error naming the file and the reason
+std::variant<DepthImage, std::vector<Vector3>> read_captured(const std::filesystem::path& file,
+                                                             const PinholeCamera& camera);
+
+}  // namespace nextview

@@ -1,0 +1,96 @@
+#include "core/journal/journal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/file/read_file.hpp"
+#include "core/journal/capture_file.hpp"
+#include "core/journal/journal_records.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+Journal journal_of(JournalText text, const fs::path& file) {
+  Journal journal;
+  journal.damage = std::move(text.damage);
+  bool begun = false;
+  for (const std::string& record : text.records) {
+    try {
+      begun |= read_record(record, journal);
+    } catch (const NewerJournal& error) {
+      throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+    } catch (const std::exception&) {  // JSON's own messages quote what is there
+      journal.damage.emplace_back("a record of the journal says nothing that is known, and is left out");
+    }
+  }
+  if (!begun)
+    throw std::runtime_error(fmt::format("{}: is no journal of a session, or its beginning is lost", file.string()));
+  return journal;
+}
+
+}  // namespace
+
+std::vector<JournalStep> Journal::line() const {
+  std::vector<JournalStep> line;
+  std::uint32_t number = at;
+  while (number > 0) {
+    auto step = steps.upper_bound(number);  // where it is lost: the one before
+    if (step == steps.begin()) break;
+    --step;
+    line.push_back(step->second);
+    number = std::min(step->second.after, step->first - 1);
+  }
+  std::ranges::reverse(line);
+  return line;
+}
+
+bool has_journal(const fs::path& folder) { return is_there(folder / journal_name); }
+
+Journal read_journal(const fs::path& folder) {
+  const fs::path file = folder / journal_name;
+  return journal_of(read_journal_file(file), file);
+}
+
+Capture read_capture(const JournalStep& step, const fs::path& folder) {
+  const fs::path file = folder / scans_name / step.scan;
+  if (!(file_hash(file) == step.hash))
+    throw std::runtime_error(fmt::format("{}: is not what was captured: it is damaged, or was changed", file.string()));
+  return {read_captured(file, step.camera), step.T_world_camera, step.max_range};
+}
+
+JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::move(folder)), file_(std::move(file)) {
+  std::error_code error;
+  fs::create_directories(folder_ / scans_name, error);
+  if (error)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made a folder: {}", (folder_ / scans_name).string(), error.message()));
+}
+
+JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input) {
+  JournalWriter writer(folder, JournalFile::begin(folder / journal_name));
+  writer.file_.append(beginning_record(input));
+  return writer;
+}
+
+JournalWriter JournalWriter::go_on(const fs::path& folder, Journal& journal) {
+  JournalText text;
+  JournalWriter writer(folder, JournalFile::go_on(folder / journal_name, text));
+  journal = journal_of(std::move(text), folder / journal_name);
+  return writer;
+}
+
+void JournalWriter::add(JournalStep& step, const Capture& capture) {
+  step.scan = write_capture(capture, step.number, folder_ / scans_name);
+  step.hash = file_hash(folder_ / scans_name / step.scan);
+  file_.append(step_record(step));
+}
+
+void JournalWriter::stand_at(std::uint32_t number) { file_.append(position_record(number)); }
+
+void JournalWriter::close() { file_.append(closing_record()); }
+
+}  // namespace nextview

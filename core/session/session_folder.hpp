@@ -1,0 +1,92 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/journal/journal.hpp"
+#include "core/results/output_folder.hpp"
+#include "core/session/session.hpp"
+
+namespace nextview {
+
+/// What the folder of a session says, however old it is.
+struct SavedSession {
+  std::filesystem::path folder;
+  Configuration configuration;
+  std::optional<Journal> journal;    ///< none in those of 0.4.0 and earlier
+  std::vector<std::string> notices;  ///< what is lost, or sensed again, for people
+};
+
+/// Whether a folder holds a session: one with a journal, or what `scan` of 0.4.0 left.
+bool is_session(const std::filesystem::path& folder);
+/// @throws std::runtime_error, std::invalid_argument naming the file and the reason: none of a session, a newer
+/// version's, the object has changed
+SavedSession read_session(const std::filesystem::path& folder);
+/// A folder for a session that is yet to begin. @throws std::invalid_argument with one line unless it is absent, empty,
+/// or holds a session that may be replaced
+void require_free_for_session(const std::filesystem::path& folder, bool overwrite);
+
+class SessionFolder;
+
+/// Brings a new session to where the saved one stands: its views are taken again from what was captured, the same
+/// bytes; those of 0.4.0 are sensed again. Where a capture is lost the view is left out, and a notice added. `folder`,
+/// if given, is that of the session. `each` is called after each view. False if it was stopped.
+/// @throws as Session::step
+bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const std::function<void()>& each = {},
+             const Progress& progress = {}, const std::stop_token& stop = {});
+
+/// A session's folder, written while the session goes on: whatever ends the program, each view that was accepted is
+/// there, and can be gone on from.
+class SessionFolder {
+ public:
+  using Line = std::vector<std::uint32_t>;  ///< numbers of captures
+  /// Hears why a view could not be kept.
+  using NotKept = std::function<void(const std::string&)>;
+
+  /// Makes it the folder of a session without views: its configuration, and an empty journal. What an earlier session
+  /// left there goes. @throws JournalInUse if another program writes that one; std::runtime_error naming the file and
+  /// the reason
+  static SessionFolder begin(OutputFolder out, const Session& session);
+  /// Goes on with a saved one, which is to be restored. @throws as begin()
+  static SessionFolder go_on(OutputFolder out, const SavedSession& saved, const Session& session);
+
+  /// Session::step, with the capture kept before it is absorbed. Where it cannot be, the view is not taken, or with
+  /// `not_kept` it is, and from there on nothing is kept. @throws as Session::step; std::runtime_error naming the file
+  bool step(Session& session, const Progress& progress = {}, const std::stop_token& stop = {},
+            const NotKept& not_kept = {});
+  /// The session has been put where its views were these.
+  void stand_at(const Line& line);
+  /// The captures that the session's views are of.
+  const Line& line() const { return line_; }
+  /// The settings have changed in a way that what was scanned stays.
+  void keep_configuration(const Session& session);
+  /// Nobody is in the middle of it any more.
+  void close();
+  /// Makes another folder one of the same session, with the views that it stands at. @pre copy.begin() was called
+  void copy_to(OutputFolder& copy) const;
+
+  OutputFolder& out() { return out_; }
+  const std::filesystem::path& path() const { return out_.path(); }
+  bool keeps() const { return keeps_; }  ///< false once something could not be kept
+
+ private:
+  friend bool restore(Session&, SavedSession&, SessionFolder*, const std::function<void()>&, const Progress&,
+                      const std::stop_token&);
+  SessionFolder(OutputFolder out, JournalWriter writer, JournalInput input)
+      : out_(std::move(out)), writer_(std::move(writer)), input_(std::move(input)) {}
+  void keep(const NextView& choice, const Acquired& acquired);
+
+  OutputFolder out_;
+  JournalWriter writer_;
+  JournalInput input_;
+  Line line_;
+  std::map<std::uint32_t, JournalStep> steps_;  ///< of this session, by number
+  std::uint32_t last_ = 0;                      ///< number of the last capture
+  std::optional<std::uint32_t> pending_;        ///< kept, and not yet absorbed
+  bool keeps_ = true;
+};
+
+}  // namespace nextview
