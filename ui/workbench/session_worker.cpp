@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/file/counted.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/workbench/overloaded.hpp"
@@ -33,6 +34,11 @@ SessionWorker::~SessionWorker() {
 
 void SessionWorker::news() const {
   if (on_news_) on_news_();
+}
+
+void SessionWorker::keep_sessions(std::filesystem::path state) {
+  runner_.keep_sessions(std::move(state),
+                        [this](const std::string& line) { log_.add(LogEntry::Level::warning, line); });
 }
 
 std::shared_ptr<const SessionSnapshot> SessionWorker::snapshot() const {
@@ -160,6 +166,7 @@ void SessionWorker::execute(const SessionRequest& request) {
   std::visit(Overloaded{
                  [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
                  [&](const request::OpenFile& r) { runner_.open(r.file, job_control()); },
+                 [&](const request::OfferSession& r) { offer(r.session); },
                  [&](const request::Connect& r) { runner_.connect(scanner_wishes(r), r.configuration, job_control()); },
                  [&](request::Disconnect) { runner_.disconnect(job_control()); },
                  [&](request::Reconnect) {
@@ -220,6 +227,15 @@ std::string SessionWorker::ask(std::string question, std::vector<std::string> an
   wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
   progress_.question.clear();
   return std::exchange(answer_, std::nullopt).value_or(cautious);
+}
+
+void SessionWorker::offer(const UnfinishedSession& session) {
+  const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
+                                           counted(session.views, "view"));
+  if (ask(question, {"Go on", "Begin anew"}) == "Go on")
+    runner_.open(session.folder, job_control());
+  else
+    close_session(session.folder);
 }
 
 Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {
