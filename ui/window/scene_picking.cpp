@@ -43,7 +43,7 @@ Vector3 SceneView::direction_at(double x, double y) {
 
 Picked SceneView::pick(double x, double y) {
   Picked picked;
-  if (!shown_) return picked;
+  if (!shown_ || doubtful_) return picked;
   const SessionSnapshot& s = *shown_;
   const Eigen::Vector2d pointer(x, y);
   const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
