@@ -105,6 +105,8 @@ TEST_F(Commands, EachIsDoneByAScript) {
                             "toggle-views",
                             "toggle-rays",
                             "toggle-region",
+                            "edit-region",
+                            "edit-region",
                             "toggle-missed",
                             "toggle-object",
                             "toggle-cloud",

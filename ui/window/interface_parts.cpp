@@ -82,7 +82,10 @@ void Interface::Parts::draw_interface(double seconds) {
   obey_keys(context);
   follow_pointer(context, seconds);
   panels.draw(context, layout, worker.log().count(), seconds);
-  if (!news.progress.doubtful) draw_selection_overlay(view, context);
+  if (!news.progress.doubtful) {
+    draw_selection_overlay(view, context);
+    pointer.region_handles().draw(view, context);
+  }
   ImGui::Render();
   follow_tooltip();
   if (calls.empty() && script_may_go_on()) calls = script.go_on(*news.snapshot);

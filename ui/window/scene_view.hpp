@@ -3,6 +3,7 @@
 
 #include "ui/panels/layout.hpp"
 #include "ui/scene/scene.hpp"
+#include "ui/window/box_handles.hpp"
 #include "ui/workbench/inspection.hpp"
 #include "ui/workbench/session_snapshot.hpp"
 
@@ -32,6 +33,8 @@ class SceneView {
   vtkRenderer& renderer() { return scene_.renderer(); }
   /// Where a point of the world is in the window, unless it is behind the camera [px from the upper left corner].
   std::optional<Eigen::Vector2d> project(const Vector3& point);
+  /// The line of sight through a point of the window [px from the upper left corner].
+  Sight sight(double x, double y);
   /// What is at a point of the window [px from the upper left corner].
   Picked pick(double x, double y);
   std::size_t voxel_faces() { return scene_.octree().face_count(); }
@@ -51,8 +54,6 @@ class SceneView {
   void show_doubtful(const SessionSnapshot& snapshot);
   void leave_doubtful();
   void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
-  /// Direction into the scene at a point of the window; of any length.
-  Vector3 direction_at(double x, double y);
 
   RenderTarget& target_;
   Rectangle rectangle_;
