@@ -32,6 +32,7 @@ HistoryEntry SessionRunner::now() const {
 }
 
 void SessionRunner::load(Configuration configuration, const JobControl& control) {
+  if (scanner_) require_goes_on(*scanner_, session_->configuration(), configuration);
   start(std::move(configuration), scanner_, control);
 }
 
@@ -92,7 +93,10 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
   if (!can_step()) return;
   session_->set_judge(judge);
   HistoryEntry before = now();
-  if (!session_->step(control.progress, control.stop)) return;
+  if (!session_->step(control.progress, control.stop)) {
+    if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
+    return;
+  }
   history_.push(std::move(before), history_limit(*session_));
   show_map(*snapshot_);
 }
