@@ -9,7 +9,7 @@
 namespace nextview {
 namespace {
 
-Eigen::AlignedBox3d region(User& user) { return {user.session().grid.lower(), user.session().grid.upper()}; }
+Eigen::AlignedBox3d region(User& user) { return user.session().grid.box(); }
 
 Point pixel_of(User& user, const Vector3& place) {
   const auto pixel = user.window().scene().project(place);

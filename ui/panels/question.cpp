@@ -38,12 +38,9 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
   const Style& style = context.style;
   const float width = std::min(style.px(420), float(scene.width) - style.px(16));
   const DoubtfulScan* const doubtful = context.progress.doubtful.get();
-  if (doubtful)  // beneath the clouds, and beside the axes and the scale bar
-    ImGui::SetNextWindowPos({float(scene.x + scene.width) - style.px(8), float(scene.y + scene.height) - style.px(8)},
-                            ImGuiCond_Always, {1.0f, 1.0f});
-  else
-    ImGui::SetNextWindowPos({float(scene.x + scene.width / 2), float(scene.y + scene.height / 2)}, ImGuiCond_Always,
-                            {0.5f, 0.5f});
+  // In a corner that neither axes nor legends take: what it is about is seen in the scene.
+  ImGui::SetNextWindowPos({float(scene.x + scene.width) - style.px(8), float(scene.y + scene.height) - style.px(8)},
+                          ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));

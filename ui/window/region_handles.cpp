@@ -10,8 +10,6 @@ namespace {
 constexpr double handle_reach = 12.0;  // [px] on a display that does not scale
 constexpr float handle_radius = 6.0f;  // likewise
 
-Eigen::AlignedBox3d region_of(const SessionSnapshot& s) { return {s.grid.lower(), s.grid.upper()}; }
-
 /// Of several on one another the one that is nearest to the eye.
 std::optional<std::size_t> handle_at(SceneView& view, const Eigen::AlignedBox3d& box, const ImVec2& pointer,
                                      double reach) {
@@ -44,7 +42,7 @@ bool RegionHandles::follow(SceneView& view, const PanelContext& context) {
   if (drag_)
     drag(view, context);
   else
-    begin_or_point(view, context, box_.value_or(region_of(context.snapshot)));
+    begin_or_point(view, context, box_.value_or(context.snapshot.grid.box()));
   return drag_ || pointed_at_;
 }
 
@@ -71,7 +69,7 @@ void RegionHandles::draw(SceneView& view, const PanelContext& context) const {
   if (!context.window.edit_region || !context.snapshot.loaded()) return;
   const Style& style = context.style;
   const Rectangle& r = view.rectangle();
-  const Eigen::AlignedBox3d box = box_.value_or(region_of(context.snapshot));
+  const Eigen::AlignedBox3d box = box_.value_or(context.snapshot.grid.box());
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
   draw_edges(view, box, style.px(1.6f));
