@@ -142,7 +142,8 @@ Recording open_and_fit(Configuration& c, const Progress& progress, const std::st
   if (is_scan_folder(path)) return open_scan_folder(c, path, progress, stop);
   Recording recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
   const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
-  const Eigen::AlignedBox3d region = c.map.region.empty() ? seen : c.map.region_box();
+  // A region that follows from the recording has a margin; to go by that would give the next session other lengths.
+  const Eigen::AlignedBox3d region = is_given(c, "map.region") ? c.map.region_box() : seen;
   fit_lengths(c, region.sizes().maxCoeff());
   return recording;
 }

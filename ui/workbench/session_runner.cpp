@@ -39,6 +39,7 @@ void SessionRunner::keep_sessions(std::filesystem::path state, KeptSession::Noti
 }
 
 void SessionRunner::load(Configuration configuration, const JobControl& control) {
+  if (scanner_) require_goes_on(*scanner_, session_->configuration(), configuration);
   start(std::move(configuration), scanner_, control);
 }
 
@@ -132,7 +133,10 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
   if (!can_step()) return;
   session_->set_judge(judge);
   HistoryEntry before = now();
-  if (!kept_->step(*session_, control.progress, control.stop)) return;
+  if (!kept_->step(*session_, control.progress, control.stop)) {
+    if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
+    return;
+  }
   history_.push(std::move(before), history_limit(*session_));
   show_map(*snapshot_);
 }

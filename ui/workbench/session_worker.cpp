@@ -1,15 +1,11 @@
 #include "ui/workbench/session_worker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
 
-#include "core/file/counted.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/setting/length_text.hpp"
 #include "ui/workbench/overloaded.hpp"
 #include "ui/workbench/request_kind.hpp"
 
@@ -203,60 +199,6 @@ void SessionWorker::execute(const SessionRequest& request) {
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },
              request);
-}
-
-void SessionWorker::answer(const std::string& text) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (progress_.question.empty()) return;
-    answer_ = text;
-  }
-  wake_.notify_all();
-}
-
-/// Waits for the answer; what cancels the job gives the last one.
-std::string SessionWorker::ask(std::string question, std::vector<std::string> answers) {
-  const std::string cautious = answers.back();
-  std::unique_lock lock(mutex_);
-  progress_.question = std::move(question);
-  progress_.answers = std::move(answers);
-  answer_.reset();
-  lock.unlock();
-  news();
-  lock.lock();
-  wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
-  progress_.question.clear();
-  return std::exchange(answer_, std::nullopt).value_or(cautious);
-}
-
-void SessionWorker::offer(const UnfinishedSession& session) {
-  const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
-                                           counted(session.views, "view"));
-  if (ask(question, {"Go on", "Begin anew"}) == "Go on")
-    runner_.open(session.folder, job_control());
-  else
-    close_session(session.folder);
-}
-
-Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {
-  std::vector<std::string> answers = {"Take it", "Reject it"};
-  if (acquired.registration->reliable) answers.insert(answers.begin(), "Correct it");
-  const std::string answer = ask("This scan does not fit those before it: " + reason + ".", answers);
-  if (answer == "Correct it") return Session::Verdict::correct;
-  return answer == "Take it" ? Session::Verdict::accept : Session::Verdict::reject;
-}
-
-ScannerWishes SessionWorker::scanner_wishes(const request::Connect& request) {
-  ScannerWishes wishes{request.command};
-  if (request.confirm)
-    wishes.confirm = [this](const Pose& from, const Pose& to) {
-      const Vector3 p = to.translation();
-      return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
-                             length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()),
-                 {"Move", "Refuse"}) == "Move";
-    };
-  wishes.log = [this](const std::string& line) { log_.add(LogEntry::Level::note, "Scanner: " + line); };
-  return wishes;
 }
 
 SessionRunner::JobControl SessionWorker::job_control() {

@@ -54,7 +54,8 @@ class SessionWorker {
   void report_progress(double fraction, std::string_view what);
   void report_sampler(const SamplerDiagnostics& so_far);
   SessionRunner::JobControl job_control();
-  std::string ask(std::string question, std::vector<std::string> answers);
+  std::string ask(std::string question, std::vector<std::string> answers,
+                  std::shared_ptr<const DoubtfulScan> about = nullptr);
   void offer(const UnfinishedSession& session);
   Session::Verdict judge(const Acquired& acquired, const std::string& reason);
   ScannerWishes scanner_wishes(const request::Connect& request);
