@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include "core/config/object_lengths.hpp"
 #include "core/file/read_file.hpp"
+#include "core/recording/frame_files.hpp"
 #include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
@@ -170,11 +170,13 @@ std::vector<View> frames_listed(const fs::path& file, const RecordedSource& sour
 std::uint32_t start_frame(const Configuration& c, const Recording& recording) {
   const std::string& wanted = c.recorded.start;
   if (wanted.empty()) return 0;
-  const auto named = std::ranges::find(recording.frames, wanted, &RecordedFrame::name);
-  if (named != recording.frames.end()) return std::uint32_t(named - recording.frames.begin());
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-  if (error == std::errc() && end == wanted.data() + wanted.size() && number < recording.frames.size()) return number;
+  const auto& frames = recording.frames;
+  auto found = std::ranges::find(frames, wanted, &RecordedFrame::name);
+  const auto is_meant = [&](const RecordedFrame& frame) {
+    return same_key(last_number(frame.name).value_or(""), wanted);
+  };
+  if (found == frames.end()) found = std::ranges::find_if(frames, is_meant);
+  if (found != frames.end()) return std::uint32_t(found - frames.begin());
   throw std::invalid_argument(
       c.as_given(fmt::format("recorded.start: there is no frame '{}'; there are {}, from {} to {}", wanted,
                              recording.frames.size(), recording.frames.front().name, recording.frames.back().name)));
