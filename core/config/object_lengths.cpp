@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -74,6 +75,15 @@ void set_unless_given(Configuration& configuration, const std::string& key, cons
   configuration.fitted[key] = setting.text();
 }
 
+void lengthen_rays(Configuration& configuration, std::span<const Pose> T_world_cameras) {
+  const Eigen::AlignedBox3d region = configuration.map.region_box();
+  double farthest = 0.0;
+  for (const Pose& pose : T_world_cameras) farthest = std::max(farthest, (pose.translation() - region.center()).norm());
+  const double way = farthest + 0.5 * region.diagonal().norm();
+  if (configuration.planner.ray_length < way)
+    set_unless_given(configuration, "planner.ray_length", fmt::format("{:.6g}", 1.01 * way));
+}
+
 void decide(Configuration& configuration, const std::string& key, const std::string& text, const std::string& owner) {
   auto all = settings(configuration);
   Setting& setting = find_setting(all, key);
@@ -82,8 +92,8 @@ void decide(Configuration& configuration, const std::string& key, const std::str
   const std::string own = setting.text();
   if (configuration.sources.contains(key) && asked != own) {
     setting.set(asked);  // which the message names as it was given
-    throw std::invalid_argument(
-        configuration.as_given(fmt::format("{}: {} has its own, {}; leave it out", key, owner, own)));
+    throw std::invalid_argument(configuration.as_given(
+        fmt::format("{}: {} has its own, {}; leave it out", key, owner, own.empty() ? "none" : own)));
   }
 }
 

@@ -103,12 +103,10 @@ void follow_region(Configuration& c, const Recording& recording) {
                                high.y(), high.z()));
 }
 
-/// The way from the farthest frame to behind the region [m].
-double farthest_way(const Recording& recording, const Eigen::AlignedBox3d& region) {
-  double farthest = 0.0;
-  for (const RecordedFrame& frame : recording.frames)
-    farthest = std::max(farthest, (frame.T_world_camera.translation() - region.center()).norm());
-  return farthest + 0.5 * region.diagonal().norm();
+std::vector<Pose> poses_of(const Recording& recording) {
+  std::vector<Pose> poses;
+  for (const RecordedFrame& frame : recording.frames) poses.push_back(frame.T_world_camera);
+  return poses;
 }
 
 /// A recording ends when its frames do; what else may end it holds where it was given.
@@ -142,8 +140,7 @@ std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, cons
   }
   recording.max_range = std::min(recording.max_range, c.sensor.max_range);
   follow_region(c, recording);
-  const double way = farthest_way(recording, c.map.region_box());
-  if (c.planner.ray_length < way) set_unless_given(c, "planner.ray_length", fmt::format("{:.6g}", 1.01 * way));
+  lengthen_rays(c, poses_of(recording));
   set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
   follow_end(c, recording);
   recording.region.reset();  // which is the configuration's from here on
