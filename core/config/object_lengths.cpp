@@ -59,6 +59,9 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   else
     fit("views.radius", 1.8 * longest);
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
+  // From farther off, rays get as far behind the object's middle as they do from 1.8 times its size.
+  if (const double distance = configuration.sensor.working_distance; distance > 1.8 * longest)
+    fit("planner.ray_length", distance + 1.2 * longest);
 }
 
 bool is_given(const Configuration& configuration, const std::string& key) {

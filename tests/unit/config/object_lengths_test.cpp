@@ -95,6 +95,17 @@ TEST(ObjectLengths, ReadFromItsOwnFileNothingFollows) {
   EXPECT_EQ(to_toml(read), to_toml(c));
 }
 
+TEST(ObjectLengths, RaysReachFromTheWorkingDistance) {
+  Configuration c;
+  c.sensor.working_distance = 2.0;
+  fit_lengths(c, 0.5);
+  EXPECT_DOUBLE_EQ(c.views.radius, 2.0);
+  EXPECT_DOUBLE_EQ(c.planner.ray_length, 2.6);
+  c.sensor.working_distance = 0.5;
+  fit_lengths(c, 0.5);
+  EXPECT_DOUBLE_EQ(c.planner.ray_length, 1.5);
+}
+
 TEST(ObjectLengths, RaysGetThroughTheRegionFromWhereverViewsAre) {
   Configuration c;
   c.map.region = "-0.1 -0.1 -0.1 0.1 0.1 0.1";
