@@ -24,6 +24,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/session_folder.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/panels/panel_table.hpp"
@@ -121,10 +122,17 @@ int run(int argc, char** argv) {
     fmt::print("{}", command_table());
     return 0;
   }
+  WindowStart start;
+  if (is_session(options.object())) {
+    if (scanner.wanted() || options.gives_settings())
+      throw std::invalid_argument(options.object() + ": a session goes on with its own settings; give none beside it");
+    start.session = options.object();
+    return run_window({}, {script, read_script(script), stop_on_error}, start);
+  }
   const Configuration configuration = options.configuration();
-  std::optional<request::Connect> live;
-  if (scanner.wanted()) live = {scanner.command, scanner.confirm == "always", configuration};
-  return run_window(configuration, {script, read_script(script), stop_on_error}, live);
+  if (scanner.wanted()) start.scanner = {scanner.command, scanner.confirm == "always", configuration};
+  start.offer = !scanner.wanted() && script.empty() && options.object().empty() && !options.gives_settings();
+  return run_window(configuration, {script, read_script(script), stop_on_error}, start);
 }
 
 }  // namespace

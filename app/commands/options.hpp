@@ -20,6 +20,10 @@ class ConfigurationOptions {
 
   /// @throws std::runtime_error, std::invalid_argument with one line for people.
   Configuration configuration() const;
+  /// OBJECT, as it was given; empty if it was not.
+  const std::string& object() const { return object_; }
+  /// Whether anything but OBJECT was given.
+  bool gives_settings() const { return !files_.empty() || !given_.empty(); }
   /// Sets what was given over a valid configuration that came from elsewhere.
   /// @throws std::runtime_error, std::invalid_argument likewise.
   void apply_to(Configuration& configuration) const;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
@@ -46,10 +47,24 @@ class StepPictures {
   std::unique_ptr<SessionFigure> figure_;
 };
 
-/// Takes the views, one after the other, with a picture of each. A live scanner that fails is reached again.
+/// Makes the best candidate the next view that the scanner has not failed to take; false if there is none.
+bool avoid(const std::set<std::size_t>& failed, Session& session) {
+  if (!session.next_candidate() || !failed.contains(*session.next_candidate())) return true;
+  const std::vector<Candidate>& candidates = session.records().back().candidates;
+  std::optional<std::size_t> best;
+  for (std::size_t v = 0; v < candidates.size(); ++v)
+    if (candidates[v].available && !failed.contains(v) && (!best || candidates[v].utility > candidates[*best].utility))
+      best = v;
+  if (best) session.override_next_view(*best);
+  return best.has_value();
+}
+
+/// Takes the views, one after the other, with a picture of each. A live scanner that is lost is reached again; where it
+/// cannot take a view, another one is taken.
 void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepPictures& pictures,
                 const ProgressLine& progress, const std::stop_token& stop) {
   int failures = 0;  // one after the other
+  std::set<std::size_t> failed;
   while (session.finished().empty()) {
     try {
       if (!folder.step(session, progress, stop)) break;
@@ -57,13 +72,18 @@ void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepP
       progress.clear();
       if (!scanner || ++failures > most_failures) throw;
       fmt::print(stderr, "{}\n", printable(error.what()));
-      scanner->reconnect(stop);
+      if (scanner->is_lost())
+        scanner->reconnect(stop);
+      else if (session.next_candidate())
+        failed.insert(*session.next_candidate());
+      if (!avoid(failed, session)) throw;
       continue;
     }
     failures = 0;
     progress.clear();
     print_step(session, session.records().back());
     pictures.write(session, folder.out());
+    if (!avoid(failed, session)) break;
   }
 }
 

@@ -23,6 +23,7 @@ class Scanner {
   /// Starts it; the configuration follows what it says of itself (connect_scanner). @throws as that
   Scanner(const ScannerOptions& options, Configuration& configuration, const std::stop_token& stop);
   SessionParts parts(const Configuration& configuration) const { return scanner_parts(configuration, connection_); }
+  bool is_lost() const { return connection_->is_lost(); }
   /// @throws std::runtime_error with the reason
   void reconnect(const std::stop_token& stop);
 

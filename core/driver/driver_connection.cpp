@@ -90,6 +90,11 @@ double DriverConnection::patience() const { return greeting_.timeout.value_or(op
 /// Of what needs no person [s].
 double DriverConnection::limit() const { return options_.timeout > 0.0 ? options_.timeout : usual_time; }
 
+void DriverConnection::leave() {
+  protocol_.reset();
+  lost_ = true;
+}
+
 std::optional<Failure> DriverConnection::reconnect(std::stop_token stop) {
   lost_ = true;
   const Result<DriverGreeting> greeting = start(stop);

@@ -52,6 +52,8 @@ class DriverConnection {
   /// Ends the driver if it still runs, and starts it again. A simulated camera is put where it was. None if all is
   /// well.
   std::optional<Failure> reconnect(std::stop_token stop = {});
+  /// Ends the driver: whoever else needs the scanner can have it. reconnect() starts it again.
+  void leave();
   /// Whether the last request failed and not by the driver's own decision.
   bool is_lost() const { return lost_; }
 

@@ -62,6 +62,18 @@ Capture read_capture(const JournalStep& step, const fs::path& folder) {
   return {read_captured(file, step.camera), step.T_world_camera, step.max_range};
 }
 
+void require_same_input(const Journal& journal, const fs::path& folder) {
+  const JournalInput& input = journal.input;
+  if (!input.hash) return;
+  const fs::path file = folder / input.path;  // an absolute path stays as it is
+  if (!(file_hash(file) == *input.hash))
+    throw std::runtime_error(
+        fmt::format("{}: has changed since {} was scanned of it; scan it again, or put the object back as it was",
+                    file.string(), folder.string()));
+}
+
+void require_same_input(const fs::path& folder) { require_same_input(read_journal(folder), folder); }
+
 JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::move(folder)), file_(std::move(file)) {
   std::error_code error;
   fs::create_directories(folder_ / scans_name, error);
@@ -88,6 +100,8 @@ void JournalWriter::add(JournalStep& step, const Capture& capture) {
   step.hash = file_hash(folder_ / scans_name / step.scan);
   file_.append(step_record(step));
 }
+
+void JournalWriter::keep_settings(const std::string& text) { file_.append(settings_record(text)); }
 
 void JournalWriter::stand_at(std::uint32_t number) { file_.append(position_record(number)); }
 

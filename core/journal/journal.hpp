@@ -23,6 +23,7 @@ struct JournalStep {
   bool is_custom = false, overridden = false;
   double gain = 0.0, utility = 0.0;        ///< that were expected of it
   Pose reached = Pose::Identity();         ///< as the robot knew it
+  Pose believed = Pose::Identity();        ///< of the capture, as it came
   Pose T_world_camera = Pose::Identity();  ///< of the capture, corrected where registration did
   double max_range = 1.5;                  ///< [m]
   PinholeCamera camera = {};               ///< of ranges
@@ -42,6 +43,7 @@ struct JournalInput {
 struct Journal {
   std::string program;  ///< that began it
   JournalInput input;
+  std::string settings;                        ///< text of config.toml, as it was last
   std::map<std::uint32_t, JournalStep> steps;  ///< by number
   std::uint32_t at = 0;                        ///< the step that the session stands at; 0: before the first
   bool closed = false;                         ///< nobody was in the middle of it
@@ -62,6 +64,10 @@ Journal read_journal(const std::filesystem::path& folder);
 /// The capture of a step, as it came. @throws std::runtime_error naming the file and the reason, e.g. that it changed
 Capture read_capture(const JournalStep& step, const std::filesystem::path& folder);
 
+/// @throws std::runtime_error naming the file if what a session is of has changed since, or is gone
+void require_same_input(const Journal& journal, const std::filesystem::path& folder);
+void require_same_input(const std::filesystem::path& folder);
+
 /// Writes the journal of a session and its scans. It is locked as long as this lives.
 class JournalWriter {
  public:
@@ -73,6 +79,8 @@ class JournalWriter {
   /// Keeps a capture. `step` gets its file's name and hash; both are durable when this returns, and the session then
   /// stands at it. @throws std::runtime_error naming the file and the reason
   void add(JournalStep& step, const Capture& capture);
+  /// The text of config.toml, from here on.
+  void keep_settings(const std::string& text);
   /// The session went to another step.
   void stand_at(std::uint32_t number);
   void close();

@@ -97,6 +97,7 @@ JournalStep step_of(const Json& json) {
   step.gain = number_of(json.at("gain"));
   step.utility = number_of(json.at("utility"));
   step.reached = pose_of(json.at("reached"));
+  step.believed = pose_of(json.at("believed"));
   step.T_world_camera = pose_of(json.at("T_world_camera"));
   step.max_range = number_of(json.at("max_range"));
   step.camera = camera_of(json.at("camera"));
@@ -120,6 +121,10 @@ std::string beginning_record(const JournalInput& input) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string settings_record(const std::string& text) {
+  return Json::object({{"record", "settings"}, {"toml", text}}).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string step_record(const JournalStep& step) {
   Json json = {{"record", "step"}, {"number", step.number}, {"after", step.after}};
   json["wanted"] = to_json(step.wanted.T_world_camera);
@@ -130,6 +135,7 @@ std::string step_record(const JournalStep& step) {
   json["gain"] = to_json(step.gain);
   json["utility"] = to_json(step.utility);
   json["reached"] = to_json(step.reached);
+  json["believed"] = to_json(step.believed);
   json["T_world_camera"] = to_json(step.T_world_camera);
   json["max_range"] = to_json(step.max_range);
   json["camera"] = to_json(step.camera);
@@ -163,6 +169,8 @@ bool read_record(const std::string& record, Journal& journal) {
     JournalStep step = step_of(json);
     journal.at = step.number;
     journal.steps.insert_or_assign(step.number, std::move(step));
+  } else if (kind == "settings") {
+    json.at("toml").get_to(journal.settings);
   } else if (kind == "at") {
     const auto number = json.at("number").get<std::uint32_t>();
     if (number > journal.last_number()) throw std::runtime_error("no step");

@@ -11,6 +11,7 @@ struct NewerJournal : std::runtime_error {
 };
 
 std::string beginning_record(const JournalInput& input);
+std::string settings_record(const std::string& text);
 std::string step_record(const JournalStep& step);
 std::string position_record(std::uint32_t number);
 std::string closing_record();

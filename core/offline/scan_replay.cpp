@@ -4,7 +4,7 @@
 
 #include "core/config/input_files.hpp"
 #include "core/config/known_objects.hpp"
-#include "core/file/atomic_file.hpp"
+#include "core/journal/journal.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
 #include "core/offline/refinement.hpp"
@@ -56,20 +56,48 @@ RefinementJob job_of(const Configuration& c, const PinholeCamera& camera) {
   return job;
 }
 
+/// What a session captured, cleaned.
+struct KeptScans {
+  std::vector<Pose> poses;
+  std::vector<Scan> scans;
+};
+
+KeptScans kept_scans(const fs::path& folder, const Configuration& c, const std::stop_token& stop) {
+  KeptScans kept;
+  for (const JournalStep& step : read_journal(folder).line()) {
+    kept.poses.push_back(step.T_world_camera);
+    kept.scans.push_back(to_scan(read_capture(step, folder), &c.cloud, stop).scan);
+  }
+  if (kept.scans.empty()) throw std::runtime_error(fmt::format("{}: holds no view", folder.string()));
+  return kept;
+}
+
 /// A scan that went through recorded data.
-RefinementJob recorded_job(Configuration c, const fs::path& views, const Progress& progress,
+RefinementJob recorded_job(Configuration c, const fs::path& folder, const Progress& progress,
                            const std::stop_token& stop) {
   const auto source = open_configured_recording(c, progress, stop);
   RefinementJob job = job_of(c, source->describe().camera);
   job.name = recording_name(c.recorded.folder);
   job.candidates = poses_of(source->describe().frames);
-  job.scans = take_scans(*source, frames_listed(views, *source), &c.cloud, progress, stop);
+  if (has_journal(folder))
+    job.scans = kept_scans(folder, c, stop).scans;
+  else
+    job.scans = take_scans(*source, frames_listed(folder / "views.csv", *source), &c.cloud, progress, stop);
   return job;
 }
 
-/// A simulated scan of an object.
+/// A scan of a live scanner.
+RefinementJob live_job(const Configuration& c, const fs::path& folder, const std::stop_token& stop) {
+  RefinementJob job = job_of(c, c.sensor.camera());
+  job.name = c.driver.name;
+  job.candidates = candidate_views(c.views, view_target(c));
+  job.scans = kept_scans(folder, c, stop).scans;
+  return job;
+}
+
+/// A simulated scan of an object, sensed again unless its scans are at hand.
 RefinementJob simulated_job(const Configuration& c, const ConfiguredObject& configured, std::span<const Pose> views,
-                            const Progress& progress, const std::stop_token& stop) {
+                            std::vector<Scan> scans, const Progress& progress, const std::stop_token& stop) {
   const auto& [object, mesh] = configured;
   const auto world = std::make_shared<const SimulatedWorld>(mesh, c.sensor, stop);
 
@@ -79,7 +107,7 @@ RefinementJob simulated_job(const Configuration& c, const ConfiguredObject& conf
   if (mesh->cloud_points > 0) job.notices.push_back(cloud_note(*mesh));
   job.candidates = candidate_views(c.views, view_target(c));
   SimulatedSource source(world, c.seed);
-  job.scans = take_scans(source, views_at(views), &c.cloud, progress, stop);
+  job.scans = scans.empty() ? take_scans(source, views_at(views), &c.cloud, progress, stop) : std::move(scans);
   const KnownObject known(mesh->surroundings(), evaluation_samples(c, mesh->mesh),
                           std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera, job.candidates,
                           job.grid, c.evaluation.d_reg, progress, stop);
@@ -102,15 +130,22 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   if (override_settings) override_settings(c);
   c.validate();
   RefinementJob job;
-  if (c.recorded.folder.empty()) {
+  if (!c.recorded.folder.empty()) {
+    job = recorded_job(c, folder, progress, stop);
+  } else if (!c.driver.name.empty() && has_journal(folder)) {
+    job = live_job(c, folder, stop);
+  } else if (has_journal(folder)) {
+    require_same_input(folder);
+    const ConfiguredObject object = load_object(c, stop);
+    KeptScans kept = kept_scans(folder, c, stop);
+    job = simulated_job(c, object, kept.poses, std::move(kept.scans), progress, stop);
+  } else {
     require_scanned_object(folder, c);
     const ConfiguredObject object = load_object(c, stop);
-    job = simulated_job(c, object, views_taken(folder / "views.csv", c), progress, stop);
-  } else {
-    job = recorded_job(c, folder / "views.csv", progress, stop);
+    job = simulated_job(c, object, views_taken(folder / "views.csv", c), {}, progress, stop);
   }
   job.inputs.push_back({folder, "the scan that is read"});
-  job.inputs.push_back({folder / "views.csv", "the list of the views that are taken again"});
+  job.inputs.push_back({folder / "views.csv", "the list of its views"});
   return job;
 }
 
@@ -118,7 +153,7 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
                              std::stop_token stop) {
   Configuration c = configuration;
   const ConfiguredObject object = load_object(c, stop);
-  return simulated_job(c, object, views, progress, stop);
+  return simulated_job(c, object, views, {}, progress, stop);
 }
 
 }  // namespace nextview

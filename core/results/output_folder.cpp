@@ -81,6 +81,13 @@ void OutputFolder::go_on(const std::string& command) {
   write_manifest(manifest_, folder_);
 }
 
+void OutputFolder::remove() const {
+  remove_earlier_results();
+  std::error_code ignored;
+  if (is_plain_file(folder_ / manifest_name)) fs::remove(folder_ / manifest_name, ignored);
+  fs::remove(folder_, ignored);
+}
+
 void OutputFolder::remove_earlier_results() const {
   const std::optional<Manifest> earlier = read_manifest(folder_);
   for (const std::string& name : earlier ? earlier->files : results_without_manifest(folder_)) {

@@ -28,6 +28,8 @@ class OutputFolder {
   void begin(const std::string& command, const std::optional<std::filesystem::path>& object = std::nullopt);
   /// Goes on with the list that is there, or begins one; nothing is removed. @throws std::runtime_error likewise
   void go_on(const std::string& command);
+  /// Removes what its list names, and the folder if nothing else is in it. @throws std::runtime_error likewise
+  void remove() const;
   /// Where to write the result of this name; it is on the list from now on. @pre begin() or go_on() was called;
   /// is_result_name(name). @throws std::runtime_error if the list cannot be written.
   std::filesystem::path claim(const std::string& name);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/cloud/object_region.hpp"
 #include "core/config/object_lengths.hpp"
@@ -142,6 +143,20 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const Scanne
   return connection;
 } catch (const std::invalid_argument& error) {
   throw std::invalid_argument(c.as_given(error.what()));
+}
+
+void require_goes_on(const DriverConnection& connection, const Configuration& now, const Configuration& wanted) {
+  const auto started_with = [](const DriverConfig& c) { return std::tie(c.timeout, c.hand_eye, c.working_volume); };
+  if (started_with(now.driver) != started_with(wanted.driver))
+    throw std::invalid_argument(
+        "driver.timeout, driver.hand_eye and robot.working_volume hold from the next connection on: leave the scanner, "
+        "set them, and connect it again");
+  if (!connection.greeting().object.empty()) return;
+  if (wanted.evaluation.enabled)
+    throw std::invalid_argument(
+        "evaluation.enabled: what the scanner sees is not known, so nothing is compared with it");
+  if (wanted.map.region.empty())
+    throw std::invalid_argument("map.region: a scanner needs one; connect it again, and its first scan shows it");
 }
 
 SessionParts scanner_parts(const Configuration& c, std::shared_ptr<DriverConnection> connection) {

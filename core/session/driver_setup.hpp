@@ -29,6 +29,10 @@ void require_exact_robot(const Configuration& configuration);
 std::shared_ptr<DriverConnection> connect_scanner(Configuration& configuration, const ScannerWishes& wishes,
                                                   const std::stop_token& stop = {});
 
+/// Whether a session with another configuration than that of now can go on with the scanner.
+/// @throws std::invalid_argument saying why not
+void require_goes_on(const DriverConnection& connection, const Configuration& now, const Configuration& wanted);
+
 /// The parts of a session that scans through it, with a configuration that follows it.
 SessionParts scanner_parts(const Configuration& configuration, std::shared_ptr<DriverConnection> connection);
 

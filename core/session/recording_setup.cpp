@@ -7,6 +7,7 @@
 
 #include "core/config/object_lengths.hpp"
 #include "core/file/read_file.hpp"
+#include "core/journal/journal.hpp"
 #include "core/recording/frame_files.hpp"
 #include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
@@ -22,6 +23,21 @@ namespace fs = std::filesystem;
 constexpr double margin = 0.1;  // around what was measured, of its longest side
 
 bool is_scan_folder(const fs::path& folder) { return is_there(folder / "config.toml"); }
+
+/// What a session captured, in its order, from where it was believed to be.
+Recording captured_by(const fs::path& folder, const Configuration& of_scan) {
+  Recording recording;
+  recording.format = "session";
+  recording.camera = of_scan.sensor.camera();
+  recording.max_range = of_scan.sensor.max_range;
+  for (const JournalStep& step : read_journal(folder).line())
+    recording.frames.push_back({fmt::format("step {}", recording.frames.size() + 1), step.believed,
+                                [step, folder] { return read_capture(step, folder).measured; }});
+  if (recording.frames.empty()) throw std::runtime_error(fmt::format("{}: holds no view", folder.string()));
+  recording.region = Eigen::AlignedBox3d(configured_region(of_scan).lower(), configured_region(of_scan).upper());
+  if (!of_scan.map.region.empty()) recording.region = of_scan.map.region_box();
+  return recording;
+}
 
 /// What was given for this session goes before what the scan had.
 void adopt_settings(Configuration& c, Configuration of_scan) {
@@ -65,7 +81,9 @@ Recording open_scan_folder(Configuration& c, const fs::path& folder, const Progr
                            const std::stop_token& stop) {
   Configuration of_scan = read_configuration(folder / "config.toml");
   Recording recording;
-  if (of_scan.recorded.folder.empty()) {
+  if (has_journal(folder)) {
+    recording = captured_by(folder, of_scan);
+  } else if (of_scan.recorded.folder.empty()) {
     recording = simulated_again(folder, of_scan, stop);
   } else {
     const auto source = open_configured_recording(of_scan, progress, stop);
@@ -122,7 +140,8 @@ Recording open_and_fit(Configuration& c, const Progress& progress, const std::st
   if (is_scan_folder(path)) return open_scan_folder(c, path, progress, stop);
   Recording recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
   const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
-  const Eigen::AlignedBox3d region = c.map.region.empty() ? seen : c.map.region_box();
+  // A region that follows from the recording has a margin; to go by that would give the next session other lengths.
+  const Eigen::AlignedBox3d region = is_given(c, "map.region") ? c.map.region_box() : seen;
   fit_lengths(c, region.sizes().maxCoeff());
   return recording;
 }

@@ -126,6 +126,7 @@ Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& sourc
   }();
   if (auto* failure = std::get_if<Failure>(&capture)) return *failure;
   acquired.capture = std::get<Capture>(std::move(capture));
+  acquired.believed = acquired.capture.T_world_camera;
   return acquired;
 }
 

@@ -57,9 +57,10 @@ struct ScanState {
 /// A view that was taken and is not absorbed yet: the operator may look at it, and refuse it.
 struct Acquired {
   View wanted;
-  Pose reached = Pose::Identity();  ///< as the robot knows it; the capture's counts
-  Capture capture;
-  MotionCost motion;  ///< of getting there
+  Pose reached = Pose::Identity();   ///< as the robot knows it
+  Capture capture;                   ///< its pose is the one that counts: corrected, if it was
+  Pose believed = Pose::Identity();  ///< the capture's pose as it came
+  MotionCost motion;                 ///< of getting there
   double sense_seconds = 0.0;
   std::optional<ScanRegistration> registration = {};  ///< with the scans before it; none: not asked for
 };

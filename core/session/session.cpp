@@ -34,6 +34,8 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
     world = simulate(stop);
   else
     c = affordable(std::move(c));
+  if (!setup_.start_map && !c.map.start.empty())
+    setup_.start_map = read_start_map(c);  // that of a session gone through
   setup_.source = source_->describe();
   setup_.region = configured_region(c, setup_.source);
   setup_.bundle = scoring_rays(c, setup_.source.camera);

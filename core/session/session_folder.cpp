@@ -7,6 +7,7 @@
 
 #include "core/config/input_files.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
 
@@ -24,16 +25,6 @@ JournalInput input_of(const Session& session, const fs::path& folder) {
   return {c.driver.name};
 }
 
-void require_same_input(const SavedSession& saved) {
-  const JournalInput& input = saved.journal->input;
-  if (!input.hash) return;
-  const fs::path file = saved.folder / input.path;  // an absolute path stays as it is
-  if (!(file_hash(file) == *input.hash))
-    throw std::runtime_error(
-        fmt::format("{}: has changed since {} was scanned of it; scan it again, or put the object back as it was",
-                    file.string(), saved.folder.string()));
-}
-
 NextView choice_of(const JournalStep& step) {
   return {step.wanted, step.candidate, step.is_custom, step.overridden, step.gain, step.utility};
 }
@@ -42,6 +33,7 @@ Acquired acquired_of(const JournalStep& step, Capture capture) {
   Acquired acquired;
   acquired.wanted = step.wanted;
   acquired.reached = step.reached;
+  acquired.believed = step.believed;
   acquired.capture = std::move(capture);
   acquired.motion = step.motion;
   acquired.registration = step.registration;
@@ -57,6 +49,7 @@ JournalStep step_of(const NextView& choice, const Acquired& acquired) {
   step.gain = choice.gain;
   step.utility = choice.utility;
   step.reached = acquired.reached;
+  step.believed = acquired.believed;
   step.T_world_camera = acquired.capture.T_world_camera;
   step.max_range = acquired.capture.max_range;
   step.motion = acquired.motion;
@@ -73,8 +66,12 @@ Progress part(const Progress& whole, std::size_t k, std::size_t n) {
   };
 }
 
-void write_configuration(const Session& session, OutputFolder& out) {
-  write_file(out.claim("config.toml"), to_toml(session.configuration(), out.path()));
+/// The journal's settings hold: the file beside it may have been lost, or changed.
+void repair_configuration(const Journal& journal, const fs::path& folder, std::vector<std::string>& notices) {
+  const fs::path file = folder / "config.toml";
+  if (journal.settings.empty() || (is_there(file) && read_file(file) == journal.settings)) return;
+  write_file(file, journal.settings);
+  notices.emplace_back("config.toml was not as the session wrote it, and is so again");
 }
 
 using Step = std::function<bool(const Progress&)>;
@@ -109,13 +106,15 @@ SavedSession read_session(const fs::path& folder) {
   if (!is_session(folder)) throw std::runtime_error(fmt::format("{}: holds no session", folder.string()));
   SavedSession saved;
   saved.folder = folder;
-  saved.configuration = read_configuration(folder / "config.toml");
   if (has_journal(folder)) {
     saved.journal = read_journal(folder);
     saved.notices = saved.journal->damage;
-    require_same_input(saved);
+    require_same_input(*saved.journal, folder);
+    repair_configuration(*saved.journal, folder, saved.notices);
+    saved.configuration = read_configuration(folder / "config.toml");
     return saved;
   }
+  saved.configuration = read_configuration(folder / "config.toml");
   const Configuration& c = saved.configuration;
   if (!c.recorded.folder.empty() || !c.driver.name.empty())
     throw std::runtime_error(fmt::format("{}: has no journal: what was captured is not there", folder.string()));
@@ -170,23 +169,29 @@ SessionFolder SessionFolder::begin(OutputFolder out, const Session& session) {
   if (has_journal(out.path())) JournalFile::go_on(out.path() / journal_name, ignored);  // is it free?
   const bool has_object = session.mesh() && !session.recording();
   out.begin("scan", has_object ? std::optional(session.object_file()) : std::nullopt);
-  write_configuration(session, out);
   const fs::path folder = out.claim(journal_name).parent_path();
   const JournalInput input = input_of(session, folder);
-  return {std::move(out), JournalWriter::begin(folder, input), input};
+  SessionFolder result(std::move(out), JournalWriter::begin(folder, input), input);
+  result.keep_configuration(session);
+  return result;
 }
 
 SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, const Session& session) {
   out.go_on("scan");
   const fs::path folder = out.claim(journal_name).parent_path();
   const JournalInput input = input_of(session, folder);
-  if (!saved.journal) return {std::move(out), JournalWriter::begin(folder, input), input};
+  if (!saved.journal) {
+    SessionFolder result(std::move(out), JournalWriter::begin(folder, input), input);
+    result.keep_configuration(session);
+    return result;
+  }
   Journal now;
   SessionFolder result(std::move(out), JournalWriter::go_on(folder, now), input);
   if (now.at != saved.journal->at || now.last_number() != saved.journal->last_number())
     throw JournalInUse(fmt::format("{}: another program has written this session", folder.string()));
   result.last_ = now.last_number();
   result.steps_ = std::move(now.steps);
+  result.settings_ = std::move(now.settings);
   return result;
 }
 
@@ -233,18 +238,23 @@ void SessionFolder::stand_at(const Line& line) {
 }
 
 void SessionFolder::keep_configuration(const Session& session) {
-  if (keeps_) write_configuration(session, out_);
+  std::string text = to_toml(session.configuration(), path());
+  if (!keeps_ || text == settings_) return;
+  writer_.keep_settings(text);
+  write_file(out_.claim("config.toml"), text);
+  settings_ = std::move(text);
 }
 
 void SessionFolder::close() {
   if (keeps_) writer_.close();
 }
 
-void SessionFolder::copy_to(OutputFolder& copy) const {
+void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
   JournalInput input = input_;
   if (input.hash) input.path = named_from(copy.path(), path() / input.path);
   copy.claim(journal_name);
   JournalWriter writer = JournalWriter::begin(copy.path(), input);
+  writer.keep_settings(to_toml(session.configuration(), copy.path()));
   std::uint32_t number = 0;
   for (const std::uint32_t of_line : line_) {
     JournalStep step = steps_.at(of_line);

@@ -66,7 +66,7 @@ class SessionFolder {
   /// Nobody is in the middle of it any more.
   void close();
   /// Makes another folder one of the same session, with the views that it stands at. @pre copy.begin() was called
-  void copy_to(OutputFolder& copy) const;
+  void copy_to(OutputFolder& copy, const Session& session) const;
 
   OutputFolder& out() { return out_; }
   const std::filesystem::path& path() const { return out_.path(); }
@@ -82,6 +82,7 @@ class SessionFolder {
   OutputFolder out_;
   JournalWriter writer_;
   JournalInput input_;
+  std::string settings_;  ///< text of config.toml
   Line line_;
   std::map<std::uint32_t, JournalStep> steps_;  ///< of this session, by number
   std::uint32_t last_ = 0;                      ///< number of the last capture

@@ -100,7 +100,7 @@ View start_view(const Configuration& c, const SourceDescription& source, const R
 }
 
 VoxelGrid configured_region(const Configuration& c, const SourceDescription& source) {
-  if (!source.region) return configured_region(c);
+  if (!source.region || !c.map.region.empty()) return configured_region(c);
   return region_of_interest(source.region->center(), source.region->sizes().maxCoeff(), c.map.resolution);
 }
 

@@ -40,7 +40,7 @@ ConfiguredObject load_object(Configuration& configuration, const std::stop_token
 /// configured.
 View start_view(const Configuration& configuration, const SourceDescription& source, const Robot* robot);
 VoxelGrid configured_region(const Configuration& configuration);
-/// The source's region, if it has one.
+/// The source's region, if it has one and the configuration gives none.
 VoxelGrid configured_region(const Configuration& configuration, const SourceDescription& source);
 /// A recording's frames, if the source is one. `notice`, if given, hears what was passed over among views that are
 /// read.

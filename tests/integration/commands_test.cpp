@@ -105,6 +105,8 @@ TEST_F(Commands, EachIsDoneByAScript) {
                             "toggle-views",
                             "toggle-rays",
                             "toggle-region",
+                            "edit-region",
+                            "edit-region",
                             "toggle-missed",
                             "toggle-object",
                             "toggle-cloud",
@@ -146,7 +148,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
   EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
   walk(user, "reset\nspeed 0\nplay\npause\n");
   walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
-  walk(user, "set map.region \"-1 -1 0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
+  walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
                  file("no_fault").string() + "'\"\nstep\nanswer Move\nreconnect\ndisconnect\n");
   walk(user, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
   walk(user, "save-script " + path("a script.txt") + "\n");

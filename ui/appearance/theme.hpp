@@ -23,6 +23,8 @@ inline constexpr Colour hairline = from_hex(0xD3D9E1);  ///< grid lines, frames
 
 inline constexpr Colour object = from_hex(0xB9BFC9);
 inline constexpr Colour cloud = from_hex(0x2A5B8C);
+inline constexpr Colour new_scan = from_hex(0xE0761E);        ///< that may not fit the cloud
+inline constexpr Colour corrected_scan = from_hex(0x45B8D0);  ///< the same where registration puts it
 inline constexpr Colour region = from_hex(0x8A95A3);
 
 inline constexpr Colour occupied = from_hex(0x4A7DB3);

@@ -74,12 +74,16 @@ void set_from(CommandTarget& target, const std::string& key, Configuration wante
   change_setting(target, key, configuration);
 }
 
+std::string reset_settings_why_not(const CommandState& t) {
+  return t.session.live ? "the scanner's own are among them: connect it again" : needs_session(t);
+}
+
 }  // namespace
 
 const CommandOf<std::string> command::open{
     {"open",
      "File",
-     "Open an object, recorded scans, a map or settings…",
+     "Open an object, scans, a map…",
      "Scans another object (a mesh file or a known name), goes through recorded scans (a folder, .graph, .log, .txt), "
      "shows a map (.ot, .bt), or takes the settings of a .toml file.",
      {{key('O'), true}}},
@@ -120,7 +124,7 @@ const CommandOf<> command::reset_settings{{"reset-settings",
                                            "Set all settings back",
                                            "Starts over with the default settings; the object stays.",
                                            {},
-                                           needs_session},
+                                           reset_settings_why_not},
                                           [](CommandTarget& t) {
                                             Configuration configuration;
                                             configuration.object = t.session.configuration.object;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/session/start_map.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 
@@ -40,6 +41,12 @@ CommandOf<Enum> choose(const char* name, const char* text, const char* help, con
   return {{name, "Scene", std::string("Show ") + text, help},
           argument::choice<Enum>(argument, help, names),
           [member](CommandTarget& t, Enum chosen) { t.window.layers.*member = chosen; }};
+}
+
+std::string region_why_not(const CommandState& t) {
+  const Configuration& c = t.session.configuration;
+  const bool map_alone = !t.session.live && c.recorded.folder.empty() && is_map(c.object.file);
+  return map_alone ? "a map alone has its own region" : needs_session(t);
 }
 
 /// Across an axis, in the middle of the region of interest at first, a tenth of it thick.
@@ -91,6 +98,16 @@ const CommandOf<> command::toggle_views = toggle("views", "the candidate views a
 const CommandOf<> command::toggle_rays =
     toggle("rays", "the rays of the view that is looked at", '5', &LayerChoice::rays);
 const CommandOf<> command::toggle_region = toggle("region", "the region of interest", '6', &LayerChoice::region);
+const CommandOf<> command::edit_region{
+    {"edit-region",
+     "Scene",
+     "Drag the region of interest",
+     "Shows or hides handles by which the mouse drags the region of interest (map.region); let go, it starts the scan "
+     "over.",
+     {},
+     region_why_not,
+     [](const WindowState& w) { return w.edit_region; }},
+    [](CommandTarget& t) { t.window.edit_region = !t.window.edit_region; }};
 const CommandOf<> command::toggle_missed =
     toggle("missed", "the missed surface, painted on the object", '7', &LayerChoice::missed);
 

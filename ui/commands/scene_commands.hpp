@@ -12,7 +12,7 @@ extern const CommandOf<double, double> look_from;  ///< azimuth, elevation [deg]
 extern const CommandOf<double> zoom;               ///< steps
 
 extern const CommandOf<> toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays, toggle_region,
-    toggle_missed;
+    toggle_missed, edit_region;
 extern const CommandOf<MeshStyle> object_style;
 extern const CommandOf<CloudColouring> cloud_colour;
 

@@ -1,5 +1,6 @@
 #include "ui/commands/script_recorder.hpp"
 
+#include "ui/commands/file_commands.hpp"
 #include "ui/commands/starting_script.hpp"
 #include "ui/commands/window_commands.hpp"
 
@@ -18,6 +19,11 @@ bool replaces(const CommandCall& call, const CommandCall& before) {
 
 void ScriptRecorder::begin(const Configuration& configuration) {
   script_ = starting_script(configuration);
+  last_.reset();
+}
+
+void ScriptRecorder::begin_with(const std::filesystem::path& input) {
+  script_ = {command::open(std::filesystem::absolute(input).string()).text()};
   last_.reset();
 }
 

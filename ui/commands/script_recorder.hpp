@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ class ScriptRecorder {
 
   /// Starts over with what leads from the default configuration to this one.
   void begin(const Configuration& configuration);
+  /// Starts over with what opens this.
+  void begin_with(const std::filesystem::path& input);
   void add(const CommandCall& call);
 
  private:

@@ -172,8 +172,14 @@ const CommandOf<std::size_t> command::inspect_ray{
     argument::whole("ray", "its number, row by row", 0, 1e6),
     inspect_ray_of};
 
-const CommandOf<> command::clear_selection{
-    {"clear-selection", "Select", "Select nothing", "Leaves voxel, ray and view alone.", {{Key::escape}}},
-    [](CommandTarget& t) { t.window.selection = {}; }};
+const CommandOf<> command::clear_selection{{"clear-selection",
+                                            "Select",
+                                            "Select nothing",
+                                            "Leaves voxel, ray, view and the handles of the region alone.",
+                                            {{Key::escape}}},
+                                           [](CommandTarget& t) {
+                                             t.window.selection = {};
+                                             t.window.edit_region = false;
+                                           }};
 
 }  // namespace nextview

@@ -40,6 +40,7 @@ struct WindowState {
   std::array<CurveKind, 2> curves = {CurveKind::entropy, CurveKind::coverage};  ///< left and right plot
   CandidateColumn sort_column = CandidateColumn::utility;
   bool sort_ascending = false;
+  bool edit_region = false;  ///< the mouse drags the region of interest
   bool palette_open = false, shortcuts_open = false;
   std::string palette_text;  ///< what the palette starts with
   bool quit = false;

@@ -1,11 +1,11 @@
 #include "ui/layers/region_layer.hpp"
 
-#include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "core/config/object_lengths.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/layers/geometry.hpp"
 
@@ -13,9 +13,10 @@ namespace nextview {
 namespace {
 
 /// "1.28 m" for a cube, otherwise the three lengths.
-std::string edges(const Vector3& size) {
+std::string edges(const Eigen::AlignedBox3d& region) {
+  const Vector3 size = region.sizes();
   const bool cube = (size.array() - size.x()).abs().maxCoeff() < 1e-9;
-  return cube ? length_text(size.x()) : fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x(), size.y(), size.z());
+  return cube ? length_text(size.x()) : size_text(region);
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ void RegionLayer::show(const Eigen::AlignedBox3d& region) {
     }
   }
   mapper_->SetInputDataObject(geometry.polydata());
-  describe(points, {}, {{points, "region of interest, " + edges(region.sizes()), theme::soft_ink}});
+  describe(points, {}, {{points, "region of interest, " + edges(region), theme::soft_ink}});
 }
 
 }  // namespace nextview

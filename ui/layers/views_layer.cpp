@@ -61,18 +61,18 @@ void check(const ViewsPicture& picture) {
 struct Scores {
   double low = 0.0, high = 0.0;       ///< of the colours
   bool below = false, above = false;  ///< some scores are beyond these
+  bool any = false;                   ///< some candidate is left to have one
   std::vector<bool> taken, unreachable;
 
   explicit Scores(const ViewsPicture& picture)
       : taken(picture.candidates.size(), false), unreachable(picture.candidates.size(), false) {
     for (const std::size_t index : picture.taken) taken[index] = true;
     for (const std::size_t index : picture.unreachable) unreachable[index] = true;
-    bool first = true;
     for (std::size_t i = 0; i < picture.scores.size(); ++i) {
       if (taken[i] || unreachable[i]) continue;
-      low = first ? picture.scores[i] : std::min(low, picture.scores[i]);
-      high = first ? picture.scores[i] : std::max(high, picture.scores[i]);
-      first = false;
+      low = any ? std::min(low, picture.scores[i]) : picture.scores[i];
+      high = any ? std::max(high, picture.scores[i]) : picture.scores[i];
+      any = true;
     }
     if (!picture.range) return;
     below = low < picture.range->first;
@@ -97,7 +97,7 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
   if (!picture.unreachable.empty()) views.swatches.push_back({"not reachable", theme::unreachable});
   if (picture.scores.empty() && !picture.candidates.empty()) views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
-  if (!picture.scores.empty()) {
+  if (scores.any) {
     result.push_back({picture.score_name,
                       {},
                       Legend::Range{ColourMap::score(), scores.low, scores.high, picture.score_unit,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ui/commands/scan_commands.hpp"
+#include "ui/commands/scanner_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -49,6 +50,7 @@ void draw_speed(const PanelContext& context, float x, float y) {
 }
 
 std::string readiness(const SessionSnapshot& s) {
+  if (s.scanner_lost) return "The scanner is lost";
   if (!s.loaded()) return "No object yet: choose one, or drop a file here";
   if (s.records.empty()) return "Ready to take the start view";
   if (s.custom_next_view) return "Ready to take your custom view";
@@ -71,10 +73,15 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   if (!progress.busy || (progress.what.empty() && !progress.playing)) {  // some commands take no time worth a word
     const SessionSnapshot& s = context.snapshot;
     ImGui::AlignTextToFramePadding();
+    const float button = s.scanner_lost ? style.px(132) : 0;
     const std::string text = s.finished.empty() ? readiness(s) : fmt::format("Finished: {}", s.finished);
-    const std::string shown = shortened(text, right - left);
+    const std::string shown = shortened(text, right - left - button);
     s.finished.empty() ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
     if (shown != text) tooltip(text);
+    if (s.scanner_lost) {
+      ImGui::SetCursorPos({right - button + style.px(8), y - style.px(2)});
+      command_button(context, command::reconnect, Icon::reset, "Reach it again", true);
+    }
     return;
   }
   const float button = style.px(100), bar = right - left - button;

@@ -189,7 +189,11 @@ void draw_curves_panel(const PanelContext& context, const Rectangle& rectangle) 
   for (std::size_t plot = 0; plot < plots; ++plot) {
     const Rectangle place{rectangle.x + double(plot) * width + margin, rectangle.y + top, width - margin,
                           rectangle.height - top - context.style.px(6)};
-    draw_plot(context.style, curve_content(context.snapshot, context.window.curves[plot]), place);
+    ChartContent content = curve_content(context.snapshot, context.window.curves[plot]);
+    ImGui::PushFont(context.style.semi_bold);
+    content.title = shortened(content.title, float(place.width) - context.style.px(40));  // beside the choice
+    ImGui::PopFont();
+    draw_plot(context.style, content, place);
     draw_choice(context, plot, place);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "core/config/known_objects.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/scene_commands.hpp"
 #include "ui/panels/setting_control.hpp"
 
 namespace nextview {
@@ -49,6 +50,7 @@ void draw_way_back(const PanelContext& context, const Setting& setting, const st
 
 constexpr std::array groups = {std::pair{"object", "Object"},
                                std::pair{"recorded", "Recorded data"},
+                               std::pair{"registration", "Registration"},
                                std::pair{"sensor", "Sensor"},
                                std::pair{"cloud", "Cloud"},
                                std::pair{"map", "Map"},
@@ -57,6 +59,11 @@ constexpr std::array groups = {std::pair{"object", "Object"},
                                std::pair{"gibbs", "Gibbs sampler"},
                                std::pair{"termination", "Termination"},
                                std::pair{"evaluation", "Evaluation"}};
+
+/// Simulated scans lie where they are said to.
+bool concerns(std::string_view group, const SessionSnapshot& s) {
+  return group != "registration" || s.live || s.is_recording();
+}
 
 }  // namespace
 
@@ -122,6 +129,7 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
       tooltip(setting.key + ": " + setting_help(setting));
     }
     draw_setting(context, setting, narrow ? "" : (setting.label() + unit).c_str());
+    if (setting.key == "map.region") command_button(context, command::edit_region, Icon::none, "Drag it in the scene");
   }
   ImGui::PopFont();
 }
@@ -152,7 +160,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));
   ImGui::PushStyleColor(ImGuiCol_HeaderActive, to_imgui(theme::sky));
   for (const auto& [group, title] : groups)
-    if (ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
+    if (concerns(group, context.snapshot) && ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
   ImGui::PopStyleColor(3);
   ImGui::Spacing();
   command_button(context, command::reset_settings, Icon::reset, "All settings back", false,

@@ -18,7 +18,7 @@ constexpr std::array mouse = {
     std::pair{"Click a voxel", "inspect it"},
     std::pair{"Click a ray", "inspect it"},
     std::pair{"Point at a candidate", "see its frustum"},
-    std::pair{"Drop a file", "open it: object, recorded scans, map, .toml"},
+    std::pair{"Drop a file", "open it: object, scans, map, .toml"},
 };
 
 void draw_row(std::string_view keys, std::string_view help) {

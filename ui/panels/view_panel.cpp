@@ -159,7 +159,13 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
               "The sum of what its rays contribute");
   if (!candidate || s.records.empty()) return;
   const Candidate& c = s.records.back().candidates[*candidate];
-  if (!c.unreachable.empty()) return table_row("not reachable", c.unreachable);
+  if (!c.unreachable.empty()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("not reachable");
+    ImGui::TableNextColumn();
+    return ImGui::TextWrapped("%s", c.unreachable.c_str());
+  }
   if (!c.available) return table_row("", "taken");
   table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
   table_row("way there", length_text(c.cost));

@@ -55,6 +55,7 @@ Scene::Scene()
       views_(std::make_unique<ViewsLayer>(*renderer_)),
       rays_(std::make_unique<RaysLayer>(*renderer_)),
       region_(std::make_unique<RegionLayer>(*renderer_)),
+      fit_(std::make_unique<FitLayer>(*renderer_)),
       overlay_(std::make_unique<Overlay>()) {
   renderer_->GradientBackgroundOn();
   renderer_->SetBackground(theme::ground.data());
@@ -80,8 +81,8 @@ void Scene::attach(RenderTarget& target, const Viewport& viewport) {
   target.window().AddRenderer(renderer_);
 }
 
-std::array<Layer*, 6> Scene::layers() const {
-  return {views_.get(), rays_.get(), octree_.get(), cloud_.get(), mesh_.get(), region_.get()};
+std::array<Layer*, 7> Scene::layers() const {
+  return {views_.get(), rays_.get(), octree_.get(), cloud_.get(), mesh_.get(), region_.get(), fit_.get()};
 }
 
 void Scene::set_caption(const std::string& caption) { overlay_->item->caption = caption; }
@@ -139,7 +140,8 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
     return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
   };
   const auto share = [](double margin, double whole) { return std::min(margin / whole, 0.25); };  // some is left
-  const FrameMargins centred{share(20, width), share(20, width), share(44, height),
+  const FrameMargins centred{share(20, width), share(20, width),
+                             std::min(std::max(44.0, covered_below_) / height, 0.45),
                              share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
   if (overlay.legends.empty()) return middle;
@@ -152,6 +154,19 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
   }
   const Vector3 left = framed(beside), lower = framed(beneath), forward = R_world_camera.col(2);
   return forward.dot(left) > forward.dot(lower) ? left : lower;
+}
+
+Scene::Stand Scene::stand() const {
+  Stand stand{vtkSmartPointer<vtkCamera>::New(), overlay_->item->scale_reference};
+  stand.camera->DeepCopy(renderer_->GetActiveCamera());
+  return stand;
+}
+
+void Scene::restore(const Stand& stand) {
+  renderer_->GetActiveCamera()->DeepCopy(stand.camera);
+  renderer_->GetActiveCamera()->Modified();  // which a copy is not by itself
+  overlay_->item->scale_reference = stand.scale_reference;
+  renderer_->ResetCameraClippingRange();
 }
 
 void Scene::frame(std::span<const Vector3> points, const ViewDirection& direction) {

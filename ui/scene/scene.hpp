@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
 
 #include "ui/drawing/viewport.hpp"
 #include "ui/layers/cloud_layer.hpp"
+#include "ui/layers/fit_layer.hpp"
 #include "ui/layers/mesh_layer.hpp"
 #include "ui/layers/octree_layer.hpp"
 #include "ui/layers/rays_layer.hpp"
@@ -11,6 +13,8 @@
 #include "ui/layers/views_layer.hpp"
 #include "ui/render_target/render_target.hpp"
 #include "ui/scene/camera_framing.hpp"
+
+class vtkCamera;
 
 namespace nextview {
 
@@ -37,6 +41,7 @@ class Scene {
   ViewsLayer& views() { return *views_; }
   RaysLayer& rays() { return *rays_; }
   RegionLayer& region() { return *region_; }
+  FitLayer& fit() { return *fit_; }
 
   void set_caption(const std::string& caption);
   void set_axes(bool axes, bool scale_bar);
@@ -58,18 +63,30 @@ class Scene {
   /// Frames these points [m, world].
   void frame(std::span<const Vector3> points, const ViewDirection& direction = {});
 
+  /// So much of the lower end is covered by something else; framing keeps clear of it [px of the design].
+  void set_covered_below(double height) { covered_below_ = height; }
+
+  /// Where the camera stands, to come back to.
+  struct Stand {
+    vtkSmartPointer<vtkCamera> camera;
+    Vector3 scale_reference = Vector3::Zero();
+  };
+  Stand stand() const;
+  void restore(const Stand& stand);
+
   /// Takes over the layers' legends and labels; call it after layers changed. frame() does so too.
   void annotate();
 
   vtkRenderer& renderer();
 
  private:
-  std::array<Layer*, 6> layers() const;  ///< in the order of their legends
+  std::array<Layer*, 7> layers() const;  ///< in the order of their legends
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
   bool legends_ = true, moving_ = false;
-  int samples_at_rest_ = 0;  ///< of a pixel, while moving
+  double covered_below_ = 0;  ///< [px] of the design
+  int samples_at_rest_ = 0;   ///< of a pixel, while moving
   vtkSmartPointer<vtkRenderer> renderer_;
   std::unique_ptr<MeshLayer> mesh_;
   std::unique_ptr<CloudLayer> cloud_;
@@ -77,6 +94,7 @@ class Scene {
   std::unique_ptr<ViewsLayer> views_;
   std::unique_ptr<RaysLayer> rays_;
   std::unique_ptr<RegionLayer> region_;
+  std::unique_ptr<FitLayer> fit_;
   std::unique_ptr<Overlay> overlay_;
 };
 

@@ -35,6 +35,10 @@ void Interface::open(const Configuration& configuration) {
   parts_->recorder.begin(configuration);
   parts_->worker.post(request::Load{configuration});
 }
+void Interface::open_session(const std::filesystem::path& folder) {
+  parts_->recorder.begin_with(folder);
+  parts_->worker.post(request::OpenFile{folder});
+}
 void Interface::connect(const request::Connect& scanner) {
   parts_->recorder.begin(*scanner.configuration);
   parts_->worker.post(scanner);

@@ -28,6 +28,8 @@ class Interface {
   void push(const InputEvent& event);
   /// Has the worker begin with this configuration. A script that is saved begins with it, too.
   void open(const Configuration& configuration);
+  /// The same with the folder of a session, to go on with it.
+  void open_session(const std::filesystem::path& folder);
   /// The same with a live scanner.
   void connect(const request::Connect& scanner);
   /// Does these calls one after the other, each when the one before has had its effect.

@@ -27,7 +27,7 @@ bool Interface::Parts::script_may_go_on() const {
 void Interface::Parts::take_news() {
   News now = latest();
   if (now.snapshot != news.snapshot || now.inspection != news.inspection || now.log != news.log ||
-      now.progress.busy != news.progress.busy)
+      now.progress.busy != news.progress.busy || now.progress.question != news.progress.question)
     settling = frames_to_settle;
   news = std::move(now);
 }
@@ -82,7 +82,10 @@ void Interface::Parts::draw_interface(double seconds) {
   obey_keys(context);
   follow_pointer(context, seconds);
   panels.draw(context, layout, worker.log().count(), seconds);
-  draw_selection_overlay(view, context);
+  if (!news.progress.doubtful) {
+    draw_selection_overlay(view, context);
+    pointer.region_handles().draw(view, context);
+  }
   ImGui::Render();
   follow_tooltip();
   if (calls.empty() && script_may_go_on()) calls = script.go_on(*news.snapshot);
@@ -147,7 +150,7 @@ void Interface::Parts::ask_inspector() {
 
 /// Returns whether it was drawn anew.
 bool Interface::Parts::draw_scene() {
-  scene_is_old |= view.show(news.snapshot, state, news.inspection);
+  scene_is_old |= view.show(news.snapshot, state, news.inspection, news.progress.doubtful);
   if (!scene_is_old) return false;
   target.render();
   ++scene_drawings;

@@ -33,17 +33,17 @@ std::optional<Eigen::Vector2d> SceneView::project(const Vector3& point) {
                          rectangle_.y + (1 - clip[1] / clip[3]) / 2 * rectangle_.height);
 }
 
-Vector3 SceneView::direction_at(double x, double y) {
+Sight SceneView::sight(double x, double y) {
   const Pose pose = camera_pose();
   const double up = std::tan(renderer().GetActiveCamera()->GetViewAngle() * std::numbers::pi / 360);
   const double right = up * rectangle_.width / rectangle_.height;
   const double u = 2 * (x - rectangle_.x) / rectangle_.width - 1, v = 2 * (y - rectangle_.y) / rectangle_.height - 1;
-  return pose.linear() * Vector3(u * right, v * up, 1);
+  return {pose.translation(), pose.linear() * Vector3(u * right, v * up, 1)};
 }
 
 Picked SceneView::pick(double x, double y) {
   Picked picked;
-  if (!shown_) return picked;
+  if (!shown_ || doubtful_) return picked;
   const SessionSnapshot& s = *shown_;
   const Eigen::Vector2d pointer(x, y);
   const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
@@ -57,8 +57,8 @@ Picked SceneView::pick(double x, double y) {
   }
   if (picked.candidate) return picked;
   if (choice_.octree) {
-    const Vector3 origin = camera_pose().translation();
-    picked.voxel = voxel_on_ray(origin, direction_at(x, y), s.grid, chosen_voxels(s, choice_.map), choice_.voxels);
+    const auto [origin, direction] = sight(x, y);
+    picked.voxel = voxel_on_ray(origin, direction, s.grid, chosen_voxels(s, choice_.map), choice_.voxels);
     if (picked.voxel) return picked;
   }
   least = ray_reach;

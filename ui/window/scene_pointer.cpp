@@ -40,7 +40,8 @@ bool ScenePointer::follow(SceneView& view, const PanelContext& context) {
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
              middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   bool moved = false;
-  if (over_scene && drag_ == Drag::none) {
+  const bool at_handle = drag_ == Drag::none && region_.follow(view, context);
+  if (over_scene && drag_ == Drag::none && !at_handle) {
     if (left || middle)
       drag_ = left && !io.KeyShift ? Drag::orbit : Drag::pan;
     else
@@ -51,7 +52,7 @@ bool ScenePointer::follow(SceneView& view, const PanelContext& context) {
     if (!io.MouseDown[ImGuiMouseButton_Left] && !io.MouseDown[ImGuiMouseButton_Middle]) {
       const bool click = ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
                          io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < click_reach * click_reach;
-      if (click && over_scene) pick(view, context);
+      if (click && over_scene && !context.window.edit_region) pick(view, context);
       drag_ = Drag::none;
     }
   }

@@ -59,15 +59,17 @@ void SceneView::place(const Rectangle& rectangle) {
 }
 
 bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
-                     std::shared_ptr<const Inspection> inspection) {
+                     std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful) {
   if (!snapshot->loaded()) return false;
   const LayerChoice& choice = window.layers;
   const auto explanation = explanation_of(*snapshot, window.selection, *inspection);
   const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
   const bool new_rays = explanation != explanation_;
   const bool new_custom_view = selection_.custom_view.has_value() != window.selection.custom_view.has_value();
+  const bool new_doubt = doubtful != doubtful_;
+  if (new_doubt && doubtful_) leave_doubtful();
   const auto eye = eye_of_a_view(*snapshot, window);
-  if (!new_snapshot && !new_choice && !new_rays && !new_custom_view && eye == eye_) return false;
+  if (!new_snapshot && !new_choice && !new_rays && !new_custom_view && !new_doubt && eye == eye_) return false;
 
   const SessionSnapshot& s = *snapshot;
   const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
@@ -87,10 +89,12 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
   show_views(s, window);
+  doubtful_ = std::move(doubtful);
   set_visible(s, choice);
   shown_ = std::move(snapshot);
   selection_ = window.selection;
   if (new_session) move(camera_motion::Frame{});
+  if (new_doubt && doubtful_) show_doubtful(s);
   renderer().ResetCameraClippingRange();
   return true;
 }
@@ -203,12 +207,14 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
 }
 
 void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice) {
-  scene_.mesh().set_visible((choice.object && s.mesh) || (choice.missed && s.missed));
-  scene_.cloud().set_visible(choice.cloud);
-  scene_.octree().set_visible(choice.octree);
-  scene_.views().set_visible(choice.views);
-  scene_.rays().set_visible(choice.rays);
-  scene_.region().set_visible(choice.region);
+  const bool usual = !doubtful_;
+  scene_.mesh().set_visible(usual && ((choice.object && s.mesh) || (choice.missed && s.missed)));
+  scene_.cloud().set_visible(usual && choice.cloud);
+  scene_.octree().set_visible(usual && choice.octree);
+  scene_.views().set_visible(usual && choice.views);
+  scene_.rays().set_visible(usual && choice.rays);
+  scene_.region().set_visible(usual && choice.region);
+  scene_.fit().set_visible(!usual);
   scene_.annotate();
 }
 

@@ -3,6 +3,7 @@
 
 #include "ui/panels/layout.hpp"
 #include "ui/scene/scene.hpp"
+#include "ui/window/box_handles.hpp"
 #include "ui/workbench/inspection.hpp"
 #include "ui/workbench/session_snapshot.hpp"
 
@@ -21,9 +22,9 @@ class SceneView {
 
   /// In the target as it is now; call it again when its size changed.
   void place(const Rectangle& rectangle);
-  /// Returns whether the picture changed.
+  /// Returns whether the picture changed. While a scan is doubtful, it is shown with those before it, and nothing else.
   bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
-            std::shared_ptr<const Inspection> inspection);
+            std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful = nullptr);
   void move(const CameraMotion& motion);
   /// While the camera follows the pointer the picture is coarser, so that it follows at once.
   void set_in_motion(bool in_motion);
@@ -32,6 +33,8 @@ class SceneView {
   vtkRenderer& renderer() { return scene_.renderer(); }
   /// Where a point of the world is in the window, unless it is behind the camera [px from the upper left corner].
   std::optional<Eigen::Vector2d> project(const Vector3& point);
+  /// The line of sight through a point of the window [px from the upper left corner].
+  Sight sight(double x, double y);
   /// What is at a point of the window [px from the upper left corner].
   Picked pick(double x, double y);
   std::size_t voxel_faces() { return scene_.octree().face_count(); }
@@ -48,9 +51,9 @@ class SceneView {
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
   /// Where the scene's camera is, if a view that is drawn is from there.
   std::optional<Vector3> eye_of_a_view(const SessionSnapshot& snapshot, const WindowState& window);
+  void show_doubtful(const SessionSnapshot& snapshot);
+  void leave_doubtful();
   void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
-  /// Direction into the scene at a point of the window; of any length.
-  Vector3 direction_at(double x, double y);
 
   RenderTarget& target_;
   Rectangle rectangle_;
@@ -61,6 +64,8 @@ class SceneView {
   std::optional<Vector3> eye_;  ///< what is from there is not drawn
   std::shared_ptr<const ScoreExplanation> explanation_;
   std::vector<RaySegment> rays_;
+  std::shared_ptr<const DoubtfulScan> doubtful_;
+  Scene::Stand stand_before_;  ///< of the camera, before it was shown
 
   // Colour ranges, kept while they are locked.
   ValueRange utilities_{0, 1}, heights_{0, 1};

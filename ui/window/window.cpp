@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/session/untitled_sessions.hpp"
 #include "ui/render_target/window_target.hpp"
 #include "ui/window/interface.hpp"
 
@@ -165,8 +166,7 @@ void run(WindowTarget& target, Interface& interface, const std::function<bool()>
 
 }  // namespace
 
-int run_window(const Configuration& configuration, const Script& script,
-               const std::optional<request::Connect>& scanner) {
+int run_window(const Configuration& configuration, const Script& script, const WindowStart& start) {
   const auto [first_width, first_height] = first_size();
   WindowTarget target("Nextview", first_width, first_height);
   GLFWwindow* window = target.handle();
@@ -175,11 +175,19 @@ int run_window(const Configuration& configuration, const Script& script,
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);
   SessionWorker worker([] { glfwPostEmptyEvent(); });
+  worker.keep_sessions(state_folder());
   InspectionWorker inspector([] { glfwPostEmptyEvent(); });
   Interface interface(target, worker, inspector, scale);
   ScriptErrors errors(script.file);
   interface.script().set_on_failure([&](const ScriptFailure& failure) { errors.add(failure); });
-  scanner ? interface.connect(*scanner) : interface.open(configuration);
+  if (start.scanner)
+    interface.connect(*start.scanner);
+  else if (!start.session.empty())
+    interface.open_session(start.session);
+  else
+    interface.open(configuration);
+  if (const auto unfinished = start.offer ? unfinished_session(state_folder()) : std::nullopt)
+    worker.post(request::OfferSession{*unfinished});
   interface.run_script(script.calls);
   listen(window, interface);
   run(target, interface, [&] { return script.stop_on_error && errors.any(); });

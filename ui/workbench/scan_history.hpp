@@ -5,6 +5,7 @@
 
 #include "core/session/driver_setup.hpp"
 #include "core/session/session.hpp"
+#include "ui/workbench/kept_session.hpp"
 #include "ui/workbench/seen_surface.hpp"
 
 namespace nextview {
@@ -16,6 +17,8 @@ struct HistoryEntry {
   ScanState state;
   SeenSurface seen;
   std::shared_ptr<DriverConnection> scanner = {};  ///< null unless it is a live one's
+  std::shared_ptr<KeptSession> kept = {};          ///< null if sessions are not kept
+  SessionFolder::Line line = {};                   ///< captures that its views are of
 };
 
 /// The states to go back to, and those to go forward to again. Their maps take no more memory than a limit: beyond it

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/config/configuration.hpp"
+#include "core/session/untitled_sessions.hpp"
 
 namespace nextview {
 
@@ -19,6 +20,10 @@ struct Load {
 /// Starts over with another object, or, if the file is TOML, with its settings.
 struct OpenFile {
   std::filesystem::path file;
+};
+/// Offers to go on with a session that nobody closed.
+struct OfferSession {
+  UnfinishedSession session;
 };
 /// Starts over with a live scanner.
 struct Connect {
@@ -67,9 +72,9 @@ struct ForgetRuns {};
 }  // namespace request
 
 using SessionRequest =
-    std::variant<request::Load, request::OpenFile, request::Connect, request::Disconnect, request::Reconnect,
-                 request::SetTermination, request::Reset, request::Step, request::Play, request::Pause,
-                 request::TakeView, request::TakeCustomView, request::Undo, request::Redo, request::Refine,
-                 request::Export, request::ForgetRuns>;
+    std::variant<request::Load, request::OpenFile, request::OfferSession, request::Connect, request::Disconnect,
+                 request::Reconnect, request::SetTermination, request::Reset, request::Step, request::Play,
+                 request::Pause, request::TakeView, request::TakeCustomView, request::Undo, request::Redo,
+                 request::Refine, request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

@@ -9,6 +9,8 @@
 #include "core/export/scan_files.hpp"
 #include "core/export/scan_surfaces.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/driver_setup.hpp"
+#include "core/session/session_folder.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
@@ -28,14 +30,21 @@ Progress part(const Progress& whole, double begin, double end) {
 }  // namespace
 
 HistoryEntry SessionRunner::now() const {
-  return {session_, session_->configuration().termination, session_->state(), *seen_, scanner_};
+  return {session_, session_->configuration().termination, session_->state(), *seen_, scanner_, kept_, kept_->line()};
+}
+
+void SessionRunner::keep_sessions(std::filesystem::path state, KeptSession::Notice notice) {
+  state_folder_ = std::move(state);
+  notice_ = std::move(notice);
 }
 
 void SessionRunner::load(Configuration configuration, const JobControl& control) {
+  if (scanner_) require_goes_on(*scanner_, session_->configuration(), configuration);
   start(std::move(configuration), scanner_, control);
 }
 
 void SessionRunner::open(const std::filesystem::path& input, const JobControl& control) {
+  if (is_session(input)) return open_session(input, control);
   start(with_input(scanner_ ? before_scanner_ : configuration(), input), nullptr, control);
 }
 
@@ -50,6 +59,7 @@ void SessionRunner::connect(const ScannerWishes& wishes, std::optional<Configura
   Configuration following = before;
   forget_fitted(following);
   control.progress(0.0, "reaching the scanner");
+  if (scanner_) scanner_->leave();  // it may be the same one
   auto scanner = connect_scanner(following, wishes, control.stop);
   start(std::move(following), std::move(scanner), control);
   before_scanner_ = before;
@@ -69,7 +79,37 @@ void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverCon
   auto session = std::make_shared<Session>(std::move(configuration), std::move(parts), control.progress, control.stop);
   if (session_) history_.push(now(), history_limit(*session_));
   const TerminationConfig termination = session->configuration().termination;
-  adopt({session, termination, session->state(), SeenSurface(*session), std::move(scanner)});
+  adopt({session, termination, session->state(), SeenSurface(*session), std::move(scanner),
+         std::make_shared<KeptSession>(state_folder_, notice_)});
+}
+
+/// It goes on where it stands, in its own folder. Each of its views can be undone.
+void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
+  SavedSession saved = read_session(folder);
+  const Configuration& c = saved.configuration;
+  SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
+  const auto session = std::make_shared<Session>(c, std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
+  std::optional<SessionFolder> own;
+  try {
+    if (saved.journal) own = SessionFolder::go_on(OutputFolder(folder, {}), saved, *session);
+  } catch (const std::runtime_error& error) {
+    saved.notices.push_back(std::string(error.what()) + ": it is shown, and what is done here is not kept there");
+  }
+  const auto kept = saved.journal ? std::make_shared<KeptSession>(std::move(own), notice_)
+                                  : std::make_shared<KeptSession>(state_folder_, notice_);
+  SeenSurface seen(*session);
+  std::vector<HistoryEntry> states;
+  const auto look = [&] {
+    seen.follow(*session);
+    states.push_back({session, c.termination, session->state(), seen, nullptr, kept, kept->line()});
+  };
+  look();
+  if (!restore(*session, saved, kept->folder(), look, part(control.progress, 0.2, 1.0), control.stop)) throw Stopped();
+  if (session_) history_.push(now(), history_limit(*session_));
+  for (std::size_t k = 0; k + 1 < states.size(); ++k) history_.push(states[k], history_limit(*session));
+  adopt(std::move(states.back()));
+  for (const std::string& notice : saved.notices)
+    if (notice_) notice_(folder.string() + ": " + notice);
 }
 
 void SessionRunner::set_termination(const TerminationConfig& termination) {
@@ -77,6 +117,7 @@ void SessionRunner::set_termination(const TerminationConfig& termination) {
   HistoryEntry before = now();
   session_->set_termination(termination);
   history_.push(std::move(before), history_limit(*session_));
+  kept_->follow(*session_, kept_->line());
   show_next();
 }
 
@@ -92,7 +133,10 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
   if (!can_step()) return;
   session_->set_judge(judge);
   HistoryEntry before = now();
-  if (!session_->step(control.progress, control.stop)) return;
+  if (!kept_->step(*session_, control.progress, control.stop)) {
+    if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
+    return;
+  }
   history_.push(std::move(before), history_limit(*session_));
   show_map(*snapshot_);
 }
@@ -124,9 +168,13 @@ void SessionRunner::adopt(HistoryEntry entry) {
   SessionSnapshot next = *snapshot_;
   session_ = std::move(entry.session);
   scanner_ = std::move(entry.scanner);
+  if (kept_ && kept_ != entry.kept) kept_->close();
+  if (scanner_ && scanner_ != entry.scanner) scanner_->leave();
+  kept_ = std::move(entry.kept);
   session_->restore(std::move(entry.state));
   session_->set_termination(entry.termination);
   session_->take_proposal();
+  kept_->follow(*session_, entry.line);
   seen_ = std::move(entry.seen);
   if (same_scan) return show_next();
   const auto& scans = session_->scans();
@@ -179,7 +227,19 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
   OutputFolder out(folder, input_files(session_->configuration()), "");
+  SessionFolder* const own = kept_->folder();
+  std::error_code ignored;
+  if (own && std::filesystem::equivalent(own->path(), folder, ignored)) {
+    out.go_on("scan");
+    return write_results(out, control);
+  }
+  require_free_for_session(folder, false);
   out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
+  if (own) own->copy_to(out, *session_);
+  return write_results(out, control);
+}
+
+std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const JobControl& control) const {
   control.progress(0.0, "writing the scan");
   write_scan(*session_, out);
   const auto surfaces = scan_surfaces(*session_, part(control.progress, 0.2, 0.9), control.stop);

@@ -22,6 +22,9 @@ class SessionRunner {
     std::stop_token stop;
   };
 
+  /// Sessions are kept below this folder as they go on; `notice` hears, a line each, what could not be. Without it,
+  /// none is.
+  void keep_sessions(std::filesystem::path state, KeptSession::Notice notice);
   /// Never null. The snapshot before stays as it was.
   std::shared_ptr<const SessionSnapshot> snapshot() const { return snapshot_; }
   bool can_step() const { return session_ && session_->finished().empty(); }
@@ -56,7 +59,9 @@ class SessionRunner {
  private:
   HistoryEntry now() const;
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
+  void open_session(const std::filesystem::path& folder, const JobControl& control);
   void adopt(HistoryEntry entry);
+  std::vector<std::string> write_results(OutputFolder& out, const JobControl& control) const;
   void show_next();
   static void remember_run(SessionSnapshot& snapshot);
   /// Fills what of a snapshot is the session's.
@@ -74,6 +79,9 @@ class SessionRunner {
   ScanHistory history_;
   std::shared_ptr<DriverConnection> scanner_;  ///< of the session, if it is a live one
   Configuration before_scanner_;               ///< to go back to
+  std::filesystem::path state_folder_;         ///< empty: sessions are not kept
+  KeptSession::Notice notice_;
+  std::shared_ptr<KeptSession> kept_;  ///< of the session; null without one
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };
 

@@ -113,6 +113,12 @@ struct SessionSnapshot {
   std::span<const Voxel> planning_voxels() const { return planned_on_posterior && gibbs ? *gibbs->voxels : *voxels; }
 };
 
+/// A scan that does not fit those before it, while an operator decides on it.
+struct DoubtfulScan {
+  std::vector<Eigen::Vector3f> reached;    ///< its points from where the robot says that it stands [m, world]
+  std::vector<Eigen::Vector3f> corrected;  ///< where registration puts them; empty if that is not reliable
+};
+
 /// What the session worker is doing right now.
 struct WorkerProgress {
   bool busy = false;
@@ -123,6 +129,7 @@ struct WorkerProgress {
   std::string what;
   std::string question;                               ///< that the job waits for an answer to; empty: it does not
   std::vector<std::string> answers;                   ///< that there are, the last one the cautious one
+  std::shared_ptr<const DoubtfulScan> doubtful;       ///< that the question is about; null if it is about another thing
   std::size_t waiting = 0;                            ///< requests behind it
   std::optional<double> seconds_left;                 ///< of the job, as it has gone so far; whole seconds
   double pause_between_views = 0.0;                   ///< while playing [s]

@@ -1,14 +1,11 @@
 #include "ui/workbench/session_worker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
 
 #include "core/progress/stopped.hpp"
-#include "core/setting/length_text.hpp"
 #include "ui/workbench/overloaded.hpp"
 #include "ui/workbench/request_kind.hpp"
 
@@ -33,6 +30,11 @@ SessionWorker::~SessionWorker() {
 
 void SessionWorker::news() const {
   if (on_news_) on_news_();
+}
+
+void SessionWorker::keep_sessions(std::filesystem::path state) {
+  runner_.keep_sessions(std::move(state),
+                        [this](const std::string& line) { log_.add(LogEntry::Level::warning, line); });
 }
 
 std::shared_ptr<const SessionSnapshot> SessionWorker::snapshot() const {
@@ -160,6 +162,7 @@ void SessionWorker::execute(const SessionRequest& request) {
   std::visit(Overloaded{
                  [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
                  [&](const request::OpenFile& r) { runner_.open(r.file, job_control()); },
+                 [&](const request::OfferSession& r) { offer(r.session); },
                  [&](const request::Connect& r) { runner_.connect(scanner_wishes(r), r.configuration, job_control()); },
                  [&](request::Disconnect) { runner_.disconnect(job_control()); },
                  [&](request::Reconnect) {
@@ -196,51 +199,6 @@ void SessionWorker::execute(const SessionRequest& request) {
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },
              request);
-}
-
-void SessionWorker::answer(const std::string& text) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (progress_.question.empty()) return;
-    answer_ = text;
-  }
-  wake_.notify_all();
-}
-
-/// Waits for the answer; what cancels the job gives the last one.
-std::string SessionWorker::ask(std::string question, std::vector<std::string> answers) {
-  const std::string cautious = answers.back();
-  std::unique_lock lock(mutex_);
-  progress_.question = std::move(question);
-  progress_.answers = std::move(answers);
-  answer_.reset();
-  lock.unlock();
-  news();
-  lock.lock();
-  wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
-  progress_.question.clear();
-  return std::exchange(answer_, std::nullopt).value_or(cautious);
-}
-
-Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {
-  std::vector<std::string> answers = {"Take it", "Reject it"};
-  if (acquired.registration->reliable) answers.insert(answers.begin(), "Correct it");
-  const std::string answer = ask("This scan does not fit those before it: " + reason + ".", answers);
-  if (answer == "Correct it") return Session::Verdict::correct;
-  return answer == "Take it" ? Session::Verdict::accept : Session::Verdict::reject;
-}
-
-ScannerWishes SessionWorker::scanner_wishes(const request::Connect& request) {
-  ScannerWishes wishes{request.command};
-  if (request.confirm)
-    wishes.confirm = [this](const Pose& from, const Pose& to) {
-      const Vector3 p = to.translation();
-      return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
-                             length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()),
-                 {"Move", "Refuse"}) == "Move";
-    };
-  wishes.log = [this](const std::string& line) { log_.add(LogEntry::Level::note, "Scanner: " + line); };
-  return wishes;
 }
 
 SessionRunner::JobControl SessionWorker::job_control() {

@@ -23,6 +23,8 @@ class SessionWorker {
   SessionWorker(const SessionWorker&) = delete;
   SessionWorker& operator=(const SessionWorker&) = delete;
 
+  /// Sessions are kept below this folder (SessionRunner::keep_sessions). Before anything is posted.
+  void keep_sessions(std::filesystem::path state);
   /// What starts a session anew takes the place of whatever runs or waits. Steps of a finished scan are ignored.
   void post(SessionRequest request);
   /// Drops what waits and stops what runs as soon as that is possible; a step that is not complete is taken back, a
@@ -52,7 +54,9 @@ class SessionWorker {
   void report_progress(double fraction, std::string_view what);
   void report_sampler(const SamplerDiagnostics& so_far);
   SessionRunner::JobControl job_control();
-  std::string ask(std::string question, std::vector<std::string> answers);
+  std::string ask(std::string question, std::vector<std::string> answers,
+                  std::shared_ptr<const DoubtfulScan> about = nullptr);
+  void offer(const UnfinishedSession& session);
   Session::Verdict judge(const Acquired& acquired, const std::string& reason);
   ScannerWishes scanner_wishes(const request::Connect& request);
   void news() const;

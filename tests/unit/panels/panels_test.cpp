@@ -60,7 +60,8 @@ std::vector<const ImGuiWindow*> placed_windows() {
   std::vector<const ImGuiWindow*> result;
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
     const int above = ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip;
-    const bool over_scene = std::string(w->Name).find("otif") != std::string::npos;
+    const bool over_scene =
+        std::string(w->Name).find("otif") != std::string::npos || std::string(w->Name) == "Question";
     if (w->WasActive && !w->Hidden && !(w->Flags & above) && !over_scene && !w->IsFallbackWindow) result.push_back(w);
   }
   return result;

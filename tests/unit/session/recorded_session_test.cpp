@@ -48,6 +48,22 @@ bool same_maps(const OccupancyMap& a, const OccupancyMap& b) {
   return true;
 }
 
+/// A window starts a session over with the configuration of the one before. What followed from the recording, a region
+/// with a margin among it, once made its voxels and lengths coarser each time that a setting was changed.
+TEST(RecordedLengths, AreTheSameWhenItStartsOver) {
+  Configuration c;
+  c.recorded.folder = std::string(NEXTVIEW_SHARED_DIR) + "/data/scans/visp_castle_sim";
+  c.recorded.every = 10;
+  if (!fs::exists(c.recorded.folder)) GTEST_SKIP() << "the recording is not here";
+  const Session first(c), again(first.configuration());
+  EXPECT_EQ(to_toml(again.configuration()), to_toml(first.configuration()));
+  Configuration own = first.configuration();
+  give(own, "map.region", "-0.05 0.03 -0.1 0.05 0.13 0", "map.region");
+  const Session smaller(own);
+  EXPECT_LT(smaller.configuration().map.resolution, first.configuration().map.resolution)
+      << "it follows a given region";
+}
+
 TEST_F(RecordedSession, AScanReplayedInItsOrderGivesItsMapToTheBit) {
   Configuration c = replay();
   c.planner.gain = "fixed-order";

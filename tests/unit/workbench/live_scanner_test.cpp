@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "ui/workbench/session_worker.hpp"
 
@@ -65,6 +66,24 @@ TEST_F(LiveScannerTest, MovesWhenTheOperatorAllowsIt) {
   EXPECT_TRUE(worker_.progress().question.empty());
 }
 
+/// A working volume that is shown but not kept to would be worse than none.
+TEST_F(LiveScannerTest, WhatADriverWasStartedWithHoldsUntilItIsConnectedAgain) {
+  connect();
+  step("Move");
+  const auto refused = [&](const std::function<void(Configuration&)>& change) {
+    Configuration c = worker_.snapshot()->configuration;
+    change(c);
+    worker_.post(request::Load{c});
+    wait_until_idle();
+    EXPECT_EQ(views(), 1u);
+    return worker_.snapshot()->message;
+  };
+  EXPECT_THAT(refused([](Configuration& c) { c.driver.working_volume = "-1 -1 -1 1 1 1"; }),
+              testing::HasSubstr("robot.working_volume hold from the next connection on"));
+  EXPECT_THAT(refused([](Configuration& c) { c.evaluation.enabled = true; }), testing::HasSubstr("is not known"));
+  EXPECT_THAT(refused([](Configuration& c) { c.map.region.clear(); }), testing::HasSubstr("map.region"));
+}
+
 TEST_F(LiveScannerTest, ARefusalEndsThePlay) {
   connect();
   worker_.post(request::Play{});
@@ -82,6 +101,20 @@ TEST_F(LiveScannerTest, CancellingAnswersTheQuestion) {
   worker_.cancel();
   wait_until_idle();
   EXPECT_EQ(views(), 0u);
+}
+
+TEST_F(LiveScannerTest, OneThatIsEndedToStopItIsSaidToBeLost) {
+  connect();
+  behave("silence", "move");
+  worker_.post(request::Step{});
+  wait_until([&] { return !worker_.progress().question.empty(); });
+  worker_.answer("Move");
+  wait_until([&] { return worker_.progress().question.empty(); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the request is on its way
+  worker_.cancel();
+  wait_until_idle();
+  EXPECT_TRUE(worker_.snapshot()->scanner_lost);
+  EXPECT_THAT(worker_.log().entries()->back().text, testing::HasSubstr("reach it again"));
 }
 
 TEST_F(LiveScannerTest, IsReachedAgainAndGoesOn) {

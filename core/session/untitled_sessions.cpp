@@ -1,0 +1,87 @@
+#include "core/session/untitled_sessions.hpp"
+
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <vector>
+
+#include "core/journal/journal.hpp"
+#include "core/results/output_folder.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kept = 10;
+constexpr std::size_t time_length = 19;  // of "2026-01-31 23.59.59"
+
+/// The newest first: their names begin with the time.
+std::vector<fs::path> untitled_sessions(const fs::path& state) {
+  std::vector<fs::path> sessions;
+  std::error_code error;
+  for (fs::directory_iterator entry(state, error), end; !error && entry != end; entry.increment(error))
+    if (has_journal(entry->path())) sessions.push_back(entry->path());
+  std::ranges::sort(sessions, std::greater<>());
+  return sessions;
+}
+
+/// What can be a file's name anywhere.
+std::string plain(std::string name) {
+  for (char& c : name)
+    if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ') c = '_';
+  return name.substr(0, 40);
+}
+
+/// Nothing but what its own list names, and nothing that is in use.
+void remove_session(const fs::path& folder) {
+  try {
+    Journal ignored;
+    { const JournalWriter lock = JournalWriter::go_on(folder, ignored); }
+    OutputFolder(folder, {}).remove();
+  } catch (const std::runtime_error&) {  // it stays
+  }
+}
+
+}  // namespace
+
+fs::path state_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && fs::path(state).is_absolute())
+    return fs::path(state) / "nextview";
+  const char* home = std::getenv("HOME");
+  return home && fs::path(home).is_absolute() ? fs::path(home) / ".local/state/nextview" : fs::path();
+}
+
+fs::path untitled_folder(const fs::path& state, const std::string& name) {
+  const std::vector<fs::path> sessions = untitled_sessions(state);
+  for (std::size_t k = kept - 1; k < sessions.size(); ++k) remove_session(sessions[k]);
+  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  return free_folder(state / fmt::format("{:%Y-%m-%d %H.%M.%S} {}", fmt::localtime(now), plain(name)));
+}
+
+std::optional<UnfinishedSession> unfinished_session(const fs::path& state) {
+  for (const fs::path& folder : untitled_sessions(state)) {
+    try {
+      Journal journal;
+      { const JournalWriter lock = JournalWriter::go_on(folder, journal); }
+      const std::size_t views = journal.line().size();
+      if (journal.closed || views == 0) continue;
+      const std::string name = folder.filename().string();
+      return UnfinishedSession{folder, name.size() > time_length ? name.substr(time_length + 1) : name, views};
+    } catch (const std::runtime_error&) {  // in use, or damaged
+    }
+  }
+  return std::nullopt;
+}
+
+void close_session(const fs::path& folder) {
+  try {
+    Journal ignored;
+    JournalWriter::go_on(folder, ignored).close();
+  } catch (const std::exception&) {  // then it is offered again
+  }
+}
+
+}  // namespace nextview

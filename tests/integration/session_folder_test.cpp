@@ -1,0 +1,147 @@
+// Sessions as folders, as a user has them: going on after whatever ended a scan, replacing, opening from anywhere.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string camera = "--sensor.width 60 --sensor.height 45 ";
+const std::string quick =
+    "--views.count 6 --map.resolution 0.04 --map.region_edge 0.8 --evaluation.surface_samples 200 --no-pictures "
+    "--no-surfaces ";
+
+class SessionFolders : public testing::Test {
+ protected:
+  std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
+  /// Of every file below a folder what it holds, by its name; seconds aside.
+  std::map<std::string, std::string> contents(const std::string& name) const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(in(name)))
+      if (entry.is_regular_file() && entry.path().filename() != "timings.csv")
+        all[fs::relative(entry.path(), in(name)).string()] = read_file(entry.path());
+    return all;
+  }
+  /// But for the journal, which tells how it came about, and the order in which the list of files grew.
+  void expect_same(const std::string& a, const std::string& b) const {
+    const auto is = contents(a), was = contents(b);
+    for (const auto& [name, bytes] : was)
+      if (name != "journal" && name != "manifest.json") {
+        ASSERT_TRUE(is.contains(name)) << name;
+        EXPECT_EQ(is.at(name) == bytes, true) << name << " differs";
+      }
+    EXPECT_EQ(is.size(), was.size());
+  }
+  void expect_refused(const std::string& arguments, const std::string& words) const {
+    const Result run = nextview(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(words)) << arguments;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  /// The program, killed at its N-th change of a file below `folder`; 0: never. Returns how many there were.
+  long run_and_kill(long at, const std::string& folder, const std::string& arguments) const {
+    const std::string count = in("count");
+    fs::remove(count);
+    nextview_behind("LD_PRELOAD=" NEXTVIEW_KILL_AT_CALL " NEXTVIEW_KILL_BELOW=" + folder +
+                        " NEXTVIEW_KILL_COUNT=" + count + " NEXTVIEW_KILL_AT=" + std::to_string(at),
+                    arguments);
+    return fs::exists(count) ? std::stol(read_file(count)) : 0;
+  }
+  TemporaryFolder folder_;
+};
+
+/// At every write by NEXTVIEW_EVERY_WRITE=1, at some of them here.
+TEST_F(SessionFolders, KilledAtAnyWriteItGoesOnToTheSameBytes) {
+  const std::string scan = "scan box --views 3 " + camera + quick;
+  const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
+  ASSERT_GT(calls, 60);
+  const long stride = std::getenv("NEXTVIEW_EVERY_WRITE") ? 1 : calls / 12;
+  for (long at = 1; at <= calls; at += stride) {
+    SCOPED_TRACE(at);
+    fs::remove_all(in("killed"));
+    run_and_kill(at, in("killed"), scan + "--out " + in("killed"));
+    const bool has_begun = fs::exists(in("killed/journal")) && fs::file_size(in("killed/journal")) > 0;
+    const Result on = has_begun ? nextview("scan --resume " + in("killed") + " --no-pictures --no-surfaces")
+                                : nextview(scan + "--overwrite --out " + in("killed"));
+    if (has_begun && on.exit_code != 0) {  // its first record was being written
+      EXPECT_THAT(on.err, HasSubstr("its beginning is lost"));
+      ASSERT_EQ(nextview(scan + "--overwrite --out " + in("killed")).exit_code, 0);
+    }
+    expect_same("killed", "whole");
+  }
+}
+
+TEST_F(SessionFolders, KilledBehindADriverItGoesOnToTheSameBytes) {
+  const std::string driver = "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated box " + camera + "' ";
+  const std::string scan = "scan " + driver + "--views 3 " + quick;
+  const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
+  for (const long at : {calls / 3, calls / 2}) {
+    SCOPED_TRACE(at);
+    fs::remove_all(in("killed"));
+    run_and_kill(at, in("killed"), scan + "--out " + in("killed"));
+    ASSERT_EQ(nextview("scan --resume " + in("killed") + " --no-pictures --no-surfaces " + driver).exit_code, 0);
+    expect_same("killed", "whole");
+  }
+}
+
+TEST_F(SessionFolders, IsReplacedOnlyIfOneSaysSo) {
+  const std::string scan = "scan box --views 1 " + camera + quick + "--out " + in("out");
+  ASSERT_EQ(nextview(scan).exit_code, 0);
+  write_file(in("out/note.txt"), "mine");
+  expect_refused(scan, "holds a session: --resume goes on with it, --overwrite replaces it");
+  ASSERT_EQ(nextview(scan + " --overwrite").exit_code, 0);
+  EXPECT_EQ(read_file(in("out/note.txt")), "mine");
+  fs::create_directories(in("mine"));
+  write_file(in("mine/note.txt"), "mine");
+  expect_refused("scan box --overwrite --views 1 " + camera + quick + "--out " + in("mine"), "holds no session");
+}
+
+TEST_F(SessionFolders, GoesOnBeyondItsEndWithAnotherOne) {
+  const std::string scan = "scan box " + camera + quick;
+  ASSERT_EQ(nextview(scan + "--views 2 --out " + in("two")).exit_code, 0);
+  ASSERT_EQ(nextview(scan + "--views 4 --out " + in("four")).exit_code, 0);
+  ASSERT_EQ(nextview("scan --resume " + in("two") + " --views 4 --no-pictures --no-surfaces").exit_code, 0);
+  expect_same("two", "four");
+}
+
+TEST_F(SessionFolders, AFinishedOneGetsWhatIsMissing) {
+  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("whole")).exit_code, 0);
+  fs::copy(in("whole"), in("part"), fs::copy_options::recursive);
+  for (const char* name :
+       {"map.ot", "cloud.ply", "steps.csv", "views.csv", "metrics.json", "config.toml", "manifest.json"})
+    fs::remove(in("part") + "/" + name);
+  ASSERT_EQ(nextview("scan --resume " + in("part") + " --no-pictures --no-surfaces").exit_code, 0);
+  expect_same("part", "whole");
+}
+
+TEST_F(SessionFolders, MayBeMovedWithTheObjectThatLiesInside) {
+  fs::create_directories(in("a"));
+  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("a/out")).exit_code, 0);
+  fs::rename(in("a"), in("b"));
+  EXPECT_EQ(nextview("scan --resume " + in("b/out") + " --views 3 --no-pictures --no-surfaces").exit_code, 0);
+  fs::remove(in("b/out/views.csv"));
+  EXPECT_EQ(nextview("refine " + in("b/out") + " --gibbs.sweeps 40 --no-pictures --no-surfaces --out " + in("refined"))
+                .exit_code,
+            0);
+}
+
+TEST_F(SessionFolders, MistakesAreOneLine) {
+  ASSERT_EQ(nextview("scan box --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  expect_refused("scan --resume " + in("nothing"), "nothing: holds no session");
+  expect_refused("scan --resume " + in("out") + " --planner.gain random", "termination.* alone may change");
+  expect_refused("scan --resume " + in("out") + " --out " + in("other"), "--out");
+  write_file(in("out/journal"), "no journal\n");
+  expect_refused("scan --resume " + in("out"), "journal: is no journal of a session");
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,19 @@
+#pragma once
+#include <imgui.h>
+
+#include <string>
+
+#include "ui/panels/style.hpp"
+#include "ui/window/scene_view.hpp"
+
+namespace nextview {
+
+// What is drawn over the scene, behind the panels.
+
+inline ImVec2 at(const Eigen::Vector2d& p) { return {float(p.x()), float(p.y())}; }
+/// Right above a place of the window, on paper.
+void draw_label(const Style& style, ImVec2 place, const std::string& text, const Colour& colour);
+/// Between points of the world [m].
+void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32 colour, float width);
+
+}  // namespace nextview

@@ -1,0 +1,45 @@
+#include "ui/workbench/kept_session.hpp"
+
+#include <fmt/format.h>
+
+#include "core/session/untitled_sessions.hpp"
+
+namespace nextview {
+
+bool KeptSession::step(Session& session, const Progress& progress, const std::stop_token& stop) {
+  if (!folder_ && !state_.empty()) {
+    try {
+      folder_ = SessionFolder::begin(OutputFolder(untitled_folder(state_, session.name()), {}), session);
+    } catch (const std::runtime_error& error) {
+      state_.clear();
+      not_kept(error.what());
+    }
+  }
+  if (!folder_) return session.step(progress, stop);
+  return folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); });
+}
+
+void KeptSession::follow(const Session& session, const SessionFolder::Line& line) {
+  if (!folder()) return;
+  try {
+    folder_->stand_at(line);
+    folder_->keep_configuration(session);
+  } catch (const std::runtime_error& error) {
+    not_kept(error.what());
+    folder_.reset();
+  }
+}
+
+void KeptSession::close() {
+  if (!folder()) return;
+  try {
+    folder_->close();
+  } catch (const std::runtime_error&) {  // it will be offered again: nothing is lost
+  }
+}
+
+void KeptSession::not_kept(const std::string& reason) {
+  if (notice_) notice_(fmt::format("{}; the session goes on in memory: export keeps it elsewhere", reason));
+}
+
+}  // namespace nextview

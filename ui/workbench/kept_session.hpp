@@ -1,0 +1,44 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/session/session_folder.hpp"
+
+namespace nextview {
+
+/// Where a session of the window is kept as it goes on. What cannot be written is said once; the session then goes on
+/// in memory alone.
+class KeptSession {
+ public:
+  using Notice = std::function<void(const std::string&)>;
+
+  /// Below `state`, in a folder that is made with the first view; an empty path: nowhere.
+  KeptSession(std::filesystem::path state, Notice notice) : state_(std::move(state)), notice_(std::move(notice)) {}
+  /// In the folder that it was opened from; null: nowhere.
+  KeptSession(std::optional<SessionFolder> folder, Notice notice)
+      : folder_(std::move(folder)), notice_(std::move(notice)) {}
+  ~KeptSession() { close(); }
+  KeptSession(const KeptSession&) = delete;
+  KeptSession& operator=(const KeptSession&) = delete;
+
+  /// Session::step, kept. @throws as that
+  bool step(Session& session, const Progress& progress, const std::stop_token& stop);
+  /// The session was put to where its views were these, maybe with another end.
+  void follow(const Session& session, const SessionFolder::Line& line);
+  SessionFolder::Line line() const { return folder_ ? folder_->line() : SessionFolder::Line(); }
+  /// Nobody is in the middle of it.
+  void close();
+  /// Null if it is kept nowhere.
+  SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
+
+ private:
+  void not_kept(const std::string& reason);
+
+  std::filesystem::path state_;
+  std::optional<SessionFolder> folder_;
+  Notice notice_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,78 @@
+// What a session worker asks the operator.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/file/counted.hpp"
+#include "core/registration/scan_registration.hpp"
+#include "core/setting/length_text.hpp"
+#include "core/source/scan_source.hpp"
+#include "ui/workbench/session_worker.hpp"
+
+namespace nextview {
+
+void SessionWorker::answer(const std::string& text) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (progress_.question.empty()) return;
+    answer_ = text;
+  }
+  wake_.notify_all();
+}
+
+/// Waits for the answer; what cancels the job gives the last one.
+std::string SessionWorker::ask(std::string question, std::vector<std::string> answers,
+                               std::shared_ptr<const DoubtfulScan> about) {
+  const std::string cautious = answers.back();
+  std::unique_lock lock(mutex_);
+  progress_.question = std::move(question);
+  progress_.answers = std::move(answers);
+  progress_.doubtful = std::move(about);
+  answer_.reset();
+  lock.unlock();
+  news();
+  lock.lock();
+  wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
+  progress_.question.clear();
+  progress_.doubtful.reset();
+  return std::exchange(answer_, std::nullopt).value_or(cautious);
+}
+
+void SessionWorker::offer(const UnfinishedSession& session) {
+  const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
+                                           counted(session.views, "view"));
+  if (ask(question, {"Go on", "Begin anew"}) == "Go on")
+    runner_.open(session.folder, job_control());
+  else
+    close_session(session.folder);
+}
+
+Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {
+  std::vector<std::string> answers = {"Take it", "Reject it"};
+  auto scan = std::make_shared<DoubtfulScan>();
+  const CloudConfig cleaning = runner_.configuration().cloud;
+  const Scan taken = to_scan(acquired.capture, &cleaning).scan;
+  scan->reached = taken.hits;
+  if (acquired.registration->reliable) {
+    answers.insert(answers.begin(), "Correct it");
+    scan->corrected = moved(taken, acquired.registration->T_corrected_believed).hits;
+  }
+  const std::string answer = ask("This scan may not fit: " + reason + ".", answers, std::move(scan));
+  if (answer == "Correct it") return Session::Verdict::correct;
+  return answer == "Take it" ? Session::Verdict::accept : Session::Verdict::reject;
+}
+
+ScannerWishes SessionWorker::scanner_wishes(const request::Connect& request) {
+  ScannerWishes wishes{request.command};
+  if (request.confirm)
+    wishes.confirm = [this](const Pose& from, const Pose& to) {
+      const Vector3 p = to.translation();
+      return ask(fmt::format("Move the camera by {} to ({:.3f}, {:.3f}, {:.3f}) m?",
+                             length_text((p - from.translation()).norm()), p.x(), p.y(), p.z()),
+                 {"Move", "Refuse"}) == "Move";
+    };
+  wishes.log = [this](const std::string& line) { log_.add(LogEntry::Level::note, "Scanner: " + line); };
+  return wishes;
+}
+
+}  // namespace nextview
