@@ -4,14 +4,26 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "core/driver/driver_server.hpp"
+#include "core/session/driver_setup.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/source/simulated_source.hpp"
 
 namespace nextview {
 namespace {
 
+/// What another session must know to be the same as one with the simulator built in.
+std::map<std::string, std::string> own_settings(Configuration& c) {
+  std::map<std::string, std::string> own;
+  for (const Setting& setting : settings(c)) {
+    const bool decided = setting.key.starts_with("object.") || setting.key.starts_with("sensor.");
+    if (decided && setting.key != "object.file") own[setting.key] = setting.text();
+  }
+  return own;
+}
+
 int run_simulated(const ConfigurationOptions& options) {
   Configuration c = options.configuration();
+  require_exact_robot(c);
   const ConfiguredObject object = load_object(c);
   const auto world = std::make_shared<const SimulatedWorld>(object.placed, c.sensor);
   FreeFlyingCamera robot(configured_start_view(c));
@@ -23,7 +35,8 @@ int run_simulated(const ConfigurationOptions& options) {
          std::filesystem::absolute(object.file).string(),
          robot,
          [&](std::uint64_t seed) { return std::make_unique<SimulatedSource>(world, seed); },
-         c.seed},
+         c.seed,
+         own_settings(c)},
         std::cin, std::cout);
   return 0;
 }

@@ -13,10 +13,11 @@
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/map/octree_file.hpp"
-#include "core/mesh/mesh_file.hpp"
+#include "core/recording/cloud_file.hpp"
 #include "core/recording/dataset_guess.hpp"
 #include "core/recording/recording.hpp"
 #include "core/results/manifest.hpp"
+#include "core/session/object_mesh.hpp"
 #include "core/setting/length_text.hpp"
 
 namespace nextview {
@@ -43,31 +44,30 @@ Eigen::AlignedBox3d box_of(const Points& points) {
   return box;
 }
 
+std::string unit_text(LengthUnit unit) {
+  if (unit == LengthUnit::automatic) return "its size is declared, as it comes with the program";
+  return fmt::format("its unit is taken as {} (object.unit overrules it)", name(unit));
+}
+
 std::string mesh_info(const fs::path& file) {
   ObjectConfig as_it_stands;
   as_it_stands.centred = false;
-  const PlacedMesh placed = load_placed_mesh(file, placement(as_it_stands, file));
-  const std::string unit = placed.unit == LengthUnit::automatic
-                               ? "its size is declared, as it comes with the program"
-                               : fmt::format("its unit is taken as {} (object.unit overrules it)", name(placed.unit));
+  const PlacedMesh placed = load_object_mesh(file, placement(as_it_stands, file));
   return fmt::format("a mesh of {} and {}; {}\n  {}\n  {}", counted(placed.mesh.triangles.size(), "triangle"),
                      counted(placed.mesh.vertices.size(), "vertex", "vertices"), placed.topology.summary(),
-                     extents(placed.mesh.bounding_box().cast<double>()), unit);
+                     extents(placed.mesh.bounding_box().cast<double>()), unit_text(placed.unit));
 }
 
+/// As an object that is scanned, but for its surface, which takes long to make.
 std::string cloud_info(const fs::path& file) {
-  const PointCloud cloud = read_ply(file);
-  return fmt::format("a cloud of {}\n  {}\n  coordinates are taken as m", counted(cloud.size(), "point"),
-                     extents(box_of(cloud)));
-}
-
-/// A PLY file without faces is a cloud.
-std::string mesh_or_cloud_info(const fs::path& file) try {
-  return mesh_info(file);
-} catch (const std::runtime_error& error) {
-  if (file.extension() != ".ply" || std::string_view(error.what()).find("has no faces") == std::string_view::npos)
-    throw;
-  return cloud_info(file);
+  const PointCloud cloud = read_cloud_file(file).points;
+  const Eigen::AlignedBox3d box = box_of(cloud);
+  constexpr double longest_in_metres = 10.0;
+  const bool in_mm = !cloud.empty() && box.sizes().maxCoeff() > longest_in_metres;
+  const LengthUnit unit = in_mm ? LengthUnit::millimetres : LengthUnit::metres;
+  const double scale = metres_per(unit);
+  return fmt::format("a cloud of {}\n  {}\n  {}", counted(cloud.size(), "point"),
+                     extents({box.min() * scale, box.max() * scale}), unit_text(unit));
 }
 
 std::string map_info(const fs::path& file) {
@@ -151,16 +151,22 @@ std::string write_dataset(const fs::path& folder) {
   return "dataset.toml is written\n  " + recording_info(folder);
 }
 
+/// Stanford's range images as scenes to be scored.
+std::string range_scans_info(const fs::path& folder) {
+  std::string notice;
+  const RecordedScene scene =
+      read_range_scan_folder(folder, default_stand_off, 0.0, [&](const std::string& text) { notice += "\n  " + text; });
+  return fmt::format(
+      "range scans (Stanford): {}{}\n  the scanner's distance is not told: it is taken to stand {} m off each scan's "
+      "nearest point (recorded.stand_off, --stand-off)",
+      scene_info(scene), notice, default_stand_off);
+}
+
 std::string folder_info(const fs::path& folder) {
   if (const auto manifest = read_manifest(folder)) return results_info(folder, *manifest);
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".conf") {
-      std::string notice;
-      const RecordedScene scene = read_range_scan_folder(folder, default_stand_off, 0.0,
-                                                         [&](const std::string& text) { notice += "\n  " + text; });
-      return "range scans (Stanford): " + scene_info(scene) + notice;
-    }
-  return recording_info(folder);
+  const bool stanford =
+      describe_dataset(folder).description.format == RecordingFormat::stanford && !is_there(folder / "dataset.toml");
+  return stanford ? range_scans_info(folder) : recording_info(folder);
 }
 
 std::string info(const fs::path& path) {
@@ -170,7 +176,8 @@ std::string info(const fs::path& path) {
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".toml") return configuration_info(path);
   if (extension == ".txt") return "a scene of recorded scans: " + scene_info(read_recorded_scene(path));
-  return mesh_or_cloud_info(resolve_object(path.string()));
+  const fs::path object = resolve_object(path.string());
+  return is_cloud(object) ? cloud_info(object) : mesh_info(object);
 }
 
 int run(const std::vector<std::string>& paths, bool writes_dataset) {
@@ -190,10 +197,10 @@ void add_info_command(CLI::App& program) {
   auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* app =
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
-  app->add_option(
-         "PATH", *paths,
-         "mesh, cloud (PLY), map (.ot, .bt), scene of scans (.txt), scan graph (.graph, .log), configuration (.toml), "
-         "a folder of results or of recorded data, or gearbox, bunny, …")
+  app->add_option("PATH", *paths,
+                  "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans (.txt), scan graph (.graph, .log), "
+                  "configuration (.toml), "
+                  "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required();
   auto writes_dataset = std::make_shared<bool>(false);
   app->add_flag(

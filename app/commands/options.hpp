@@ -30,6 +30,7 @@ class ConfigurationOptions {
 
  private:
   bool takes(const std::string& key) const;
+  Configuration with_object() const;
 
   std::vector<std::string> prefixes_ = {""};
   std::vector<std::string> files_;  ///< later ones override earlier ones

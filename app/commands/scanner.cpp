@@ -32,9 +32,15 @@ bool confirmed(const Pose& from, const Pose& to) {
 }  // namespace
 
 void ScannerOptions::add_to(CLI::App& app) {
-  app.add_option("--driver", command, "scan with a live scanner: the program that drives it, with its arguments")
-      ->type_name("COMMAND")
-      ->group("Live scanner");
+  const auto names_nothing = [](const std::string& text) {
+    return text.find_first_not_of(" \t") == text.npos ? std::string("it names no program") : std::string();
+  };
+  CLI::Option* driver =
+      app.add_option("--driver", command, "scan with a live scanner: the program that drives it, with its arguments")
+          ->type_name("COMMAND")
+          ->check(names_nothing)
+          ->group("Live scanner");
+  for (const char* other : {"OBJECT", "--recorded", "--recorded.folder"}) driver->excludes(app.get_option(other));
   app.add_option("--driver-confirm", confirm, "ask before each move of a real robot: always or never")
       ->check(CLI::IsMember({"always", "never"}))
       ->capture_default_str()
@@ -42,6 +48,9 @@ void ScannerOptions::add_to(CLI::App& app) {
 }
 
 Scanner::Scanner(const ScannerOptions& options, Configuration& configuration, const std::stop_token& stop) {
+  if (!configuration.recorded.folder.empty())
+    throw std::invalid_argument(
+        configuration.as_given("recorded.folder: --driver scans with a live scanner and goes through no recording"));
   ScannerWishes wishes{options.command};
   if (options.confirm == "always") wishes.confirm = confirmed;
   wishes.log = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };

@@ -12,7 +12,7 @@ namespace nextview {
 struct ScannerOptions {
   std::string command, confirm = "always";
 
-  /// Adds --driver and --driver-confirm.
+  /// Adds --driver and --driver-confirm to a command that has the options of ConfigurationOptions already.
   void add_to(CLI::App& app);
   bool wanted() const { return !command.empty(); }
 };

@@ -4,7 +4,7 @@
 The camera stands still, DISTANCE from the axis and HEIGHT above the middle of the object [m], and looks at that middle;
 the object turns. Seen from the object the camera flies on a circle: all other poses cannot be reached. In this example
 nothing turns, and FOLDER holds what the camera sees, named by the angle in degrees: 000.ply, 015.ply, …, points in the
-camera frame [m]."""
+camera frame [m]. The views are at those angles, and every 15 degrees while there is no scan yet."""
 import json, math, os, sys
 
 FOLDER = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__))
@@ -44,12 +44,18 @@ def reach(start, goal):
     return {"distance": turn * DISTANCE, "rotation": turn, "seconds": turn / TURN_RATE}
 
 
+def scans():
+    """The scans by their angles [degrees]."""
+    files = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
+    return {float(f[:-4]): f for f in files if f.endswith(".ply") and f[:-4].isdigit()}
+
+
 def capture():
     """The scan whose angle is nearest, and the pose that belongs to it."""
-    angles = {float(f[:-4]): f for f in os.listdir(FOLDER) if f.endswith(".ply") and f[:-4].isdigit()}
+    angles = scans()
     off = {a: abs(math.remainder(math.radians(a) - angle, 2 * math.pi)) for a in angles}
     nearest = min(off, key=off.get, default=None)
-    if nearest is None or off[nearest] > math.radians(4):
+    if nearest is None or off[nearest] > math.radians(3):
         return {"error": f"there is no scan of {math.degrees(angle) % 360:.0f} degrees in {FOLDER}"}
     return {"file": os.path.join(FOLDER, angles[nearest]), "pose": pose_at(math.radians(nearest))}
 
@@ -60,7 +66,9 @@ for line in sys.stdin:
     if kind == "bye":
         break
     if kind == "hello":
-        views = [pose_at(math.radians(a)) for a in range(0, 360, 15)]
+        degrees = sorted(scans()) or range(0, 360, 15)
+        angle = math.radians(degrees[0])
+        views = [pose_at(math.radians(a)) for a in degrees]
         result = dict(protocol=1, name="turntable", abilities=[], start=pose_at(angle), views=views, **SCANNER)
     elif kind == "reach":
         result = {"reach": [reach(request["from"], pose) for pose in request["poses"]]}

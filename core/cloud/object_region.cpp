@@ -13,6 +13,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/cloud/object_box.hpp"
+#include "core/cloud/point_spacing.hpp"
 #include "core/cloud/thinned_points.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -20,6 +22,7 @@ namespace nextview {
 namespace {
 
 constexpr double points_across = 250.0;    // the diagonal of all that was seen
+constexpr double sparse = 1.5;             // surfaces seen aslant have fewer points [usual distances of points]
 constexpr std::size_t most_planes = 6;     // that are looked at, largest first
 constexpr double least_share = 0.1;        // of what was seen, that a plane behind the object is
 constexpr double in_front = 0.95;          // of the rest, that lies on the side from which the plane was seen
@@ -34,7 +37,7 @@ using Indices = std::vector<std::size_t>;
 /// What was seen, thinned, and from which side.
 struct Seen {
   ThinnedPoints thinned;
-  std::vector<Vector3> towards_camera;  ///< of each thinned point, unit length
+  std::vector<Vector3> towards_camera;  ///< of each thinned point: the sum of the unit vectors of those it stands for
   double spacing = 0.0;                 ///< [m]
   double thickness = 0.0;               ///< of a plane, to either side [m]
 };
@@ -57,7 +60,8 @@ Seen look(std::span<const std::shared_ptr<const Scan>> scans, const PointCloud& 
   Seen seen;
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : hits) box.extend(p);
-  seen.spacing = std::max({double(box.diagonal().norm()) / points_across, 2.0 * noise, 1e-6});
+  seen.spacing =
+      std::max({double(box.diagonal().norm()) / points_across, 2.0 * noise, sparse * point_spacing(hits), 1e-6});
   seen.thickness = std::max(seen.spacing, 3.0 * noise);
   seen.thinned = thinned(hits, seen.spacing);
   seen.towards_camera.assign(seen.thinned.positions.size(), Vector3::Zero());
@@ -195,12 +199,14 @@ std::vector<Indices> pieces_without(const Seen& seen, const std::vector<Plane>& 
 void fill(ObjectRegion& region, const Seen& seen, const PointCloud& hits, const Indices& object, double margin) {
   std::vector<bool> kept(seen.thinned.positions.size());
   for (const std::size_t i : object) kept[i] = true;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!kept[seen.thinned.of_point[i]]) continue;
-    region.points.push_back(hits[i]);
-    region.box.extend(hits[i].cast<double>());
-  }
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (kept[seen.thinned.of_point[i]]) region.points.push_back(hits[i]);
   if (region.points.empty()) return;
+  Vector3 towards_cameras = Vector3::Zero();
+  for (const std::size_t i : object) towards_cameras += seen.towards_camera[i];
+  std::vector<Vector3> normals;
+  for (const BackgroundPlane& plane : region.planes) normals.push_back(plane.normal);
+  region.box = object_box(region.points, towards_cameras / double(region.points.size()), normals);
   const Vector3 around = Vector3::Constant(std::max(margin * region.box.sizes().maxCoeff(), seen.thickness));
   region.box = {region.box.min() - around, region.box.max() + around};
 }

@@ -25,8 +25,10 @@ struct BackgroundPlane {
 
 /// Where an object of which nothing is known seems to be.
 struct ObjectRegion {
-  Eigen::AlignedBox3d box;  ///< of the points that were kept, with the margin [m, world]; empty if there are none
-  PointCloud points;        ///< of the object
+  /// Of the points that were kept and what may be behind them (object_box), with the margin [m, world]; empty if there
+  /// are none.
+  Eigen::AlignedBox3d box;
+  PointCloud points;                    ///< of the object
   std::vector<BackgroundPlane> planes;  ///< that were removed
   std::size_t clusters = 0;             ///< what was left without them; the largest is the object
   double spacing = 0.0;                 ///< of the points that were looked at [m]

@@ -166,7 +166,7 @@ void add_parameters_and_views(RecordedScene& scene, const Eigen::AlignedBox3d& p
 }  // namespace
 
 RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, double resolution,
-                                     const std::function<void(const std::string&)>& notice) {
+                                     const std::function<void(const std::string&)>& notice, double unit) {
   if (!(stand_off >= 0.01 && stand_off <= 100.0))
     throw std::invalid_argument(fmt::format("range scans: stand_off must be from 0.01 to 100 m, not {}", stand_off));
   if (resolution != 0.0 && !(resolution >= 1e-4 && resolution <= 1.0))
@@ -177,16 +177,20 @@ RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, d
   RecordedScene scene;
   UnknownLines unknown;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const PointCloud points = read_ply(files[i], [&](const std::string& line) { unknown.add(files[i], line); });
+    PointCloud points = read_ply(files[i], [&](const std::string& line) { unknown.add(files[i], line); });
     if (points.empty()) throw std::runtime_error(fmt::format("{}: holds no points", files[i].string()));
-    scene.scans.push_back(before_a_camera(points, lines[i].T_world_scan, stand_off));
+    for (Eigen::Vector3f& point : points) point *= static_cast<float>(unit);
+    Pose T_world_scan = lines[i].T_world_scan;
+    T_world_scan.translation() *= unit;
+    scene.scans.push_back(before_a_camera(points, T_world_scan, stand_off));
   }
   if (notice && unknown.files > 0) notice(unknown.text());
   const Eigen::AlignedBox3d box = bounding_box(scene.scans);
   const double longest = box.sizes().maxCoeff();
   if (!(longest >= 0.01 && longest <= 40.0))
-    throw std::runtime_error(fmt::format("{}: its points span {:.3g} m; from 0.01 to 40 m are taken (is it in metres?)",
-                                         folder.string(), longest));
+    throw std::runtime_error(fmt::format(
+        "{}: its points span {:.3g} m; from 0.01 to 40 m are taken (is it in metres? dataset.toml has a unit)",
+        folder.string(), longest));
   add_parameters_and_views(scene, box, resolution > 0.0 ? resolution : one_significant_digit(0.01 * longest));
   return scene;
 }

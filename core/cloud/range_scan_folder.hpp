@@ -12,7 +12,8 @@ inline constexpr double default_stand_off = 0.7;
 /// Reads the range scans of a folder as the Stanford 3D Scanning Repository has them: one file `*.conf` with a line
 /// `bmesh FILE.ply tx ty tz qx qy qz qw` a scan, and beside it each FILE.ply, or FILE.ply.gz. Other lines of the .conf
 /// and all but the vertices are passed over, and so are lines of a scan's header that are not known: `notice` hears of
-/// them, in one line for the folder. A point goes to the world by p_world = R(q)^T p_scan + t [m].
+/// them, in one line for the folder. A point goes to the world by p_world = R(q)^T p_scan + t, in
+/// units of `unit` [m].
 ///
 /// The scanner sits on the +z side of a scan and looks along -z. Its camera is put at the mean x and y of the scan's
 /// points, `stand_off` [m] beyond their greatest z; rays from there run nearly along those of the scanner, not exactly.
@@ -29,6 +30,6 @@ inline constexpr double default_stand_off = 0.7;
 ///         40 m (other units?).
 RecordedScene read_range_scan_folder(const std::filesystem::path& folder, double stand_off = default_stand_off,
                                      double resolution = 0.0,
-                                     const std::function<void(const std::string&)>& notice = {});
+                                     const std::function<void(const std::string&)>& notice = {}, double unit = 1.0);
 
 }  // namespace nextview

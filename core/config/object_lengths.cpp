@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -58,6 +59,9 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   else
     fit("views.radius", 1.8 * longest);
   for (const FittedLength& length : fitted_lengths) fit(length.key, length.share * longest);
+  // From farther off, rays get as far behind the object's middle as they do from 1.8 times its size.
+  if (const double distance = configuration.sensor.working_distance; distance > 1.8 * longest)
+    fit("planner.ray_length", distance + 1.2 * longest);
 }
 
 bool is_given(const Configuration& configuration, const std::string& key) {
@@ -74,6 +78,15 @@ void set_unless_given(Configuration& configuration, const std::string& key, cons
   configuration.fitted[key] = setting.text();
 }
 
+void lengthen_rays(Configuration& configuration, std::span<const Pose> T_world_cameras) {
+  const Eigen::AlignedBox3d region = configuration.map.region_box();
+  double farthest = 0.0;
+  for (const Pose& pose : T_world_cameras) farthest = std::max(farthest, (pose.translation() - region.center()).norm());
+  const double way = farthest + 0.5 * region.diagonal().norm();
+  if (configuration.planner.ray_length < way)
+    set_unless_given(configuration, "planner.ray_length", fmt::format("{:.6g}", 1.01 * way));
+}
+
 void decide(Configuration& configuration, const std::string& key, const std::string& text, const std::string& owner) {
   auto all = settings(configuration);
   Setting& setting = find_setting(all, key);
@@ -82,8 +95,8 @@ void decide(Configuration& configuration, const std::string& key, const std::str
   const std::string own = setting.text();
   if (configuration.sources.contains(key) && asked != own) {
     setting.set(asked);  // which the message names as it was given
-    throw std::invalid_argument(
-        configuration.as_given(fmt::format("{}: {} has its own, {}; leave it out", key, owner, own)));
+    throw std::invalid_argument(configuration.as_given(
+        fmt::format("{}: {} has its own, {}; leave it out", key, owner, own.empty() ? "none" : own)));
   }
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "core/config/configuration.hpp"
 
 namespace nextview {
@@ -13,6 +15,9 @@ void fit_lengths(Configuration& configuration, double longest_side);
 bool is_given(const Configuration& configuration, const std::string& key);
 /// Sets a setting that follows from what is scanned, if it was not given.
 void set_unless_given(Configuration& configuration, const std::string& key, const std::string& text);
+
+/// Lets the rays that score a view get through the region of interest from each of these poses. @pre map.region is set
+void lengthen_rays(Configuration& configuration, std::span<const Pose> T_world_cameras);
 
 /// Sets a setting that what is scanned decides. Another value that was given is an error, not a wish.
 /// @throws std::invalid_argument naming the setting as it was given, and its `owner`: "the recording"

@@ -66,7 +66,7 @@ std::vector<Setting> settings(RecordedConfig& c) {
       {"recorded.folder", "", "scans that were taken elsewhere, instead of a simulated camera's: a folder or file",
        &c.folder},
       {"recorded.truth", "", "mesh of what was scanned, to compare with; it is aligned with the scans", &c.truth},
-      {"recorded.start", "", "frame to begin with, its name or number from 0; empty: the first", &c.start},
+      {"recorded.start", "", "frame to begin with, its name or the last number in that; empty: the first", &c.start},
       {"recorded.every", "", "takes each n-th frame", &c.every, from_to(1, 1e6)},
       {"recorded.stand_off", "m", "distance of the scanner, which Stanford's range images do not tell", &c.stand_off,
        from_to(0.01, 100)},

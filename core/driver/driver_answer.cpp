@@ -118,6 +118,13 @@ std::vector<std::string> DriverAnswer::texts(const char* key) const {
   return list.get<std::vector<std::string>>();
 }
 
+std::map<std::string, std::string> DriverAnswer::texts_by_key(const char* key) const {
+  const Json& entries = member(object_->json, key);
+  if (!entries.is_object() || !std::ranges::all_of(entries, &Json::is_string))
+    wrong(key, "an object of texts", entries);
+  return entries.get<std::map<std::string, std::string>>();
+}
+
 Pose DriverAnswer::pose(const char* key) const {
   const std::vector<double> values = numbers(key, 16);
   try {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ class DriverAnswer {
   std::vector<double> numbers(const char* key, std::size_t count) const;
   std::string text(const char* key) const;
   std::vector<std::string> texts(const char* key) const;
+  std::map<std::string, std::string> texts_by_key(const char* key) const;
   /// 16 numbers by rows. What is a rotation but for the digits it was printed with is made one; what is one stays as it
   /// is to the bit.
   Pose pose(const char* key) const;

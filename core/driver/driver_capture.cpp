@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/cloud/point_cloud.hpp"
@@ -54,6 +56,11 @@ std::vector<Vector3> points_of_ply(const fs::path& file) {
   return points;
 }
 
+bool is_empty(const std::variant<DepthImage, std::vector<Vector3>>& measured) {
+  if (const auto* points = std::get_if<std::vector<Vector3>>(&measured)) return points->empty();
+  return std::ranges::all_of(std::get<DepthImage>(measured).range, [](float range) { return std::isnan(range); });
+}
+
 }  // namespace
 
 Capture read_capture(const CapturedFile& captured, const fs::path& folder, const PinholeCamera& camera,
@@ -69,6 +76,7 @@ Capture read_capture(const CapturedFile& captured, const fs::path& folder, const
     capture.measured = points_of_ply(file);
   else
     refuse(file, "is of no kind that a capture is read from: .npy, .png, .ply");
+  if (is_empty(capture.measured)) refuse(file, "nothing was measured: it holds neither a range nor a free way");
   return capture;
 }
 

@@ -34,7 +34,7 @@ bool same(const PinholeCamera& a, const PinholeCamera& b) {
 /// Scans of one session are of one camera.
 bool same_scanner(const DriverGreeting& a, const DriverGreeting& b) {
   return same(a.camera, b.camera) && a.max_range == b.max_range && a.range_noise == b.range_noise &&
-         a.abilities == b.abilities;
+         a.abilities == b.abilities && a.object == b.object && a.settings == b.settings;
 }
 
 }  // namespace
@@ -50,13 +50,18 @@ DriverConnection::DriverConnection(DriverOptions options, std::stop_token stop)
     throw std::runtime_error(failure->reason);
   }
   greeting_ = std::get<DriverGreeting>(greeting);
-  if (greeting_.start) pose_ = *greeting_.start;
+  if (greeting_.start) stands_at(*greeting_.start);
 }
 
 DriverConnection::~DriverConnection() {
   protocol_.reset();
   std::error_code ignored;
-  std::filesystem::remove(options_.folder, ignored);  // if it is empty
+  if (made_folder_) std::filesystem::remove_all(options_.folder, ignored);
+}
+
+void DriverConnection::stands_at(const Pose& T_world_camera) {
+  pose_ = T_world_camera;
+  knows_pose_ = true;
 }
 
 Result<DriverGreeting> DriverConnection::start(const std::stop_token& stop) try {
@@ -97,16 +102,17 @@ std::optional<Failure> DriverConnection::reconnect(std::stop_token stop) {
   const auto& now = std::get<DriverGreeting>(greeting);
   if (!same_scanner(greeting_, now)) {
     protocol_.reset();
-    return Failure{Failure::disconnected,
-                   fmt::format("driver {}: it is another scanner than before: camera, range, noise or abilities differ",
-                               excerpt(now.name))};
+    return Failure{
+        Failure::disconnected,
+        fmt::format("driver {}: it is another scanner than before: camera, range, noise, abilities or object differ",
+                    excerpt(now.name))};
   }
   lost_ = false;
   if (is_simulated()) {
     const Result<Pose> put_back = move(Pose(pose_), stop);
     if (const auto* failure = std::get_if<Failure>(&put_back)) return *failure;
   } else if (now.start) {
-    pose_ = *now.start;
+    stands_at(*now.start);
   }
   return std::nullopt;
 }
@@ -137,29 +143,32 @@ Result<Pose> DriverConnection::move(const Pose& T_world_camera, std::stop_token 
   if (!protocol_) return not_running();
   Result<Pose> reached =
       noted(protocol_->move(T_world_camera * options_.T_flange_camera.inverse(), {patience(), std::move(stop)}));
-  if (auto* const pose = std::get_if<Pose>(&reached)) pose_ = *pose = *pose * options_.T_flange_camera;
+  if (auto* const pose = std::get_if<Pose>(&reached)) stands_at(*pose = *pose * options_.T_flange_camera);
   return reached;
 }
 
 Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed, std::stop_token stop) {
   if (!protocol_) return not_running();
   std::error_code error;
-  if (std::filesystem::create_directories(options_.folder, error); error)
+  if (std::filesystem::create_directories(options_.folder, error)) made_folder_ = true;
+  if (error)
     return Failure{Failure::no_data, fmt::format("{}: the folder for captures cannot be made: {}",
                                                  printable(options_.folder.string()), error.message())};
   const Result<CapturedFile> captured =
       noted(protocol_->capture(step, seed, options_.folder, {patience(), std::move(stop)}));
   if (const auto* failure = std::get_if<Failure>(&captured)) return *failure;
+  const CapturedFile& file = std::get<CapturedFile>(captured);
+  const auto remove_file = [&] {
+    if (std::filesystem::path(file.file).filename() == file.file)  // in our own folder: no one else's
+      std::filesystem::remove(options_.folder / file.file, error);
+  };
   try {
-    const CapturedFile& file = std::get<CapturedFile>(captured);
     Capture capture = read_capture(file, options_.folder, greeting_.camera, greeting_.max_range);
-    if (std::filesystem::path(file.file).filename() == file.file) {  // in our own folder, and read: no one else's
-      std::error_code ignored;
-      std::filesystem::remove(options_.folder / file.file, ignored);
-    }
-    pose_ = capture.T_world_camera = capture.T_world_camera * options_.T_flange_camera;
+    remove_file();
+    stands_at(capture.T_world_camera = capture.T_world_camera * options_.T_flange_camera);
     return capture;
   } catch (const std::runtime_error& unreadable) {
+    remove_file();
     return Failure{Failure::no_data, fmt::format("driver {}: capture: {}", protocol_->name(), unreadable.what())};
   }
 }

@@ -12,7 +12,7 @@ struct DriverOptions {
   double timeout = 30.0;                                   ///< of each request [s]; 0: for ever
   std::optional<Eigen::AlignedBox3d> working_volume = {};  ///< that the camera centre must not leave [m, world]
   Pose T_flange_camera = Pose::Identity();                 ///< where the driver's poses are those of a flange
-  std::filesystem::path folder = {};                       ///< for captures, which go once they are read
+  std::filesystem::path folder = {};                       ///< for captures, which go; so does the folder if it is made
   std::function<bool(const Pose& from, const Pose& to)> confirm = {};  ///< of each real move; null: never asked
   std::function<void(const std::string&)> log = {};  ///< hears its standard error by the line, from another thread
   double reached_within = 0.05;                      ///< of the wanted position, or the view was not reached [m]
@@ -38,11 +38,14 @@ class DriverConnection {
   const DriverOptions& options() const { return options_; }
   const DriverGreeting& greeting() const { return greeting_; }
   SourceDescription description() const;
-  bool is_simulated() const { return greeting_.can("simulated"); }
+  /// Who knows the true object can only be a simulator.
+  bool is_simulated() const { return greeting_.can("simulated") || !greeting_.object.empty(); }
   bool is_free_hand() const { return greeting_.can("free-hand"); }
 
   /// Where the camera is, as far as is known: where the driver last said, else where it was said to be.
   const Pose& pose() const { return pose_; }
+  /// Whether the driver has said where the camera is.
+  bool knows_pose() const { return knows_pose_; }
   /// Said where the driver itself does not.
   void set_pose(const Pose& T_world_camera) { pose_ = T_world_camera; }
 
@@ -66,13 +69,15 @@ class DriverConnection {
   double limit() const;
   template <class T>
   Result<T> noted(Result<T> result);
+  void stands_at(const Pose& T_world_camera);
 
   DriverOptions options_;
   std::vector<std::string> words_;
   DriverGreeting greeting_;
   std::unique_ptr<DriverProtocol> protocol_;
   Pose pose_ = Pose::Identity();
-  bool lost_ = false;
+  bool knows_pose_ = false, lost_ = false;
+  bool made_folder_ = false;  ///< for captures, and not someone else
 };
 
 }  // namespace nextview

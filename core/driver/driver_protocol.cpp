@@ -59,6 +59,7 @@ DriverGreeting greeting_of(const DriverAnswer& answer) {
   if (answer.has("region")) greeting.region = region_of(answer);
   if (answer.has("views")) greeting.views = answer.poses("views");
   if (answer.has("object")) greeting.object = answer.text("object");
+  if (answer.has("settings")) greeting.settings = answer.texts_by_key("settings");
   if (answer.has("timeout")) greeting.timeout = answer.number("timeout", 0.0, longest_wait);
   return greeting;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,13 +24,14 @@ struct DriverGreeting {
   std::string name;
   std::vector<std::string> abilities;  ///< "stop", "simulated", "free-hand"; others mean nothing
   PinholeCamera camera;
-  double max_range = 1.5;                          ///< [m]
-  double range_noise = 0.002;                      ///< standard deviation along the ray [m]
-  std::optional<Pose> start = {};                  ///< where the camera is: T_world_camera
-  std::optional<Eigen::AlignedBox3d> region = {};  ///< of interest [m, world]
-  std::vector<Pose> views = {};                    ///< that it can take, if these are all; empty: any
-  std::string object = {};                         ///< file of the true object; simulators only
-  std::optional<double> timeout = {};              ///< of a move and a capture [s]; 0: a person is waited for
+  double max_range = 1.5;                            ///< [m]
+  double range_noise = 0.002;                        ///< standard deviation along the ray [m]
+  std::optional<Pose> start = {};                    ///< where the camera is: T_world_camera
+  std::optional<Eigen::AlignedBox3d> region = {};    ///< of interest [m, world]
+  std::vector<Pose> views = {};                      ///< that it can take, if these are all; empty: any
+  std::string object = {};                           ///< file of the true object; simulators only
+  std::optional<double> timeout = {};                ///< of a move and a capture [s]; 0: a person is waited for
+  std::map<std::string, std::string> settings = {};  ///< object.* and sensor.* of our simulator, by key
 
   bool can(const std::string& ability) const;
 };
@@ -48,7 +50,8 @@ struct CapturedFile {
 ///     {"id": 1, "ok": true, "protocol": 1, "name": "arm", "abilities": ["stop"], "intrinsics": [fx, fy, cx, cy],
 ///      "width": 640, "height": 480, "max_range": 1.5, "range_noise": 0.002}
 /// (where it is known also: "start": [16 numbers], "region": [6 numbers], "object": "file", "timeout": seconds, and
-/// "views": [[16 numbers], …] of a scanner that can take these alone, which are then the candidates)
+/// "views": [[16 numbers], …] of a scanner that can take these alone, which are then the candidates; and of our
+/// simulator "settings": {"sensor.dropout": "0.1", …}, its own of object.* and sensor.*)
 ///
 ///     {"id": 2, "request": "reach", "from": [16 numbers], "poses": [[16 numbers], …]}
 ///     {"id": 2, "ok": true, "reach": [{"distance": 0.3, "rotation": 0.5, "seconds": 2}, {"unreachable": "why"}]}

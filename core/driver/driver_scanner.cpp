@@ -6,17 +6,34 @@
 #include <stdexcept>
 
 namespace nextview {
+namespace {
+
+/// Empty where a pose is near enough to the wanted one, or where a hand moves the scanner.
+std::string missed_by(const DriverConnection& connection, const Pose& wanted, const Pose& reached) {
+  const DriverOptions& options = connection.options();
+  const double distance = (reached.translation() - wanted.translation()).norm();
+  const double angle = rotation_angle(wanted, reached) * 180.0 / std::numbers::pi;
+  if (connection.is_free_hand() || (distance <= options.reached_within && angle <= options.turned_within)) return {};
+  return fmt::format("{:.3g} m and {:.3g} degrees from the view (at most {:g} m and {:g} degrees are taken)", distance,
+                     angle, options.reached_within, options.turned_within);
+}
+
+}  // namespace
 
 DriverSource::DriverSource(std::shared_ptr<DriverConnection> connection, std::uint64_t seed)
     : connection_(std::move(connection)), seed_(seed), description_(connection_->description()) {}
 
-Result<Capture> DriverSource::capture(const View&, std::uint32_t step, std::stop_token stop) {
-  return connection_->capture(step, seed_, std::move(stop));
+Result<Capture> DriverSource::capture(const View& view, std::uint32_t step, std::stop_token stop) {
+  Result<Capture> capture = connection_->capture(step, seed_, std::move(stop));
+  if (const auto* taken = std::get_if<Capture>(&capture))
+    if (const std::string off = missed_by(*connection_, view.T_world_camera, taken->T_world_camera); !off.empty())
+      return Failure{Failure::no_data, "the scan was taken " + off};
+  return capture;
 }
 
 DriverRobot::DriverRobot(std::shared_ptr<DriverConnection> connection, const Pose& start)
     : connection_(std::move(connection)) {
-  if (!connection_->greeting().start) connection_->set_pose(start);
+  if (!connection_->knows_pose()) connection_->set_pose(start);
 }
 
 std::vector<Reach> DriverRobot::reach(const Pose& from, std::span<const View> views) {
@@ -45,8 +62,8 @@ Result<Pose> DriverRobot::move_to(const View& view, std::stop_token stop) {
   Result<Pose> reached = connection_->move(wanted, stop);
   if (std::holds_alternative<Failure>(reached)) return reached;
   if (stop.stop_requested()) return Failure{Failure::cancelled, "the move was cancelled"};
-  if (const std::string reason = missed_by(wanted, std::get<Pose>(reached)); !reason.empty())
-    return Failure{Failure::unreachable, reason};
+  if (const std::string off = missed_by(*connection_, wanted, std::get<Pose>(reached)); !off.empty())
+    return Failure{Failure::unreachable, "the robot stopped " + off};
   return reached;
 }
 
@@ -65,17 +82,6 @@ std::string DriverRobot::forbidden(const Pose& T_world_camera) const {
   if (!volume || volume->contains(p)) return {};
   return fmt::format("the camera at ({:.3g}, {:.3g}, {:.3g}) m would leave the working volume (robot.working_volume)",
                      p.x(), p.y(), p.z());
-}
-
-/// Empty where it is near enough, or where a hand moves it.
-std::string DriverRobot::missed_by(const Pose& wanted, const Pose& reached) const {
-  const DriverOptions& options = connection_->options();
-  const double distance = (reached.translation() - wanted.translation()).norm();
-  const double angle = rotation_angle(wanted, reached) * 180.0 / std::numbers::pi;
-  if (connection_->is_free_hand() || (distance <= options.reached_within && angle <= options.turned_within)) return {};
-  return fmt::format(
-      "the robot stopped {:.3g} m and {:.3g} degrees from the view (at most {:g} m and {:g} degrees are taken)",
-      distance, angle, options.reached_within, options.turned_within);
 }
 
 }  // namespace nextview

@@ -13,7 +13,8 @@ class DriverSource : public ScanSource {
   /// `seed` is told to simulators with each capture.
   DriverSource(std::shared_ptr<DriverConnection> connection, std::uint64_t seed);
   const SourceDescription& describe() const override { return description_; }
-  /// The pose that counts is the one that the driver gives with the capture.
+  /// The pose that counts is the one that the driver gives with the capture. Far from the view it is a failure, as
+  /// that of a move.
   Result<Capture> capture(const View& view, std::uint32_t step, std::stop_token stop) override;
 
  private:
@@ -38,7 +39,6 @@ class DriverRobot : public Robot {
 
  private:
   std::string forbidden(const Pose& T_world_camera) const;
-  std::string missed_by(const Pose& wanted, const Pose& reached) const;
 
   std::shared_ptr<DriverConnection> connection_;
 };

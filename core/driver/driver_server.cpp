@@ -106,6 +106,7 @@ class Server {
                    {"range_noise", d.range_noise}};
     if (d.start) result["start"] = by_rows(*d.start);
     if (!scanner_.object.empty()) result["object"] = scanner_.object;
+    if (!scanner_.settings.empty()) result["settings"] = scanner_.settings;
     return result;
   }
 

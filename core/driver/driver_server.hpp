@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ struct ServedScanner {
   Robot& robot;
   /// The source whose noise has this seed.
   std::function<std::unique_ptr<ScanSource>(std::uint64_t seed)> source;
-  std::uint64_t seed = 1;  ///< where a request names none
+  std::uint64_t seed = 1;                            ///< where a request names none
+  std::map<std::string, std::string> settings = {};  ///< DriverGreeting::settings
 };
 
 /// The other side of the driver protocol, version 1: answers requests, a line each, until `bye` or the end of the

@@ -49,10 +49,20 @@ std::string value_of(const std::string& header, const char* key, const char* pat
   return std::regex_search(header, match, expression) ? match[1].str() : std::string();
 }
 
+template <class Value>
+std::vector<float> values_of(std::string_view bytes) {
+  std::vector<Value> values(bytes.size() / sizeof(Value));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+  return {values.begin(), values.end()};
+}
+
 NpyTable table_of(const std::string& bytes) {
   const Header header = header_of(bytes);
-  if (const std::string type = value_of(header.text, "descr", "['\"]([^'\"]*)['\"]"); type != "<f4")
-    throw std::invalid_argument(fmt::format("holds values of type '{}'; float32 ('<f4') is read", printable(type)));
+  const std::string type = value_of(header.text, "descr", "['\"]([^'\"]*)['\"]");
+  if (type != "<f4" && type != "<f8")
+    throw std::invalid_argument(
+        fmt::format("holds values of type '{}'; float32 ('<f4') and float64 ('<f8') are read", printable(type)));
+  const std::size_t size = type == "<f4" ? sizeof(float) : sizeof(double);
   if (value_of(header.text, "fortran_order", "(True|False)") != "False")
     throw std::invalid_argument("is not row by row (C order)");
   const std::string shape = value_of(header.text, "shape", "\\(([0-9, ]*)\\)");
@@ -64,11 +74,11 @@ NpyTable table_of(const std::string& bytes) {
   table.rows = std::stoi(sizes[1]);
   table.columns = std::stoi(sizes[2]);
   const std::uint64_t count = std::uint64_t(table.rows) * std::uint64_t(table.columns);
-  if (bytes.size() - header.end != count * sizeof(float))
+  if (bytes.size() - header.end != count * size)
     throw std::invalid_argument(fmt::format("has {} bytes of values; {} x {} values have {}", bytes.size() - header.end,
-                                            table.rows, table.columns, count * sizeof(float)));
-  table.values.resize(count);
-  if (count > 0) std::memcpy(table.values.data(), bytes.data() + header.end, count * sizeof(float));
+                                            table.rows, table.columns, count * size));
+  const std::string_view values = std::string_view(bytes).substr(header.end);
+  table.values = size == sizeof(float) ? values_of<float>(values) : values_of<double>(values);
   return table;
 }
 

@@ -10,7 +10,7 @@ struct NpyTable {
   std::vector<float> values;  ///< columns * rows
 };
 
-/// Reads a .npy file of float32 with two dimensions, little-endian, row by row (C order): versions 1 to 3.
+/// Reads a .npy file of float32 or float64 with two dimensions, little-endian, row by row (C order): versions 1 to 3.
 /// @throws std::runtime_error naming the file and the reason: missing, no regular file, another type or order,
 ///         not as many values as its shape says
 NpyTable read_npy(const std::filesystem::path& file);

@@ -124,7 +124,7 @@ bool says_something(const DatasetDescription& d, const std::string& key) {
   if (key == "camera_offset") return !d.camera_offset.empty();
   if (key == "intrinsics" || key.starts_with("depth.")) return images;
   if (key == "mask") return !d.mask.empty();
-  if (key == "unit") return clouds;
+  if (key == "unit") return clouds || d.format == RecordingFormat::stanford;
   return !d.region.empty();
 }
 
@@ -150,7 +150,7 @@ std::vector<Setting> settings(DatasetDescription& d) {
       {"frames", "", "pattern of the frames' files, in order of their names", &d.frames},
       {"width", "px", "of raw images", &d.depth.width, size},
       {"height", "px", "of raw images", &d.depth.height, size},
-      {"type", "", "of the values of raw images", choice(d.depth.type, {"uint16", "float32"})},
+      {"type", "", "of the values of raw images", choice(d.depth.type, {"uint16", "float32", "float64"})},
       {"offset", "bytes", "of the first value of raw images", &d.depth.offset, from_to(0, 1 << 20)},
       {"poses", "", "pattern of one file a frame, or one file for all", &d.poses},
       {"poses_format", "", "how poses are written",

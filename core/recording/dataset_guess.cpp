@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 #include "core/recording/frame_files.hpp"
+#include "core/recording/number_lines.hpp"
 
 namespace nextview {
 namespace {
@@ -28,7 +28,11 @@ std::string first_there(const fs::path& folder, std::initializer_list<const char
 }
 
 std::optional<GuessedDataset> stanford(const fs::path& folder) {
-  if (!has(folder, "*.conf")) return std::nullopt;
+  const std::vector<FrameFile> files = find_frame_files(folder, "*.conf");
+  const auto places_scans = [](const FrameFile& file) {
+    return read_text(file.file).find("bmesh ") != std::string::npos;
+  };
+  if (std::ranges::none_of(files, places_scans)) return std::nullopt;
   GuessedDataset guess;
   say(guess, "its .conf file says that these are range images as Stanford's");
   guess.description.format = RecordingFormat::stanford;
@@ -99,6 +103,14 @@ void guess_intrinsics(const fs::path& folder, GuessedDataset& guess) {
   say(guess, "intrinsics are not told: 525 px and the centre of 640 x 480, usual of structured light");
 }
 
+/// Of a .npy file; who keeps whole numbers counts millimetres.
+bool holds_real_numbers(const fs::path& file) try {
+  const std::string bytes = read_plain_or_gzip(file);
+  return is_npy(bytes) && !decode_npy(bytes).real.empty();
+} catch (const std::runtime_error&) {
+  return false;  // it is refused by its name when it is read
+}
+
 std::optional<GuessedDataset> pose_beside_each(const fs::path& folder) {
   const std::string frames =
       first_there(folder, {"frame-*.depth.png", "frame-*.depth.pgm", "*.depth.png", "*.depth.npy"});
@@ -107,9 +119,12 @@ std::optional<GuessedDataset> pose_beside_each(const fs::path& folder) {
   GuessedDataset guess;
   guess.description.frames = frames;
   guess.description.poses = poses;
+  const bool in_metres = holds_real_numbers(find_frame_files(folder, frames).front().file);
+  if (in_metres) guess.description.depth.scale = 1.0;
   say(guess,
-      "its files' names say that these are depth images as of 3DMatch or 7-Scenes: depths in mm along z, "
-      "poses from camera to world");
+      fmt::format("its files' names say that these are depth images as of 3DMatch or 7-Scenes: depths in {} along "
+                  "z, poses from camera to world",
+                  in_metres ? "m (they are no whole numbers)" : "mm"));
   guess_intrinsics(folder, guess);
   return guess;
 }
@@ -130,24 +145,13 @@ std::optional<GuessedDataset> tum(const fs::path& folder) {
   return guess;
 }
 
-std::string first_line(const fs::path& file) {
-  std::ifstream text(file);
-  std::string line;
-  while (std::getline(text, line) && (line.empty() || line.starts_with('#'))) continue;
-  return line;
-}
-
-/// How many numbers stand in the first line of a file of poses, behind a name.
 PoseFormat format_of_poses(const fs::path& file) {
-  const std::string line = first_line(file);
-  std::size_t words = 0;
-  bool in_word = false;
-  for (const char c : line) {
-    const bool blank = c == ' ' || c == '\t' || c == ',' || c == '\r';
-    words += !blank && !in_word;
-    in_word = !blank;
+  for (const NumberLine& line : number_lines(read_text(file))) {
+    if (line.numbers.size() == 7) return PoseFormat::quaternion_xyzw;
+    if (line.numbers.size() == 8) return PoseFormat::tum;
+    if (!line.numbers.empty()) break;
   }
-  return words == 7 || words == 8 ? PoseFormat::quaternion_xyzw : PoseFormat::matrix4x4;
+  return PoseFormat::matrix4x4;
 }
 
 std::optional<GuessedDataset> clouds(const fs::path& folder) {
@@ -166,7 +170,9 @@ std::optional<GuessedDataset> clouds(const fs::path& folder) {
   }
   d.poses_format = format_of_poses(find_frame_files(folder, poses).front().file);
   say(guess, fmt::format("clouds, placed by {}: {}, sensor to world, optical axes (z forward)", poses,
-                         d.poses_format == PoseFormat::matrix4x4 ? "matrices" : "x y z qx qy qz qw"));
+                         d.poses_format == PoseFormat::matrix4x4 ? "matrices"
+                         : d.poses_format == PoseFormat::tum     ? "time x y z qx qy qz qw"
+                                                                 : "x y z qx qy qz qw"));
   return guess;
 }
 

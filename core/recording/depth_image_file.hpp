@@ -32,10 +32,10 @@ struct ImageMask {
 /// @throws std::runtime_error "FILE: reason"
 ImageMask read_mask(const std::filesystem::path& file);
 
-/// Reads a depth image: 16-bit grey PNG or PGM, .npy (uint16 or float32), or values without a header, by what its first
-/// bytes say; each may be compressed with gzip (.gz). The size is the file's, the rest of the camera `intrinsics`.
-/// Not a number, negative, the greatest uint16 (sensors say so that they measured nothing) and masked pixels are
-/// invalid; infinite is beyond range.
+/// Reads a depth image: 16-bit grey PNG or PGM, .npy (uint16, float32 or float64), or values without a header, by what
+/// its first bytes say; each may be compressed with gzip (.gz). The size is the file's, the rest of the camera
+/// `intrinsics`. Not a number, negative, the greatest uint16 (sensors say so that they measured nothing) and masked
+/// pixels are invalid; infinite is beyond range.
 /// @throws std::runtime_error "FILE: reason": missing, truncated, damaged, absurd or differing sizes, 8 bits, colour
 DepthImage read_depth_image(const std::filesystem::path& file, const DepthFormat& format,
                             const PinholeCamera& intrinsics, const ImageMask* mask = nullptr);

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -102,27 +103,31 @@ ImageValues decode_npy(std::string_view bytes) {
   if (length > bytes.size() - 8 - length_size) throw std::runtime_error("is truncated");
   const std::string_view header = bytes.substr(8 + length_size, length);
   const std::string_view kind = npy_entry(header, "'descr'").substr(0, 5);
-  if (kind != "'<f4'" && kind != "'<u2'")
-    throw std::runtime_error("must hold little-endian float32 or uint16 ('<f4' or '<u2')");
+  constexpr std::string_view kinds[] = {"'<u2'", "'<f4'", "'<f8'"};  // in the order of RawType
+  const auto known = std::ranges::find(kinds, kind);
+  if (known == std::end(kinds))
+    throw std::runtime_error("must hold little-endian uint16, float32 or float64 ('<u2', '<f4' or '<f8')");
   if (!npy_entry(header, "'fortran_order'").starts_with("False"))
     throw std::runtime_error("must hold its array row by row (fortran_order False)");
   const auto [height, width] = npy_shape(npy_entry(header, "'shape'"));
-  return decode_raw(bytes, width, height, kind == "'<f4'" ? RawType::float32 : RawType::uint16,
-                    8 + length_size + length);
+  return decode_raw(bytes, width, height, static_cast<RawType>(known - kinds), 8 + length_size + length);
 }
 
 ImageValues decode_raw(std::string_view bytes, int width, int height, RawType type, std::size_t offset) {
   require_image_size(width, height);
-  const std::size_t size = type == RawType::uint16 ? 2 : 4, expected = offset + count(width, height) * size;
+  const std::size_t size = type == RawType::uint16    ? 2
+                           : type == RawType::float32 ? 4
+                                                      : 8,
+                    expected = offset + count(width, height) * size;
   if (bytes.size() != expected)
     throw std::runtime_error(fmt::format("has {} bytes where {} x {} pixels of {} bytes and {} before them take {}",
                                          bytes.size(), width, height, size, offset, expected));
   ImageValues image{width, height, 1, static_cast<int>(8 * size), {}, {}};
   bytes.remove_prefix(offset);
-  if (type == RawType::uint16)
-    image.whole = copied<std::uint16_t>(bytes);
-  else
-    image.real = copied<float>(bytes);
+  if (type == RawType::uint16) image.whole = copied<std::uint16_t>(bytes);
+  if (type == RawType::float32) image.real = copied<float>(bytes);
+  if (type == RawType::float64)
+    for (const double value : copied<double>(bytes)) image.real.push_back(static_cast<float>(value));
   return image;
 }
 

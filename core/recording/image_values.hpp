@@ -19,13 +19,13 @@ struct ImageValues {
   std::vector<float> real;           ///< numbers, or empty
 };
 
-enum class RawType { uint16, float32 };
+enum class RawType { uint16, float32, float64 };
 
 /// Each takes the bytes of a file. @throws std::runtime_error with the reason alone, for the caller to name the file:
 /// truncated, damaged, a size that no image has (before anything is allocated), a kind that is not read.
 ImageValues decode_png(std::string_view bytes);  ///< all but interlaced
 ImageValues decode_pgm(std::string_view bytes);  ///< binary (P5)
-ImageValues decode_npy(std::string_view bytes);  ///< two-dimensional uint16 or float32 of numpy, little-endian
+ImageValues decode_npy(std::string_view bytes);  ///< two-dimensional uint16, float32 or float64 of numpy, little-endian
 /// Values without a header, little-endian, from `offset` [bytes] to exactly the end.
 ImageValues decode_raw(std::string_view bytes, int width, int height, RawType type, std::size_t offset);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "core/recording/number_lines.hpp"
@@ -22,11 +23,11 @@ struct FoundPose {
   std::string heading;
   std::optional<double> time = {};
   std::size_t line = 0;
+  std::string fault = {};  // that was seen before it was a matrix
 };
 
 /// Why this is no pose, or nothing.
 std::string fault(const Matrix34& m) {
-  if (!m.allFinite()) return "the pose is not finite";
   const Eigen::Matrix3d r = m.leftCols<3>();
   const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error <= rotation_tolerance))
@@ -44,15 +45,23 @@ Pose rigid(const Matrix34& m) {
   return pose;
 }
 
-Pose T_world_camera(const fs::path& file, const FoundPose& found, PoseDirection direction, PoseAxes axes) {
-  if (const std::string why = fault(found.matrix); !why.empty()) throw line_failure(file, found.line, why);
+NamedPose named_pose(const fs::path& file, const FoundPose& found, PoseDirection direction, PoseAxes axes) {
+  NamedPose named{Pose::Identity(), found.heading, found.time, found.line};
+  named.is_unknown = !found.matrix.allFinite();
+  if (named.is_unknown) return named;
+  if (const std::string why = found.fault.empty() ? fault(found.matrix) : found.fault; !why.empty()) {
+    named.fault = line_failure(file, found.line, why).what();
+    return named;
+  }
   Pose pose = rigid(found.matrix);
   if (direction == PoseDirection::world_to_sensor) pose = pose.inverse();
-  return axes == PoseAxes::body ? pose * camera_in_body() : pose;
+  named.T_world_camera = axes == PoseAxes::body ? pose * camera_in_body() : pose;
+  return named;
 }
 
+/// Whether a row of four ends a matrix. Of a pose that is not known, it may be unknown too.
 bool is_last_row(const std::vector<double>& row) {
-  return row == std::vector<double>{0, 0, 0, 1} || (row.size() == 4 && row[0] == 0 && row[1] == 0 && row[2] == 0);
+  return (row[0] == 0 && row[1] == 0 && row[2] == 0) || !std::isfinite(row[0]);
 }
 
 /// The rows of one or several matrices below one another: of four rows each if each fourth is 0 0 0 1, else of three.
@@ -68,39 +77,63 @@ void add_rows(const fs::path& file, const NumberBlock& block, std::vector<FoundP
     FoundPose pose{{}, block.heading, {}, block.rows[i].line};
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 4; ++c) pose.matrix(r, c) = block.rows[i + std::size_t(r)].numbers[std::size_t(c)];
-    if (by_four && block.rows[i + 3].numbers[3] != 1.0)
-      throw line_failure(file, block.rows[i + 3].line, "the last row of a pose must be 0 0 0 1");
+    if (by_four && block.rows[i + 3].numbers[3] != 1.0) pose.fault = "the last row of a pose must be 0 0 0 1";
     found.push_back(pose);
   }
 }
 
-std::vector<FoundPose> matrices(const fs::path& file, const std::string& text) {
+/// Whether four of 16 numbers, `step` apart, are 0 0 0 1: the last row, or of a matrix by columns what is left of it.
+bool is_end(const std::vector<double>& numbers, std::size_t first, std::size_t step) {
+  constexpr double rounding = 1e-6;
+  const auto off = [&](std::size_t k, double from) { return std::abs(numbers[first + k * step] - from); };
+  return std::max({off(0, 0.0), off(1, 0.0), off(2, 0.0), off(3, 1.0)}) <= rounding;
+}
+
+/// Matrices in a line each, of 16 numbers or 12. Returns whether they stand by columns.
+bool add_lines(const NumberBlock& block, std::vector<FoundPose>& found) {
+  const bool whole = block.columns() == 16;
+  const bool by_columns = whole && std::ranges::any_of(block.rows, [](const NumberLine& row) {
+                            return is_end(row.numbers, 3, 4) && !is_end(row.numbers, 12, 1);
+                          });
+  for (const NumberLine& row : block.rows) {
+    FoundPose pose{
+        Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(row.numbers.data()), row.words, {}, row.line};
+    if (by_columns) pose.matrix = Eigen::Map<const Eigen::Matrix4d>(row.numbers.data()).topRows<3>();
+    if (whole && !is_end(row.numbers, by_columns ? 3 : 12, by_columns ? 4 : 1))
+      pose.fault = "the last row of a pose must be 0 0 0 1";
+    found.push_back(pose);
+  }
+  return by_columns;
+}
+
+std::vector<FoundPose> matrices(const fs::path& file, const std::string& text,
+                                const std::function<void(const std::string&)>& notice) {
   std::vector<FoundPose> found;
+  bool by_columns = false;
   for (const NumberBlock& block : number_blocks(text)) {
     if (block.columns() == 4) add_rows(file, block, found);
-    if (block.columns() != 12 && block.columns() != 16) continue;
-    for (const NumberLine& row : block.rows)
-      found.push_back({Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(row.numbers.data()),
-                       row.words,
-                       {},
-                       row.line});
+    if (block.columns() == 12 || block.columns() == 16) by_columns |= add_lines(block, found);
   }
+  if (by_columns && notice) notice("poses of 16 numbers a line are taken by columns, for so they end with 0 0 0 1");
   return found;
 }
 
-/// A line of position and quaternion; what stands before the seven numbers is a timestamp in tum.
+/// A line of position and quaternion; what stands before the seven numbers is a timestamp in tum, else may be the
+/// frame's number.
 FoundPose quaternion_pose(const fs::path& file, const NumberLine& line, PoseFormat format) {
-  const std::size_t before = format == PoseFormat::tum ? 1 : 0;
+  const bool is_numbered = line.numbers.size() == 8 && line.words.empty() && format != PoseFormat::conf &&
+                           line.numbers[0] >= 0.0 && line.numbers[0] == std::floor(line.numbers[0]);
+  const std::size_t before = format == PoseFormat::tum || is_numbered ? 1 : 0;
   if (line.numbers.size() != before + 7)
     throw line_failure(file, line.line, fmt::format("expected {} numbers, found {}", before + 7, line.numbers.size()));
   const double* v = line.numbers.data() + before;
   const bool w_first = format == PoseFormat::quaternion_wxyz;
   Eigen::Quaterniond q =
       w_first ? Eigen::Quaterniond(v[3], v[4], v[5], v[6]) : Eigen::Quaterniond(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(q.norm() - 1.0) <= rotation_tolerance))
-    throw line_failure(file, line.line, fmt::format("the quaternion has length {:.6g}; it must be 1", q.norm()));
+  FoundPose pose{{}, is_numbered ? fmt::format("{:.0f}", line.numbers[0]) : line.words, {}, line.line};
+  if (std::isfinite(q.norm()) && std::abs(q.norm() - 1.0) > rotation_tolerance)
+    pose.fault = fmt::format("the quaternion has length {:.6g}; it must be 1", q.norm());
   q.normalize();
-  FoundPose pose{{}, line.words, {}, line.line};
   pose.matrix << (format == PoseFormat::conf ? q.conjugate() : q).toRotationMatrix(), Vector3(v[0], v[1], v[2]);
   if (format == PoseFormat::tum) pose.time = line.numbers.front();
   return pose;
@@ -138,14 +171,19 @@ Pose camera_in_body() {
   return T_body_camera;
 }
 
-std::vector<NamedPose> read_poses(const fs::path& file, PoseFormat format, PoseDirection direction, PoseAxes axes) {
+std::optional<Pose> NamedPose::pose() const {
+  if (!fault.empty()) throw std::runtime_error(fault);
+  return is_unknown ? std::nullopt : std::optional(T_world_camera);
+}
+
+std::vector<NamedPose> read_poses(const fs::path& file, PoseFormat format, PoseDirection direction, PoseAxes axes,
+                                  const std::function<void(const std::string&)>& notice) {
   const std::string text = read_text(file);
   const std::vector<FoundPose> found =
-      format == PoseFormat::matrix4x4 ? matrices(file, text) : quaternions(file, text, format);
+      format == PoseFormat::matrix4x4 ? matrices(file, text, notice) : quaternions(file, text, format);
   if (found.empty()) throw std::runtime_error(fmt::format("{}: holds no pose", file.string()));
   std::vector<NamedPose> poses;
-  for (const FoundPose& pose : found)
-    poses.push_back({T_world_camera(file, pose, direction, axes), pose.heading, pose.time, pose.line});
+  for (const FoundPose& pose : found) poses.push_back(named_pose(file, pose, direction, axes));
   return poses;
 }
 

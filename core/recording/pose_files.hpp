@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ namespace nextview {
 /// matrices; numbers are apart by blanks, commas or semicolons.
 enum class PoseFormat {
   matrix4x4,        ///< four or three rows of four numbers; or all of them, 16 or 12, in a line, maybe behind a name
-  quaternion_xyzw,  ///< px py pz qx qy qz qw, maybe behind a name
-  quaternion_wxyz,  ///< px py pz qw qx qy qz, maybe behind a name
+  quaternion_xyzw,  ///< px py pz qx qy qz qw, maybe behind a name or a whole number
+  quaternion_wxyz,  ///< px py pz qw qx qy qz, likewise
   tum,              ///< timestamp tx ty tz qx qy qz qw
   conf              ///< Stanford: bmesh NAME tx ty tz qx qy qz qw, where q turns the other way
 };
@@ -26,14 +27,22 @@ struct NamedPose {
   std::string heading;              ///< the line above a matrix, or the name in the line; may be empty
   std::optional<double> time = {};  ///< of tum [s]
   std::size_t line = 0;             ///< in the file, from 1
+  bool is_unknown = false;          ///< its numbers are not finite: so recorders say that they did not know it
+  std::string fault = {};           ///< "FILE:LINE: reason" of what stands there and is no pose: no rotation within
+                                    ///< 1e-3, over 1e6 m off; T_world_camera means nothing then
+
+  /// None where it is unknown. @throws std::runtime_error with its fault
+  std::optional<Pose> pose() const;
 };
 
 /// The poses of a file, at least one, as T_world_camera whatever the file holds. A matrix that is neither 4x4 nor 3x4
-/// (intrinsics stand in such files too) is passed over.
-/// @throws std::runtime_error "FILE:LINE: reason": not numbers, not finite, not a rotation within 1e-3, over 1e6 m off
+/// (intrinsics stand in such files too) is passed over. `notice`, if given, hears what was guessed: that matrices in a
+/// line stand by columns, as their last numbers say.
+/// @throws std::runtime_error "FILE:LINE: reason": not as many numbers as there must be
 std::vector<NamedPose> read_poses(const std::filesystem::path& file, PoseFormat format,
                                   PoseDirection direction = PoseDirection::sensor_to_world,
-                                  PoseAxes axes = PoseAxes::optical);
+                                  PoseAxes axes = PoseAxes::optical,
+                                  const std::function<void(const std::string&)>& notice = {});
 
 /// The 3x3 matrix K of a file as a camera (width and height 0): the first block of three rows of three numbers, or of a
 /// 4x4 one, or four numbers fx fy cx cy in a line. With `heading`, the one below a line that contains that text.

@@ -47,6 +47,7 @@ void place_frames(Recording& recording, const FramePoses& poses, const Pose& T_p
     recording.guessed.push_back(fmt::format("{} without a pose {} left out, {} for example", counted(missing, "frame"),
                                             missing == 1 ? "is" : "are", first));
   recording.frames = std::move(placed);
+  recording.guessed.insert(recording.guessed.end(), poses.guessed.begin(), poses.guessed.end());
   recording.files.insert(recording.files.end(), poses.files.begin(), poses.files.end());
 }
 
@@ -123,9 +124,10 @@ void list_scans(std::shared_ptr<const RecordedScene> scene, const std::vector<st
                                 [scene, i]() -> Measured { return scene->scans[i].points; }});
 }
 
-void list_stanford(const DescribedDataset& dataset, double stand_off, Recording& recording) {
-  const auto scene = std::make_shared<RecordedScene>(read_range_scan_folder(
-      dataset.folder, stand_off, 0.0, [&](const std::string& notice) { recording.guessed.push_back(notice); }));
+void list_stanford(const DescribedDataset& dataset, double stand_off, double unit, Recording& recording) {
+  const auto notice = [&](const std::string& text) { recording.guessed.push_back(text); };
+  const auto scene =
+      std::make_shared<RecordedScene>(read_range_scan_folder(dataset.folder, stand_off, 0.0, notice, unit));
   recording.guessed.push_back(fmt::format(
       "the scanner's distance is not told: it is taken to stand {} m off each scan's nearest point", stand_off));
   const fs::path conf = find_frame_files(dataset.folder, "*.conf").front().file;
@@ -172,7 +174,7 @@ Recording list_frames(const DescribedDataset& dataset, const RecordingOptions& o
       list_clouds(dataset, cloud_unit, recording);
       break;
     case RecordingFormat::stanford:
-      list_stanford(dataset, options.stand_off, recording);
+      list_stanford(dataset, options.stand_off, cloud_unit, recording);
       break;
     case RecordingFormat::scan_graph:
       list_graph(dataset, recording);

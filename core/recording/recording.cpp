@@ -109,14 +109,13 @@ Recording open_recording(const fs::path& path, const RecordingOptions& options, 
   const DatasetDescription& description = dataset.description;
   Recording recording = list_frames(dataset, options, unit_length(description.unit));
   const Survey found = survey(path, recording, progress, stop);
-  constexpr double longest_in_metres = 1000.0;
-  const bool in_mm = description.format == RecordingFormat::clouds && description.unit == CloudUnit::automatic &&
-                     found.longest_side() > longest_in_metres;
-  if (in_mm) {
-    recording = list_frames(dataset, options, unit_length(CloudUnit::mm));
-    recording.guessed.push_back(
-        fmt::format("the clouds' unit is taken as mm, for they span {:.4g} (unit overrules it)", found.longest_side()));
-  }
+  constexpr double longest_in_metres = 10.0;  // as of objects
+  const bool is_guess = description.format == RecordingFormat::clouds && description.unit == CloudUnit::automatic;
+  const bool in_mm = is_guess && found.longest_side() > longest_in_metres;
+  if (in_mm) recording = list_frames(dataset, options, unit_length(CloudUnit::mm));
+  if (is_guess)
+    recording.guessed.push_back(fmt::format("the clouds' unit is taken as {}, for they span {:.4g} (unit overrules it)",
+                                            in_mm ? "mm" : "m", found.longest_side()));
   found.tell(recording, in_mm ? unit_length(CloudUnit::mm) : 1.0);
   return recording;
 }

@@ -3,38 +3,63 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <tuple>
 
 #include "core/cloud/object_region.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/driver/driver_scanner.hpp"
+#include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
 namespace {
 
-/// Of its own for each program that runs: captures of two must not meet.
+/// Of its own for each connection: captures of two must not meet.
 std::filesystem::path captures_folder() {
-  return std::filesystem::temp_directory_path() / fmt::format("nextview-captures-{}", ::getpid());
+  static std::atomic<int> count = 0;
+  return std::filesystem::temp_directory_path() / fmt::format("nextview-captures-{}-{}", ::getpid(), ++count);
 }
 
-std::string text(const Vector3& p) { return fmt::format("{} {} {}", p.x(), p.y(), p.z()); }
+std::string text(const Eigen::AlignedBox3d& box) {
+  const Vector3 low = box.min(), high = box.max();
+  return fmt::format("{} {} {} {} {} {}", low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+}
 
-/// These are given from here on: no object's size changes them.
-void follow_greeting(Configuration& c, const DriverGreeting& greeting) {
-  const std::string owner = "the scanner";
-  decide_camera(c, greeting.camera, owner);
-  decide(c, "sensor.max_range", fmt::format("{}", greeting.max_range), owner);
-  decide(c, "sensor.range_noise", fmt::format("{}", greeting.range_noise), owner);
-  if (greeting.region)
-    decide(c, "map.region", text(greeting.region->min()) + " " + text(greeting.region->max()), owner);
+/// What the scanner decides is given from here on: no object's size changes it.
+void follow(Configuration& c, const std::string& key, const std::string& text) {
+  decide(c, key, text, "the scanner");
   auto all = settings(c);
-  for (const char* key :
-       {"sensor.width", "sensor.height", "sensor.intrinsics", "sensor.max_range", "sensor.range_noise", "map.region"})
-    if (const Setting& setting = find_setting(all, key); !setting.text().empty())
-      c.sources[key] = {key, "", setting.text()};
+  if (const Setting& setting = find_setting(all, key); !setting.text().empty())
+    c.sources[key] = {key, "", setting.text()};
+}
+
+/// Of our simulator, so that its scans have the bytes of those with the simulated camera built in.
+void follow_simulator(Configuration& c, const std::map<std::string, std::string>& own) {
+  auto all = settings(c);
+  for (const auto& [key, text] : own) {
+    const bool may_decide = (key.starts_with("object.") || key.starts_with("sensor.")) && key != "object.file";
+    if (!may_decide || std::ranges::find(all, key, &Setting::key) == all.end())
+      throw std::invalid_argument(
+          fmt::format("the driver decides '{}', which is no setting of a sensor or object", printable(key)));
+    follow(c, key, text);
+  }
+}
+
+void follow_greeting(Configuration& c, const DriverGreeting& greeting) {
+  follow_simulator(c, greeting.settings);
+  const PinholeCamera& k = greeting.camera;
+  if (!greeting.settings.contains("sensor.intrinsics")) {  // else the settings say all of it
+    follow(c, "sensor.width", fmt::format("{}", k.width));
+    follow(c, "sensor.height", fmt::format("{}", k.height));
+    follow(c, "sensor.intrinsics", fmt::format("{} {} {} {}", k.fx, k.fy, k.cx, k.cy));
+  }
+  follow(c, "sensor.max_range", fmt::format("{}", greeting.max_range));
+  follow(c, "sensor.range_noise", fmt::format("{}", greeting.range_noise));
+  if (greeting.region) follow(c, "map.region", text(*greeting.region));
 }
 
 /// Where the object seems to stand, as the scanner sees it from where it is.
@@ -56,16 +81,16 @@ std::string region_of_first_scan(const Configuration& c, DriverConnection& conne
     throw std::runtime_error(
         fmt::format("{} sees no object from where it stands: give its box as map.region, six numbers [m]", name));
   if (const auto& log = connection.options().log) log(found.text());
-  return text(found.box.min()) + " " + text(found.box.max());
+  return text(found.box);
 }
 
 /// Of an object that no one has a mesh of.
 void follow_region(Configuration& c, DriverConnection& connection, const std::stop_token& stop) {
-  if (c.map.region.empty()) {
-    c.map.region = region_of_first_scan(c, connection, stop);
-    c.fitted["map.region"] = c.map.region;
-  }
+  if (c.map.region.empty()) c.map.region = c.fitted["map.region"] = region_of_first_scan(c, connection, stop);
   fit_lengths(c, c.map.region_box().sizes().maxCoeff() / 1.2);  // as large as a margin of a tenth leaves
+  std::vector<Pose> places = connection.greeting().views;
+  if (connection.knows_pose()) places.push_back(connection.pose());
+  lengthen_rays(c, places);
   set_unless_given(c, "sensor.min_range", "0");
   c.evaluation.enabled = false;
 }
@@ -88,8 +113,16 @@ class AbsentScanner : public ScanSource {
 
 }  // namespace
 
+void require_exact_robot(const Configuration& c) {
+  if (c.robot.exact()) return;
+  throw std::invalid_argument(
+      c.as_given(fmt::format("{}: a driver's robot has its own errors; leave it out",
+                             c.robot.position_error > 0.0 ? "robot.position_error" : "robot.rotation_error")));
+}
+
 std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const ScannerWishes& wishes,
                                                   const std::stop_token& stop) try {
+  require_exact_robot(c);
   DriverOptions options;
   options.command = wishes.command;
   options.timeout = c.driver.timeout;

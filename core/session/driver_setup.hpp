@@ -18,8 +18,12 @@ struct ScannerWishes {
   std::function<void(const std::string&)> log = {};                    ///< hears the driver's standard error
 };
 
+/// Errors of a robot are made up for the simulated camera that is built in, and for no driver.
+/// @throws std::invalid_argument naming the setting
+void require_exact_robot(const Configuration& configuration);
+
 /// Starts the driver, and lets the configuration follow what it says of itself: camera, range and noise; the object of
-/// a simulator, which is then evaluated; the region of interest.
+/// a simulator, which is then evaluated, and its settings; the region of interest.
 /// @throws std::invalid_argument naming a setting that conflicts, or that is missing; std::runtime_error with the
 /// reason; Stopped
 std::shared_ptr<DriverConnection> connect_scanner(Configuration& configuration, const ScannerWishes& wishes,

@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
 
 #include "core/cloud/ply_header.hpp"
+#include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
+#include "core/file/gzip_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/progress/stopped.hpp"
@@ -26,12 +31,19 @@ std::string lower_case_extension(const fs::path& file) {
   return extension;
 }
 
-/// Whether a PLY file has points alone. One that is damaged is for the mesh reader to refuse.
-bool has_no_faces(const fs::path& file) try {
+/// Enough of a file for its header.
+std::string beginning(const fs::path& file) {
+  if (file.extension() == ".gz") return read_gzip_file(file);
   const Descriptor descriptor = open_regular_file(file);
   std::string begin(1 << 16, '\0');
   const ssize_t got = ::read(descriptor.get(), begin.data(), begin.size());
-  const PlyHeader header = parse_ply_header(std::string_view(begin).substr(0, std::size_t(std::max<ssize_t>(0, got))));
+  begin.resize(std::size_t(std::max<ssize_t>(0, got)));
+  return begin;
+}
+
+/// Whether a PLY file has points alone. One that is damaged is for the mesh reader to refuse.
+bool has_no_faces(const fs::path& file) try {
+  const PlyHeader header = parse_ply_header(beginning(file));
   const auto has = [&](std::initializer_list<const char*> names) {
     return std::ranges::any_of(header.elements, [&](const PlyElement& element) {
       return element.count > 0 && std::ranges::find(names, element.name) != names.end();
@@ -42,9 +54,40 @@ bool has_no_faces(const fs::path& file) try {
   return false;
 }
 
-bool is_cloud(const fs::path& file) {
-  const std::string extension = lower_case_extension(without_gz(file));
-  return extension == ".pcd" || (extension == ".ply" && (file.extension() == ".gz" || has_no_faces(file)));
+/// A folder that nobody else has, and that goes with its content.
+class OwnFolder {
+ public:
+  OwnFolder() {
+    std::string pattern = (fs::temp_directory_path() / "nextview-XXXXXX").string();
+    if (!::mkdtemp(pattern.data())) throw std::system_error(errno, std::generic_category(), pattern);
+    path_ = pattern;
+  }
+  ~OwnFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  OwnFolder(const OwnFolder&) = delete;
+  OwnFolder& operator=(const OwnFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// A compressed mesh, unpacked for its reader, which knows types by the endings of names.
+PlacedMesh load_unpacked(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
+  const std::string bytes = read_gzip_file(file, options.largest_file);
+  const OwnFolder folder;
+  const fs::path unpacked = folder.path() / file.stem();
+  write_file(unpacked, bytes);
+  try {
+    return load_placed_mesh(unpacked, options, stop);
+  } catch (const std::runtime_error& error) {
+    std::string message = error.what();
+    if (const std::size_t at = message.find(unpacked.string()); at != message.npos)
+      message.replace(at, unpacked.string().size(), file.string());
+    throw std::runtime_error(message);
+  }
 }
 
 PlacedMesh load_cloud(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
@@ -68,8 +111,14 @@ PlacedMesh load_cloud(const fs::path& file, const MeshFileOptions& options, cons
 
 }  // namespace
 
+bool is_cloud(const fs::path& file) {
+  const std::string extension = lower_case_extension(without_gz(file));
+  return extension == ".pcd" || (extension == ".ply" && has_no_faces(file));
+}
+
 PlacedMesh load_object_mesh(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
-  return is_cloud(file) ? load_cloud(file, options, stop) : load_placed_mesh(file, options, stop);
+  if (is_cloud(file)) return load_cloud(file, options, stop);
+  return file.extension() == ".gz" ? load_unpacked(file, options, stop) : load_placed_mesh(file, options, stop);
 }
 
 std::string cloud_note(const PlacedMesh& object) {

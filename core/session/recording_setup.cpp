@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include "core/config/object_lengths.hpp"
 #include "core/file/read_file.hpp"
 #include "core/journal/journal.hpp"
+#include "core/recording/frame_files.hpp"
 #include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
@@ -121,12 +121,10 @@ void follow_region(Configuration& c, const Recording& recording) {
                                high.y(), high.z()));
 }
 
-/// The way from the farthest frame to behind the region [m].
-double farthest_way(const Recording& recording, const Eigen::AlignedBox3d& region) {
-  double farthest = 0.0;
-  for (const RecordedFrame& frame : recording.frames)
-    farthest = std::max(farthest, (frame.T_world_camera.translation() - region.center()).norm());
-  return farthest + 0.5 * region.diagonal().norm();
+std::vector<Pose> poses_of(const Recording& recording) {
+  std::vector<Pose> poses;
+  for (const RecordedFrame& frame : recording.frames) poses.push_back(frame.T_world_camera);
+  return poses;
 }
 
 /// A recording ends when its frames do; what else may end it holds where it was given.
@@ -161,8 +159,7 @@ std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, cons
   }
   recording.max_range = std::min(recording.max_range, c.sensor.max_range);
   follow_region(c, recording);
-  const double way = farthest_way(recording, c.map.region_box());
-  if (c.planner.ray_length < way) set_unless_given(c, "planner.ray_length", fmt::format("{:.6g}", 1.01 * way));
+  lengthen_rays(c, poses_of(recording));
   set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
   follow_end(c, recording);
   recording.region.reset();  // which is the configuration's from here on
@@ -189,11 +186,13 @@ std::vector<View> frames_listed(const fs::path& file, const RecordedSource& sour
 std::uint32_t start_frame(const Configuration& c, const Recording& recording) {
   const std::string& wanted = c.recorded.start;
   if (wanted.empty()) return 0;
-  const auto named = std::ranges::find(recording.frames, wanted, &RecordedFrame::name);
-  if (named != recording.frames.end()) return std::uint32_t(named - recording.frames.begin());
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-  if (error == std::errc() && end == wanted.data() + wanted.size() && number < recording.frames.size()) return number;
+  const auto& frames = recording.frames;
+  auto found = std::ranges::find(frames, wanted, &RecordedFrame::name);
+  const auto is_meant = [&](const RecordedFrame& frame) {
+    return same_key(last_number(frame.name).value_or(""), wanted);
+  };
+  if (found == frames.end()) found = std::ranges::find_if(frames, is_meant);
+  if (found != frames.end()) return std::uint32_t(found - frames.begin());
   throw std::invalid_argument(
       c.as_given(fmt::format("recorded.start: there is no frame '{}'; there are {}, from {} to {}", wanted,
                              recording.frames.size(), recording.frames.front().name, recording.frames.back().name)));

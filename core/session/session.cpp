@@ -91,7 +91,7 @@ void Session::open_map() {
   Configuration& c = setup_.configuration;
   name_ = std::filesystem::path(c.object.file).filename().string();
   Configuration with_map = c;
-  with_map.map.start = c.object.file;
+  with_map.map.start = with_map.fitted["map.start"] = c.object.file;
   setup_.start_map = read_start_map(with_map);
   c = affordable(validated(framed_by(*setup_.start_map, with_map)));
   Recording nothing;

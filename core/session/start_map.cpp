@@ -28,6 +28,7 @@ Configuration framed_by(const OccupancyMap& map, Configuration c) {
   const Vector3 low = map.grid().lower(), high = map.grid().upper();
   fit_lengths(c, (high - low).maxCoeff());
   c.map.region = fmt::format("{} {} {} {} {} {}", low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+  c.fitted["map.region"] = c.map.region;  // what is opened next has its own
   return c;
 }
 

@@ -19,6 +19,11 @@ bool stands_at(const std::string& key, const std::string& message, std::size_t a
   return at == 0 || key.find('.') != key.npos;
 }
 
+/// Whether this text stands at that place.
+bool has_at(const std::string& message, std::size_t at, const std::string& text) {
+  return at <= message.size() && message.compare(at, text.size(), text) == 0;
+}
+
 }  // namespace
 
 std::string as_given(const std::string& message, const SettingSources& sources) {
@@ -32,15 +37,19 @@ std::string as_given(const std::string& message, const SettingSources& sources) 
       continue;
     }
     const auto& [key, given] = *source;
-    text += given.name;
+    // Who passes a message on may have named them already.
+    const std::size_t before = given.name.find(key), behind = at + key.size();
+    text += before != given.name.npos && has_at(message, at - before, given.name) ? key : given.name;
+    const std::string place = " (" + given.place + ")";
     if (first_place.empty())
       first_place = given.place;
-    else if (given.place != first_place && !given.place.empty() && !named.contains(key))
-      text += " (" + given.place + ")";
+    else if (given.place != first_place && !given.place.empty() && !named.contains(key) &&
+             !has_at(message, behind, place))
+      text += place;
     named.insert(key);
     at += key.size();
   }
-  return first_place.empty() ? text : first_place + ": " + text;
+  return first_place.empty() || has_at(message, 0, first_place + ": ") ? text : first_place + ": " + text;
 }
 
 }  // namespace nextview

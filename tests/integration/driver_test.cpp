@@ -7,6 +7,7 @@
 
 #include "core/driver/driver_scanner.hpp"
 #include "core/file/read_file.hpp"
+#include "core/session/driver_setup.hpp"
 #include "core/session/session.hpp"
 #include "core/session/session_parts.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
@@ -89,6 +90,30 @@ TEST(DriverSimulated, GivesTheBytesOfTheBuiltInSource) {
     ASSERT_GT(plain.scans().front()->hits.size(), 50u);
     expect_the_same(driven, plain);
   }
+}
+
+TEST(DriverSimulated, ASessionFollowsItsSettings) {
+  const char* const options[][2] = {{"object.longest_side", "0.2"}, {"sensor.preset", "narrow"},
+                                    {"sensor.width", "80"},         {"sensor.height", "60"},
+                                    {"sensor.dropout", "0.1"},      {"sensor.grazing_limit", "70"}};
+  std::string command = fmt::format("env -u DISPLAY '{}' driver simulated box", NEXTVIEW_PROGRAM);
+  Configuration c;
+  c.object.file = resolve_object("box").string();
+  c.evaluation.surface_samples = 2000;
+  c.views.count = 12;
+  Configuration plain_one = c;
+  for (const auto& [key, text] : options) {
+    command += fmt::format(" --{} {}", key, text);
+    give(plain_one, key, text, key);
+  }
+  const auto connection = connect_scanner(c, {command});
+  Session driven(c, scanner_parts(c, connection)), plain(plain_one);
+  EXPECT_EQ(to_toml(driven.configuration()), to_toml(plain.configuration()));
+  for (int step = 0; step < 2; ++step) {
+    plain.step();
+    driven.step();
+  }
+  expect_the_same(driven, plain);
 }
 
 TEST(DriverSimulated, NeedsNoObjectInTheSession) {

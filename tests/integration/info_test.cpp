@@ -75,6 +75,36 @@ TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
   EXPECT_EQ(nextview("info " + unknown.string()).exit_code, 2);
 }
 
+TEST(Info, CloudsAreTakenAsScanTakesThem) {
+  const TemporaryFolder folder;
+  const std::string points = "0 0 0\n60 0 0\n0 40 20\n";
+  const fs::path ply = folder.path() / "a.ply", pcd = folder.path() / "b.pcd";
+  write_file(ply,
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+             "end_header\n" +
+                 points);
+  write_file(pcd,
+             "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\n"
+             "DATA ascii\n" +
+                 points);
+  for (const fs::path& file : {ply, pcd})
+    EXPECT_THAT(nextview("info " + file.string()).out,
+                AllOf(HasSubstr("a cloud of 3 points\n  60 x 40 x 20 mm"), HasSubstr("taken as mm")));
+}
+
+TEST(Info, DatasetTomlGoesBeforeWhatIsGuessed) {
+  const TemporaryFolder folder;
+  const std::string in = folder.path().string();
+  write_file(folder.path() / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+             "end_header\n0 0 1\n0.5 0 1\n");
+  write_file(folder.path() / "a.conf", "bmesh a.ply 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(nextview("info " + in).out, AllOf(HasSubstr("range scans (Stanford): 1 scan"), HasSubstr("0.7 m off")));
+  write_file(folder.path() / "dataset.toml",
+             "format = 'clouds'\nframes = 'a.ply'\nposes = 'a.conf'\nposes_format = 'conf'\n");
+  EXPECT_THAT(nextview("info " + in).out, HasSubstr("recorded data (clouds): 1 frame with 2 points"));
+}
+
 TEST(Info, WhatCannotBeReadIsALineAndTheRestIsTold) {
   const TemporaryFolder folder;
   const Result run =

@@ -62,6 +62,25 @@ TEST_F(LiveScanner, ASettingThatConflictsIsAnErrorThatNamesIt) {
   EXPECT_EQ(run.err, "nextview: --sensor.width: the scanner has its own, 80; leave it out\n");
 }
 
+TEST_F(LiveScanner, OtherThingsToScanConflictWithIt) {
+  const auto refusal = [&](const std::string& arguments) {
+    const Result run = nextview("scan " + arguments + quick + "--out " + in("out"));
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(fs::exists(in("out"))) << arguments;
+    return run.err;
+  };
+  EXPECT_THAT(refusal("bunny " + simulated("box")), HasSubstr("OBJECT excludes --driver"));
+  EXPECT_THAT(refusal("--recorded scans " + simulated("box")), HasSubstr("--recorded excludes --driver"));
+  write_file(in("scan.toml"), "recorded.folder = 'scans'\n");
+  EXPECT_THAT(refusal("--config " + in("scan.toml") + " " + simulated("box")),
+              HasSubstr("scan.toml:1: recorded.folder"));
+  EXPECT_THAT(refusal("--truth bunny " + simulated("box")), HasSubstr("--truth (recorded.truth)"));
+  EXPECT_THAT(refusal("--truth bunny "), HasSubstr("--truth (recorded.truth)"));
+  EXPECT_THAT(refusal("--driver '' "), HasSubstr("--driver: it names no program"));
+  EXPECT_THAT(refusal(simulated("box") + "--robot.position_error 0.01 "), HasSubstr("--robot.position_error"));
+}
+
 TEST_F(LiveScanner, OfAnUnknownObjectTheFirstScanSaysWhereItIsOrTheRegionIsAskedFor) {
   const std::string no_capture =
       "while read line; do id=${line#*\\\"id\\\":}; id=${id%%,*}\n"

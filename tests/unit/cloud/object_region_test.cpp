@@ -55,10 +55,11 @@ void add_table(TriangleMesh& mesh, float half = 0.6f) {
 }
 
 /// What a camera with noise of 2 mm sees of it from some sides.
-std::vector<std::shared_ptr<const Scan>> seen(const TriangleMesh& mesh, int views = 3, double turn = 0.6) {
+std::vector<std::shared_ptr<const Scan>> seen(const TriangleMesh& mesh, int views = 3, double turn = 0.6,
+                                              int width = 320) {
   DepthCameraConfig sensor;
-  sensor.width = 320;
-  sensor.height = 240;
+  sensor.width = width;
+  sensor.height = 3 * width / 4;
   sensor.max_range = 3.0;
   const DepthCamera camera(sensor);
   const MeshRayCaster scene(mesh);
@@ -123,6 +124,31 @@ TEST(ObjectRegion, KeepsThePartsOwnFaces) {
       for (const auto& scan : scans) points += scan->hits.size();
       EXPECT_GT(double(region.points.size()), 0.9 * double(points)) << region.text();
     }
+}
+
+TEST(ObjectRegion, HoldsWhatASingleViewDoesNotShow) {
+  for (const Case& c : cases())
+    for (const bool on_table : {true, false})
+      for (const int width : {320, 64}) {
+        SCOPED_TRACE(fmt::format("{}, {}, {} pixels", c.name, on_table ? "on a table" : "in the air", width));
+        TriangleMesh mesh;
+        c.add(mesh);
+        if (on_table) add_table(mesh);
+        const ObjectRegion region = find_object(seen(mesh, 1, 0.6, width));
+        EXPECT_TRUE(region.box.contains(c.box)) << region.box.min().transpose() << ", " << region.box.max().transpose();
+        EXPECT_LT(region.box.sizes().maxCoeff(), 2.2 * c.box.sizes().maxCoeff());
+        EXPECT_GT(region.box.min().z(), on_table ? -0.15 : -0.5) << "what it stands on has nothing behind it";
+      }
+}
+
+TEST(ObjectRegion, IsOnePieceAlsoWhereItIsSeenAslant) {
+  TriangleMesh mesh;
+  add_sheet(mesh, {0, -0.2f, -0.1f}, {0, 0.4f, 0}, {0.02f, 0, 0.1f});     // the front
+  add_sheet(mesh, {0.02f, -0.2f, 0}, {0, 0.4f, 0}, {-0.30f, 0, -0.14f});  // the top, at about 10 degrees
+  const auto scans = seen(mesh, 1, 0.6, 64);
+  const ObjectRegion region = find_object(scans);
+  EXPECT_EQ(region.clusters, 1u) << region.text();
+  EXPECT_LT(region.box.min().x(), -0.2);
 }
 
 TEST(ObjectRegion, IsTheLargestOfTwo) {

@@ -95,6 +95,32 @@ TEST(ObjectLengths, ReadFromItsOwnFileNothingFollows) {
   EXPECT_EQ(to_toml(read), to_toml(c));
 }
 
+TEST(ObjectLengths, RaysReachFromTheWorkingDistance) {
+  Configuration c;
+  c.sensor.working_distance = 2.0;
+  fit_lengths(c, 0.5);
+  EXPECT_DOUBLE_EQ(c.views.radius, 2.0);
+  EXPECT_DOUBLE_EQ(c.planner.ray_length, 2.6);
+  c.sensor.working_distance = 0.5;
+  fit_lengths(c, 0.5);
+  EXPECT_DOUBLE_EQ(c.planner.ray_length, 1.5);
+}
+
+TEST(ObjectLengths, RaysGetThroughTheRegionFromWhereverViewsAre) {
+  Configuration c;
+  c.map.region = "-0.1 -0.1 -0.1 0.1 0.1 0.1";
+  fit_lengths(c, 0.2);
+  const std::vector<Pose> near = {Pose(Eigen::Translation3d(0.2, 0, 0))},
+                          far = {near[0], Pose(Eigen::Translation3d(0, 1, 0))};
+  lengthen_rays(c, near);
+  EXPECT_DOUBLE_EQ(c.planner.ray_length, 0.6);
+  lengthen_rays(c, far);
+  EXPECT_NEAR(c.planner.ray_length, 1.01 * (1.0 + 0.1 * std::sqrt(3.0)), 1e-5);
+  give(c, "planner.ray_length", "0.3", "--planner.ray_length");
+  lengthen_rays(c, far);
+  EXPECT_DOUBLE_EQ(c.planner.ray_length, 0.3);
+}
+
 TEST(ObjectLengths, AsText) {
   EXPECT_EQ(length_text(0.0915), "91.5 mm");
   EXPECT_EQ(length_text(1.5), "1.5 m");

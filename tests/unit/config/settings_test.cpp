@@ -24,7 +24,7 @@ std::string another(const Setting& setting) {
     std::string operator()(const bool* v) const { return *v ? "false" : "true"; }
     std::string operator()(const int* v) const { return std::to_string(*v + 1); }
     std::string operator()(const std::uint64_t* v) const { return std::to_string(*v + 1); }
-    std::string operator()(const double* v) const { return std::to_string(*v / 2 + 0.13); }
+    std::string operator()(const double* v) const { return std::to_string(*v / 2 + 0.17); }
     std::string operator()(const std::string*) const { return "another text"; }
     std::string operator()(const Setting::Choice& c) const { return c.names[(c.get() + 1) % c.names.size()]; }
   };

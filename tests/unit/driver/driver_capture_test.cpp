@@ -108,6 +108,20 @@ TEST(DriverCapture, OfPoints) {
   EXPECT_NE(reason(file("a.ply"), folder), "it was read");
 }
 
+TEST(DriverCapture, OfNothingIsNone) {
+  const TemporaryFolder folder;
+  const auto of_ranges = [&](float first) {
+    NpyTable table{4, 3, std::vector<float>(12, DepthImage::invalid)};
+    table.values[0] = first;
+    write_npy(table, folder / "a.npy");
+    return reason(file("a.npy"), folder);
+  };
+  EXPECT_THAT(of_ranges(DepthImage::invalid), HasSubstr("nothing was measured"));
+  EXPECT_EQ(of_ranges(DepthImage::beyond_range), "it was read") << "that the way is free was";
+  write_ply({}, folder / "a.ply");
+  EXPECT_THAT(reason(file("a.ply"), folder), HasSubstr("nothing was measured"));
+}
+
 TEST(DriverCapture, MustBeARegularFileOfAKnownKind) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "a.ply");

@@ -1,5 +1,7 @@
 #include "core/driver/driver_scanner.hpp"
 
+#include <fstream>
+
 #include "tests/unit/driver/fake_scanner.hpp"
 
 namespace nextview {
@@ -43,7 +45,8 @@ TEST(DriverScanner, MovesAndCaptures) {
 }
 
 TEST(DriverScanner, ThePoseOfTheCaptureCounts) {
-  const FakeScanner fake;
+  FakeScanner fake;
+  fake.options.reached_within = 10.0;
   const auto connection = fake.connect();
   DriverRobot robot(connection, Pose::Identity());
   fake.misbehave("far", "capture");
@@ -61,6 +64,52 @@ TEST(DriverScanner, AViewThatWasMissedIsNotReached) {
   EXPECT_EQ(failure.kind, Failure::unreachable);
   EXPECT_THAT(failure.reason, AllOf(HasSubstr("6 m and 17.2 degrees"), HasSubstr("0.05 m and 5 degrees")));
   EXPECT_EQ(robot.pose().translation(), Vector3(7, 0, 0)) << "there it is all the same";
+}
+
+TEST(DriverScanner, ACaptureFarFromTheViewIsNone) {
+  for (const bool by_hand : {false, true}) {
+    const FakeScanner fake(by_hand ? "free-hand" : "");
+    const auto connection = fake.connect();
+    fake.misbehave("far", "capture");
+    const Result<Capture> capture = DriverSource(connection, 1).capture({Pose::Identity()}, 1, {});
+    EXPECT_EQ(std::holds_alternative<Capture>(capture), by_hand);
+    if (by_hand) continue;
+    EXPECT_EQ(failure_of(capture).kind, Failure::no_data);
+    EXPECT_THAT(failure_of(capture).reason, HasSubstr("the scan was taken 7 m and 0 degrees from the view"));
+  }
+}
+
+TEST(DriverScanner, IsWhereItsFirstCaptureSaid) {
+  FakeScanner fake;
+  const auto connection = fake.connect();
+  EXPECT_FALSE(connection->knows_pose());
+  fake.misbehave("far", "capture");
+  connection->capture(1, 1, {});  // to find the object, before there is a robot
+  EXPECT_EQ(DriverRobot(connection, at(0, 0, 1)).pose().translation(), Vector3(7, 0, 0));
+}
+
+TEST(DriverScanner, ASimulatorKnowsTheObject) {
+  const FakeScanner fake("simulated"), other;
+  EXPECT_TRUE(fake.connect()->is_simulated());
+  EXPECT_FALSE(other.connect()->is_simulated());
+  other.misbehave("object", "hello");
+  EXPECT_TRUE(other.connect()->is_simulated());
+}
+
+TEST(DriverScanner, LeavesNoCapturesBehind) {
+  const FakeScanner fake;
+  for (const char* fault : {"", "wrong_size", "not_rigid"}) {
+    fake.misbehave(fault, "capture");
+    fake.connect()->capture(1, 1, {});
+    EXPECT_FALSE(std::filesystem::exists(fake.options.folder)) << fault;
+  }
+  std::filesystem::create_directory(fake.options.folder);
+  const auto theirs = fake.options.folder / "theirs";
+  std::ofstream(theirs) << "kept";
+  fake.misbehave("wrong_size", "capture");
+  fake.connect()->capture(1, 1, {});
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(fake.options.folder), {}), 1);
+  EXPECT_TRUE(std::filesystem::exists(theirs));
 }
 
 TEST(DriverScanner, AHandReachesWhatItReaches) {

@@ -34,7 +34,8 @@ class NumberSource : public ScanSource {
 std::vector<std::string> answers(const std::string& requests) {
   FreeFlyingCamera robot(Pose::Identity());
   const auto source = [](std::uint64_t seed) { return std::make_unique<NumberSource>(seed); };
-  const ServedScanner scanner{"test", {"stop"}, source(1)->describe(), "", robot, source, 5};
+  const ServedScanner scanner{"test", {"stop"}, source(1)->describe(),      "", robot,
+                              source, 5,        {{"sensor.dropout", "0.1"}}};
   std::istringstream in(requests);
   std::ostringstream out;
   serve(scanner, in, out);
@@ -65,6 +66,7 @@ TEST(DriverServer, AnswersEachRequest) {
   EXPECT_EQ(hello.error(), std::nullopt);
   EXPECT_EQ(hello.whole_number("width", 0, 9), 2);
   EXPECT_FALSE(hello.has("start") || hello.has("object"));
+  EXPECT_EQ(hello.texts_by_key("settings").at("sensor.dropout"), "0.1");
   EXPECT_EQ(DriverAnswer(lines[1]).reaches("reach", 1)[0].cost.distance, 0.0);
   EXPECT_EQ(move.pose("pose").translation(), Vector3(0.1, 0.2, 2.0));
   EXPECT_EQ(capture.id(), 4u);

@@ -96,11 +96,15 @@ TEST_F(ExampleDriver, TurntableReachesItsCircle) {
   EXPECT_THAT(reach[1].unreachable, HasSubstr("off the circle around the turntable"));
   EXPECT_EQ(failure_of(robot.move_to({at(0, 0, 3)}, {})).kind, Failure::unreachable);
   ASSERT_TRUE(std::holds_alternative<Pose>(robot.move_to({seen_at(90)}, {})));
-  EXPECT_THAT(failure_of(source.capture({}, 1, {})).reason, HasSubstr("there is no scan of 90 degrees"));
+  EXPECT_THAT(failure_of(source.capture({seen_at(90)}, 1, {})).reason, HasSubstr("there is no scan of 90 degrees"));
   write_ply({{1, 2, 3}}, scans / "088.ply");
-  const Result<Capture> capture = source.capture({}, 1, {});
+  const Result<Capture> capture = source.capture({seen_at(90)}, 1, {});
   ASSERT_TRUE(std::holds_alternative<Capture>(capture)) << failure_of(capture).reason;
   EXPECT_TRUE(std::get<Capture>(capture).T_world_camera.isApprox(seen_at(88), 1e-12));
+  const DriverConnection again(run("turntable.py", "0.6 0.3"));
+  ASSERT_EQ(again.greeting().views.size(), 1u) << "where there are scans";
+  EXPECT_TRUE(again.greeting().views[0].isApprox(seen_at(88), 1e-12));
+  EXPECT_TRUE(again.greeting().start->isApprox(seen_at(88), 1e-12));
 }
 
 TEST_F(ExampleDriver, WithoutAFolderSaysWhatItNeeds) {

@@ -52,13 +52,22 @@ TEST(NpyFile, OfAllVersionsIsRead) {
     EXPECT_EQ(read_npy(folder.write("a.npy", npy(header, 24, version))).rows, 2) << int(version);
 }
 
+TEST(NpyFile, DoublesAreReadToo) {
+  const TemporaryFolder folder;
+  std::string bytes = npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 2), }", 16);
+  const double values[] = {0.1, std::numeric_limits<double>::infinity()};
+  std::memcpy(bytes.data() + bytes.size() - 16, values, 16);
+  EXPECT_EQ(read_npy(folder.write("a.npy", bytes)).values,
+            (std::vector<float>{0.1f, std::numeric_limits<float>::infinity()}));
+}
+
 TEST(NpyFile, WhatIsNotReadIsSaid) {
   const TemporaryFolder folder;
   const auto header = [](const char* type, const char* order, const char* shape) {
     return std::string("{'descr': '") + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
   };
   const auto of = [&](const std::string& bytes) { return reason(folder.write("a.npy", bytes)); };
-  EXPECT_THAT(of(npy(header("<f8", "False", "2, 3"), 48)), HasSubstr("'<f8'"));
+  EXPECT_THAT(of(npy(header("<i8", "False", "2, 3"), 48)), HasSubstr("'<i8'"));
   EXPECT_THAT(of(npy(header(">f4", "False", "2, 3"), 24)), HasSubstr("'>f4'"));
   EXPECT_THAT(of(npy(header("<f4", "True", "2, 3"), 24)), HasSubstr("C order"));
   EXPECT_THAT(of(npy(header("<f4", "False", "6,"), 24)), HasSubstr("two dimensions"));

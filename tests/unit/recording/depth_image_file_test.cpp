@@ -134,7 +134,7 @@ TEST(DepthImageFile, WhatCannotBeRightIsOneLineThatNamesTheFile) {
   EXPECT_THAT(why("flipped.png", flipped), HasSubstr("checksum"));
   EXPECT_THAT(why("a.pgm", pgm(3, 2, values).substr(0, 30)), HasSubstr("truncated"));
   EXPECT_THAT(why("a.npy", npy(2, 4, "<u2", raw(values))), HasSubstr("bytes where 4 x 2 pixels"));
-  EXPECT_THAT(why("b.npy", npy(2, 3, "<i8", raw(values))), HasSubstr("float32 or uint16"));
+  EXPECT_THAT(why("b.npy", npy(2, 3, "<i8", raw(values))), HasSubstr("uint16, float32 or float64"));
   EXPECT_THAT(why("a.bin", raw(values)), HasSubstr("width, height and type must be given"));
   DepthFormat bin;
   bin.width = 3, bin.height = 3;

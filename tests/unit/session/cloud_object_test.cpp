@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "core/file/read_file.hpp"
 #include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
+#include "tests/unit/file/gzip.hpp"
 #include "tests/unit/session/made_projections.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
@@ -116,6 +118,25 @@ TEST_F(CloudObject, PcdIsReadToo) {
   const PlacedMesh pcd = load_object_mesh(folder_ / "a.pcd");
   EXPECT_EQ(pcd.mesh.vertices, ply.mesh.vertices);
   EXPECT_EQ(pcd.cloud_points, 20'000u);
+}
+
+TEST_F(CloudObject, ACompressedMeshIsNone) {
+  constexpr const char* objects = NEXTVIEW_SOURCE_DIR "/assets/objects/";
+  const fs::path plain = fs::path(objects) / "slotted_plate.ply", packed = folder_ / "plate.ply.gz";
+  write_gzip(packed, read_file(plain));
+  EXPECT_FALSE(is_cloud(packed));
+  const PlacedMesh mesh = load_object_mesh(packed);
+  EXPECT_EQ(mesh.cloud_points, 0u);
+  EXPECT_EQ(mesh.mesh.vertices, load_object_mesh(plain).mesh.vertices);
+  write_gzip(folder_ / "cloud.ply.gz", read_file(cloud_));
+  EXPECT_TRUE(is_cloud(folder_ / "cloud.ply.gz"));
+  write_gzip(packed, "ply\nformat ascii 1.0\n");
+  try {
+    load_object_mesh(packed);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith(packed.string()));
+  }
 }
 
 TEST_F(CloudObject, WhatCannotBeScannedIsOneLine) {

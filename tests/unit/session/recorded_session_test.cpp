@@ -121,14 +121,16 @@ TEST_F(RecordedSession, BeginsWhereItIsToldAndTakesEachNth) {
   Session named(c);
   named.step();
   EXPECT_EQ(named.records().front().view, 2);
-  c.recorded.start = "1";
+  c.recorded.start = "3";  // the number in its name, whatever is left out
   c.recorded.every = 2;
   Session numbered(c);
   EXPECT_EQ(numbered.candidates().size(), 2u);
   numbered.step();
   EXPECT_EQ(numbered.scans().front()->hits, original_->scans[2]->hits);
-  c.recorded.start = "step 2";
-  EXPECT_THROW(Session{c}, std::invalid_argument) << "is left out";
+  for (const char* left_out : {"step 2", "2"}) {
+    c.recorded.start = left_out;
+    EXPECT_THROW(Session{c}, std::invalid_argument) << left_out;
+  }
 }
 
 TEST_F(RecordedSession, WhatWasGivenEndsItEarlier) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/config/opened_input.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/session/session.hpp"
 #include "tests/unit/session/small_scan.hpp"
@@ -88,6 +89,15 @@ TEST_F(StartMap, AloneIsShownAndNothingIsScanned) {
     if (!voxels_[v].measured) continue;
     ASSERT_EQ(log_odds_at(session.map(), grid_.centre(v)), voxels_[v].log_odds);
   }
+}
+
+TEST_F(StartMap, AloneLeavesNothingForWhatIsOpenedNext) {
+  Configuration c;
+  c.object.file = file_.string();
+  const Configuration next = with_input(Session(c).configuration(), "box");
+  EXPECT_EQ(next.map.start, "");
+  EXPECT_EQ(next.map.region, "");
+  EXPECT_EQ(next.map.resolution, Configuration().map.resolution);
 }
 
 }  // namespace

@@ -28,6 +28,14 @@ TEST(AsGiven, OfSeveralEachIsNamed) {
   EXPECT_EQ(as_given("map.hit_decay needs map.miss", sources), "b.toml:2: --map.hit_decay needs map.miss");
 }
 
+TEST(AsGiven, WhatWasNamedBeforeIsNotNamedAgain) {
+  for (const char* text : {"map.hit must be over 0.5", "lower termination.views",
+                           "map.hit must be over map.miss, and map.miss under map.hit"}) {
+    const std::string once = as_given(text, sources);
+    EXPECT_EQ(as_given(once, sources), once);
+  }
+}
+
 TEST(AsGiven, WhatOnlyLooksLikeAKeyStays) {
   for (const char* text : {"sensor.width must be", "map.hits", "my_map.hit", "map.hit.x", "--map.hit", "out/map.hit",
                            "map.hit/x", "every seed", "a.map.hit", ""})

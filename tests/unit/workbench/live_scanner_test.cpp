@@ -36,7 +36,7 @@ class LiveScannerTest : public testing::Test {
     c.map.region = "-1 -1 0.5 1 1 1.5";
     c.map.resolution = 0.1;
     c.views.count = 6;
-    c.termination = TerminationConfig::unlimited();
+    c.termination.surface_left = 0.0;
     worker_.post(request::Connect{fmt::format("'{}' '{}'", NEXTVIEW_FAKE_DRIVER, fault_.string()), true, c});
     wait_until_idle();
     ASSERT_TRUE(worker_.snapshot()->live) << worker_.snapshot()->message;

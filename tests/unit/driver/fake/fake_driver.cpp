@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -48,14 +49,14 @@ std::size_t count_poses(const std::string& line) {
 /// Ranges of 1 m, and a fault in them.
 void write_capture(const std::string& file, const std::string& fault) {
   const int rows = fault == "wrong_size" ? height + 1 : height;
-  std::string header = "{'descr': '" + std::string(fault == "doubles" ? "<f8" : "<f4") +
+  std::string header = "{'descr': '" + std::string(fault == "whole_numbers" ? "<i8" : "<f4") +
                        "', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", " + std::to_string(width) +
                        "), }";
   header.resize(117, ' ');
   header += '\n';
   std::ofstream out(file, std::ios::binary);
   out << "\x93NUMPY\x01" << '\0' << char(header.size()) << '\0' << header;
-  const float range = fault == "negative" ? -1.0f : 1.0f;
+  const float range = fault == "negative" ? -1.0f : fault == "all_nan" ? std::nanf("") : 1.0f;
   for (int i = 0; i < rows * width - (fault == "short_file" ? 1 : 0); ++i)
     out.write(reinterpret_cast<const char*>(&range), sizeof(range));
 }
@@ -72,7 +73,7 @@ std::string hello(const std::string& fault) {
           : fault == "null"    ? "null"
           : fault == "another" ? "3"
                                : "2") +
-         ",\"range_noise\":0.001" + (waits ? ",\"timeout\":0" : "");
+         ",\"range_noise\":0.001" + (fault == "object" ? ",\"object\":\"box\"" : "") + (waits ? ",\"timeout\":0" : "");
 }
 
 std::string reach(const std::string& line, const std::string& fault) {

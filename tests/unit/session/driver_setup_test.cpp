@@ -1,0 +1,78 @@
+// What a configuration follows of what a scanner says of itself.
+#include "core/session/driver_setup.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/mesh/temporary_folder.hpp"
+
+namespace nextview {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class DriverSetup : public testing::Test {
+ protected:
+  DriverSetup() { c_.map.region = "-0.1 -0.1 0 0.1 0.1 0.2"; }
+
+  /// Greets a driver that says this too.
+  void connect(const std::string& more = {}) {
+    const std::string hello = R"({"id":1,"ok":true,"protocol":1,"name":"canned","abilities":[],)"
+                              R"("intrinsics":[4,4,1.5,1],"width":4,"height":3,"max_range":9,"range_noise":0.001)";
+    const auto script = folder_.write("driver.sh", "read line\necho '" + hello + more + "}'\nread line\n");
+    connect_scanner(c_, {"sh '" + script.string() + "'"});
+  }
+  std::string refusal(const std::string& more = {}) {
+    try {
+      connect(more);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "it is connected";
+  }
+
+  TemporaryFolder folder_;
+  Configuration c_;
+};
+
+TEST_F(DriverSetup, RaysGetThroughTheRegionFromWhereTheScannerStands) {
+  connect();
+  EXPECT_LT(c_.planner.ray_length, 1.0);
+  for (const char* key : {R"(,"start":)", R"(,"views":[)"}) {
+    c_ = {};
+    c_.map.region = "-0.1 -0.1 0 0.1 0.1 0.2";
+    connect(std::string(key) + "[1,0,0,0,0,1,0,0,0,0,1,5,0,0,0,1]" + (std::string(key).ends_with('[') ? "]" : ""));
+    EXPECT_GT(c_.planner.ray_length, 5.0) << key;
+  }
+}
+
+TEST_F(DriverSetup, AConflictIsNamedOnce) {
+  give(c_, "sensor.width", "100", "--width (sensor.width)");
+  EXPECT_EQ(refusal(), "--width (sensor.width): the scanner has its own, 4; leave it out");
+  give(c_, "sensor.width", "100", "sensor.width", "a.toml:3");
+  EXPECT_EQ(refusal(), "a.toml:3: sensor.width: the scanner has its own, 4; leave it out");
+}
+
+TEST_F(DriverSetup, ASimulatorsSettingsAreFollowed) {
+  connect(R"(,"settings":{"sensor.dropout":"0.25","object.longest_side":"0.1"})");
+  EXPECT_EQ(c_.sensor.dropout, 0.25);
+  EXPECT_EQ(c_.object.longest_side, 0.1);
+  EXPECT_THAT(refusal(R"(,"settings":{"seed":"5"})"), HasSubstr("'seed'"));
+  EXPECT_THAT(refusal(R"(,"settings":{"sensor.none":"5"})"), HasSubstr("'sensor.none'"));
+  EXPECT_THAT(refusal(R"(,"settings":{"object.file":"/etc/passwd"})"), HasSubstr("'object.file'"));
+  give(c_, "sensor.dropout", "0.1", "--sensor.dropout");
+  EXPECT_THAT(refusal(R"(,"settings":{"sensor.dropout":"0.25"})"),
+              StartsWith("--sensor.dropout: the scanner has its own, 0.25"));
+}
+
+TEST_F(DriverSetup, MadeUpErrorsOfARobotAreRefused) {
+  for (const char* key : {"robot.position_error", "robot.rotation_error"}) {
+    c_ = {};
+    give(c_, key, "0.005", key);
+    EXPECT_THAT(refusal(), StartsWith(key));
+  }
+}
+
+}  // namespace
+}  // namespace nextview
