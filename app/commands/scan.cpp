@@ -31,20 +31,21 @@ struct ScanArguments {
   ScannerOptions scanner;
 };
 
-/// The picture of a step, unless it is there.
+/// A picture of each step.
 class StepPictures {
  public:
-  explicit StepPictures(bool wanted) {
+  StepPictures(bool wanted, bool only_missing) : only_missing_(only_missing) {
     if (wanted) figure_ = std::make_unique<SessionFigure>();
   }
   void write(const Session& session, OutputFolder& out) {
     if (!figure_) return;
     const std::string name = fmt::format("step_{:02}.png", session.records().size());
-    if (!is_there(out.path() / name)) figure_->write(session, out.claim(name));
+    if (!only_missing_ || !is_there(out.path() / name)) figure_->write(session, out.claim(name));
   }
 
  private:
   std::unique_ptr<SessionFigure> figure_;
+  bool only_missing_;
 };
 
 /// Makes the best candidate the next view that the scanner has not failed to take; false if there is none.
@@ -128,8 +129,9 @@ int begin(const ScanArguments& arguments) {
   const std::filesystem::path wanted =
       arguments.out.empty() ? free_folder("out") : std::filesystem::path(arguments.out);
   Configuration configuration = arguments.options.configuration();
-  require_free_for_session(wanted, arguments.overwrite);
-  OutputFolder out(wanted, input_files(configuration));
+  const std::vector<InputFile> inputs = input_files(configuration);
+  OutputFolder out(wanted, inputs);
+  require_free_for_session(wanted, arguments.overwrite, inputs);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::optional<Scanner> scanner;
@@ -141,7 +143,7 @@ int begin(const ScanArguments& arguments) {
   print_head(session);
   print_warnings(session);
   SessionFolder folder = SessionFolder::begin(std::move(out), session);
-  StepPictures pictures(!arguments.no_pictures);
+  StepPictures pictures(!arguments.no_pictures, false);
   return finish(session, arguments, scanner ? &*scanner : nullptr, folder, pictures, progress, stop.token());
 }
 
@@ -172,7 +174,7 @@ int resume(const ScanArguments& arguments) {
   progress.clear();
   print_head(session);
   SessionFolder folder = SessionFolder::go_on(OutputFolder(saved.folder, {}), saved, session);
-  StepPictures pictures(!arguments.no_pictures);
+  StepPictures pictures(!arguments.no_pictures, true);
   const auto each = [&] {
     progress.clear();
     print_step(session, session.records().back());

@@ -96,6 +96,15 @@ bool sense_again(Session& session, const SavedSession& saved, const Step& step, 
   return true;
 }
 
+bool holds_nothing_but(std::span<const InputFile> inputs, const fs::path& folder) {
+  std::error_code error;
+  const auto is_input = [&](const fs::directory_entry& entry) {
+    std::error_code ignored;
+    return std::ranges::any_of(inputs, [&](const auto& input) { return fs::equivalent(entry, input.path, ignored); });
+  };
+  return fs::is_directory(folder, error) && std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(), is_input);
+}
+
 }  // namespace
 
 bool is_session(const fs::path& folder) {
@@ -123,19 +132,15 @@ SavedSession read_session(const fs::path& folder) {
   return saved;
 }
 
-void require_free_for_session(const fs::path& folder, bool overwrite) {
-  std::error_code ignored;
-  if (!is_there(folder) || (fs::is_directory(folder, ignored) && fs::is_empty(folder, ignored))) return;
-  const auto manifest = fs::is_directory(folder, ignored) ? read_manifest(folder) : std::nullopt;
+void require_free_for_session(const fs::path& folder, bool overwrite, std::span<const InputFile> inputs) {
+  if (!is_there(folder) || holds_nothing_but(inputs, folder)) return;
+  const auto manifest = read_manifest(folder);
+  const std::string another = fmt::format("give another folder, for example --out {}", free_folder(folder).string());
   if (!is_session(folder) && !(manifest && manifest->command == "scan"))
-    throw std::invalid_argument(
-        fmt::format("{}: is not empty, and holds no session; give another folder, for example --out {}",
-                    folder.string(), free_folder(folder).string()));
+    throw std::invalid_argument(fmt::format("{}: is not empty, and holds no session; {}", folder.string(), another));
   if (!overwrite)
-    throw std::invalid_argument(
-        fmt::format("{}: holds a session: --resume goes on with it, --overwrite replaces it; or give another folder, "
-                    "for example --out {}",
-                    folder.string(), free_folder(folder).string()));
+    throw std::invalid_argument(fmt::format(
+        "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
 }
 
 bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const std::function<void()>& each,

@@ -40,7 +40,7 @@ class ConfigurationFiles : public ::testing::Test {
   Result scan(const std::string& options) const {
     return nextview(
         "scan box --views 1 --views.count 4 --no-pictures --no-surfaces --sensor.width 40 "
-        "--sensor.height 30 --evaluation.surface_samples 100 --out " +
+        "--sensor.height 30 --evaluation.surface_samples 100 --overwrite --out " +
         (folder_.path() / "out").string() + options);
   }
 };

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// One view with its picture, which is drawn headless: the program starts itself again for it.
 const char* const drawn_scan =
-    "scan box --views 1 --no-surfaces --sensor.width 80 --sensor.height 60 --map.resolution 0.04 --out ";
+    "scan box --views 1 --no-surfaces --sensor.width 80 --sensor.height 60 --map.resolution 0.04 --overwrite --out ";
 
 class HostileEnvironment : public ::testing::Test {
  protected:

@@ -24,8 +24,9 @@ class Limits : public ::testing::Test {
   std::string out() const { return (folder_.path() / "out").string(); }
   static std::string box() { return NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply"; }
   std::string small_scan() const {
-    return fmt::format("scan {} --out {} --views 2 --sensor.width 80 --sensor.height 60 --map.resolution 0.04 ", box(),
-                       out());
+    return fmt::format(
+        "scan {} --overwrite --out {} --views 2 --sensor.width 80 --sensor.height 60 --map.resolution 0.04 ", box(),
+        out());
   }
   /// Of what the loader of shared libraries says before the program begins, the exit code is the loader's.
   static void expect_one_line(const Result& run, const std::string& what) {
@@ -101,8 +102,9 @@ TEST_F(Limits, AStepOfMillionsOfPixelsCanBeStopped) {
   for (const double seconds : {0.5, 2.0, 4.0}) {
     const Result run = nextview_behind(
         fmt::format("timeout --preserve-status --signal=INT --kill-after=8 {}", seconds),
-        fmt::format("scan sphere --out {} --no-pictures --no-surfaces --sensor.width 3000 --sensor.height 3000",
-                    out()));
+        fmt::format(
+            "scan sphere --overwrite --out {} --no-pictures --no-surfaces --sensor.width 3000 --sensor.height 3000",
+            out()));
     EXPECT_EQ(run.exit_code, 130) << "stopped after " << seconds << " s\n" << run.err;
   }
 }
@@ -117,7 +119,7 @@ TEST_F(Limits, OfMemoryAndThreads) { GTEST_SKIP() << "a program with sanitizers 
 std::string limited(const std::string& ulimit) { return fmt::format(R"(sh -c 'ulimit {}; exec "$0" "$@"')", ulimit); }
 
 TEST_F(Limits, AMapThatDoesNotFitIsRefusedWithItsSize) {
-  const std::string scan = "scan " + box() + " --no-pictures --map.resolution 0.0025 --out " + out();
+  const std::string scan = "scan " + box() + " --no-pictures --map.resolution 0.0025 --overwrite --out " + out();
   const Result run = nextview_behind(limited("-v 3000000"), scan);
   expect_one_line(run, "map");
   EXPECT_THAT(run.err, HasSubstr("a map of 512 x 512 x 512 voxels needs"));
@@ -125,7 +127,8 @@ TEST_F(Limits, AMapThatDoesNotFitIsRefusedWithItsSize) {
 }
 
 TEST_F(Limits, ImagesThatDoNotFitAreRefusedWithTheirSize) {
-  const std::string scan = "scan " + box() + " --no-pictures --sensor.width 9000 --sensor.height 9000 --out " + out();
+  const std::string scan =
+      "scan " + box() + " --no-pictures --sensor.width 9000 --sensor.height 9000 --overwrite --out " + out();
   const Result run = nextview_behind(limited("-v 3000000"), scan);
   expect_one_line(run, "images");
   EXPECT_THAT(run.err, HasSubstr("20 images of 9000 x 9000 pixels needs"));

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 const std::string quick =
     " --views 2 --views.count 6 --sensor.width 60 --sensor.height 45 --map.resolution 0.04 --map.region_edge 0.8 "
-    "--evaluation.surface_samples 200 --no-pictures ";
+    "--evaluation.surface_samples 200 --no-pictures --overwrite ";
 
 class OutputFolder : public ::testing::Test {
  protected:
@@ -100,14 +100,16 @@ TEST_F(OutputFolder, AConfigurationThatIsReadStaysAndTheHintRepeatsTheScan) {
   ASSERT_NE(begin, std::string::npos) << first.out;
   const std::string hint = first.out.substr(begin + 9, end - begin - 9);
   expect_done(hint + " --no-pictures");
+  // The journal says where the object lies, as seen from there.
   auto again = contents("a folder's/out-2");
   for (const auto& [name, text] : before) EXPECT_TRUE(name == "timings.csv" || again[name] == text) << name;
   EXPECT_EQ(again.size(), before.size());
 }
 
-TEST_F(OutputFolder, TheDefaultFolderIsNoExceptionForAConfiguration) {
+TEST_F(OutputFolder, TheDefaultIsTheNextThatIsFree) {
   expect_done("scan box" + quick);
-  expect_refused("scan --config out/config.toml" + quick, {"out/config.toml", "--out out-2"});
+  expect_done("scan --config out/config.toml" + quick);
+  EXPECT_EQ(read_file(in("out-2/map.ot")), read_file(in("out/map.ot")));
   write_file(in("metrics.json"), "{}");
   expect_refused("scan box --views.layout file --views.file metrics.json --out ." + quick,
                  {"metrics.json: is the views file", "--out ./results"});
@@ -142,7 +144,8 @@ TEST_F(OutputFolder, ALaterRunLeavesNothingOfAnEarlierOne) {
     EXPECT_THAT(names, Not(Contains(old)));
   const auto manifest = nlohmann::json::parse(read_file(in("out/manifest.json")));
   for (const std::string file : manifest["files"]) std::erase(names, file);
-  EXPECT_EQ(names, (std::vector<std::string>{"manifest.json", "notes.txt", "step_99.png"})) << "all else is listed";
+  EXPECT_EQ(names, (std::vector<std::string>{"manifest.json", "notes.txt", "scans", "step_99.png"}))
+      << "all else is listed";
 }
 
 TEST_F(OutputFolder, BadInputLeavesTheResultsOfAnEarlierRun) {
@@ -151,7 +154,7 @@ TEST_F(OutputFolder, BadInputLeavesTheResultsOfAnEarlierRun) {
   write_file(in("bad.ply"), "ply\nnonsense");
   expect_refused("scan bad.ply --out out" + quick, {"bad.ply"});
   expect_refused("scan missing.ply --out out" + quick, {"missing.ply"});
-  expect_refused("scan box --out out --map.region_edge 0.3" + std::string(" --no-pictures"), {"region"});
+  expect_refused("scan box --out out --map.region_edge 0.3" + std::string(" --no-pictures --overwrite"), {"region"});
   expect_refused("refine bad.ply --out out --no-pictures", {"bad.ply"});
   EXPECT_EQ(contents("out"), before);
   expect_refused("scan bad.ply --out new" + quick, {"bad.ply"});
@@ -174,6 +177,7 @@ TEST_F(OutputFolder, AStoppedOrKilledRunLeavesARightList) {
     const auto manifest = nlohmann::json::parse(read_file(list));
     for (const std::string file : manifest["files"]) std::erase(names, file);
     std::erase_if(names, [](const std::string& name) { return name.ends_with(".part"); });  // killed while writing it
+    std::erase(names, "scans");                                                             // what is in it is listed
     EXPECT_EQ(names, (std::vector<std::string>{"manifest.json"})) << signal;
     if (!fs::exists(in("out/config.toml")))
       expect_refused("refine out --out refined --no-pictures", {"out: holds no finished scan"});

@@ -25,29 +25,14 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   const TemporaryFolder folder;
   const Result run = nextview("scan " + housing() + quick + "--out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* file : {"config.toml",
-                           "steps.csv",
-                           "scores.csv",
-                           "views.csv",
-                           "timings.csv",
-                           "metrics.json",
-                           "map.ot",
-                           "map.bt",
-                           "cloud.ply",
-                           "step_01.png",
-                           "step_02.png",
-                           "step_03.png",
-                           "surface_map.ply",
-                           "surface_map.stl",
-                           "surface_map.png",
-                           "surface_map_unseen.stl",
-                           "manifest.json",
-                           "surface_cloud.ply",
-                           "surface_cloud.stl",
-                           "surface_cloud.png",
-                           "surfaces.json"})
+  for (const char* file : {"config.toml",       "steps.csv",         "scores.csv",      "views.csv",
+                           "timings.csv",       "metrics.json",      "map.ot",          "map.bt",
+                           "cloud.ply",         "step_01.png",       "step_02.png",     "step_03.png",
+                           "surface_map.ply",   "surface_map.stl",   "surface_map.png", "surface_map_unseen.stl",
+                           "manifest.json",     "journal",           "scans/0003.npy",  "surface_cloud.ply",
+                           "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
     EXPECT_GT(fs::file_size(folder.path() / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 21)
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 23)
       << "something else was left behind";
   const std::string steps = read_file(folder.path() / "steps.csv");
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row per view";
@@ -63,9 +48,9 @@ TEST(Scan, SameConfigurationAndSeedGiveTheSameBytesOnAnyNumberOfThreads) {
   const std::string repeat =
       "--threads 2 scan --config " + (one.path() / "config.toml").string() + " --out " + two.path().string();
   ASSERT_EQ(nextview(repeat).exit_code, 0);
-  for (const auto& entry : fs::directory_iterator(one.path())) {
-    const fs::path name = entry.path().filename();
-    if (name == "timings.csv") continue;  // the only one that may differ
+  for (const auto& entry : fs::recursive_directory_iterator(one.path())) {
+    const fs::path name = fs::relative(entry.path(), one.path());
+    if (name == "timings.csv" || name == "scans") continue;  // the only file that may differ, and a folder
     EXPECT_TRUE(read_file(entry.path()) == read_file(two.path() / name)) << name << " differs";
   }
 }

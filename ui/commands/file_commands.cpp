@@ -85,7 +85,7 @@ const CommandOf<std::string> command::open{
      "File",
      "Open an object, scans, a map…",
      "Scans another object (a mesh file or a known name), goes through recorded scans (a folder, .graph, .log, .txt), "
-     "shows a map (.ot, .bt), or takes the settings of a .toml file.",
+     "goes on with a session (its folder), shows a map (.ot, .bt), or takes the settings of a .toml file.",
      {{key('O'), true}}},
     argument::file("file", "a mesh file, a known object, recorded scans, a map, or a .toml file", objects),
     [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};

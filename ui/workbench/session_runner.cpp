@@ -226,14 +226,15 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
 
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
-  OutputFolder out(folder, input_files(session_->configuration()), "");
+  const std::vector<InputFile> inputs = input_files(session_->configuration());
+  OutputFolder out(folder, inputs, "");
   SessionFolder* const own = kept_->folder();
   std::error_code ignored;
   if (own && std::filesystem::equivalent(own->path(), folder, ignored)) {
     out.go_on("scan");
     return write_results(out, control);
   }
-  require_free_for_session(folder, false);
+  require_free_for_session(folder, false, inputs);
   out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
   if (own) own->copy_to(out, *session_);
   return write_results(out, control);

@@ -39,6 +39,7 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
           fmt::format("{}: {}, {} triangles, {} candidate views, {:g} mm voxels", now.object_name, size_text(*now.mesh),
                       now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
   for (const std::string& note : now.notes) log.add(Level::note, note);
+  if (!now.records.empty()) log.add(Level::note, fmt::format("Goes on with {}", counted(now.records.size(), "view")));
   for (const std::string& warning : setup_warnings(now.configuration, *now.mesh, now.candidates))
     log.add(Level::warning, warning);
 }
