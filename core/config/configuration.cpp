@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/config/configuration_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/planner/gain_policies.hpp"
@@ -212,6 +213,13 @@ void give(Configuration& configuration, const std::string& key, const std::strin
 
 void read_settings(const fs::path& file, Configuration& configuration) {
   TomlReader(file, configuration).read(read_file(file, largest_file));
+}
+
+Configuration configuration_of(const std::string& text, const fs::path& file) {
+  Configuration configuration;
+  TomlReader(file, configuration).read(text);
+  configuration.validate();
+  return configuration;
 }
 
 Configuration read_configuration(const fs::path& file, const Configuration& base) {

@@ -59,7 +59,8 @@ std::string scores_csv(const Session& session) {
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
       const Candidate& c = r.candidates[v];
       csv += fmt::format("{},{},{},{},{},{},{}", r.step, v, int(c.available), c.gain, c.cost, c.utility, c.seconds);
-      csv += refined ? fmt::format(",{}\n", r.refinement->conventional_gains[v]) : "\n";
+      const bool compared = r.refinement && !r.refinement->conventional_gains.empty();
+      csv += !refined ? "\n" : compared ? fmt::format(",{}\n", r.refinement->conventional_gains[v]) : ",\n";
     }
   return csv;
 }
@@ -70,6 +71,7 @@ std::string refinement_csv(const Session& session) {
       "step,merged_rays,informed_voxels,changed_class,sweeps,r_hat,trend_z,disagreeing_voxels,stationary,"
       "conventional_next_view,rank_correlation,log_loss_near_surface[nats],brier_near_surface\n";
   for (const StepRecord& r : session.records()) {
+    if (!r.refinement) continue;  // that step was ranked by another gain
     const RefinementRecord& n = *r.refinement;
     const SamplerDiagnostics& d = n.diagnostics;
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, d.merged_rays, d.informed_voxels,

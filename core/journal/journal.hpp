@@ -29,8 +29,9 @@ struct JournalStep {
   PinholeCamera camera = {};               ///< of ranges
   MotionCost motion;                       ///< of getting there
   std::optional<ScanRegistration> registration = {};
-  std::string scan;  ///< file in scans/
-  FileHash hash;     ///< of it
+  std::size_t settings = 0;  ///< how many texts of settings there were before it
+  std::string scan;          ///< file in scans/
+  FileHash hash;             ///< of it
 };
 
 /// What a session is of: a file or folder that must still be the one it was. None of a live scanner.
@@ -43,7 +44,7 @@ struct JournalInput {
 struct Journal {
   std::string program;  ///< that began it
   JournalInput input;
-  std::string settings;                        ///< text of config.toml, as it was last
+  std::vector<std::string> settings;           ///< texts of config.toml, the last one of now
   std::map<std::uint32_t, JournalStep> steps;  ///< by number
   std::uint32_t at = 0;                        ///< the step that the session stands at; 0: before the first
   bool closed = false;                         ///< nobody was in the middle of it

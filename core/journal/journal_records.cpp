@@ -167,10 +167,11 @@ bool read_record(const std::string& record, Journal& journal) {
   }
   if (kind == "step") {
     JournalStep step = step_of(json);
+    step.settings = journal.settings.size();
     journal.at = step.number;
     journal.steps.insert_or_assign(step.number, std::move(step));
   } else if (kind == "settings") {
-    json.at("toml").get_to(journal.settings);
+    journal.settings.push_back(json.at("toml").get<std::string>());
   } else if (kind == "at") {
     const auto number = json.at("number").get<std::uint32_t>();
     if (number > journal.last_number()) throw std::runtime_error("no step");

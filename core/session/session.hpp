@@ -58,6 +58,8 @@ class Session {
   /// Goes on from a state of this session's, or of one of the same configuration. Nothing is captured; a simulated
   /// robot is put back, a real one stays where it is.
   void restore(ScanState state);
+  /// The same of a state that another planner has ranked. @throws std::invalid_argument if it is not valid
+  void restore(ScanState state, const PlannerConfig& planner);
 
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
   void override_next_view(std::size_t candidate);
@@ -68,6 +70,10 @@ class Session {
 
   /// Leaves the choice of the next view to the planner again.
   void take_proposal();
+
+  /// Ranks the candidates by another planner from here on, and keeps the scan; where it needs other maps they are made
+  /// again from the scans. @throws std::invalid_argument if it is not valid; Stopped. Then all is as it was.
+  void set_planner(const PlannerConfig& config, const Progress& progress = {}, const std::stop_token& stop = {});
 
   /// Changes when the scan is done, and keeps all else; a finished scan may go on by it.
   /// @throws std::invalid_argument if it is not valid.
@@ -125,6 +131,7 @@ class Session {
   void compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
                     const std::stop_token& stop);
   void adopt(ScanState state);
+  ScanSetup setup_with(const PlannerConfig& config) const;
   void require_first_step() const;
   std::string unreachable(const View& view) const;
 

@@ -33,14 +33,14 @@ Setting setting(Configuration& configuration, const std::string& key) {
 std::string shown_name(const Setting& setting) { return fmt::format("{} ({})", setting.label(), setting.key); }
 
 constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, too
-constexpr std::string_view kept = "termination.";       // settings that leave the scan as it is
 
-/// What ends a scan may change while it goes on; the views depend on all else. Nothing happens if the setting is so
-/// already.
+/// What ends a scan and what ranks its views may change while it goes on; what was scanned depends on all else. Nothing
+/// happens if the setting is so already.
 void change_setting(CommandTarget& target, const std::string& key, const Configuration& wanted) {
   wanted.validate();
   if (to_toml(wanted) == to_toml(target.session.configuration)) return;
-  if (key.starts_with(kept)) return target.worker.post(request::SetTermination{wanted.termination});
+  if (key.starts_with("termination.")) return target.worker.post(request::SetTermination{wanted.termination});
+  if (key.starts_with("planner.")) return target.worker.post(request::SetPlanner{wanted.planner});
   target.worker.post(request::Load{wanted});
 }
 
@@ -80,6 +80,8 @@ std::string reset_settings_why_not(const CommandState& t) {
 
 }  // namespace
 
+bool keeps_scan(std::string_view key) { return key.starts_with("termination.") || key.starts_with("planner."); }
+
 const CommandOf<std::string> command::open{
     {"open",
      "File",
@@ -94,7 +96,7 @@ const CommandOf<std::string, std::string> command::set{
     {"set",
      "File",
      "Change a setting…",
-     "Changes a setting; starts the scan over, unless it is a termination setting.",
+     "Changes a setting. Those of planner and termination keep the scan, the others start it over.",
      {},
      needs_session},
     setting_key(),
@@ -113,7 +115,7 @@ const CommandOf<std::string> command::reset_setting{
     {"reset-setting",
      "File",
      "Set a setting back…",
-     "Gives a setting its default again; starts the scan over, unless it is a termination setting.",
+     "Gives a setting its default again. Those of planner and termination keep the scan, the others start it over.",
      {},
      needs_session},
     setting_key(),

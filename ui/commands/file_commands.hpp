@@ -14,3 +14,10 @@ extern const CommandOf<std::string> export_scan, save_picture, save_script;  ///
 CommandCall set_as_in(const Configuration& wanted, const std::string& key);
 
 }  // namespace nextview::command
+
+namespace nextview {
+
+/// Whether a change of this setting leaves what was scanned as it is.
+bool keeps_scan(std::string_view key);
+
+}  // namespace nextview

@@ -68,10 +68,10 @@ bool concerns(std::string_view group, const SessionSnapshot& s) {
 }  // namespace
 
 void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, const char* name) {
-  const bool keeps_scan = setting.key.starts_with("termination.");
   label(context, name,
         fmt::format("{}: {}\n{}", setting.key, setting_help(setting),
-                    keeps_scan ? "A change keeps the scan." : "A change starts the scan over; undo brings it back."));
+                    keeps_scan(setting.key) ? "A change keeps the scan."
+                                            : "A change starts the scan over; undo brings it back."));
   if (setting.key == "object.file") {
     draw_object(context, setting);
   } else if (setting.key == "sensor.preset") {
@@ -154,7 +154,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
                                   {"Views", "termination.views"},
                                   {"Seed", "seed"}})
     draw_setting(context, find_setting(settings, key), text);
-  small_text(context.style, "A change, but of Views, starts the scan over; undo brings it back.");
+  small_text(context.style, "A change, but of Gain, Semantics and Views, starts the scan over; undo brings it back.");
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));

@@ -14,6 +14,7 @@ namespace nextview {
 struct HistoryEntry {
   std::shared_ptr<Session> session;
   TerminationConfig termination;
+  PlannerConfig planner;
   ScanState state;
   SeenSurface seen;
   std::shared_ptr<DriverConnection> scanner = {};  ///< null unless it is a live one's

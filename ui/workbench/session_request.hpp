@@ -39,6 +39,10 @@ struct Reconnect {};
 struct SetTermination {
   TerminationConfig termination;
 };
+/// Changes what ranks the views, and keeps the scan.
+struct SetPlanner {
+  PlannerConfig planner;
+};
 /// Starts over with the same configuration.
 struct Reset {};
 struct Step {};
@@ -73,8 +77,8 @@ struct ForgetRuns {};
 
 using SessionRequest =
     std::variant<request::Load, request::OpenFile, request::OfferSession, request::Connect, request::Disconnect,
-                 request::Reconnect, request::SetTermination, request::Reset, request::Step, request::Play,
-                 request::Pause, request::TakeView, request::TakeCustomView, request::Undo, request::Redo,
-                 request::Refine, request::Export, request::ForgetRuns>;
+                 request::Reconnect, request::SetTermination, request::SetPlanner, request::Reset, request::Step,
+                 request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
+                 request::Redo, request::Refine, request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

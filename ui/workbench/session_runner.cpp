@@ -30,7 +30,8 @@ Progress part(const Progress& whole, double begin, double end) {
 }  // namespace
 
 HistoryEntry SessionRunner::now() const {
-  return {session_, session_->configuration().termination, session_->state(), *seen_, scanner_, kept_, kept_->line()};
+  const Configuration& c = session_->configuration();
+  return {session_, c.termination, c.planner, session_->state(), *seen_, scanner_, kept_, kept_->line()};
 }
 
 void SessionRunner::keep_sessions(std::filesystem::path state, KeptSession::Notice notice) {
@@ -78,8 +79,8 @@ void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverCon
   SessionParts parts = scanner ? scanner_parts(configuration, scanner) : SessionParts{};
   auto session = std::make_shared<Session>(std::move(configuration), std::move(parts), control.progress, control.stop);
   if (session_) history_.push(now(), history_limit(*session_));
-  const TerminationConfig termination = session->configuration().termination;
-  adopt({session, termination, session->state(), SeenSurface(*session), std::move(scanner),
+  const Configuration& c = session->configuration();
+  adopt({session, c.termination, c.planner, session->state(), SeenSurface(*session), std::move(scanner),
          std::make_shared<KeptSession>(state_folder_, notice_)});
 }
 
@@ -101,7 +102,8 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
   std::vector<HistoryEntry> states;
   const auto look = [&] {
     seen.follow(*session);
-    states.push_back({session, c.termination, session->state(), seen, nullptr, kept, kept->line()});
+    states.push_back({session, c.termination, session->configuration().planner, session->state(), seen, nullptr, kept,
+                      kept->line()});
   };
   look();
   if (!restore(*session, saved, kept->folder(), look, part(control.progress, 0.2, 1.0), control.stop)) throw Stopped();
@@ -119,6 +121,18 @@ void SessionRunner::set_termination(const TerminationConfig& termination) {
   history_.push(std::move(before), history_limit(*session_));
   kept_->follow(*session_, kept_->line());
   show_next();
+}
+
+void SessionRunner::set_planner(const PlannerConfig& planner, const JobControl& control) {
+  if (!session_) return;
+  HistoryEntry before = now();
+  control.progress(0.0, "ranking the candidate views");
+  session_->set_planner(planner, control.progress, control.stop);
+  history_.push(std::move(before), history_limit(*session_));
+  kept_->follow(*session_, kept_->line());
+  SessionSnapshot next = *snapshot_;
+  next.configuration = session_->configuration();
+  show_map(std::move(next));
 }
 
 void SessionRunner::show_next() {
@@ -166,12 +180,12 @@ void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_session = session_ == entry.session;
   const bool same_scan = same_session && session_->scans() == entry.state.scans;
   SessionSnapshot next = *snapshot_;
-  session_ = std::move(entry.session);
-  scanner_ = std::move(entry.scanner);
   if (kept_ && kept_ != entry.kept) kept_->close();
   if (scanner_ && scanner_ != entry.scanner) scanner_->leave();
+  session_ = std::move(entry.session);
+  scanner_ = std::move(entry.scanner);
   kept_ = std::move(entry.kept);
-  session_->restore(std::move(entry.state));
+  session_->restore(std::move(entry.state), entry.planner);
   session_->set_termination(entry.termination);
   session_->take_proposal();
   kept_->follow(*session_, entry.line);

@@ -119,5 +119,29 @@ TEST(ScanState, AForkCopiesLittleAndAViewTakesLessThanHalfOfTheMap) {
   }
 }
 
+// What ranks the views is no part of what was scanned: after a change all is as with that planner from the start, but
+// for the views that were taken.
+TEST(ScanState, AnotherPlannerRanksTheSameScan) {
+  Configuration c = small_scan();
+  Session session(c);
+  session.step();
+  session.step();
+  for (const char* gain : {"occlusion-aware", "rear-side-voxel", "proximity-count", "random"}) {
+    c.planner.gain = gain;
+    session.set_planner(c.planner);
+    Session fresh(c);
+    fresh.step();
+    const Pose second = session.records()[1].T_world_camera;
+    const auto& views = fresh.candidates();
+    const auto same = std::ranges::find_if(views, [&](const Pose& p) { return p.matrix() == second.matrix(); });
+    ASSERT_NE(same, views.end());
+    fresh.override_next_view(std::size_t(same - views.begin()));
+    fresh.step();
+    EXPECT_TRUE(same_map(session.map(), fresh.map())) << gain;
+    EXPECT_TRUE(same_candidates(session.records()[1].candidates, fresh.records()[1].candidates)) << gain;
+    EXPECT_EQ(session.next_candidate(), fresh.next_candidate()) << gain;
+  }
+}
+
 }  // namespace
 }  // namespace nextview

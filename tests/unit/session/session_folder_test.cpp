@@ -81,6 +81,25 @@ TEST_F(SessionFolderTest, ChoicesOfTheOperatorAreKept) {
   EXPECT_EQ(restored->records()[2].view, -1);
 }
 
+TEST_F(SessionFolderTest, AnotherPlannerOnTheWayIsKept) {
+  Session session(small_scan());
+  SessionFolder folder = begin(session);
+  ASSERT_TRUE(folder.step(session));
+  for (const char* gain : {"rear-side-voxel", "gibbs", "new-surface"}) {  // occlusions, a posterior, and neither
+    PlannerConfig planner = session.configuration().planner;
+    planner.gain = gain;
+    session.set_planner(planner);
+    folder.keep_configuration(session);
+    ASSERT_TRUE(folder.step(session));
+  }
+  const auto restored = again();
+  EXPECT_EQ(restored->configuration().planner.gain, "new-surface");
+  ASSERT_EQ(restored->records().size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_TRUE(same_candidates(session.records()[k].candidates, restored->records()[k].candidates)) << k;
+  EXPECT_TRUE(same_map_but_for_occlusions(session.map(), restored->map()));
+}
+
 TEST_F(SessionFolderTest, AViewThatWasCapturedAndNotAbsorbedIsTakenThen) {
   const auto whole = scan(2);
   fs::remove_all(path());

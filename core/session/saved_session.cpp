@@ -1,0 +1,158 @@
+#include "core/session/saved_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/config/configuration_text.hpp"
+#include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
+#include "core/results/output_folder.hpp"
+#include "core/session/session_folder.hpp"
+#include "core/session/taken_views.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+NextView choice_of(const JournalStep& step) {
+  return {step.wanted, step.candidate, step.is_custom, step.overridden, step.gain, step.utility};
+}
+
+Acquired acquired_of(const JournalStep& step, Capture capture) {
+  Acquired acquired;
+  acquired.wanted = step.wanted;
+  acquired.reached = step.reached;
+  acquired.believed = step.believed;
+  acquired.capture = std::move(capture);
+  acquired.motion = step.motion;
+  acquired.registration = step.registration;
+  return acquired;
+}
+
+/// The part of a job's progress that is its k-th of n steps.
+Progress part(const Progress& whole, std::size_t k, std::size_t n) {
+  if (!whole) return {};
+  return [=](double fraction, std::string_view) {
+    whole((double(k) + fraction) / double(n), fmt::format("going through view {} of {} again", k + 1, n));
+  };
+}
+
+/// The journal's settings hold: the file beside it may have been lost, or changed.
+void repair_configuration(const Journal& journal, const fs::path& folder, std::vector<std::string>& notices) {
+  const fs::path file = folder / "config.toml";
+  if (journal.settings.empty() || (is_there(file) && read_file(file) == journal.settings.back())) return;
+  write_file(file, journal.settings.back());
+  notices.emplace_back("config.toml was not as the session wrote it, and is so again");
+}
+
+using Step = std::function<bool(const Progress&)>;
+
+/// A scan without a journal: from the same poses the simulation senses the same.
+bool sense_again(Session& session, const SavedSession& saved, const Step& step, const std::function<void()>& each,
+                 const Progress& progress) {
+  const std::vector<Pose> poses = views_taken(saved.folder / "views.csv", session.configuration());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const std::vector<Pose>& candidates = session.candidates();
+    const auto same = std::ranges::find_if(candidates, [&](const Pose& p) { return p.matrix() == poses[k].matrix(); });
+    const auto candidate = std::size_t(same - candidates.begin());
+    if (k > 0 && session.next_candidate() != candidate) {
+      if (candidate < candidates.size())
+        session.override_next_view(candidate);
+      else
+        session.override_next_view(poses[k]);
+    }
+    if (!step(part(progress, k, poses.size()))) return false;
+    if (each) each();
+  }
+  return true;
+}
+
+bool holds_nothing_but(std::span<const InputFile> inputs, const fs::path& folder) {
+  std::error_code error;
+  const auto is_input = [&](const fs::directory_entry& entry) {
+    std::error_code ignored;
+    return std::ranges::any_of(inputs, [&](const auto& input) { return fs::equivalent(entry, input.path, ignored); });
+  };
+  return fs::is_directory(folder, error) &&
+         std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(), is_input);
+}
+
+/// What ranked the views when this one was chosen.
+PlannerConfig planner_at(const Journal& journal, const JournalStep& step, const PlannerConfig& now) {
+  if (step.settings == 0 || step.settings == journal.settings.size()) return now;
+  return configuration_of(journal.settings.at(step.settings - 1), "config.toml").planner;
+}
+
+}  // namespace
+
+bool is_session(const fs::path& folder) {
+  return has_journal(folder) || (is_there(folder / "config.toml") && is_there(folder / "views.csv"));
+}
+
+SavedSession read_session(const fs::path& folder) {
+  if (!is_session(folder)) throw std::runtime_error(fmt::format("{}: holds no session", folder.string()));
+  SavedSession saved;
+  saved.folder = folder;
+  if (has_journal(folder)) {
+    saved.journal = read_journal(folder);
+    saved.notices = saved.journal->damage;
+    require_same_input(*saved.journal, folder);
+    repair_configuration(*saved.journal, folder, saved.notices);
+    saved.configuration = read_configuration(folder / "config.toml");
+    return saved;
+  }
+  saved.configuration = read_configuration(folder / "config.toml");
+  const Configuration& c = saved.configuration;
+  if (!c.recorded.folder.empty() || !c.driver.name.empty())
+    throw std::runtime_error(fmt::format("{}: has no journal: what was captured is not there", folder.string()));
+  require_same_object(folder, resolve_object(c));
+  saved.notices.emplace_back("an earlier version left no scans there: its views are sensed again");
+  return saved;
+}
+
+void require_free_for_session(const fs::path& folder, bool overwrite, std::span<const InputFile> inputs) {
+  if (!is_there(folder) || holds_nothing_but(inputs, folder)) return;
+  const auto manifest = read_manifest(folder);
+  const std::string another = fmt::format("give another folder, for example --out {}", free_folder(folder).string());
+  if (!is_session(folder) && !(manifest && manifest->command == "scan"))
+    throw std::invalid_argument(fmt::format("{}: is not empty, and holds no session; {}", folder.string(), another));
+  if (!overwrite)
+    throw std::invalid_argument(fmt::format(
+        "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
+}
+
+bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const std::function<void()>& each,
+             const Progress& progress, const std::stop_token& stop) {
+  if (!saved.journal) {
+    const Step step = [&](const Progress& p) {
+      return folder ? folder->step(session, p, stop) : session.step(p, stop);
+    };
+    return sense_again(session, saved, step, each, progress);
+  }
+  const std::vector<JournalStep> line = saved.journal->line();
+  const PlannerConfig now = session.configuration().planner;
+  // As it went: a view is ranked and taken, and only then may another planner rank the next one.
+  if (!line.empty()) session.set_planner(planner_at(*saved.journal, line.front(), now));
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    Capture capture;
+    try {
+      capture = read_capture(line[k], saved.folder);
+    } catch (const std::runtime_error& error) {
+      saved.notices.push_back(fmt::format("view {} is left out: {}", k + 1, error.what()));
+      continue;
+    }
+    if (!session.step_again(choice_of(line[k]), acquired_of(line[k], std::move(capture)),
+                            part(progress, k, line.size()), stop))
+      return false;
+    session.set_planner(k + 1 == line.size() ? now : planner_at(*saved.journal, line[k + 1], now), {}, stop);
+    if (folder) folder->line_.push_back(line[k].number);
+    if (each) each();
+  }
+  session.set_planner(now, {}, stop);
+  return true;
+}
+
+}  // namespace nextview

@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/journal/journal.hpp"
+#include "core/results/input_file.hpp"
+#include "core/session/session.hpp"
+
+namespace nextview {
+
+/// What the folder of a session says, however old it is.
+struct SavedSession {
+  std::filesystem::path folder;
+  Configuration configuration;
+  std::optional<Journal> journal;    ///< none in those of 0.4.0 and earlier
+  std::vector<std::string> notices;  ///< what is lost, or sensed again, for people
+};
+
+/// Whether a folder holds a session: one with a journal, or what `scan` of 0.4.0 left.
+bool is_session(const std::filesystem::path& folder);
+/// @throws std::runtime_error, std::invalid_argument naming the file and the reason: none of a session, a newer
+/// version's, the object has changed
+SavedSession read_session(const std::filesystem::path& folder);
+/// A folder for a session that is yet to begin. @throws std::invalid_argument with one line unless it is absent, empty
+/// but for what the session reads, or holds a session that may be replaced
+void require_free_for_session(const std::filesystem::path& folder, bool overwrite, std::span<const InputFile> inputs);
+
+class SessionFolder;
+
+/// Brings a new session to where the saved one stands: its views are taken again from what was captured, the same
+/// bytes; those of 0.4.0 are sensed again. Where a capture is lost the view is left out, and a notice added. `folder`,
+/// if given, is that of the session. `each` is called after each view. False if it was stopped.
+/// @throws as Session::step
+bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const std::function<void()>& each = {},
+             const Progress& progress = {}, const std::stop_token& stop = {});
+
+}  // namespace nextview

@@ -1,0 +1,103 @@
+// What of a session changes without a view being taken: where it stands, what comes next, what ranks and what ends it.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "core/planner/look_ahead_planner.hpp"
+#include "core/session/session.hpp"
+#include "core/session/session_parts.hpp"
+
+namespace nextview {
+
+void Session::restore(ScanState state) {
+  taken_.reset();
+  robot_->restored(state.T_world_camera);
+  adopt(std::move(state));
+}
+
+void Session::restore(ScanState state, const PlannerConfig& planner) {
+  setup_ = setup_with(planner);
+  restore(std::move(state));
+}
+
+ScanSetup Session::setup_with(const PlannerConfig& config) const {
+  ScanSetup setup = setup_;
+  Configuration wanted = configuration();
+  wanted.planner = config;
+  setup.configuration = validated(std::move(wanted));
+  if (to_toml(setup.configuration) == to_toml(configuration())) return setup_;  // also with a planner of its own
+  setup.planner = make_planner(config);
+  setup.bundle = scoring_rays(setup.configuration, setup.source.camera);
+  return setup;
+}
+
+void Session::set_planner(const PlannerConfig& config, const Progress& progress, const std::stop_token& stop) {
+  ScanSetup setup = setup_with(config);
+  if (setup.planner == setup_.planner) return;
+  ScanState state = state_;
+  const PolicyNeeds before = setup_.planner->needs(), now = setup.planner->needs();
+  if (before.occlusions != now.occlusions || before.posterior != now.posterior) {
+    const ScanState nothing = nothing_scanned(setup, state.T_world_camera);
+    remake(setup, state, nothing, progress, stop);
+  }
+  if (!state.records.empty()) state = plan(setup, std::move(state), *robot_, progress, stop);
+  setup_ = std::move(setup);
+  adopt(std::move(state));
+}
+
+void Session::adopt(ScanState state) {
+  std::vector<StepRecord> records;
+  for (const auto& record : state.records) records.push_back(*record);
+  candidates_ = poses_of(state.candidates);
+  records_ = std::move(records);
+  state_ = std::move(state);
+}
+
+std::string Session::unreachable(const View& view) const {
+  return robot_->reach(robot_->pose(), {&view, 1}).at(0).unreachable;
+}
+
+void Session::override_next_view(std::size_t candidate) {
+  const bool known = candidate < candidates().size();
+  const View view = known ? state_.candidates[candidate] : View{};
+  if (!known || state_.known.has_taken(view) || !unreachable(view).empty())
+    throw std::invalid_argument(fmt::format("candidate view {} is not available", candidate));
+  require_first_step();
+  const StepRecord& last = records_.back();
+  const Candidate& c = last.candidates[candidate];
+  state_.next = {view, candidate, false, last.ranking.best != candidate, c.gain, c.utility};
+}
+
+void Session::override_next_view(const Pose& T_world_camera) {
+  if (!is_rigid(T_world_camera))
+    throw std::invalid_argument("a view must be a finite position and a rotation, without scale or reflection");
+  if (recording_)
+    throw std::invalid_argument("a recording has no views but those that were taken; choose one of its frames");
+  if (const std::string reason = unreachable({T_world_camera}); !reason.empty())
+    throw std::invalid_argument("the robot cannot reach the view: " + reason);
+  require_first_step();
+  const Pose pose = make_pose(T_world_camera.translation(), Eigen::Quaterniond(T_world_camera.linear()));
+  const auto expected = explain(pose);
+  state_.next = {{pose}, std::nullopt, true, true, expected ? expected->value : 0.0, 0.0};
+}
+
+void Session::take_proposal() {
+  if (!records_.empty()) state_.next = proposal(setup_, state_);
+}
+
+void Session::set_termination(const TerminationConfig& config) {
+  config.validate();
+  setup_.configuration.termination = config;
+  if (!records_.empty()) state_.finished = termination(config, state_);
+}
+
+void Session::require_first_step() const {
+  if (records_.empty())
+    throw std::invalid_argument("the first view is the start view; step once before choosing another");
+}
+
+std::optional<ScoreExplanation> Session::explain(const Pose& T_world_camera) const {
+  return nextview::explain(setup_, state_, T_world_camera);
+}
+
+}  // namespace nextview
