@@ -38,11 +38,25 @@ JournalStep step_of(const NextView& choice, const Acquired& acquired) {
   return step;
 }
 
+/// And the captures that it names, also if no list of files does. @throws JournalInUse
+void remove_journal(const fs::path& folder) {
+  Journal journal;
+  try {
+    const JournalWriter lock = JournalWriter::go_on(folder, journal);
+  } catch (const JournalInUse&) {
+    throw;
+  } catch (const std::runtime_error&) {  // it cannot be read: no capture is known
+  }
+  std::error_code ignored;
+  for (const auto& [number, step] : journal.steps)
+    if (is_plain_file(folder / scans_name / step.scan)) fs::remove(folder / scans_name / step.scan, ignored);
+  if (is_plain_file(folder / journal_name)) fs::remove(folder / journal_name, ignored);
+}
+
 }  // namespace
 
 SessionFolder SessionFolder::begin(OutputFolder out, const Session& session) {
-  JournalText ignored;
-  if (has_journal(out.path())) JournalFile::go_on(out.path() / journal_name, ignored);  // is it free?
+  if (has_journal(out.path())) remove_journal(out.path());
   const bool has_object = session.mesh() && !session.recording();
   out.begin("scan", has_object ? std::optional(session.object_file()) : std::nullopt);
   const fs::path folder = out.claim(journal_name).parent_path();

@@ -83,15 +83,15 @@ class Display : public testing::Test {
     std::filesystem::remove_all(folder_);
   }
   void start(const std::string& arguments = "") {
-    program_ = std::make_unique<Background>(
-        fmt::format("env DISPLAY={} '{}' {} 2>/dev/null", display_, NEXTVIEW_PROGRAM, arguments));
+    program_ = std::make_unique<Background>(fmt::format("env XDG_STATE_HOME='{}' DISPLAY={} '{}' {} 2>/dev/null",
+                                                        folder_.string(), display_, NEXTVIEW_PROGRAM, arguments));
   }
 
   /// Plays a script in the window until the program ends; returns its exit code, or 128 and more if it was killed.
   int play(const std::string& script, const std::string& options = "", const std::string& object = "sphere") const {
     write_file(folder_ / "script.txt", script);
     const std::string command = fmt::format(
-        "DISPLAY={0} timeout 240 '{1}' window {4} --sensor.width 160 --sensor.height 120 "
+        "XDG_STATE_HOME='{2}' DISPLAY={0} timeout 240 '{1}' window {4} --sensor.width 160 --sensor.height 120 "
         "--termination.views 4 --script '{2}/script.txt' {3} >'{2}/out' 2>'{2}/err'",
         display_, NEXTVIEW_PROGRAM, folder_.string(), options, object);
     const int status = std::system(command.c_str());

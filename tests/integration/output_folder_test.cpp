@@ -193,13 +193,13 @@ TEST_F(OutputFolder, AFolderWithAManifestOfSomethingElseIsLeftAlone) {
 
 TEST_F(OutputFolder, IsRefinedFromAnywhereAndAfterItWasMoved) {
   copy("box.ply", "here/part.ply");
-  copy("box.ply", "here/out/inside.ply");
   fs::create_directories(in("there/deep"));
   expect_done("scan part.ply --out out" + quick, "here");
   expect_done("refine here/out --out one --no-pictures --no-surfaces --gibbs.sweeps 20");
   expect_done("refine ../../here/out --out ../two --no-pictures --no-surfaces --gibbs.sweeps 20", "there/deep");
   EXPECT_EQ(read_file(in("one/posterior.ot")), read_file(in("there/two/posterior.ot")));
   EXPECT_EQ(read_file(in("one/config.toml")), read_file(in("there/two/config.toml")));
+  copy("box.ply", "here/out/inside.ply");
   expect_done("scan out/inside.ply --out out" + quick, "here");
   EXPECT_EQ(toml_value(read_file(in("here/out/config.toml")), "file"), "") << "object and views: two";
   EXPECT_THAT(read_file(in("here/out/config.toml")), HasSubstr("file = 'inside.ply'"));

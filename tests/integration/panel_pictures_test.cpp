@@ -68,9 +68,9 @@ TEST(PanelPictures, CurvesOfSeveralRuns) {
   c.termination.surface_left = 0.0;
   User user(c);
   user.run("play\n");
-  user.run("set planner.gain average-entropy\n");
+  user.run("set planner.gain average-entropy\nreset\n");
   user.run("play\n");
-  user.run("set planner.gain random\n");
+  user.run("set planner.gain random\nreset\n");
   user.run("play\ncurves coverage gain\ncloud-colour distance\ntoggle-octree\n");
   expect_screenshot("panel_curves", user.look(), bound());
 }

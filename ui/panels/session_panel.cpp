@@ -154,7 +154,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
                                   {"Views", "termination.views"},
                                   {"Seed", "seed"}})
     draw_setting(context, find_setting(settings, key), text);
-  small_text(context.style, "A change, but of Gain, Semantics and Views, starts the scan over; undo brings it back.");
+  small_text(context.style, "Gain, Semantics and Views keep the scan, all else starts it over.");
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));

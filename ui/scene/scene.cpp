@@ -1,5 +1,6 @@
 #include "ui/scene/scene.hpp"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
@@ -38,6 +39,14 @@ void add_lights(vtkRenderer& renderer) {
   }
 }
 
+/// Before each picture: the lights go with the camera, but shaders hear of it only if the lights themselves change.
+/// Else a picture would depend on those before it.
+void renew_lights(vtkObject* renderer, unsigned long, void*, void*) {
+  vtkLightCollection& lights = *static_cast<vtkRenderer*>(renderer)->GetLights();
+  lights.InitTraversal();
+  while (vtkLight* light = lights.GetNextItem()) light->Modified();
+}
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 }  // namespace
@@ -63,6 +72,9 @@ Scene::Scene()
   renderer_->AutomaticLightCreationOff();
   renderer_->GetActiveCamera()->SetViewAngle(vertical_angle);
   add_lights(*renderer_);
+  vtkNew<vtkCallbackCommand> before_each_picture;
+  before_each_picture->SetCallback(renew_lights);
+  renderer_->AddObserver(vtkCommand::StartEvent, before_each_picture);
   overlay_->item->renderer = renderer_;
   overlay_->actor->GetScene()->AddItem(overlay_->item);
   overlay_->actor->GetScene()->SetRenderer(renderer_);
@@ -187,10 +199,6 @@ void Scene::frame(std::span<const Vector3> points, const ViewDirection& directio
   camera.SetViewAngle(vertical_angle);
   renderer_->ResetCameraClippingRange();
   overlay_->item->scale_reference = box.center();
-  // The lights go with the camera, but shaders hear of it only if the lights themselves change.
-  vtkLightCollection& lights = *renderer_->GetLights();
-  lights.InitTraversal();
-  while (vtkLight* light = lights.GetNextItem()) light->Modified();
 }
 
 }  // namespace nextview

@@ -240,14 +240,15 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
 
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
-  const std::vector<InputFile> inputs = input_files(session_->configuration());
-  OutputFolder out(folder, inputs, "");
   SessionFolder* const own = kept_->folder();
   std::error_code ignored;
   if (own && std::filesystem::equivalent(own->path(), folder, ignored)) {
+    OutputFolder out(folder, {});
     out.go_on("scan");
     return write_results(out, control);
   }
+  const std::vector<InputFile> inputs = input_files(session_->configuration());
+  OutputFolder out(folder, inputs, "");
   require_free_for_session(folder, false, inputs);
   out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
   if (own) own->copy_to(out, *session_);

@@ -1,0 +1,193 @@
+// The window's sessions are kept as they go on, wherever one goes in them.
+#include "ui/workbench/kept_session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <random>
+
+#include "core/session/untitled_sessions.hpp"
+#include "tests/unit/workbench/session_runner_test.hpp"
+#include "ui/workbench/session_worker.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class KeptSessionTest : public InTemporaryFolder {
+ protected:
+  fs::path state() const { return folder_ / "state"; }
+  std::vector<fs::path> kept() const {
+    std::vector<fs::path> sessions;
+    if (fs::exists(state()))
+      for (const auto& entry : fs::directory_iterator(state())) sessions.push_back(entry.path());
+    return sessions;
+  }
+  std::unique_ptr<SessionRunner> runner() {
+    auto runner = std::make_unique<SessionRunner>();
+    runner->keep_sessions(state(), [this](const std::string& line) { notices_.push_back(line); });
+    return runner;
+  }
+  static void steps(SessionRunner& runner, int count) {
+    for (int k = 0; k < count; ++k) runner.step(job_control());
+  }
+  std::vector<std::string> notices_;
+};
+
+TEST_F(KeptSessionTest, IsThereFromTheFirstViewOn) {
+  auto first = runner();
+  first->load(small_scan(), job_control());
+  EXPECT_TRUE(kept().empty()) << "nothing has been scanned";
+  steps(*first, 3);
+  first->undo(job_control());
+  ASSERT_EQ(kept().size(), 1u);
+  const auto was = first->snapshot();
+  first.reset();
+  auto second = runner();
+  second->open(kept().front(), job_control());
+  expect_same_scan(*was, *second->snapshot());
+  EXPECT_THAT(notices_, testing::IsEmpty());
+}
+
+TEST_F(KeptSessionTest, EachViewOfAnOpenedOneCanBeUndone) {
+  auto first = runner();
+  first->load(small_scan(), job_control());
+  steps(*first, 3);
+  first.reset();
+  auto second = runner();
+  second->open(kept().front(), job_control());
+  second->undo(job_control());
+  second->undo(job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 1u);
+  second->redo(job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 2u);
+  EXPECT_EQ(read_journal(kept().front()).line().size(), 2u);
+}
+
+TEST_F(KeptSessionTest, ASecondProgramShowsItAndSaysThatNothingIsKept) {
+  auto first = runner(), second = runner();
+  first->load(small_scan(), job_control());
+  steps(*first, 2);
+  second->open(kept().front(), job_control());
+  EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("another program")));
+  steps(*second, 1);
+  EXPECT_EQ(second->snapshot()->records.size(), 3u);
+  EXPECT_EQ(first->snapshot()->records.size(), 2u);
+  EXPECT_EQ(read_journal(kept().front()).line().size(), 2u);
+  EXPECT_EQ(kept().size(), 1u);
+}
+
+TEST_F(KeptSessionTest, WhatIsExportedIsASession) {
+  auto first = runner();
+  first->load(small_scan(), job_control());
+  steps(*first, 2);
+  first->write(folder_ / "out", job_control());
+  EXPECT_THROW(first->write(folder_ / "out", job_control()), std::invalid_argument) << "it is not replaced";
+  auto second = runner();
+  second->open(folder_ / "out", job_control());
+  expect_same_scan(*first->snapshot(), *second->snapshot());
+  steps(*second, 1);
+  EXPECT_EQ(read_journal(folder_ / "out").line().size(), 3u) << "it goes on where it is";
+  second->write(folder_ / "out", job_control());
+  EXPECT_TRUE(fs::exists(folder_ / "out/map.ot")) << "one's own folder can be written anew";
+  EXPECT_EQ(read_journal(folder_ / "out").line().size(), 3u);
+}
+
+TEST_F(KeptSessionTest, TheTenNewestStay) {
+  for (int k = 0; k < 12; ++k) {
+    auto one = runner();
+    Configuration c = small_scan();
+    c.evaluation.enabled = false;
+    one->load(c, job_control());
+    steps(*one, 1);
+  }
+  EXPECT_EQ(kept().size(), 10u);
+}
+
+TEST_F(KeptSessionTest, WhereNothingCanBeWrittenItSaysSoOnceAndGoesOn) {
+  fs::create_directories(folder_ / "");
+  std::ofstream(state()) << "a file in its place";
+  auto first = runner();
+  first->load(small_scan(), job_control());
+  steps(*first, 2);
+  EXPECT_EQ(first->snapshot()->records.size(), 2u);
+  EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("goes on in memory")));
+}
+
+TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
+  const fs::path folder = state() / "2026-01-01 00.00.00 box";
+  {
+    Session session(small_scan());
+    SessionFolder ended = SessionFolder::begin(OutputFolder(folder, {}), session);
+    ASSERT_TRUE(ended.step(session));
+    ASSERT_TRUE(ended.step(session));
+    EXPECT_FALSE(unfinished_session(state())) << "another program is at it";
+  }
+  const auto found = unfinished_session(state());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->name, "box");
+  EXPECT_EQ(found->views, 2u);
+  for (const char* answer : {"Begin anew", "Go on"}) {
+    std::mutex mutex;
+    std::condition_variable news;
+    SessionWorker worker([&] { news.notify_all(); });
+    worker.keep_sessions(state());
+    worker.post(request::OfferSession{*found});
+    std::unique_lock lock(mutex);
+    while (worker.progress().question.empty()) news.wait_for(lock, std::chrono::milliseconds(20));
+    EXPECT_THAT(worker.progress().question, HasSubstr("box with 2 views was not closed"));
+    worker.answer(answer);
+    while (worker.progress().busy) news.wait_for(lock, std::chrono::milliseconds(20));
+    EXPECT_EQ(worker.snapshot()->records.size(), std::string(answer) == "Go on" ? 2u : 0u);
+  }
+  EXPECT_FALSE(unfinished_session(state()));
+}
+
+/// Against the plain meaning of each command: a list of what was done that led here.
+TEST_F(KeptSessionTest, CommandsAtRandomAreAllThereWhenItIsOpenedAgain) {
+  std::mt19937 random(3);
+  auto runner_now = runner();
+  Configuration c = small_scan();
+  c.evaluation.enabled = false;
+  c.termination.views = 50;
+  runner_now->load(c, job_control());
+  steps(*runner_now, 1);
+  const fs::path folder = kept().front();
+  for (int k = 0; k < 60; ++k) {
+    switch (random() % 7) {
+      case 0:
+      case 1:
+      case 2:
+        if (runner_now->can_step()) steps(*runner_now, 1);
+        break;
+      case 3:
+        if (runner_now->snapshot()->records.size() > 1) runner_now->undo(job_control());
+        break;
+      case 4:
+        runner_now->redo(job_control());
+        break;
+      case 5: {
+        PlannerConfig planner = runner_now->configuration().planner;
+        planner.gain = random() % 2 ? "rear-side-voxel" : "new-surface";
+        runner_now->set_planner(planner, job_control());
+        break;
+      }
+      default: {
+        const auto was = runner_now->snapshot();
+        runner_now.reset();
+        runner_now = runner();
+        runner_now->open(folder, job_control());
+        expect_same_scan(*was, *runner_now->snapshot());
+        EXPECT_EQ(runner_now->configuration().planner.gain, was->configuration.planner.gain);
+      }
+    }
+  }
+  EXPECT_THAT(notices_, testing::IsEmpty());
+  EXPECT_GT(runner_now->snapshot()->records.size(), 1u);
+}
+
+}  // namespace
+}  // namespace nextview
