@@ -98,7 +98,7 @@ class FrozenOutputs : public ::testing::TestWithParam<std::string> {
   fs::path scanned(const std::string& name) const {
     const fs::path out = folder_.path() / name;
     const Result run = nextview("scan --config '" + (frozen / (name + ".toml")).string() +
-                                "' --no-pictures --no-surfaces --out '" + out.string() + "'");
+                                "' --no-pictures --no-surfaces --overwrite --out '" + out.string() + "'");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return out;
   }
