@@ -150,7 +150,7 @@ int main(int count, char** arguments) {
     std::ifstream(arguments[1]) >> fault >> at;
     if (at != request) fault.clear();
     if (request == "bye") return 0;
-    if (fault == "late") std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    if (fault == "late") std::this_thread::sleep_for(std::chrono::milliseconds(800));
     if (fault == "slow") {  // until it is told to stop
       std::getline(std::cin, line);
       say("{\"id\":" + id + ",\"error\":\"stopped\"}\n{\"id\":" + value(line, "id") + ",\"ok\":true}\n");
