@@ -73,7 +73,8 @@ void require_same_input(const std::filesystem::path& folder);
 class JournalWriter {
  public:
   /// @throws std::runtime_error naming the file and the reason
-  static JournalWriter begin(const std::filesystem::path& folder, const JournalInput& input);
+  static JournalWriter begin(const std::filesystem::path& folder, const JournalInput& input,
+                             const std::string& settings);
   /// Goes on with what is there, which `journal` then says. @throws as read_journal; JournalInUse
   static JournalWriter go_on(const std::filesystem::path& folder, Journal& journal);
 

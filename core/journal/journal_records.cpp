@@ -114,10 +114,11 @@ JournalStep step_of(const Json& json) {
 
 }  // namespace
 
-std::string beginning_record(const JournalInput& input) {
+std::string beginning_record(const JournalInput& input, const std::string& settings) {
   Json json = {
       {"record", "session"}, {"version", version}, {"program", "nextview " NEXTVIEW_VERSION}, {"input", input.path}};
   if (input.hash) json.update(to_json(*input.hash));
+  json["toml"] = settings;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -163,6 +164,7 @@ bool read_record(const std::string& record, Journal& journal) {
     json.at("program").get_to(journal.program);
     json.at("input").get_to(journal.input.path);
     if (json.contains("crc32")) journal.input.hash = hash_in(json);
+    journal.settings.push_back(json.at("toml").get<std::string>());
     return true;
   }
   if (kind == "step") {

@@ -10,7 +10,8 @@ struct NewerJournal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::string beginning_record(const JournalInput& input);
+/// With the settings: there is no journal without.
+std::string beginning_record(const JournalInput& input, const std::string& settings);
 std::string settings_record(const std::string& text);
 std::string step_record(const JournalStep& step);
 std::string position_record(std::uint32_t number);

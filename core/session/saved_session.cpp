@@ -8,6 +8,7 @@
 #include "core/config/configuration_text.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
+#include "core/file/temporary_file.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/session_folder.hpp"
 #include "core/session/taken_views.hpp"
@@ -114,7 +115,9 @@ SavedSession read_session(const fs::path& folder) {
 }
 
 void require_free_for_session(const fs::path& folder, bool overwrite, std::span<const InputFile> inputs) {
-  if (!is_there(folder) || holds_nothing_but(inputs, folder)) return;
+  if (!is_there(folder)) return;
+  remove_abandoned_temporary_files(folder);  // of a session that was ended as it began
+  if (holds_nothing_but(inputs, folder)) return;
   const auto manifest = read_manifest(folder);
   const std::string another = fmt::format("give another folder, for example --out {}", free_folder(folder).string());
   if (!is_session(folder) && !(manifest && manifest->command == "scan"))

@@ -55,26 +55,29 @@ void remove_journal(const fs::path& folder) {
 
 }  // namespace
 
+SessionFolder SessionFolder::begun(OutputFolder out, const JournalInput& input, const Session& session) {
+  const std::string text = to_toml(session.configuration(), out.path());
+  JournalWriter writer = JournalWriter::begin(out.path(), input, text);
+  write_file(out.claim("config.toml"), text);
+  SessionFolder result(std::move(out), std::move(writer), input);
+  result.settings_ = text;
+  return result;
+}
+
 SessionFolder SessionFolder::begin(OutputFolder out, const Session& session) {
   if (has_journal(out.path())) remove_journal(out.path());
   const bool has_object = session.mesh() && !session.recording();
   out.begin("scan", has_object ? std::optional(session.object_file()) : std::nullopt);
   const fs::path folder = out.claim(journal_name).parent_path();
   const JournalInput input = input_of(session, folder);
-  SessionFolder result(std::move(out), JournalWriter::begin(folder, input), input);
-  result.keep_configuration(session);
-  return result;
+  return begun(std::move(out), input, session);
 }
 
 SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, const Session& session) {
   out.go_on("scan");
   const fs::path folder = out.claim(journal_name).parent_path();
   const JournalInput input = input_of(session, folder);
-  if (!saved.journal) {
-    SessionFolder result(std::move(out), JournalWriter::begin(folder, input), input);
-    result.keep_configuration(session);
-    return result;
-  }
+  if (!saved.journal) return begun(std::move(out), input, session);
   Journal now;
   SessionFolder result(std::move(out), JournalWriter::go_on(folder, now), input);
   if (now.at != saved.journal->at || now.last_number() != saved.journal->last_number())
@@ -143,8 +146,7 @@ void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
   JournalInput input = input_;
   if (input.hash) input.path = named_from(copy.path(), path() / input.path);
   copy.claim(journal_name);
-  JournalWriter writer = JournalWriter::begin(copy.path(), input);
-  writer.keep_settings(to_toml(session.configuration(), copy.path()));
+  JournalWriter writer = JournalWriter::begin(copy.path(), input, to_toml(session.configuration(), copy.path()));
   std::uint32_t number = 0;
   for (const std::uint32_t of_line : line_) {
     JournalStep step = steps_.at(of_line);

@@ -52,6 +52,7 @@ class SessionFolder {
                       const std::stop_token&);
   SessionFolder(OutputFolder out, JournalWriter writer, JournalInput input)
       : out_(std::move(out)), writer_(std::move(writer)), input_(std::move(input)) {}
+  static SessionFolder begun(OutputFolder out, const JournalInput& input, const Session& session);
   void keep(const NextView& choice, const Acquired& acquired);
 
   OutputFolder out_;

@@ -44,7 +44,7 @@ Capture image() {
 class JournalTest : public testing::Test {
  protected:
   void write(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& tree) const {
-    JournalWriter writer = JournalWriter::begin(folder_ / "", {"box.ply"});
+    JournalWriter writer = JournalWriter::begin(folder_ / "", {"box.ply"}, "seed = 1\n");
     for (const auto& [number, after] : tree) {
       JournalStep s = step(number, after);
       writer.add(s, image());
@@ -79,7 +79,7 @@ TEST_F(JournalTest, AStepIsReadAsItWas) {
 }
 
 TEST_F(JournalTest, ACaptureIsReadToTheBit) {
-  JournalWriter writer = JournalWriter::begin(folder_ / "", {});
+  JournalWriter writer = JournalWriter::begin(folder_ / "", {}, "");
   JournalStep ranges = step(1, 0), points = step(2, 1);
   writer.add(ranges, image());
   const std::vector<Vector3> cloud = {{1.0 / 3.0, -2e-300, 4.0}, {0.0, 1.0, std::numbers::e}};
@@ -94,7 +94,7 @@ TEST_F(JournalTest, ACaptureIsReadToTheBit) {
 
 TEST_F(JournalTest, IsATreeThatOneStandsIn) {
   {
-    JournalWriter writer = JournalWriter::begin(folder_ / "", {});
+    JournalWriter writer = JournalWriter::begin(folder_ / "", {}, "");
     for (std::uint32_t k = 1; k <= 3; ++k) {
       JournalStep s = step(k, k - 1);
       writer.add(s, image());
