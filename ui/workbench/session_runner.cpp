@@ -179,6 +179,7 @@ void SessionRunner::redo(const JobControl& control) {
 void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_session = session_ == entry.session;
   const bool same_scan = same_session && session_->scans() == entry.state.scans;
+  const Planner* const planner = session_ ? &session_->planner() : nullptr;
   SessionSnapshot next = *snapshot_;
   if (kept_ && kept_ != entry.kept) kept_->close();
   if (scanner_ && scanner_ != entry.scanner) scanner_->leave();
@@ -190,7 +191,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   session_->take_proposal();
   kept_->follow(*session_, entry.line);
   seen_ = std::move(entry.seen);
-  if (same_scan) return show_next();
+  if (same_scan && planner == &session_->planner()) return show_next();
   const auto& scans = session_->scans();
   // What was refined of views that are no more belongs to nothing.
   const auto begin_with = [&](const std::vector<std::shared_ptr<const Scan>>& first, std::size_t views) {

@@ -58,7 +58,6 @@ void SessionRunner::remember_run(SessionSnapshot& snapshot) {
 }
 
 void SessionRunner::show_session(SessionSnapshot& next) const {
-  next.setup = std::make_shared<const ScanSetup>(session_->setup());
   next.mesh = session_->mesh();
   next.surface_points = next.mesh ? std::make_shared<const SurfacePoints>(points_of(
                                         *next.mesh, session_->object_topology(), session_->configuration().seed))
@@ -68,12 +67,13 @@ void SessionRunner::show_session(SessionSnapshot& next) const {
   next.notes = session_->notes();
   next.grid = session_->map().grid();
   next.camera = session_->camera();
-  next.gain_unit = session_->planner().unit();
-  next.planned_on_posterior = session_->planner().needs().posterior;
 }
 
 void SessionRunner::show_map(SessionSnapshot next) {
   ++next.map;
+  next.setup = std::make_shared<const ScanSetup>(session_->setup());  // another planner may rank by now
+  next.gain_unit = session_->planner().unit();
+  next.planned_on_posterior = session_->planner().needs().posterior;
   next.configuration = session_->configuration();
   next.state = session_->state();
   next.voxels = std::make_shared<const std::vector<Voxel>>(session_->map().voxels().dense());

@@ -96,6 +96,26 @@ TEST_F(KeptSessionTest, WhatIsExportedIsASession) {
   EXPECT_EQ(read_journal(folder_ / "out").line().size(), 3u);
 }
 
+TEST_F(KeptSessionTest, AnotherPlannerShowsAllThatIsIts) {
+  auto first = runner();
+  Configuration c = small_scan();
+  first->load(c, job_control());
+  steps(*first, 2);
+  const auto before = first->snapshot();
+  c = first->configuration();
+  c.planner.gain = "rear-side-voxel";
+  first->set_planner(c.planner, job_control());
+  const auto after = first->snapshot();
+  EXPECT_EQ(after->session, before->session);
+  EXPECT_NE(after->gain_unit, before->gain_unit);
+  EXPECT_EQ(after->setup->configuration.planner.gain, "rear-side-voxel");
+  first->undo(job_control());
+  EXPECT_EQ(first->snapshot()->gain_unit, before->gain_unit);
+  expect_same_scan(*first->snapshot(), *before);
+  first->redo(job_control());
+  expect_same_scan(*first->snapshot(), *after);
+}
+
 TEST_F(KeptSessionTest, TheTenNewestStay) {
   for (int k = 0; k < 12; ++k) {
     auto one = runner();
