@@ -59,14 +59,16 @@ DepthImage read_ranges(const fs::path& file, const PinholeCamera& camera) {
 
 }  // namespace
 
+std::string capture_name(const Capture& capture, std::uint32_t number) {
+  return fmt::format("{:04}.{}", number, std::holds_alternative<DepthImage>(capture.measured) ? "npy" : "ply");
+}
+
 std::string write_capture(const Capture& capture, std::uint32_t number, const fs::path& folder) {
-  if (const auto* image = std::get_if<DepthImage>(&capture.measured)) {
-    const std::string name = fmt::format("{:04}.npy", number);
+  std::string name = capture_name(capture, number);
+  if (const auto* image = std::get_if<DepthImage>(&capture.measured))
     write_npy({image->camera.width, image->camera.height, image->range}, folder / name);
-    return name;
-  }
-  const std::string name = fmt::format("{:04}.ply", number);
-  write_points(std::get<std::vector<Vector3>>(capture.measured), folder / name);
+  else
+    write_points(std::get<std::vector<Vector3>>(capture.measured), folder / name);
   return name;
 }
 

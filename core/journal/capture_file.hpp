@@ -7,6 +7,8 @@
 
 namespace nextview {
 
+/// The name of the file that holds a capture: 0001.npy, or 0001.ply of points.
+std::string capture_name(const Capture& capture, std::uint32_t number);
 /// Writes what a source saw, to the bit, durable when it returns: NUMBER.npy, ranges along the rays as float32 (inf:
 /// beyond range, NaN: invalid), or NUMBER.ply, points in the camera frame as doubles [m]. Returns the file's name.
 /// @throws std::runtime_error naming the file and the reason

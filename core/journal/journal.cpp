@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/file/read_file.hpp"
+#include "core/file/unchanged.hpp"
 #include "core/journal/capture_file.hpp"
 #include "core/journal/journal_records.hpp"
 
@@ -63,13 +64,8 @@ Capture read_capture(const JournalStep& step, const fs::path& folder) {
 }
 
 void require_same_input(const Journal& journal, const fs::path& folder) {
-  const JournalInput& input = journal.input;
-  if (!input.hash) return;
-  const fs::path file = folder / input.path;  // an absolute path stays as it is
-  if (!(file_hash(file) == *input.hash))
-    throw std::runtime_error(
-        fmt::format("{}: has changed since {} was scanned of it; scan it again, or put the object back as it was",
-                    file.string(), folder.string()));
+  const JournalInput& input = journal.input;  // an absolute path stays as it is
+  if (input.hash) require_unchanged(folder / input.path, *input.hash, folder);
 }
 
 void require_same_input(const fs::path& folder) { require_same_input(read_journal(folder), folder); }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/unchanged.hpp"
 
 namespace nextview {
 namespace {
@@ -132,10 +133,7 @@ std::string named_from(const fs::path& folder, const fs::path& file) {
 
 void require_same_object(const fs::path& folder, const fs::path& object) {
   const std::optional<Manifest> manifest = read_manifest(folder);
-  if (!manifest || !manifest->object || manifest->object->hash == file_hash(object)) return;
-  throw std::runtime_error(
-      fmt::format("{}: has changed since {} was scanned of it; scan it again, or put the object back as it was",
-                  object.string(), folder.string()));
+  if (manifest && manifest->object) require_unchanged(object, manifest->object->hash, folder);
 }
 
 }  // namespace nextview

@@ -9,6 +9,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
 #include "core/file/temporary_file.hpp"
+#include "core/progress/part.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/session_folder.hpp"
 #include "core/session/taken_views.hpp"
@@ -33,11 +34,12 @@ Acquired acquired_of(const JournalStep& step, Capture capture) {
   return acquired;
 }
 
-/// The part of a job's progress that is its k-th of n steps.
-Progress part(const Progress& whole, std::size_t k, std::size_t n) {
+/// Of the k-th of n views.
+Progress part_of_view(const Progress& whole, std::size_t k, std::size_t n) {
   if (!whole) return {};
-  return [=](double fraction, std::string_view) {
-    whole((double(k) + fraction) / double(n), fmt::format("going through view {} of {} again", k + 1, n));
+  return [report = part(whole, double(k) / double(n), double(k + 1) / double(n)), k, n](double fraction,
+                                                                                        std::string_view) {
+    report(fraction, fmt::format("going through view {} of {} again", k + 1, n));
   };
 }
 
@@ -65,7 +67,7 @@ bool sense_again(Session& session, const SavedSession& saved, const Step& step, 
       else
         session.override_next_view(poses[k]);
     }
-    if (!step(part(progress, k, poses.size()))) return false;
+    if (!step(part_of_view(progress, k, poses.size()))) return false;
     if (each) each();
   }
   return true;
@@ -148,7 +150,7 @@ bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const
       continue;
     }
     if (!session.step_again(choice_of(line[k]), acquired_of(line[k], std::move(capture)),
-                            part(progress, k, line.size()), stop))
+                            part_of_view(progress, k, line.size()), stop))
       return false;
     session.set_planner(k + 1 == line.size() ? now : planner_at(*saved.journal, line[k + 1], now), {}, stop);
     if (folder) folder->line_.push_back(line[k].number);

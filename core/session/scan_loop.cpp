@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/evaluation/entropy.hpp"
+#include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/progress/stopwatch.hpp"
 #include "core/session/session_parts.hpp"
@@ -31,12 +32,6 @@ std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) 
 FusionConfig fusion(const ScanSetup& setup) {
   const Configuration& c = setup.configuration;
   return {c.map.insertion, setup.planner->needs().occlusions ? occlusion_distance(c) : 0.0, c.gibbs.view_sweeps};
-}
-
-/// The part of a job's progress from `begin` to `end`.
-Progress part(const Progress& whole, double begin, double end) {
-  if (!whole) return {};
-  return [=](double fraction, std::string_view what) { whole(begin + (end - begin) * fraction, what); };
 }
 
 /// What the view did to the maps, as numbers of its record.

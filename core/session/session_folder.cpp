@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/journal/capture_file.hpp"
 
 namespace nextview {
 namespace {
@@ -76,10 +77,9 @@ SessionFolder SessionFolder::begin(OutputFolder out, const Session& session) {
 SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, const Session& session) {
   out.go_on("scan");
   const fs::path folder = out.claim(journal_name).parent_path();
-  const JournalInput input = input_of(session, folder);
-  if (!saved.journal) return begun(std::move(out), input, session);
+  if (!saved.journal) return begun(std::move(out), input_of(session, folder), session);
   Journal now;
-  SessionFolder result(std::move(out), JournalWriter::go_on(folder, now), input);
+  SessionFolder result(std::move(out), JournalWriter::go_on(folder, now), saved.journal->input);
   if (now.at != saved.journal->at || now.last_number() != saved.journal->last_number())
     throw JournalInUse(fmt::format("{}: another program has written this session", folder.string()));
   result.last_ = now.last_number();
@@ -116,8 +116,7 @@ void SessionFolder::keep(const NextView& choice, const Acquired& acquired) {
   JournalStep step = step_of(choice, acquired);
   step.number = last_ + 1;
   step.after = line_.empty() ? 0 : line_.back();
-  const bool is_image = std::holds_alternative<DepthImage>(acquired.capture.measured);
-  out_.claim(fmt::format("{}/{:04}.{}", scans_name, step.number, is_image ? "npy" : "ply"));
+  out_.claim(fmt::format("{}/{}", scans_name, capture_name(acquired.capture, step.number)));
   writer_.add(step, acquired.capture);
   pending_ = last_ = step.number;
   steps_.emplace(step.number, std::move(step));
@@ -153,7 +152,7 @@ void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
     const Capture capture = read_capture(step, path());
     step.after = number++;
     step.number = number;
-    copy.claim(fmt::format("{}/{:04}{}", scans_name, number, fs::path(step.scan).extension().string()));
+    copy.claim(fmt::format("{}/{}", scans_name, capture_name(capture, number)));
     writer.add(step, capture);
   }
   writer.close();

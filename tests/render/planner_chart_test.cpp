@@ -4,12 +4,14 @@
 #include <stdexcept>
 
 #include "tests/render/render_test.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
 
 std::vector<PlannerCourse> read(const std::string& text) {
-  const std::string file = testing::TempDir() + "planner_chart_test.csv";
+  const TemporaryFolder own;
+  const auto file = own / "courses.csv";
   std::ofstream(file) << text;
   return read_planner_courses(file);
 }

@@ -8,6 +8,7 @@
 #include "core/config/opened_input.hpp"
 #include "core/export/scan_files.hpp"
 #include "core/export/scan_surfaces.hpp"
+#include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/driver_setup.hpp"
 #include "core/session/session_folder.hpp"
@@ -18,13 +19,6 @@ namespace {
 
 std::size_t history_limit(const Session& session) {
   return static_cast<std::size_t>(session.configuration().history.memory * 1073741824.0);
-}
-
-/// A part of a job, from `begin` to `end` of the whole.
-Progress part(const Progress& whole, double begin, double end) {
-  return [=](double fraction, std::string_view what) {
-    if (whole) whole(begin + fraction * (end - begin), what);
-  };
 }
 
 }  // namespace

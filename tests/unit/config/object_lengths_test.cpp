@@ -5,6 +5,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/setting/length_text.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -88,7 +89,8 @@ TEST(ObjectLengths, FollowTheNextObjectToo) {
 TEST(ObjectLengths, ReadFromItsOwnFileNothingFollows) {
   Configuration c;
   fit_lengths(c, 0.2);
-  const auto file = std::filesystem::path(testing::TempDir()) / "lengths.toml";
+  const TemporaryFolder own;
+  const auto file = own / "lengths.toml";
   write_file(file, to_toml(c));
   Configuration read = read_configuration(file);
   fit_lengths(read, 3.0);
@@ -127,7 +129,7 @@ TEST(ObjectLengths, AsText) {
 }
 
 /// A box of these sides, in the numbers of an STL file.
-std::filesystem::path box_file(const std::string& name, const Eigen::Vector3d& sides) {
+std::filesystem::path box_file(const TemporaryFolder& folder, const std::string& name, const Eigen::Vector3d& sides) {
   std::string text = "solid box\n";
   const auto corner = [&](int c) {
     return Eigen::Vector3d(c & 1 ? sides.x() : 0, c & 2 ? sides.y() : 0, c & 4 ? sides.z() : 0);
@@ -151,7 +153,7 @@ std::filesystem::path box_file(const std::string& name, const Eigen::Vector3d& s
     }
     text += "endloop\nendfacet\n";
   }
-  const auto file = std::filesystem::path(testing::TempDir()) / name;
+  const auto file = folder / name;
   write_file(file, text + "endsolid box\n");
   return file;
 }
@@ -161,10 +163,11 @@ double longest_of(const std::filesystem::path& file, const ObjectConfig& object 
 }
 
 TEST(ObjectLengths, TheUnitOfAFileIsGuessedFromItsSize) {
-  EXPECT_NEAR(longest_of(box_file("millimetres.stl", {91.5, 20, 30})), 0.0915, 1e-7);
-  EXPECT_NEAR(longest_of(box_file("metres.stl", {2, 0.5, 1})), 2.0, 1e-6);
-  EXPECT_NEAR(longest_of(box_file("ten.stl", {10, 0.5, 1})), 10.0, 1e-5);
-  const auto small = box_file("small.stl", {8, 4, 4});
+  const TemporaryFolder own;
+  EXPECT_NEAR(longest_of(box_file(own, "millimetres.stl", {91.5, 20, 30})), 0.0915, 1e-7);
+  EXPECT_NEAR(longest_of(box_file(own, "metres.stl", {2, 0.5, 1})), 2.0, 1e-6);
+  EXPECT_NEAR(longest_of(box_file(own, "ten.stl", {10, 0.5, 1})), 10.0, 1e-5);
+  const auto small = box_file(own, "small.stl", {8, 4, 4});
   ObjectConfig object;
   object.unit = LengthUnit::millimetres;
   EXPECT_NEAR(longest_of(small, object), 0.008, 1e-8);

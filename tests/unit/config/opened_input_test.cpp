@@ -14,7 +14,8 @@ TEST(WithInput, TellsRecordingsFromObjects) {
   EXPECT_EQ(with_input({}, "bunny").object.file, "bunny");
   EXPECT_EQ(with_input({}, "scans.graph").recorded.folder, "scans.graph");
   EXPECT_EQ(with_input({}, "scene.txt").recorded.folder, "scene.txt");
-  EXPECT_EQ(with_input({}, testing::TempDir()).recorded.folder, testing::TempDir());
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  EXPECT_EQ(with_input({}, folder).recorded.folder, folder);
 }
 
 TEST(WithInput, ForgetsTheRecordingBefore) {

@@ -1,6 +1,7 @@
 // Sessions on recorded data.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 class RecordedSession : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::path(testing::TempDir()) / "recorded_session";
+    folder_ = fs::temp_directory_path() / ("nextview_recorded_session_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     Session session(small_scan());
     while (session.finished().empty()) session.step();
@@ -173,7 +174,7 @@ TEST_F(RecordedSession, TheTruthIsFoundWhereverItLies) {
 TEST_F(RecordedSession, ItsConfigurationRepeatsIt) {
   Session first(replay());
   finish(first);
-  const fs::path out = fs::path(testing::TempDir()) / "recorded_session_config.toml";
+  const fs::path out = fs::path(folder_).concat(".toml");
   std::ofstream(out) << to_toml(first.configuration());
   Session second(read_configuration(out));
   finish(second);

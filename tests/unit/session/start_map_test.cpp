@@ -8,12 +8,13 @@
 #include "core/config/opened_input.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/session/session.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
 namespace {
 
-class StartMap : public testing::Test {
+class StartMap : public InTemporaryFolder {
  protected:
   void SetUp() override {
     Session session(small_scan());
@@ -23,9 +24,8 @@ class StartMap : public testing::Test {
     voxels_ = session.map().voxels().dense();
     grid_ = session.map().grid();
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / "start_map.ot";
+  std::filesystem::path file_ = folder_ / "start_map.ot";
   std::vector<Voxel> voxels_;
   VoxelGrid grid_;
 };

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/unit/mesh/temporary_folder.hpp"
 #include "ui/workbench/session_worker.hpp"
 
 namespace nextview {
@@ -16,7 +17,6 @@ namespace {
 class LiveScannerTest : public testing::Test {
  protected:
   LiveScannerTest() { behave("", ""); }
-  ~LiveScannerTest() override { std::filesystem::remove(fault_); }
 
   /// What goes wrong from now on, at a request (tests/unit/driver/fake).
   void behave(const std::string& fault, const std::string& request) const {
@@ -49,8 +49,8 @@ class LiveScannerTest : public testing::Test {
   }
   std::size_t views() const { return worker_.snapshot()->records.size(); }
 
-  std::filesystem::path fault_ =
-      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  TemporaryFolder own_;
+  std::filesystem::path fault_ = own_ / "fault";
   std::mutex mutex_;
   std::condition_variable news_;
   SessionWorker worker_{[this] { news_.notify_all(); }};

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/workbench/gated_worker.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 
@@ -51,11 +52,11 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   worker_.post(request::Refine{2, 8});
   wait_until_idle();
   expect_last(Level::warning, "Gibbs map of 4 views: " + now()->gibbs->posterior->diagnostics.warning);
-  const auto folder = std::filesystem::path(testing::TempDir()) / "nextview-log-test";
+  const TemporaryFolder own;
+  const auto folder = own.path() / "scan";
   worker_.post(request::Export{folder});
   wait_until_idle();
   expect_last(Level::success, "Scan written to " + folder.string());
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(WorkerLog, ARankingThatSaysLittleIsAWarning) {

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <fstream>
 
+#include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/workbench/small_scan.hpp"
 
 namespace nextview {
@@ -254,11 +255,11 @@ TEST_F(SessionWorkerTest, TakesTheViewThatAPersonChose) {
 
 TEST_F(SessionWorkerTest, OpensAConfigurationFile) {
   load(small_scan());
-  const auto file = std::filesystem::path(testing::TempDir()) / "nextview-worker-test.toml";
+  const TemporaryFolder own;
+  const auto file = own / "worker.toml";
   std::ofstream(file) << "[planner]\ngain = \"farthest\"\n";
   worker_.post(request::OpenFile{file});
   wait_until_idle();
-  std::filesystem::remove(file);
   EXPECT_EQ(worker_.snapshot()->message, "");
   EXPECT_EQ(worker_.snapshot()->configuration.planner.gain, "farthest");
   EXPECT_EQ(worker_.snapshot()->configuration.views.count, 8) << "what the file leaves out stays";

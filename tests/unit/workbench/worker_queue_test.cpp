@@ -14,7 +14,7 @@ using testing::StartsWith;
 class WorkerQueue : public GatedWorker {};
 
 TEST_F(WorkerQueue, CancelEmptiesIt) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "nextview-never-written";
+  const auto folder = std::filesystem::temp_directory_path() / "nextview-never-written";
   std::filesystem::remove_all(folder);
   load();
   begin_step();
