@@ -175,7 +175,7 @@ int resume(const ScanArguments& arguments) {
   print_head(session);
   SessionFolder folder = SessionFolder::go_on(OutputFolder(saved.folder, {}), saved, session);
   StepPictures pictures(!arguments.no_pictures, true);
-  const auto each = [&] {
+  const auto each = [&](std::uint32_t) {
     progress.clear();
     print_step(session, session.records().back());
     pictures.write(session, folder.out());

@@ -15,6 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool leads_through(const Journal& journal, const Branch& branch) {
+  if (journal.at == 0) return true;
+  return std::ranges::any_of(journal.line(branch.tip), [&](const auto& step) { return step.number == journal.at; });
+}
+
+/// Where records are lost it may stand on none.
+void stand_on_a_branch(Journal& journal) {
+  Branches& branches = journal.branches;
+  if (leads_through(journal, branches.current())) return;
+  const auto other =
+      std::ranges::find_if(branches.all, [&](const Branch& branch) { return leads_through(journal, branch); });
+  if (other == branches.all.end())
+    branches.begin(branches.free_name(), journal.at);
+  else
+    branches.on = static_cast<std::size_t>(other - branches.all.begin());
+}
+
 Journal journal_of(JournalText text, const fs::path& file) {
   Journal journal;
   journal.damage = std::move(text.damage);
@@ -30,14 +47,15 @@ Journal journal_of(JournalText text, const fs::path& file) {
   }
   if (!begun)
     throw std::runtime_error(fmt::format("{}: is no journal of a session, or its beginning is lost", file.string()));
+  stand_on_a_branch(journal);
   return journal;
 }
 
 }  // namespace
 
-std::vector<JournalStep> Journal::line() const {
+std::vector<JournalStep> Journal::line(std::uint32_t tip) const {
   std::vector<JournalStep> line;
-  std::uint32_t number = at;
+  std::uint32_t number = tip;
   while (number > 0) {
     auto step = steps.upper_bound(number);  // where it is lost: the one before
     if (step == steps.begin()) break;
@@ -100,6 +118,12 @@ void JournalWriter::add(JournalStep& step, const Capture& capture) {
 void JournalWriter::keep_settings(const std::string& text) { file_.append(settings_record(text)); }
 
 void JournalWriter::stand_at(std::uint32_t number) { file_.append(position_record(number)); }
+
+void JournalWriter::keep_branches(const Branches& branches) { file_.append(branches_record(branches)); }
+
+void JournalWriter::keep_outcome(std::uint32_t number, const std::map<std::string, double>& outcome) {
+  file_.append(outcome_record(number, outcome));
+}
 
 void JournalWriter::close() { file_.append(closing_record()); }
 

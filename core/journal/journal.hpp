@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/file/file_hash.hpp"
+#include "core/journal/branches.hpp"
 #include "core/journal/journal_file.hpp"
 #include "core/registration/scan_registration.hpp"
 #include "core/robot/robot.hpp"
@@ -29,9 +30,10 @@ struct JournalStep {
   PinholeCamera camera = {};               ///< of ranges
   MotionCost motion;                       ///< of getting there
   std::optional<ScanRegistration> registration = {};
-  std::size_t settings = 0;  ///< how many texts of settings there were before it
-  std::string scan;          ///< file in scans/
-  FileHash hash;             ///< of it
+  std::size_t settings = 0;                    ///< how many texts of settings there were before it
+  std::string scan;                            ///< file in scans/
+  FileHash hash;                               ///< of it
+  std::map<std::string, double> outcome = {};  ///< what it came to, by name; empty: it was not absorbed, or not kept
 };
 
 /// What a session is of: a file or folder that must still be the one it was. None of a live scanner.
@@ -47,11 +49,13 @@ struct Journal {
   std::vector<std::string> settings;           ///< texts of config.toml, the last one of now
   std::map<std::uint32_t, JournalStep> steps;  ///< by number
   std::uint32_t at = 0;                        ///< the step that the session stands at; 0: before the first
+  Branches branches;                           ///< the session stands on the current one
   bool closed = false;                         ///< nobody was in the middle of it
   std::vector<std::string> damage;             ///< what is lost of it, a line each, for people
 
-  /// The steps from the first to where it stands.
-  std::vector<JournalStep> line() const;
+  /// The steps from the first to where it stands, or to another one.
+  std::vector<JournalStep> line() const { return line(at); }
+  std::vector<JournalStep> line(std::uint32_t tip) const;
   std::uint32_t last_number() const { return steps.empty() ? 0 : steps.rbegin()->first; }
 };
 
@@ -85,6 +89,9 @@ class JournalWriter {
   void keep_settings(const std::string& text);
   /// The session went to another step.
   void stand_at(std::uint32_t number);
+  void keep_branches(const Branches& branches);
+  /// What a step came to, by name: it need not be taken again to be told of.
+  void keep_outcome(std::uint32_t number, const std::map<std::string, double>& outcome);
   void close();
 
   const std::filesystem::path& folder() const { return folder_; }

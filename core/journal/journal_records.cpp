@@ -112,6 +112,19 @@ JournalStep step_of(const Json& json) {
   return step;
 }
 
+Branches branches_of(const Json& json, std::uint32_t last_number) {
+  Branches branches;
+  branches.all.clear();
+  branches.next_id = 0;
+  for (const Json& branch : json.at("branches")) {
+    branches.begin(branch.at("name").get<std::string>(), branch.at("tip").get<std::uint32_t>());
+    if (branches.current().tip > last_number) throw std::runtime_error("no step");
+  }
+  branches.on = json.at("on").get<std::size_t>();
+  if (branches.on >= branches.all.size()) throw std::runtime_error("no branch");
+  return branches;
+}
+
 }  // namespace
 
 std::string beginning_record(const JournalInput& input, const std::string& settings) {
@@ -151,6 +164,19 @@ std::string position_record(std::uint32_t number) {
   return Json::object({{"record", "at"}, {"number", number}}).dump();
 }
 
+std::string branches_record(const Branches& branches) {
+  Json list = Json::array();
+  for (const Branch& branch : branches.all) list.push_back({{"name", branch.name}, {"tip", branch.tip}});
+  return Json::object({{"record", "branches"}, {"branches", list}, {"on", branches.on}})
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string outcome_record(std::uint32_t number, const std::map<std::string, double>& outcome) {
+  Json values = Json::object();
+  for (const auto& [name, value] : outcome) values[name] = to_json(value);
+  return Json::object({{"record", "outcome"}, {"number", number}, {"values", values}}).dump();
+}
+
 std::string closing_record() { return Json::object({{"record", "closed"}}).dump(); }
 
 bool read_record(const std::string& record, Journal& journal) {
@@ -171,6 +197,7 @@ bool read_record(const std::string& record, Journal& journal) {
     JournalStep step = step_of(json);
     step.settings = journal.settings.size();
     journal.at = step.number;
+    journal.branches.add_step(step.number, step.after);
     journal.steps.insert_or_assign(step.number, std::move(step));
   } else if (kind == "settings") {
     journal.settings.push_back(json.at("toml").get<std::string>());
@@ -178,6 +205,12 @@ bool read_record(const std::string& record, Journal& journal) {
     const auto number = json.at("number").get<std::uint32_t>();
     if (number > journal.last_number()) throw std::runtime_error("no step");
     journal.at = number;
+  } else if (kind == "branches") {
+    journal.branches = branches_of(json, journal.last_number());
+  } else if (kind == "outcome") {
+    std::map<std::string, double> outcome;
+    for (const auto& [name, value] : json.at("values").items()) outcome[name] = number_of(value);
+    journal.steps.at(json.at("number").get<std::uint32_t>()).outcome = std::move(outcome);
   } else if (kind != "closed") {
     throw std::runtime_error("no record");
   }

@@ -54,8 +54,8 @@ void repair_configuration(const Journal& journal, const fs::path& folder, std::v
 using Step = std::function<bool(const Progress&)>;
 
 /// A scan without a journal: from the same poses the simulation senses the same.
-bool sense_again(Session& session, const SavedSession& saved, const Step& step, const std::function<void()>& each,
-                 const Progress& progress) {
+bool sense_again(Session& session, const SavedSession& saved, const Step& step,
+                 const std::function<void(std::uint32_t)>& each, const Progress& progress) {
   const std::vector<Pose> poses = views_taken(saved.folder / "views.csv", session.configuration());
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const std::vector<Pose>& candidates = session.candidates();
@@ -68,7 +68,7 @@ bool sense_again(Session& session, const SavedSession& saved, const Step& step, 
         session.override_next_view(poses[k]);
     }
     if (!step(part_of_view(progress, k, poses.size()))) return false;
-    if (each) each();
+    if (each) each(static_cast<std::uint32_t>(k + 1));
   }
   return true;
 }
@@ -129,19 +129,12 @@ void require_free_for_session(const fs::path& folder, bool overwrite, std::span<
         "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
 }
 
-bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const std::function<void()>& each,
-             const Progress& progress, const std::stop_token& stop) {
-  if (!saved.journal) {
-    const Step step = [&](const Progress& p) {
-      return folder ? folder->step(session, p, stop) : session.step(p, stop);
-    };
-    return sense_again(session, saved, step, each, progress);
-  }
-  const std::vector<JournalStep> line = saved.journal->line();
+bool take_again(Session& session, SavedSession& saved, std::span<const JournalStep> line,
+                const std::function<void(std::uint32_t)>& each, const Progress& progress, const std::stop_token& stop) {
   const PlannerConfig now = session.configuration().planner;
-  // As it went: a view is ranked and taken, and only then may another planner rank the next one.
-  if (!line.empty()) session.set_planner(planner_at(*saved.journal, line.front(), now));
   for (std::size_t k = 0; k < line.size(); ++k) {
+    // As it went: a view is ranked and taken, and only then may another planner rank the next one.
+    session.set_planner(planner_at(*saved.journal, line[k], now), {}, stop);
     Capture capture;
     try {
       capture = read_capture(line[k], saved.folder);
@@ -152,10 +145,26 @@ bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const
     if (!session.step_again(choice_of(line[k]), acquired_of(line[k], std::move(capture)),
                             part_of_view(progress, k, line.size()), stop))
       return false;
-    session.set_planner(k + 1 == line.size() ? now : planner_at(*saved.journal, line[k + 1], now), {}, stop);
-    if (folder) folder->line_.push_back(line[k].number);
-    if (each) each();
+    each(line[k].number);
   }
+  return true;
+}
+
+bool restore(Session& session, SavedSession& saved, SessionFolder* folder,
+             const std::function<void(std::uint32_t)>& each, const Progress& progress, const std::stop_token& stop) {
+  if (!saved.journal) {
+    const Step step = [&](const Progress& p) {
+      return folder ? folder->step(session, p, stop) : session.step(p, stop);
+    };
+    return sense_again(session, saved, step, each, progress);
+  }
+  const std::vector<JournalStep> line = saved.journal->line();
+  const PlannerConfig now = session.configuration().planner;
+  const auto taken = [&](std::uint32_t number) {
+    if (folder) folder->line_.push_back(number);
+    if (each) each(number);
+  };
+  if (!take_again(session, saved, line, taken, progress, stop)) return false;
   session.set_planner(now, {}, stop);
   return true;
 }

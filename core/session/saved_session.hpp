@@ -31,11 +31,20 @@ void require_free_for_session(const std::filesystem::path& folder, bool overwrit
 
 class SessionFolder;
 
+/// Takes views again that were captured before, from where the session stands, each ranked by the planner of then: the
+/// same bytes. Where a capture is lost the view is left out, and a notice added. `each` is called after each view, with
+/// the number of its capture. False if it was stopped. @pre saved.journal @throws as Session::step
+bool take_again(Session& session, SavedSession& saved, std::span<const JournalStep> line,
+                const std::function<void(std::uint32_t)>& each, const Progress& progress = {},
+                const std::stop_token& stop = {});
+
 /// Brings a new session to where the saved one stands: its views are taken again from what was captured, the same
 /// bytes; those of 0.4.0 are sensed again. Where a capture is lost the view is left out, and a notice added. `folder`,
-/// if given, is that of the session. `each` is called after each view. False if it was stopped.
+/// if given, is that of the session. `each` is called after each view, with
+/// the number of its capture. False if it was stopped.
 /// @throws as Session::step
-bool restore(Session& session, SavedSession& saved, SessionFolder* folder, const std::function<void()>& each = {},
-             const Progress& progress = {}, const std::stop_token& stop = {});
+bool restore(Session& session, SavedSession& saved, SessionFolder* folder,
+             const std::function<void(std::uint32_t)>& each = {}, const Progress& progress = {},
+             const std::stop_token& stop = {});
 
 }  // namespace nextview

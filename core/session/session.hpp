@@ -75,6 +75,9 @@ class Session {
   /// again from the scans. @throws std::invalid_argument if it is not valid; Stopped. Then all is as it was.
   void set_planner(const PlannerConfig& config, const Progress& progress = {}, const std::stop_token& stop = {});
 
+  /// What it scans with, with another planner. @throws std::invalid_argument if it is not valid
+  ScanSetup setup_with(const PlannerConfig& config) const;
+
   /// Changes when the scan is done, and keeps all else; a finished scan may go on by it.
   /// @throws std::invalid_argument if it is not valid.
   void set_termination(const TerminationConfig& config);
@@ -131,7 +134,6 @@ class Session {
   void compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
                     const std::stop_token& stop);
   void adopt(ScanState state);
-  ScanSetup setup_with(const PlannerConfig& config) const;
   void require_first_step() const;
   std::string unreachable(const View& view) const;
 

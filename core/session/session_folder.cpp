@@ -6,6 +6,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/journal/capture_file.hpp"
+#include "core/session/step_outcome.hpp"
 
 namespace nextview {
 namespace {
@@ -83,6 +84,7 @@ SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, 
   if (now.at != saved.journal->at || now.last_number() != saved.journal->last_number())
     throw JournalInUse(fmt::format("{}: another program has written this session", folder.string()));
   result.last_ = now.last_number();
+  result.branches_ = std::move(now.branches);
   result.steps_ = std::move(now.steps);
   if (!now.settings.empty()) result.settings_ = now.settings.back();
   return result;
@@ -91,25 +93,38 @@ SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, 
 bool SessionFolder::step(Session& session, const Progress& progress, const std::stop_token& stop,
                          const NotKept& not_kept) {
   const NextView choice = session.state().next;
-  const auto accept = [&](const Acquired& acquired) {
-    if (!keeps_) return true;
+  const auto write = [&](const auto& what) {
+    if (!keeps_) return;
     try {
-      keep(choice, acquired);
+      what();
     } catch (const std::runtime_error& error) {
       if (!not_kept) throw;
       keeps_ = false;
       not_kept(error.what());
     }
+  };
+  const auto accept = [&](const Acquired& acquired) {
+    write([&] { keep(choice, acquired); });
     return true;
   };
   const bool taken = session.step(progress, stop, accept);
-  if (!keeps_) return taken;
-  if (taken)
-    line_.push_back(*pending_);
-  else if (pending_)
-    writer_.stand_at(line_.empty() ? 0 : line_.back());
-  pending_.reset();
+  if (!keeps_ || !pending_) return taken;
+  if (taken) {
+    const std::uint32_t number = *std::exchange(pending_, std::nullopt);
+    branches_.add_step(number, line_.empty() ? 0 : line_.back());
+    line_.push_back(number);
+    write([&] { writer_.keep_outcome(number, outcome_of(session.records().back())); });
+  } else {
+    write([&] { withdraw(); });
+  }
   return taken;
+}
+
+/// What is kept, and not taken after all.
+void SessionFolder::withdraw() {
+  writer_.stand_at(line_.empty() ? 0 : line_.back());
+  writer_.keep_branches(branches_);
+  pending_.reset();
 }
 
 void SessionFolder::keep(const NextView& choice, const Acquired& acquired) {
@@ -124,9 +139,16 @@ void SessionFolder::keep(const NextView& choice, const Acquired& acquired) {
 
 void SessionFolder::stand_at(const Line& line) {
   if (!keeps_ || (line == line_ && !pending_)) return;
+  if (pending_) withdraw();
+  if (line == line_) return;
   writer_.stand_at(line.empty() ? 0 : line.back());
   line_ = line;
-  pending_.reset();
+}
+
+void SessionFolder::keep_branches(const Branches& branches) {
+  if (!keeps_ || branches == branches_) return;
+  writer_.keep_branches(branches);
+  branches_ = branches;
 }
 
 void SessionFolder::keep_configuration(const Session& session) {

@@ -36,6 +36,9 @@ class SessionFolder {
   void stand_at(const Line& line);
   /// The captures that the session's views are of.
   const Line& line() const { return line_; }
+  const Branches& branches() const { return branches_; }
+  /// It has these branches from here on. @pre the session stands on the current one
+  void keep_branches(const Branches& branches);
   /// The settings have changed in a way that what was scanned stays.
   void keep_configuration(const Session& session);
   /// Nobody is in the middle of it any more.
@@ -48,18 +51,20 @@ class SessionFolder {
   bool keeps() const { return keeps_; }  ///< false once something could not be kept
 
  private:
-  friend bool restore(Session&, SavedSession&, SessionFolder*, const std::function<void()>&, const Progress&,
-                      const std::stop_token&);
+  friend bool restore(Session&, SavedSession&, SessionFolder*, const std::function<void(std::uint32_t)>&,
+                      const Progress&, const std::stop_token&);
   SessionFolder(OutputFolder out, JournalWriter writer, JournalInput input)
       : out_(std::move(out)), writer_(std::move(writer)), input_(std::move(input)) {}
   static SessionFolder begun(OutputFolder out, const JournalInput& input, const Session& session);
   void keep(const NextView& choice, const Acquired& acquired);
+  void withdraw();
 
   OutputFolder out_;
   JournalWriter writer_;
   JournalInput input_;
   std::string settings_;  ///< text of config.toml
   Line line_;
+  Branches branches_;
   std::map<std::uint32_t, JournalStep> steps_;  ///< of this session, by number
   std::uint32_t last_ = 0;                      ///< number of the last capture
   std::optional<std::uint32_t> pending_;        ///< kept, and not yet absorbed

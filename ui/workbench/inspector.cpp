@@ -5,6 +5,7 @@
 
 #include "core/gibbs/full_conditional.hpp"
 #include "core/session/scan_loop.hpp"
+#include "ui/workbench/depth_cells.hpp"
 #include "ui/workbench/view_sight.hpp"
 
 namespace nextview {
@@ -12,24 +13,6 @@ namespace {
 
 constexpr int expected_columns = 128;          ///< of the picture of a view
 constexpr std::size_t max_rays_per_view = 60;  ///< through a voxel: more would only hide each other
-
-/// What the view measured, in the cells of the expected view: the nearest point of each.
-std::vector<float> measured_depth(const Scan& scan, const Pose& T_world_camera, const PinholeCamera& camera,
-                                  const ExpectedView& cells) {
-  std::vector<float> depth(cells.depth.size(), -1.0f);
-  const Pose T_camera_world = T_world_camera.inverse();
-  for (const Eigen::Vector3f& point : scan.hits) {
-    const Vector3 p = T_camera_world * point.cast<double>();
-    if (p.z() <= 0) continue;
-    const Eigen::Vector2d pixel = camera.project(p);
-    const int column = int(std::floor((pixel.x() + 0.5) * cells.columns / camera.width));
-    const int row = int(std::floor((pixel.y() + 0.5) * cells.rows / camera.height));
-    if (column < 0 || row < 0 || column >= cells.columns || row >= cells.rows) continue;
-    float& nearest = depth[std::size_t(row) * cells.columns + column];
-    if (nearest < 0 || p.z() < nearest) nearest = static_cast<float>(p.z());
-  }
-  return depth;
-}
 
 std::vector<VoxelRay> thinned(const std::vector<VoxelRay>& rays) {
   const std::size_t stride = std::max<std::size_t>(1, (rays.size() + max_rays_per_view - 1) / max_rays_per_view);
@@ -73,7 +56,9 @@ ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection
   view.expected =
       expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
   if (selection.view.kind == ViewSelection::Kind::taken) {
-    view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera, view.expected);
+    view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera,
+                                   view.expected.columns, view.expected.rows)
+                        .depth;
     view.no_explanation = "This view has been taken: its gain was predicted on the map before it.";
   } else {
     view.why_empty = why_empty(s, view.T_world_camera);

@@ -19,10 +19,11 @@ bool KeptSession::step(Session& session, const Progress& progress, const std::st
   return folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); });
 }
 
-void KeptSession::follow(const Session& session, const SessionFolder::Line& line) {
+void KeptSession::follow(const Session& session, const SessionFolder::Line& line, const Branches& branches) {
   if (!folder()) return;
   try {
     folder_->stand_at(line);
+    folder_->keep_branches(branches);
     folder_->keep_configuration(session);
   } catch (const std::runtime_error& error) {
     not_kept(error.what());

@@ -25,9 +25,13 @@ class KeptSession {
 
   /// Session::step, kept. @throws as that
   bool step(Session& session, const Progress& progress, const std::stop_token& stop);
-  /// The session was put to where its views were these, maybe with another end.
-  void follow(const Session& session, const SessionFolder::Line& line);
-  SessionFolder::Line line() const { return folder_ ? folder_->line() : SessionFolder::Line(); }
+  /// The session was put to where its views were these, maybe with other branches or another end.
+  void follow(const Session& session, const SessionFolder::Line& line, const Branches& branches);
+  /// The number of the last capture; none if it is not kept.
+  std::optional<std::uint32_t> last_number() const {
+    return folder_ && folder_->keeps() && !folder_->line().empty() ? std::optional(folder_->line().back())
+                                                                   : std::nullopt;
+  }
   /// Nobody is in the middle of it.
   void close();
   /// Null if it is kept nowhere.

@@ -8,18 +8,6 @@ namespace {
 
 constexpr std::size_t max_sessions = 4;  ///< in the history: each has a mesh of its own, a ray scene, a truth
 
-/// What the entry at `k` takes beside the one that is nearer to now [bytes].
-std::size_t own_bytes(const std::vector<HistoryEntry>& entries, std::size_t k) {
-  const bool has_neighbour = k + 1 < entries.size() && entries[k + 1].session == entries[k].session;
-  return bytes_of(entries[k].state, has_neighbour ? &entries[k + 1].state : nullptr);
-}
-
-std::size_t total_bytes(const std::vector<HistoryEntry>& entries) {
-  std::size_t bytes = 0;
-  for (std::size_t k = 0; k < entries.size(); ++k) bytes += own_bytes(entries, k);
-  return bytes;
-}
-
 /// The farthest entries are forgotten until there are few sessions.
 void keep_few_sessions(std::vector<HistoryEntry>& entries) {
   std::set<const Session*> sessions;
@@ -32,25 +20,22 @@ void keep_few_sessions(std::vector<HistoryEntry>& entries) {
   entries.erase(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-/// The state of the same scan that is nearest before this one and has its maps.
-ScanState earlier_state(const std::vector<HistoryEntry>& entries, const HistoryEntry& entry) {
-  const ScanState* best = nullptr;
-  for (const HistoryEntry& e : entries) {
-    const auto& scans = e.state.scans;
-    const bool before = e.session == entry.session && e.state.has_maps && scans.size() <= entry.state.scans.size() &&
-                        std::equal(scans.begin(), scans.end(), entry.state.scans.begin());
-    if (before && (!best || scans.size() > best->scans.size())) best = &e.state;
-  }
-  return best ? *best : nothing_scanned(entry.session->setup(), entry.state.T_world_camera);
-}
-
 }  // namespace
 
-void ScanHistory::push(HistoryEntry now, std::size_t limit) {
+/// A state that is kept, and one that it has most in common with.
+struct ScanHistory::Held {
+  const Session* session;
+  ScanState* state;
+  const ScanState* neighbour;  ///< may be null
+
+  std::size_t bytes() const { return bytes_of(*state, neighbour); }
+};
+
+void ScanHistory::push(HistoryEntry before, const ScanState* now, std::size_t limit) {
   redo_.clear();
-  undo_.push_back(std::move(now));
+  undo_.push_back(std::move(before));
   keep_few_sessions(undo_);
-  keep_within(limit);
+  keep_within(limit, now);
 }
 
 HistoryEntry ScanHistory::undo(HistoryEntry now, std::size_t limit, const Progress& progress,
@@ -66,28 +51,62 @@ HistoryEntry ScanHistory::redo(HistoryEntry now, std::size_t limit, const Progre
 HistoryEntry ScanHistory::travel(Entries& from, Entries& to, HistoryEntry now, std::size_t limit,
                                  const Progress& progress, const std::stop_token& stop) {
   HistoryEntry entry = from.back();
-  if (!entry.state.has_maps) {
-    ScanState earlier = earlier_state(undo_, entry);
-    if (&from == &redo_ && earlier_state({now}, entry).scans.size() >= earlier.scans.size())
-      earlier = earlier_state({now}, entry);
-    remake(entry.session->setup(), entry.state, earlier, progress, stop);
-  }
+  bring_back_maps(*entry.session, *entry.tree, entry.at, entry.stand, progress, stop);
   from.pop_back();
   to.push_back(std::move(now));
-  keep_within(limit);
+  keep_within(limit, entry.stand.state.get());
   return entry;
 }
 
-std::size_t ScanHistory::bytes() const { return total_bytes(undo_) + total_bytes(redo_); }
+void ScanHistory::bring_back_maps(const Session& session, const StepTree& tree, std::uint32_t number,
+                                  const Stand& stand, const Progress& progress, const std::stop_token& stop) {
+  if (stand.state->has_maps) return;
+  const ScanSetup setup = session.setup_with(stand.planner);
+  const ScanState* const nearest = tree.nearest_maps(number, stand.needs);
+  remake(setup, *stand.state, nearest ? *nearest : nothing_scanned(setup, stand.state->T_world_camera), progress, stop);
+}
 
-void ScanHistory::keep_within(std::size_t limit) {
-  std::size_t total = bytes();
-  for (Entries* entries : {&redo_, &undo_})  // what was undone goes first
-    for (std::size_t k = 0; k < entries->size() && total > limit; ++k) {
-      HistoryEntry& entry = (*entries)[k];
-      total -= own_bytes(*entries, k);
-      if (entry.state.has_maps) drop_maps(entry.session->setup(), entry.state);
+/// In the order in which they lose their maps: what was undone, other branches, then the oldest.
+std::vector<ScanHistory::Held> ScanHistory::held() const {
+  std::vector<Held> held;
+  std::set<const ScanState*> known;
+  const auto add = [&](const Session* session, ScanState* state, const ScanState* neighbour) {
+    if (known.insert(state).second) held.push_back({session, state, neighbour});
+  };
+  const auto add_entries = [&](const Entries& entries) {
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const bool has_neighbour = k + 1 < entries.size() && entries[k + 1].session == entries[k].session;
+      add(entries[k].session.get(), entries[k].stand.state.get(),
+          has_neighbour ? entries[k + 1].stand.state.get() : nullptr);
     }
+  };
+  add_entries(redo_);
+  std::set<const ScanState*> on_the_way_back;
+  for (const HistoryEntry& entry : undo_) on_the_way_back.insert(entry.stand.state.get());
+  for (const Entries* entries : {&redo_, &undo_})
+    for (const HistoryEntry& entry : *entries)
+      for (const auto& [state, before] : entry.tree->states())
+        if (!on_the_way_back.contains(state)) add(entry.session.get(), state, before);
+  add_entries(undo_);
+  return held;
+}
+
+std::size_t ScanHistory::bytes() const {
+  std::size_t bytes = 0;
+  for (const Held& held : held()) bytes += held.bytes();
+  return bytes;
+}
+
+void ScanHistory::keep_within(std::size_t limit, const ScanState* now) {
+  const std::vector<Held> all = held();
+  std::size_t total = 0;
+  for (const Held& held : all) total += held.bytes();
+  for (const Held& held : all) {
+    if (total <= limit) return;
+    if (held.state == now || !held.state->has_maps) continue;
+    total -= std::min(held.bytes(), total);
+    drop_maps(held.session->setup(), *held.state);
+  }
 }
 
 }  // namespace nextview

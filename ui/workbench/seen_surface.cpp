@@ -17,6 +17,7 @@ SeenSurface::SeenSurface(const Session& session) {
 }
 
 void SeenSurface::follow(const Session& session) {
+  if (scans_ == session.scans().size()) return;
   auto cloud = std::make_shared<SeenCloud>(*cloud_);
   for (; scans_ < session.scans().size(); ++scans_) {
     const PointCloud& hits = session.scans()[scans_]->hits;

@@ -17,15 +17,34 @@
 namespace nextview {
 namespace {
 
-std::size_t history_limit(const Session& session) {
-  return static_cast<std::size_t>(session.configuration().history.memory * 1073741824.0);
+constexpr double bytes_per_gigabyte = 1073741824.0;
+
+bool is_same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  return std::filesystem::equivalent(a, b, none);
 }
 
 }  // namespace
 
+std::size_t SessionRunner::history_limit() const {
+  return static_cast<std::size_t>(session_->configuration().history.memory * bytes_per_gigabyte);
+}
+
 HistoryEntry SessionRunner::now() const {
-  const Configuration& c = session_->configuration();
-  return {session_, c.termination, c.planner, session_->state(), *seen_, scanner_, kept_, kept_->line()};
+  return {session_, scanner_, kept_, tree_, tree_->at, tree_->branches, *tree_->stand(tree_->at)};
+}
+
+Stand SessionRunner::stand_of(const Session& session, SeenSurface seen) {
+  seen.follow(session);
+  const Configuration& c = session.configuration();
+  return {c.termination, c.planner, session.planner().needs(), std::make_shared<ScanState>(session.state()),
+          std::move(seen)};
+}
+
+/// The session has changed since: that can be undone.
+void SessionRunner::remember(HistoryEntry before) {
+  history_.push(std::move(before), tree_->stand(tree_->at)->state.get(), history_limit());
+  kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);
 }
 
 void SessionRunner::keep_sessions(std::filesystem::path state, KeptSession::Notice notice) {
@@ -72,15 +91,19 @@ void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverCon
   if (!session_) wanted_ = configuration;
   SessionParts parts = scanner ? scanner_parts(configuration, scanner) : SessionParts{};
   auto session = std::make_shared<Session>(std::move(configuration), std::move(parts), control.progress, control.stop);
-  if (session_) history_.push(now(), history_limit(*session_));
-  const Configuration& c = session->configuration();
-  adopt({session, c.termination, c.planner, session->state(), SeenSurface(*session), std::move(scanner),
-         std::make_shared<KeptSession>(state_folder_, notice_)});
+  Stand beginning = stand_of(*session, SeenSurface(*session));
+  if (session_) history_.push(now(), nullptr, history_limit());
+  auto tree = std::make_shared<StepTree>(beginning, session->camera());
+  adopt({session, std::move(scanner), std::make_shared<KeptSession>(state_folder_, notice_), std::move(tree), 0,
+         Branches(), std::move(beginning)});
 }
 
 /// It goes on where it stands, in its own folder. Each of its views can be undone.
 void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
-  SavedSession saved = read_session(folder);
+  if (kept_ && kept_->folder() && is_same_folder(kept_->folder()->path(), folder))
+    throw std::invalid_argument(folder.string() + ": is the session that is open");
+  const auto shared = std::make_shared<SavedSession>(read_session(folder));
+  SavedSession& saved = *shared;
   const Configuration& c = saved.configuration;
   SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
   const auto session = std::make_shared<Session>(c, std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
@@ -93,17 +116,25 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
   const auto kept = saved.journal ? std::make_shared<KeptSession>(std::move(own), notice_)
                                   : std::make_shared<KeptSession>(state_folder_, notice_);
   SeenSurface seen(*session);
-  std::vector<HistoryEntry> states;
-  const auto look = [&] {
+  const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());
+  if (saved.journal) tree->add(shared);
+  const auto taken = [&](std::uint32_t number) {
     seen.follow(*session);
-    states.push_back({session, c.termination, session->configuration().planner, session->state(), seen, nullptr, kept,
-                      kept->line()});
+    if (!tree->has(number)) return static_cast<void>(tree->step(number, stand_of(*session, seen)));
+    tree->set_stand(number, stand_of(*session, seen));
+    tree->at = number;
   };
-  look();
-  if (!restore(*session, saved, kept->folder(), look, part(control.progress, 0.2, 1.0), control.stop)) throw Stopped();
-  if (session_) history_.push(now(), history_limit(*session_));
-  for (std::size_t k = 0; k + 1 < states.size(); ++k) history_.push(states[k], history_limit(*session));
-  adopt(std::move(states.back()));
+  if (!restore(*session, saved, kept->folder(), taken, part(control.progress, 0.2, 1.0), control.stop)) throw Stopped();
+  tree->set_stand(tree->at, stand_of(*session, seen));  // the planner may have changed since
+  const auto entry = [&](std::uint32_t number) {
+    return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number)};
+  };
+  const auto limit = static_cast<std::size_t>(c.history.memory * bytes_per_gigabyte);
+  if (session_) history_.push(now(), nullptr, limit);
+  if (tree->at > 0) history_.push(entry(0), nullptr, limit);
+  for (const std::uint32_t number : tree->line(tree->at))
+    if (number != tree->at && tree->stand(number)) history_.push(entry(number), nullptr, limit);
+  adopt(entry(tree->at));
   for (const std::string& notice : saved.notices)
     if (notice_) notice_(folder.string() + ": " + notice);
 }
@@ -112,8 +143,8 @@ void SessionRunner::set_termination(const TerminationConfig& termination) {
   if (!session_) return;
   HistoryEntry before = now();
   session_->set_termination(termination);
-  history_.push(std::move(before), history_limit(*session_));
-  kept_->follow(*session_, kept_->line());
+  tree_->set_stand(tree_->at, stand_of(*session_, *seen_));
+  remember(std::move(before));
   show_next();
 }
 
@@ -122,8 +153,8 @@ void SessionRunner::set_planner(const PlannerConfig& planner, const JobControl& 
   HistoryEntry before = now();
   control.progress(0.0, "ranking the candidate views");
   session_->set_planner(planner, control.progress, control.stop);
-  history_.push(std::move(before), history_limit(*session_));
-  kept_->follow(*session_, kept_->line());
+  tree_->set_stand(tree_->at, stand_of(*session_, *seen_));
+  remember(std::move(before));
   SessionSnapshot next = *snapshot_;
   next.configuration = session_->configuration();
   show_map(std::move(next));
@@ -145,7 +176,8 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
     if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
     return;
   }
-  history_.push(std::move(before), history_limit(*session_));
+  tree_->step(kept_->last_number().value_or(tree_->last_number() + 1), stand_of(*session_, *seen_));
+  remember(std::move(before));
   show_map(*snapshot_);
 }
 
@@ -162,17 +194,17 @@ void SessionRunner::take_custom_view(const Pose& T_world_camera) {
 }
 
 void SessionRunner::undo(const JobControl& control) {
-  if (history_.can_undo()) adopt(history_.undo(now(), history_limit(*session_), control.progress, control.stop));
+  if (history_.can_undo()) adopt(history_.undo(now(), history_limit(), control.progress, control.stop));
 }
 
 void SessionRunner::redo(const JobControl& control) {
-  if (history_.can_redo()) adopt(history_.redo(now(), history_limit(*session_), control.progress, control.stop));
+  if (history_.can_redo()) adopt(history_.redo(now(), history_limit(), control.progress, control.stop));
 }
 
 /// Goes on from there. The next view is the planner's choice again.
 void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_session = session_ == entry.session;
-  const bool same_scan = same_session && session_->scans() == entry.state.scans;
+  const bool same_scan = same_session && session_->scans() == entry.stand.state->scans;
   const Planner* const planner = session_ ? &session_->planner() : nullptr;
   SessionSnapshot next = *snapshot_;
   if (kept_ && kept_ != entry.kept) kept_->close();
@@ -180,11 +212,15 @@ void SessionRunner::adopt(HistoryEntry entry) {
   session_ = std::move(entry.session);
   scanner_ = std::move(entry.scanner);
   kept_ = std::move(entry.kept);
-  session_->restore(std::move(entry.state), entry.planner);
-  session_->set_termination(entry.termination);
+  tree_ = std::move(entry.tree);
+  tree_->at = entry.at;
+  tree_->go_back_to(entry.branches);
+  session_->restore(*entry.stand.state, entry.stand.planner);
+  session_->set_termination(entry.stand.termination);
   session_->take_proposal();
-  kept_->follow(*session_, entry.line);
-  seen_ = std::move(entry.seen);
+  kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);
+  seen_ = entry.stand.seen;
+  tree_->set_stand(entry.at, std::move(entry.stand));
   if (same_scan && planner == &session_->planner()) return show_next();
   const auto& scans = session_->scans();
   // What was refined of views that are no more belongs to nothing.
@@ -197,6 +233,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   }
   if (next.gibbs && !begin_with(next.scans, next.gibbs->views)) next.gibbs = nullptr;
   if (!same_session) {
+    next.compared = nullptr;
     ++next.session;
     remember_run(next);
     show_session(next);
@@ -236,8 +273,7 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
   SessionFolder* const own = kept_->folder();
-  std::error_code ignored;
-  if (own && std::filesystem::equivalent(own->path(), folder, ignored)) {
+  if (own && is_same_folder(own->path(), folder)) {
     OutputFolder out(folder, {});
     out.go_on("scan");
     return write_results(out, control);

@@ -51,6 +51,17 @@ class SessionRunner {
   void take_custom_view(const Pose& T_world_camera);
   void undo(const JobControl& control);
   void redo(const JobControl& control);
+  /// Goes to a step that was taken, on whatever branch: nothing is captured. @throws std::invalid_argument: there is
+  /// none
+  void go_to(std::uint32_t number, const JobControl& control);
+  /// Goes to the end of a branch. @throws std::invalid_argument: there is none of this name; likewise the next ones
+  void go_to_branch(const std::string& name, const JobControl& control);
+  /// What is taken from here on is on another branch. An empty name: the next that is free.
+  void begin_branch(const std::string& name);
+  void rename_branch(const std::string& name, const std::string& to);
+  void remove_branch(const std::string& name);
+  /// Shows the end of another branch beside this one; an empty name: no more.
+  void compare(const std::string& name, const JobControl& control);
   void refine(int chains, int sweeps, const JobControl& control);
   /// Writes what `nextview scan` writes. Returns a line for people on each surface.
   std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
@@ -60,6 +71,12 @@ class SessionRunner {
 
  private:
   HistoryEntry now() const;
+  static Stand stand_of(const Session& session, SeenSurface seen);
+  void remember(HistoryEntry before);
+  void change_branches(const std::function<void(Branches&)>& change);
+  std::size_t history_limit() const;
+  Stand stand_at(std::uint32_t number, const JobControl& control);
+  SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
   void open_session(const std::filesystem::path& folder, const JobControl& control);
   void adopt(HistoryEntry entry);
@@ -69,6 +86,7 @@ class SessionRunner {
   /// Fills what of a snapshot is the session's.
   void show_session(SessionSnapshot& snapshot) const;
   void show_map(SessionSnapshot next);
+  void fill_map(SessionSnapshot& next);
   void show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement);
   void show_next_view(SessionSnapshot& snapshot) const;
   void publish(SessionSnapshot snapshot);
@@ -84,6 +102,7 @@ class SessionRunner {
   std::filesystem::path state_folder_;         ///< empty: sessions are not kept
   KeptSession::Notice notice_;
   std::shared_ptr<KeptSession> kept_;  ///< of the session; null without one
+  std::shared_ptr<StepTree> tree_;     ///< likewise
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };
 

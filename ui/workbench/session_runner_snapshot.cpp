@@ -31,6 +31,11 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   snapshot.message.clear();
   snapshot.can_undo = history_.can_undo();
   snapshot.can_redo = history_.can_redo();
+  snapshot.changes = history_.changes();
+  snapshot.timeline = tree_ ? std::make_shared<const Timeline>(tree_->timeline()) : nullptr;
+  const bool is_there = snapshot.compared && tree_ && tree_->branches.has(snapshot.compared->branch);
+  if (!is_there || snapshot.compared->branch == tree_->branches.current().name) snapshot.compared = nullptr;
+  snapshot.kept = kept_ && kept_->folder();
   snapshot.live = scanner_ != nullptr;
   snapshot.scanner_lost = scanner_ && scanner_->is_lost();
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(snapshot));
@@ -70,6 +75,11 @@ void SessionRunner::show_session(SessionSnapshot& next) const {
 }
 
 void SessionRunner::show_map(SessionSnapshot next) {
+  fill_map(next);
+  publish(std::move(next));
+}
+
+void SessionRunner::fill_map(SessionSnapshot& next) {
   ++next.map;
   next.setup = std::make_shared<const ScanSetup>(session_->setup());  // another planner may rank by now
   next.gain_unit = session_->planner().unit();
@@ -90,7 +100,6 @@ void SessionRunner::show_map(SessionSnapshot next) {
         std::make_shared<const CoverageByOrder>(next.setup->recorded->compare_orders(taken, next.configuration.seed));
   if (session_->refinement() && !next.records.empty()) show_refinement(next, *session_->refinement());
   show_next_view(next);
-  publish(std::move(next));
 }
 
 void SessionRunner::show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement) {

@@ -13,6 +13,7 @@
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/session/scan_state.hpp"
+#include "ui/workbench/timeline.hpp"
 
 namespace nextview {
 
@@ -60,6 +61,14 @@ struct Run {
   std::vector<StepRecord> records;  ///< without candidates
 };
 
+struct SessionSnapshot;
+
+/// The end of another branch, beside the session.
+struct Comparison {
+  std::string branch;
+  std::shared_ptr<const SessionSnapshot> snapshot;
+};
+
 /// A session as the window sees it between two steps. Never changes once it is published. What a step does not change
 /// is shared with the snapshot before.
 struct SessionSnapshot {
@@ -98,6 +107,10 @@ struct SessionSnapshot {
   std::shared_ptr<const ScoreExplanation> explanation;  ///< of the next view's score; null if its gain has no rays
   std::string finished;                                 ///< why the scan is done; empty while it is not
   bool can_undo = false, can_redo = false;
+  std::size_t changes = 0;                     ///< that can be undone
+  std::shared_ptr<const Timeline> timeline;    ///< null without a session
+  std::shared_ptr<const Comparison> compared;  ///< null if the session is shown alone
+  bool kept = false;                           ///< what was taken is in a folder
 
   bool loaded() const { return session > 0; }
   /// Goes through recorded data, whose frames are the candidates.

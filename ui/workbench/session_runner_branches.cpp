@@ -1,0 +1,117 @@
+// Where a session runner goes along the steps that were taken.
+#include <fmt/format.h>
+
+#include "core/progress/stopped.hpp"
+#include "ui/workbench/session_runner.hpp"
+
+namespace nextview {
+
+/// What is not here yet is taken again from its captures.
+Stand SessionRunner::stand_at(std::uint32_t number, const JobControl& control) {
+  const std::vector<JournalStep> missing = tree_->not_here(number);
+  const std::uint32_t from = tree_->nearest_here(number);
+  const Stand nearest = *tree_->stand(from);
+  ScanHistory::bring_back_maps(*session_, *tree_, from, nearest, control.progress, control.stop);
+  if (missing.empty()) return nearest;
+  const ScanState here = session_->state();
+  const PlannerConfig planner = session_->configuration().planner;
+  const auto come_back = [&] { session_->restore(here, planner); };
+  SeenSurface seen = nearest.seen;
+  const std::size_t notices = tree_->saved()->notices.size();
+  try {
+    session_->restore(*nearest.state, nearest.planner);
+    const auto taken = [&](std::uint32_t step) {
+      seen.follow(*session_);
+      tree_->set_stand(step, stand_of(*session_, seen));
+    };
+    if (!take_again(*session_, *tree_->saved(), missing, taken, control.progress, control.stop)) throw Stopped();
+  } catch (...) {
+    come_back();
+    throw;
+  }
+  come_back();
+  const auto& stand = tree_->stand(number);
+  if (!stand) throw std::runtime_error(tree_->saved()->notices.at(notices));
+  return *stand;
+}
+
+void SessionRunner::go_to(std::uint32_t number, const JobControl& control) {
+  if (!tree_ || !tree_->has(number)) throw std::invalid_argument(fmt::format("no step {} was taken", number));
+  if (number == tree_->at) return;
+  Stand there = stand_at(number, control);
+  HistoryEntry before = now(), after = before;
+  after.at = number;
+  after.branches.on = tree_->branch_through(number);
+  after.stand = std::move(there);
+  history_.push(std::move(before), after.stand.state.get(), history_limit());
+  adopt(std::move(after));
+}
+
+void SessionRunner::go_to_branch(const std::string& name, const JobControl& control) {
+  if (!tree_) return;
+  const std::size_t branch = tree_->branches.find(name);
+  HistoryEntry before = now(), after = before;
+  after.at = tree_->branches.all[branch].tip;
+  after.branches.on = branch;
+  if (after.at == before.at && branch == before.branches.on) return;
+  after.stand = stand_at(after.at, control);
+  const std::string left = before.branches.current().name;
+  const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == name;
+  history_.push(std::move(before), after.stand.state.get(), history_limit());
+  adopt(std::move(after));
+  if (is_swapped) compare(left, control);
+}
+
+void SessionRunner::begin_branch(const std::string& name) {
+  change_branches([&](Branches& branches) { branches.begin(name.empty() ? branches.free_name() : name, tree_->at); });
+}
+
+void SessionRunner::rename_branch(const std::string& name, const std::string& to) {
+  change_branches([&](Branches& branches) { branches.rename(name, to); });
+}
+
+void SessionRunner::remove_branch(const std::string& name) {
+  change_branches([&](Branches& branches) { branches.remove(name); });
+}
+
+void SessionRunner::change_branches(const std::function<void(Branches&)>& change) {
+  if (!tree_) return;
+  Branches branches = tree_->branches;
+  change(branches);
+  HistoryEntry before = now();
+  tree_->branches = std::move(branches);
+  remember(std::move(before));
+  publish(*snapshot_);
+}
+
+void SessionRunner::compare(const std::string& name, const JobControl& control) {
+  if (!tree_) return;
+  SessionSnapshot next = *snapshot_;
+  next.compared = nullptr;
+  if (!name.empty()) {
+    const Branch& branch = tree_->branches.all[tree_->branches.find(name)];
+    auto there = std::make_shared<const SessionSnapshot>(snapshot_of(stand_at(branch.tip, control)));
+    next.compared = std::make_shared<const Comparison>(Comparison{branch.name, std::move(there)});
+  }
+  publish(std::move(next));
+}
+
+/// What the window would show if the session stood there.
+SessionSnapshot SessionRunner::snapshot_of(const Stand& stand) {
+  const ScanState here = session_->state();
+  const Configuration& c = session_->configuration();
+  const auto [planner, termination] = std::pair(c.planner, c.termination);
+  const SeenSurface seen = std::exchange(*seen_, stand.seen);
+  SessionSnapshot there = *snapshot_;
+  there.compared = nullptr;
+  there.gibbs = nullptr;
+  session_->restore(*stand.state, stand.planner);
+  session_->set_termination(stand.termination);
+  fill_map(there);
+  session_->restore(here, planner);
+  session_->set_termination(termination);
+  *seen_ = seen;
+  return there;
+}
+
+}  // namespace nextview

@@ -1,0 +1,135 @@
+#include "ui/workbench/step_tree.hpp"
+
+#include <algorithm>
+
+#include "core/session/step_outcome.hpp"
+
+namespace nextview {
+namespace {
+
+/// Its numbers, which are all that curves and the timeline show.
+std::shared_ptr<const StepRecord> without_candidates(StepRecord record) {
+  record.candidates.clear();
+  return std::make_shared<const StepRecord>(std::move(record));
+}
+
+std::shared_ptr<const DepthCells> picture_of(const JournalStep& step, const std::filesystem::path& folder,
+                                             const PinholeCamera& camera) {
+  try {
+    const Scan scan = to_scan(read_capture(step, folder), nullptr).scan;
+    return std::make_shared<const DepthCells>(thumbnail(scan, step.T_world_camera, camera));
+  } catch (const std::runtime_error&) {
+    return nullptr;  // who goes there hears of it
+  }
+}
+
+}  // namespace
+
+void StepTree::add(std::shared_ptr<SavedSession> saved) {
+  const Journal& journal = *saved->journal;
+  std::vector<std::uint32_t> line;  // whose pictures come with their scans
+  for (const JournalStep& step : journal.line()) line.push_back(step.number);
+  for (const auto& [number, step] : journal.steps) {
+    Node node{step.after};
+    if (!journal.steps.contains(step.after)) {  // where that is lost: the one before
+      const auto next = journal.steps.upper_bound(step.after);
+      node.after = next == journal.steps.begin() ? 0 : std::prev(next)->first;
+    }
+    if (!step.outcome.empty()) {
+      StepRecord record = record_with(step.outcome);
+      record.T_world_camera = step.T_world_camera;
+      node.record = without_candidates(std::move(record));
+    }
+    if (!std::ranges::binary_search(line, number)) node.picture = picture_of(step, saved->folder, camera_);
+    nodes_.emplace(number, std::move(node));
+  }
+  branches = journal.branches;
+  for (Branch& branch : branches.all)  // of a tip that is lost, too
+    if (!nodes_.contains(branch.tip)) branch.tip = std::prev(nodes_.upper_bound(branch.tip))->first;
+  saved_ = std::move(saved);
+}
+
+bool StepTree::step(std::uint32_t number, Stand stand) {
+  nodes_[number].after = at;
+  const bool begins_branch = branches.add_step(number, at);
+  set_stand(number, std::move(stand));
+  at = number;
+  return begins_branch;
+}
+
+void StepTree::set_stand(std::uint32_t number, Stand stand) {
+  Node& node = nodes_.at(number);
+  if (number > 0) {
+    const StepRecord& record = *stand.state->records.back();
+    node.record = without_candidates(record);
+    if (!node.picture)
+      node.picture =
+          std::make_shared<const DepthCells>(thumbnail(*stand.state->scans.back(), record.T_world_camera, camera_));
+  }
+  node.stand = std::move(stand);
+}
+
+std::vector<std::uint32_t> StepTree::line(std::uint32_t number) const {
+  std::vector<std::uint32_t> line;
+  for (; number > 0; number = nodes_.at(number).after) line.push_back(number);
+  std::ranges::reverse(line);
+  return line;
+}
+
+bool StepTree::leads_through(std::uint32_t tip, std::uint32_t number) const {
+  while (tip > number) tip = nodes_.at(tip).after;
+  return tip == number;
+}
+
+std::size_t StepTree::branch_through(std::uint32_t number) const {
+  if (leads_through(branches.current().tip, number)) return branches.on;
+  const auto found =
+      std::ranges::find_if(branches.all, [&](const Branch& branch) { return leads_through(branch.tip, number); });
+  return found == branches.all.end() ? branches.on : static_cast<std::size_t>(found - branches.all.begin());
+}
+
+void StepTree::go_back_to(const Branches& then) {
+  branches =
+      branches.back_to(then, [&](std::uint32_t tip, std::uint32_t number) { return leads_through(tip, number); });
+}
+
+std::vector<JournalStep> StepTree::not_here(std::uint32_t number) const {
+  std::vector<JournalStep> steps;
+  for (; !nodes_.at(number).stand; number = nodes_.at(number).after) steps.push_back(saved_->journal->steps.at(number));
+  std::ranges::reverse(steps);
+  return steps;
+}
+
+std::uint32_t StepTree::nearest_here(std::uint32_t number) const {
+  while (!nodes_.at(number).stand) number = nodes_.at(number).after;
+  return number;
+}
+
+const ScanState* StepTree::nearest_maps(std::uint32_t number, const PolicyNeeds& needs) const {
+  for (;; number = nodes_.at(number).after) {
+    const auto& stand = nodes_.at(number).stand;
+    if (stand && stand->state->has_maps && stand->needs.occlusions == needs.occlusions &&
+        stand->needs.posterior == needs.posterior)
+      return stand->state.get();
+    if (number == 0) return nullptr;
+  }
+}
+
+std::vector<std::pair<ScanState*, const ScanState*>> StepTree::states() const {
+  std::vector<std::pair<ScanState*, const ScanState*>> states;
+  for (const auto& [number, node] : nodes_) {
+    if (!node.stand) continue;
+    const auto& before = nodes_.at(node.after).stand;
+    states.emplace_back(node.stand->state.get(), number > 0 && before ? before->state.get() : nullptr);
+  }
+  return states;
+}
+
+Timeline StepTree::timeline() const {
+  Timeline timeline{{}, branches, at};
+  for (const auto& [number, node] : nodes_)
+    if (number > 0) timeline.steps.push_back({number, node.after, node.record, node.picture});
+  return timeline;
+}
+
+}  // namespace nextview
