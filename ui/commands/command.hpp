@@ -56,6 +56,12 @@ class Shortcuts {
   Made made_ = nullptr;
 };
 
+/// What people are asked before something is done.
+struct CommandQuestion {
+  std::string text;     ///< what it costs, and whether; empty: nothing is asked
+  std::string confirm;  ///< the answer by which it is done: "Start over"
+};
+
 /// What people see of a command, and when it can be done.
 struct CommandDeclaration {
   std::string name;  ///< in scripts: "take-view"
@@ -66,6 +72,8 @@ struct CommandDeclaration {
   std::function<std::string(const CommandState&)> why_not = {};  ///< it cannot be done now; empty: it can
   std::function<bool(const WindowState&)> on = {};               ///< of what is switched on and off
   bool adds_up = false;                                          ///< doing it twice is more than doing the last alone
+  /// Asked with the values that it has, as a script has them; scripts are not asked.
+  std::function<CommandQuestion(const CommandState&, const std::vector<std::string>&)> question = {};
 };
 
 /// Something that the user can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's

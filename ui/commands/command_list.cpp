@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "ui/commands/branch_commands.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/gibbs_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
@@ -23,6 +24,8 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       quit,
       // Scan
       step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, answer, cancel, undo, redo, reset,
+      // Timeline
+      previous_view, next_view, go_to_view, branch, go_to_branch, rename_branch, remove_branch, compare, stop_comparing,
       // Gibbs
       refine, pause_refinement, resume_refinement,
       // Select

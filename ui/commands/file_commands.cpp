@@ -74,6 +74,27 @@ void set_from(CommandTarget& target, const std::string& key, Configuration wante
   change_setting(target, key, configuration);
 }
 
+CommandQuestion restart_question(const CommandState& t, const std::string& what) {
+  const std::size_t views = t.session.records.size();
+  if (views == 0) return {};
+  const std::string lost = what_is_lost(t, true);
+  return {fmt::format("{} starts the scan over. Its {} set aside: undo brings {} back.{}{}", what,
+                      views == 1 ? "view is" : fmt::format("{} views are", views), views == 1 ? "it" : "them",
+                      lost.empty() ? "" : " ", lost),
+          "Start over"};
+}
+
+/// `values`: a key, and what it is to be; its default without.
+CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std::string>& values) {
+  const std::string& key = values.at(0);
+  Configuration now = t.session.configuration, standard;
+  const bool is_known = std::ranges::any_of(settings(now), [&](const Setting& s) { return s.key == key; });
+  if (!is_known || keeps_scan(key)) return {};
+  const std::string wanted = values.size() > 1 ? values[1] : setting(standard, key).text();
+  if (wanted == setting(now, key).text()) return {};
+  return restart_question(t, fmt::format("{} = {}", setting(now, key).label(), wanted));
+}
+
 std::string reset_settings_why_not(const CommandState& t) {
   return t.session.live ? "the scanner's own are among them: connect it again" : needs_session(t);
 }
@@ -88,7 +109,13 @@ const CommandOf<std::string> command::open{
      "Open an object, scans, a map…",
      "Scans another object (a mesh file or a known name), goes through recorded scans (a folder, .graph, .log, .txt), "
      "goes on with a session (its folder), shows a map (.ot, .bt), or takes the settings of a .toml file.",
-     {{key('O'), true}}},
+     {{key('O'), true}},
+     {},
+     {},
+     false,
+     [](const CommandState& t, const auto&) {
+       return CommandQuestion{what_is_lost(t, true), "Open"};
+     }},
     argument::file("file", "a mesh file, a known object, recorded scans, a map, or a .toml file", objects),
     [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};
 
@@ -98,7 +125,10 @@ const CommandOf<std::string, std::string> command::set{
      "Change a setting…",
      "Changes a setting. Those of planner and termination keep the scan, the others start it over.",
      {},
-     needs_session},
+     needs_session,
+     {},
+     false,
+     ask_before_restart},
     setting_key(),
     argument::text("value", "what it is to be"),
     set_as_text};
@@ -117,22 +147,29 @@ const CommandOf<std::string> command::reset_setting{
      "Set a setting back…",
      "Gives a setting its default again. Those of planner and termination keep the scan, the others start it over.",
      {},
-     needs_session},
+     needs_session,
+     {},
+     false,
+     ask_before_restart},
     setting_key(),
     [](CommandTarget& t, const std::string& key) { set_from(t, key, Configuration()); }};
 
-const CommandOf<> command::reset_settings{{"reset-settings",
-                                           "File",
-                                           "Set all settings back",
-                                           "Starts over with the default settings; the object stays.",
-                                           {},
-                                           reset_settings_why_not},
-                                          [](CommandTarget& t) {
-                                            Configuration configuration;
-                                            configuration.object = t.session.configuration.object;
-                                            configuration.recorded = t.session.configuration.recorded;
-                                            t.worker.post(request::Load{configuration});
-                                          }};
+const CommandOf<> command::reset_settings{
+    {"reset-settings",
+     "File",
+     "Set all settings back",
+     "Starts over with the default settings; the object stays.",
+     {},
+     reset_settings_why_not,
+     {},
+     false,
+     [](const CommandState& t, const auto&) { return restart_question(t, "All settings as they were"); }},
+    [](CommandTarget& t) {
+      Configuration configuration;
+      configuration.object = t.session.configuration.object;
+      configuration.recorded = t.session.configuration.recorded;
+      t.worker.post(request::Load{configuration});
+    }};
 
 const CommandOf<std::string> command::export_scan{
     {"export",
@@ -158,7 +195,17 @@ const CommandOf<std::string> command::save_script{
       t.worker.log().add(LogEntry::Level::success, "Script written to " + file);
     }};
 
-const CommandOf<> command::quit{{"quit", "File", "Quit", "Closes the window.", {{key('Q'), true}}},
+const CommandOf<> command::quit{{"quit",
+                                 "File",
+                                 "Quit",
+                                 "Closes the window.",
+                                 {{key('Q'), true}},
+                                 {},
+                                 {},
+                                 false,
+                                 [](const CommandState& t, const auto&) {
+                                   return CommandQuestion{what_is_lost(t, false), "Quit"};
+                                 }},
                                 [](CommandTarget& t) { t.window.quit = true; }};
 
 }  // namespace nextview

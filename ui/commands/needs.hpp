@@ -12,4 +12,7 @@ std::string needs_view(const CommandState& state);  ///< that has been taken
 /// Nothing may be running that would change the session beneath it.
 std::string needs_rest(const CommandState& state);
 
+/// What is in memory alone, for people, with how to keep it; empty if nothing is. `undoable`: the views come back.
+std::string what_is_lost(const CommandState& state, bool undoable);
+
 }  // namespace nextview

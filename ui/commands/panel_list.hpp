@@ -18,7 +18,8 @@ struct PanelInfo {
 
 /// Those that commands bring to the front themselves.
 namespace panel_name {
-inline const std::string view = "view", inspector = "inspector", gibbs = "gibbs", curves = "curves";
+inline const std::string view = "view", inspector = "inspector", gibbs = "gibbs", curves = "curves",
+                         comparison = "comparison";
 }
 
 /// The panels there are, in the order of their keys. Commands draw none and so know none by themselves: who draws them

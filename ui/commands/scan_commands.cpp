@@ -47,6 +47,8 @@ std::string continue_why_not(const CommandState& t) {
   return available_candidates(t.session).empty() ? "no candidate view is left" : "";
 }
 
+SelectionHistory::Moment moment(const CommandState& t) { return {t.session.session, t.session.changes}; }
+
 void look_at_next_view(WindowState& window) {
   window.selection.view = {};
   window.selection.ray.reset();
@@ -142,26 +144,48 @@ const CommandOf<> command::undo{
     {"undo",
      "Scan",
      "Undo",
-     "Goes back to before the last view, or before the last change of settings or object.",
+     "Goes back to before the last view, selection, branch, or change of settings or object.",
      {{key('Z'), true}},
-     [](const CommandState& t) { return t.session.can_undo ? needs_rest(t) : "there is nothing to undo"; }},
-    [](CommandTarget& t) { t.worker.post(request::Undo{}); }};
+     [](const CommandState& t) {
+       if (t.window.selections.can_undo(moment(t))) return std::string();
+       return t.session.can_undo ? needs_rest(t) : "there is nothing to undo";
+     }},
+    [](CommandTarget& t) {
+      WindowState& w = t.window;
+      if (w.selections.can_undo(moment(t.state())))
+        w.selection = w.selections.undo(w.selection);
+      else
+        t.worker.post(request::Undo{});
+    }};
 
-const CommandOf<> command::redo{
-    {"redo",
-     "Scan",
-     "Redo",
-     "Does again what was undone.",
-     {{key('Y'), true}},
-     [](const CommandState& t) { return t.session.can_redo ? needs_rest(t) : "there is nothing to redo"; }},
-    [](CommandTarget& t) { t.worker.post(request::Redo{}); }};
+const CommandOf<> command::redo{{"redo",
+                                 "Scan",
+                                 "Redo",
+                                 "Does again what was undone.",
+                                 {{key('Y'), true}},
+                                 [](const CommandState& t) {
+                                   if (t.window.selections.can_redo(moment(t))) return std::string();
+                                   return t.session.can_redo ? needs_rest(t) : "there is nothing to redo";
+                                 }},
+                                [](CommandTarget& t) {
+                                  WindowState& w = t.window;
+                                  if (w.selections.can_redo(moment(t.state())))
+                                    w.selection = w.selections.redo(w.selection);
+                                  else
+                                    t.worker.post(request::Redo{});
+                                }};
 
 const CommandOf<> command::reset{{"reset",
                                   "Scan",
                                   "Start over",
                                   "Starts the scan over, with the same object and settings.",
                                   {{key('R')}},
-                                  needs_session},
+                                  needs_session,
+                                  {},
+                                  false,
+                                  [](const CommandState& t, const auto&) {
+                                    return CommandQuestion{what_is_lost(t, true), "Start over"};
+                                  }},
                                  [](CommandTarget& t) { t.worker.post(request::Reset{}); }};
 
 }  // namespace nextview

@@ -1,5 +1,7 @@
 #include "ui/commands/script_recorder.hpp"
 
+#include <algorithm>
+
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/starting_script.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -19,19 +21,34 @@ bool replaces(const CommandCall& call, const CommandCall& before) {
 
 void ScriptRecorder::begin(const Configuration& configuration) {
   script_ = starting_script(configuration);
+  requests_.clear();
   last_.reset();
 }
 
 void ScriptRecorder::begin_with(const std::filesystem::path& input) {
   script_ = {command::open(std::filesystem::absolute(input).string()).text()};
+  requests_.clear();
   last_.reset();
 }
 
-void ScriptRecorder::add(const CommandCall& call) {
+void ScriptRecorder::add(const CommandCall& call, std::uint64_t request) {
   if (call.command == &command::palette || call.command == &command::shortcuts) return;
-  if (last_ && replaces(call, *last_)) script_.pop_back();
+  if (last_ && replaces(call, *last_)) {
+    script_.pop_back();
+    requests_.pop_back();
+  }
   script_.push_back(call.text());
+  requests_.push_back(request);
   last_ = call;
+}
+
+void ScriptRecorder::forget(std::uint64_t request) {
+  const auto found = std::find(requests_.rbegin(), requests_.rend(), request);
+  if (request == 0 || found == requests_.rend()) return;
+  const auto from_end = found - requests_.rbegin() + 1;
+  script_.erase(script_.end() - from_end);
+  requests_.erase(requests_.end() - from_end);
+  last_.reset();
 }
 
 }  // namespace nextview

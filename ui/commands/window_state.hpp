@@ -9,7 +9,7 @@
 #include "ui/commands/panel_list.hpp"
 #include "ui/workbench/candidate_order.hpp"
 #include "ui/workbench/layer_choice.hpp"
-#include "ui/workbench/selection.hpp"
+#include "ui/workbench/selection_history.hpp"
 
 namespace nextview {
 
@@ -35,6 +35,7 @@ using CameraMotion =
 struct WindowState {
   LayerChoice layers;
   Selection selection;
+  SelectionHistory selections;
   std::array<std::string, 3> front;  ///< names of panels, by Side; empty: the first of its side
   Side open = Side::right;  ///< the side whose panels were asked for last: it is shown where there is room for one
   std::array<CurveKind, 2> curves = {CurveKind::entropy, CurveKind::coverage};  ///< left and right plot

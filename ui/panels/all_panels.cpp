@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/scanner_commands.hpp"
 #include "ui/commands/window_commands.hpp"
 #include "ui/panels/control_bar.hpp"
 #include "ui/panels/menu_bar.hpp"
@@ -80,6 +81,8 @@ void obey_keys(const PanelContext& context) {
   const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;  // menus and lists
   if (open > 0) {
     if (pressed(Key::escape)) ImGui::ClosePopupToLevel(open - 1, true);
+  } else if (!context.progress.question.empty() && pressed(Key::escape)) {
+    context.post(command::answer(context.progress.answers.back()));
   } else if (context.window.palette_open) {
     if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.post(command::palette());
   } else if (context.window.shortcuts_open) {

@@ -19,6 +19,23 @@ struct Curve {
   std::function<double(const StepRecord&)> value;
 };
 
+/// The branches that the scan is not on, as far as it is known what came of their views.
+std::vector<std::pair<std::string, std::vector<StepRecord>>> other_branches(const SessionSnapshot& s,
+                                                                            const std::string& compared) {
+  std::vector<std::pair<std::string, std::vector<StepRecord>>> result;
+  if (!s.timeline) return result;
+  for (const Branch& branch : s.timeline->branches.all) {
+    if (branch == s.timeline->branches.current() || branch.name == compared) continue;
+    std::vector<StepRecord> records;
+    for (const TimelineStep* step : s.timeline->line(branch)) {
+      if (!step->record) break;
+      records.push_back(*step->record);
+    }
+    if (!records.empty()) result.emplace_back("'" + branch.name + "'", std::move(records));
+  }
+  return result;
+}
+
 void add_curves(ChartContent& content, const SessionSnapshot& s, const std::vector<Curve>& curves,
                 std::optional<double> at_start = {}) {
   for (const Curve& curve : curves) {
@@ -33,16 +50,20 @@ void add_curves(ChartContent& content, const SessionSnapshot& s, const std::vect
     }
     content.series.push_back(std::move(series));
   }
-  if (!s.earlier_runs) return;
-  for (const Run& run : *s.earlier_runs) {  // of each the first curve: all of them would be a tangle
-    ChartSeries series{run.name, {}, {}};
-    series.earlier = true;
-    for (const StepRecord& r : run.records) {
-      series.x.push_back(r.step);
-      series.y.push_back(curves.front().value(r));
+  // Of others the first curve alone: all of them would be a tangle.
+  const auto add_other = [&](ChartSeries series, const auto& records) {
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      series.x.push_back(double(k + 1));
+      series.y.push_back(curves.front().value(records[k]));
     }
     content.series.push_back(std::move(series));
-  }
+  };
+  const std::string compared = s.compared ? s.compared->branch : "";
+  if (s.compared)
+    add_other({fmt::format("'{}', {}", compared, curves.front().name), {}, {}}, s.compared->snapshot->records);
+  for (const auto& [name, records] : other_branches(s, compared)) add_other({name, {}, {}, true}, records);
+  if (!s.earlier_runs) return;
+  for (const Run& run : *s.earlier_runs) add_other({run.name, {}, {}, true}, run.records);
 }
 
 ChartContent entropy_content(const SessionSnapshot& s) {

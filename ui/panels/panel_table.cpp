@@ -1,12 +1,14 @@
 #include "ui/panels/panel_table.hpp"
 
 #include "ui/panels/candidates_panel.hpp"
+#include "ui/panels/comparison_panel.hpp"
 #include "ui/panels/curves_panel.hpp"
 #include "ui/panels/gibbs_panel.hpp"
 #include "ui/panels/inspector_panel.hpp"
 #include "ui/panels/layers_panel.hpp"
 #include "ui/panels/log_panel.hpp"
 #include "ui/panels/session_panel.hpp"
+#include "ui/panels/timeline_panel.hpp"
 #include "ui/panels/view_panel.hpp"
 
 namespace nextview {
@@ -38,6 +40,10 @@ std::vector<PanelEntry> standard_panels() {
       {{panel_name::gibbs, "Gibbs", right, "The Gibbs map: how its chains run, and what they change."},
        make<GibbsPanel>},
       {{panel_name::curves, "Curves", bottom, "How the scan went, view by view."}, make<Drawn<draw_curves_panel>>},
+      {{"timeline", "Timeline", bottom, "Every view that was taken, on each branch: go back to any of them."},
+       make<TimelinePanel>},
+      {{panel_name::comparison, "Compare", bottom, "What differs between this branch and another one."},
+       make<Drawn<draw_comparison_panel>>},
       {{"log", "Log", bottom, "Everything that happened."}, make<LogPanel>},
   };
 }

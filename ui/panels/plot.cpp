@@ -66,7 +66,7 @@ void draw_captions(const Style& style, const ChartContent& content, ImVec2 corne
   const std::size_t named = std::min<std::size_t>(content.series.size(), 5);  // more have no room
   for (std::size_t i = 0; i < named && !content.series[i].earlier; ++i)
     caption(content.series[i].name.c_str(), series_colour(i), true);
-  if (!content.series.empty() && content.series.back().earlier) caption("earlier", earlier_colour(), false);
+  if (!content.series.empty() && content.series.back().earlier) caption("others", earlier_colour(), false);
 }
 
 void draw_grid(const Style& style, const ChartContent& content, const Axes& axes) {

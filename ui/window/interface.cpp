@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "ui/commands/file_commands.hpp"
 #include "ui/window/interface_parts.hpp"
 
 namespace nextview {
@@ -43,9 +44,19 @@ void Interface::connect(const request::Connect& scanner) {
   parts_->recorder.begin(*scanner.configuration);
   parts_->worker.post(scanner);
 }
+void Interface::offer(const UnfinishedSession& session) {
+  parts_->offered = session.folder;
+  parts_->worker.post(request::OfferSession{session});
+}
 void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
 bool Interface::script_is_done() const { return parts_->script.done() || parts_->state.quit; }
 ScriptPlayer& Interface::script() { return parts_->script; }
+void Interface::ask_to_quit() {
+  Parts& p = *parts_;
+  if (p.asked_call.waiting()) p.state.quit = true;  // for the second time
+  p.do_for_people(command::quit());
+  p.settling = frames_to_settle;
+}
 bool Interface::wants_to_quit() const { return parts_->state.quit && !parts_->state.picture_file; }
 const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
@@ -80,6 +91,7 @@ bool Interface::draw(double seconds) {
   p.follow_session();
   p.take_input();
   p.follow_size();
+  p.share_scene();
   const std::size_t pictures = p.pictures.uploads();
   p.draw_interface(seconds);
   p.move_camera();

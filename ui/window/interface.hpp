@@ -32,6 +32,8 @@ class Interface {
   void open_session(const std::filesystem::path& folder);
   /// The same with a live scanner.
   void connect(const request::Connect& scanner);
+  /// Offers to go on with a session that nobody closed.
+  void offer(const UnfinishedSession& session);
   /// Does these calls one after the other, each when the one before has had its effect.
   void run_script(std::vector<CommandCall> calls);
   bool script_is_done() const;  ///< or the window is about to close: what is left of it is not done
@@ -42,6 +44,8 @@ class Interface {
   /// the last one; if not, the back buffer is left alone. The scene is drawn anew only if it changed.
   bool draw(double seconds);
 
+  /// The window is to be closed: asks if something would be lost.
+  void ask_to_quit();
   bool wants_to_quit() const;
   /// "Nextview - gearbox - view 3 of 20"
   std::string title() const;

@@ -6,6 +6,7 @@
 
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/scanner_commands.hpp"
 #include "ui/window/panels_alone.hpp"
 #include "ui/window/selection_overlay.hpp"
 
@@ -25,6 +26,7 @@ bool Interface::Parts::script_may_go_on() const {
 }
 
 void Interface::Parts::take_news() {
+  for (const std::uint64_t failed : worker.take_failed()) recorder.forget(failed);
   News now = latest();
   if (now.snapshot != news.snapshot || now.inspection != news.inspection || now.log != news.log ||
       now.progress.busy != news.progress.busy || now.progress.question != news.progress.question)
@@ -38,7 +40,7 @@ void Interface::Parts::take_input() {
   host.take(events);
   for (const InputEvent& event : events) {
     if (std::holds_alternative<input::Expose>(event)) composer.forget();
-    if (const auto* drop = std::get_if<input::Drop>(&event)) do_call(command::open(drop->file.string()));
+    if (const auto* drop = std::get_if<input::Drop>(&event)) do_for_people(command::open(drop->file.string()));
   }
 }
 
@@ -53,9 +55,14 @@ void Interface::Parts::follow_size() {
   layout_open = state.open;
   layout = Layout(target.width(), target.height(), host.style().scale, state.open);
   settling = frames_to_settle;
-  if (!resized && layout.scene == scene) return;
-  view.place(layout.scene);
-  if (!camera_moved) view.move(camera_motion::Frame{});
+  if (resized || layout.scene != scene) view.place({});  // share_scene() gives it its place
+}
+
+/// The scene's place is the session's, or half of it while it is compared.
+void Interface::Parts::share_scene() {
+  const Rectangle before = view.rectangle();
+  if (!compared.share(view, layout.scene, *news.snapshot)) return;
+  if (view.rectangle() != before && !camera_moved) view.move(camera_motion::Frame{});
   scene_is_old = true;
 }
 
@@ -76,8 +83,9 @@ void Interface::Parts::draw_interface(double seconds) {
   host.begin_frame(int(layout.width), int(layout.height), seconds);
   std::vector<CommandCall> calls;
   std::optional<std::size_t> hovered;
-  const PanelContext context{*news.snapshot, news.progress, state, *news.inspection, *news.log,
-                             host.style(),   pictures,      calls, hovered};
+  const WorkerProgress progress = asked_call.with_question(news.progress);
+  const PanelContext context{*news.snapshot, progress, state, *news.inspection, *news.log,
+                             host.style(),   pictures, calls, hovered};
   state.scene_camera = view.camera_pose();
   obey_keys(context);
   follow_pointer(context, seconds);
@@ -101,26 +109,43 @@ void Interface::Parts::follow_tooltip() {
 
 void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
   if (!calls.empty()) settling = frames_to_settle;
-  for (const CommandCall& call : calls) do_call(call);
+  for (const CommandCall& call : calls) do_for_people(call);
+}
+
+/// Asks before what costs something; a script's calls are done as they are.
+void Interface::Parts::do_for_people(const CommandCall& call) {
+  if (asked_call.waiting() && call.command == &command::answer) {
+    if (const auto wanted = asked_call.answered(call.values().front())) do_call(*wanted);
+  } else if (call.command == &command::answer && news.progress.answers == SessionWorker::offer_answers()) {
+    do_call(call);
+    if (call.values().front() == SessionWorker::offer_answers().front()) recorder.begin_with(offered);
+  } else if (!asked_call.asks(call, {*news.snapshot, news.progress, state})) {
+    do_call(call);
+  }
 }
 
 /// What cannot be done now is told in the log.
 void Interface::Parts::do_call(const CommandCall& call) {
   CommandTarget acted_on{worker, state, *news.snapshot, news.progress};
+  const Selection before = state.selection;
+  const std::uint64_t posted = worker.posted();
   try {
     execute(call, acted_on);
+    if (before != state.selection && call.command->menu == "Select")
+      state.selections.push(before, {news.snapshot->session, news.snapshot->changes});
   } catch (const std::exception& error) {
     script.refused(call, error.what());
     return worker.log().add(LogEntry::Level::warning, error.what());
   }
-  recorder.add(call);
+  recorder.add(call, worker.posted() > posted ? worker.posted() : 0);
 }
 
 void Interface::Parts::follow_pointer(const PanelContext& context, double seconds) {
-  if (pointer.follow(view, context)) {
+  if (pointer.follow(view, compared.rectangle(), context)) {
     camera_moved = scene_is_old = true;
     motion_left = rest;
     view.set_in_motion(true);
+    compared.set_in_motion(true);
   } else if (motion_left > 0 && (motion_left -= seconds) <= 0) {
     bring_to_rest();
   }
@@ -129,6 +154,7 @@ void Interface::Parts::follow_pointer(const PanelContext& context, double second
 void Interface::Parts::bring_to_rest() {
   motion_left = 0;
   view.set_in_motion(false);
+  compared.set_in_motion(false);
   scene_is_old = true;
 }
 
@@ -151,6 +177,7 @@ void Interface::Parts::ask_inspector() {
 /// Returns whether it was drawn anew.
 bool Interface::Parts::draw_scene() {
   scene_is_old |= view.show(news.snapshot, state, news.inspection, news.progress.doubtful);
+  scene_is_old |= compared.show(*news.snapshot, state.layers);
   if (!scene_is_old) return false;
   target.render();
   ++scene_drawings;

@@ -4,6 +4,8 @@
 
 #include "ui/commands/script_recorder.hpp"
 #include "ui/panels/all_panels.hpp"
+#include "ui/window/asked_call.hpp"
+#include "ui/window/compared_scene.hpp"
 #include "ui/window/frame_composer.hpp"
 #include "ui/window/imgui_host.hpp"
 #include "ui/window/interface.hpp"
@@ -26,7 +28,15 @@ struct News {
 
 struct Interface::Parts {
   Parts(RenderTarget& s, SessionWorker& w, InspectionWorker& i, double scale)
-      : target(s), worker(w), inspector(i), host(scale), view(s, scale), pictures(&s), composer(s), layout(1, 1, 1) {}
+      : target(s),
+        worker(w),
+        inspector(i),
+        host(scale),
+        view(s, scale),
+        compared(s, scale),
+        pictures(&s),
+        composer(s),
+        layout(1, 1, 1) {}
 
   RenderTarget& target;
   SessionWorker& worker;
@@ -34,6 +44,7 @@ struct Interface::Parts {
   ImguiHost host;
   InputQueue queue;
   SceneView view;
+  ComparedScene compared;
   ScenePointer pointer;
   PanelPictures pictures;
   FrameComposer composer;
@@ -42,6 +53,8 @@ struct Interface::Parts {
   Side layout_open = Side::right;  ///< that the layout was made for
   WindowState state;
   News news;
+  AskedCall asked_call;
+  std::filesystem::path offered;                    ///< a session to go on with
   std::uint64_t session = 0;                        ///< whose numbers the selection has
   std::shared_ptr<const SessionSnapshot> asked_of;  ///< the last question
   Selection asked;
@@ -60,11 +73,13 @@ struct Interface::Parts {
   void take_input();
   bool layout_is_old() const;
   void follow_size();
+  void share_scene();
   void follow_session();
   void draw_interface(double seconds);
   void follow_tooltip();
   void do_calls(std::vector<CommandCall> calls);
   void do_call(const CommandCall& call);
+  void do_for_people(const CommandCall& call);
   void follow_pointer(const PanelContext& context, double seconds);
   void move_camera();
   void bring_to_rest();

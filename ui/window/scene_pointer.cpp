@@ -34,17 +34,19 @@ void ScenePointer::pick(SceneView& view, const PanelContext& context) const {
   }
 }
 
-bool ScenePointer::follow(SceneView& view, const PanelContext& context) {
+bool ScenePointer::follow(SceneView& view, const Rectangle* beside, const PanelContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool over_scene = !io.WantCaptureMouse && view.rectangle().contains(io.MousePos.x, io.MousePos.y);
+  const bool over_camera =
+      over_scene || (beside && !io.WantCaptureMouse && beside->contains(io.MousePos.x, io.MousePos.y));
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
              middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   bool moved = false;
   const bool at_handle = drag_ == Drag::none && region_.follow(view, context);
-  if (over_scene && drag_ == Drag::none && !at_handle) {
+  if (over_camera && drag_ == Drag::none && !at_handle) {
     if (left || middle)
       drag_ = left && !io.KeyShift ? Drag::orbit : Drag::pan;
-    else
+    else if (over_scene)
       context.hovered = view.pick(io.MousePos.x, io.MousePos.y).candidate;
   }
   if (drag_ != Drag::none) {
@@ -56,7 +58,7 @@ bool ScenePointer::follow(SceneView& view, const PanelContext& context) {
       drag_ = Drag::none;
     }
   }
-  if (over_scene && io.MouseWheel != 0) {
+  if (over_camera && io.MouseWheel != 0) {
     zoom(view.renderer(), io.MouseWheel);
     moved = true;
   }

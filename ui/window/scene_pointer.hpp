@@ -9,7 +9,7 @@ namespace nextview {
 class ScenePointer {
  public:
   /// Once a frame, before the panels. Returns whether the scene's camera moved.
-  bool follow(SceneView& view, const PanelContext& context);
+  bool follow(SceneView& view, const Rectangle* beside, const PanelContext& context);
 
   const RegionHandles& region_handles() const { return region_; }
 

@@ -149,11 +149,15 @@ void run(WindowTarget& target, Interface& interface, const std::function<bool()>
   std::string title;
   double last = glfwGetTime();
   const auto seconds_left = [&] { return interface.seconds_to_next_frame() - (glfwGetTime() - last); };
-  while (!glfwWindowShouldClose(window) && !interface.wants_to_quit() && !has_to_end()) {
+  while (!interface.wants_to_quit() && !has_to_end()) {
     if (const double seconds = seconds_left(); seconds > 0) {
       glfwWaitEventsTimeout(std::min(seconds, longest_wait));
     } else {
       glfwPollEvents();
+    }
+    if (glfwWindowShouldClose(window)) {
+      glfwSetWindowShouldClose(window, GLFW_FALSE);
+      interface.ask_to_quit();
     }
     target.follow_size();
     if (seconds_left() > 0) continue;
@@ -187,7 +191,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
   else
     interface.open(configuration);
   if (const auto unfinished = start.offer ? unfinished_session(state_folder()) : std::nullopt)
-    worker.post(request::OfferSession{*unfinished});
+    interface.offer(*unfinished);
   interface.run_script(script.calls);
   listen(window, interface);
   run(target, interface, [&] { return script.stop_on_error && errors.any(); });

@@ -61,6 +61,26 @@ struct TakeCustomView {
 /// Goes back to before the last step or start; the scan is repeated up to there.
 struct Undo {};
 struct Redo {};
+/// Goes to where a branch had so many views, or to its end.
+struct GoTo {
+  std::string branch;  ///< empty: the current one
+  std::optional<std::size_t> views = {};
+};
+/// What is taken from here on is on another branch.
+struct BeginBranch {
+  std::string name;  ///< empty: the next that is free
+};
+struct RenameBranch {
+  std::string name, to;
+};
+/// Its views stay in the session's folder.
+struct RemoveBranch {
+  std::string name;
+};
+/// Shows the end of another branch beside this one.
+struct Compare {
+  std::string branch;  ///< empty: no more
+};
 /// Samples the Gibbs map of all views so far until it is stationary.
 struct Refine {
   int chains = 2;
@@ -79,6 +99,7 @@ using SessionRequest =
     std::variant<request::Load, request::OpenFile, request::OfferSession, request::Connect, request::Disconnect,
                  request::Reconnect, request::SetTermination, request::SetPlanner, request::Reset, request::Step,
                  request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
-                 request::Redo, request::Refine, request::Export, request::ForgetRuns>;
+                 request::Redo, request::GoTo, request::BeginBranch, request::RenameBranch, request::RemoveBranch,
+                 request::Compare, request::Refine, request::Export, request::ForgetRuns>;
 
 }  // namespace nextview

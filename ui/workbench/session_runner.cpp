@@ -131,9 +131,10 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
   };
   const auto limit = static_cast<std::size_t>(c.history.memory * bytes_per_gigabyte);
   if (session_) history_.push(now(), nullptr, limit);
-  if (tree->at > 0) history_.push(entry(0), nullptr, limit);
+  const ScanState* const here = tree->stand(tree->at)->state.get();
+  if (tree->at > 0) history_.push(entry(0), here, limit);
   for (const std::uint32_t number : tree->line(tree->at))
-    if (number != tree->at && tree->stand(number)) history_.push(entry(number), nullptr, limit);
+    if (number != tree->at && tree->stand(number)) history_.push(entry(number), here, limit);
   adopt(entry(tree->at));
   for (const std::string& notice : saved.notices)
     if (notice_) notice_(folder.string() + ": " + notice);

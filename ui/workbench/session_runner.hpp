@@ -51,11 +51,9 @@ class SessionRunner {
   void take_custom_view(const Pose& T_world_camera);
   void undo(const JobControl& control);
   void redo(const JobControl& control);
-  /// Goes to a step that was taken, on whatever branch: nothing is captured. @throws std::invalid_argument: there is
-  /// none
-  void go_to(std::uint32_t number, const JobControl& control);
-  /// Goes to the end of a branch. @throws std::invalid_argument: there is none of this name; likewise the next ones
-  void go_to_branch(const std::string& name, const JobControl& control);
+  /// Goes to where a branch had so many views, or to its end: nothing is captured. An empty name: the current one.
+  /// @throws std::invalid_argument: there is none of this name, or it has fewer; likewise the next ones
+  void go_to(const std::string& branch, std::optional<std::size_t> views, const JobControl& control);
   /// What is taken from here on is on another branch. An empty name: the next that is free.
   void begin_branch(const std::string& name);
   void rename_branch(const std::string& name, const std::string& to);
@@ -97,6 +95,7 @@ class SessionRunner {
   std::optional<SeenSurface> seen_;
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
   ScanHistory history_;
+  std::size_t changes_when_gone_ = 0;          ///< when the timeline was last gone along
   std::shared_ptr<DriverConnection> scanner_;  ///< of the session, if it is a live one
   Configuration before_scanner_;               ///< to go back to
   std::filesystem::path state_folder_;         ///< empty: sessions are not kept

@@ -1,6 +1,7 @@
 // Where a session runner goes along the steps that were taken.
 #include <fmt/format.h>
 
+#include "core/file/counted.hpp"
 #include "core/progress/stopped.hpp"
 #include "ui/workbench/session_runner.hpp"
 
@@ -35,31 +36,25 @@ Stand SessionRunner::stand_at(std::uint32_t number, const JobControl& control) {
   return *stand;
 }
 
-void SessionRunner::go_to(std::uint32_t number, const JobControl& control) {
-  if (!tree_ || !tree_->has(number)) throw std::invalid_argument(fmt::format("no step {} was taken", number));
-  if (number == tree_->at) return;
-  Stand there = stand_at(number, control);
-  HistoryEntry before = now(), after = before;
-  after.at = number;
-  after.branches.on = tree_->branch_through(number);
-  after.stand = std::move(there);
-  history_.push(std::move(before), after.stand.state.get(), history_limit());
-  adopt(std::move(after));
-}
-
-void SessionRunner::go_to_branch(const std::string& name, const JobControl& control) {
+void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> views, const JobControl& control) {
   if (!tree_) return;
-  const std::size_t branch = tree_->branches.find(name);
   HistoryEntry before = now(), after = before;
-  after.at = tree_->branches.all[branch].tip;
-  after.branches.on = branch;
-  if (after.at == before.at && branch == before.branches.on) return;
+  after.branches.on = name.empty() ? before.branches.on : before.branches.find(name);
+  const Branch& branch = after.branches.current();
+  const std::vector<std::uint32_t> line = tree_->line(branch.tip);
+  if (views && *views > line.size())
+    throw std::invalid_argument(fmt::format("'{}' has {}", branch.name, counted(line.size(), "view")));
+  const std::size_t last = views.value_or(line.size());
+  after.at = last == 0 ? 0 : line[last - 1];
+  if (after.at == before.at && after.branches.on == before.branches.on) return;
   after.stand = stand_at(after.at, control);
-  const std::string left = before.branches.current().name;
-  const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == name;
-  history_.push(std::move(before), after.stand.state.get(), history_limit());
+  // Going along the timeline is one change, however many views it goes by.
+  if (history_.changes() != changes_when_gone_ || history_.can_redo())
+    history_.push(before, after.stand.state.get(), history_limit());
+  changes_when_gone_ = history_.changes();
+  const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == branch.name;
   adopt(std::move(after));
-  if (is_swapped) compare(left, control);
+  if (is_swapped) compare(before.branches.current().name, control);
 }
 
 void SessionRunner::begin_branch(const std::string& name) {

@@ -90,19 +90,32 @@ void SessionWorker::set_pause_between_views(double seconds) {
 void SessionWorker::post(SessionRequest request) {
   {
     const std::lock_guard lock(mutex_);
+    ++posted_;
     if (starts_anew(request)) drop_all();
     if (is<request::Pause>(request)) {
       progress_.playing = false;
-      std::erase_if(queue_, is<request::Play>);
+      std::erase_if(queue_, [](const auto& waiting) { return is<request::Play>(waiting.second); });
     } else {
-      queue_.push_back(std::move(request));
+      if (is<request::GoTo>(request))  // only the last place counts
+        std::erase_if(queue_, [](const auto& waiting) { return is<request::GoTo>(waiting.second); });
+      queue_.emplace_back(posted_, std::move(request));
     }
   }
   wake_.notify_all();
   news();
 }
 
-std::optional<SessionRequest> SessionWorker::next_request(std::stop_token stop) {
+std::uint64_t SessionWorker::posted() const {
+  const std::lock_guard lock(mutex_);
+  return posted_;
+}
+
+std::vector<std::uint64_t> SessionWorker::take_failed() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(failed_, {});
+}
+
+std::optional<std::pair<std::uint64_t, SessionRequest>> SessionWorker::next_request(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   for (;;) {
     wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
@@ -113,15 +126,15 @@ std::optional<SessionRequest> SessionWorker::next_request(std::stop_token stop) 
   job_ = std::stop_source();
   job_start_ = Clock::now();
   running_ = true;
-  if (queue_.empty()) return request::Step{};
-  SessionRequest request = std::move(queue_.front());
+  if (queue_.empty()) return std::pair<std::uint64_t, SessionRequest>(0, request::Step{});
+  auto request = std::move(queue_.front());
   queue_.pop_front();
   return request;
 }
 
 void SessionWorker::run(std::stop_token stop) {
   while (const auto request = next_request(stop)) {
-    attempt(*request);
+    attempt(request->first, request->second);
     {
       const std::lock_guard lock(mutex_);
       running_ = progress_.refining = progress_.paused = false;
@@ -136,7 +149,7 @@ void SessionWorker::run(std::stop_token stop) {
 }
 
 /// Executes a request and publishes what came of it, also if it failed.
-void SessionWorker::attempt(const SessionRequest& request) {
+void SessionWorker::attempt(std::uint64_t number, const SessionRequest& request) {
   const auto before = runner_.snapshot();
   bool failed = false;
   try {
@@ -153,6 +166,7 @@ void SessionWorker::attempt(const SessionRequest& request) {
   const auto after = runner_.snapshot();
   if (!failed) finish(request, *before);
   const std::lock_guard lock(mutex_);
+  if (failed && number > 0) failed_.push_back(number);
   const bool taken = after->records.size() > before->records.size();
   if (failed || !runner_.can_step() || (is<request::Step>(request) && !taken)) progress_.playing = false;
   snapshot_ = after;
@@ -186,6 +200,17 @@ void SessionWorker::execute(const SessionRequest& request) {
                  [&](const request::TakeCustomView& r) { runner_.take_custom_view(r.T_world_camera); },
                  [&](request::Undo) { runner_.undo(job_control()); },
                  [&](request::Redo) { runner_.redo(job_control()); },
+                 [&](const request::GoTo& r) {
+                   {
+                     const std::lock_guard lock(mutex_);
+                     progress_.playing = false;
+                   }
+                   runner_.go_to(r.branch, r.views, job_control());
+                 },
+                 [&](const request::BeginBranch& r) { runner_.begin_branch(r.name); },
+                 [&](const request::RenameBranch& r) { runner_.rename_branch(r.name, r.to); },
+                 [&](const request::RemoveBranch& r) { runner_.remove_branch(r.name); },
+                 [&](const request::Compare& r) { runner_.compare(r.branch, job_control()); },
                  [&](const request::Refine& r) {
                    {
                      const std::lock_guard lock(mutex_);

@@ -27,11 +27,17 @@ class SessionWorker {
   void keep_sessions(std::filesystem::path state);
   /// What starts a session anew takes the place of whatever runs or waits. Steps of a finished scan are ignored.
   void post(SessionRequest request);
+  /// How many requests were posted: the number of the last one.
+  std::uint64_t posted() const;
+  /// The numbers of those that failed since this was asked last.
+  std::vector<std::uint64_t> take_failed();
   /// Drops what waits and stops what runs as soon as that is possible; a step that is not complete is taken back, a
   /// refinement keeps its sweeps so far.
   void cancel();
   /// Pauses a refinement between two sweeps, or resumes it.
   void pause_refinement(bool pause);
+  /// Of the question whether to go on with a session, the first to do so.
+  static const std::vector<std::string>& offer_answers();
   /// Answers the question that the job waits with (WorkerProgress::question).
   void answer(const std::string& text);
   /// Waits this long before each view but the first while playing [s].
@@ -46,9 +52,9 @@ class SessionWorker {
 
   void run(std::stop_token stop);
   /// Waits for the next request; none if the worker is to end.
-  std::optional<SessionRequest> next_request(std::stop_token stop);
+  std::optional<std::pair<std::uint64_t, SessionRequest>> next_request(std::stop_token stop);
   void execute(const SessionRequest& request);
-  void attempt(const SessionRequest& request);
+  void attempt(std::uint64_t number, const SessionRequest& request);
   void finish(const SessionRequest& request, const SessionSnapshot& before);
   void drop_all();  ///< of the queue and the job; the mutex must be held
   void report_progress(double fraction, std::string_view what);
@@ -67,7 +73,9 @@ class SessionWorker {
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable_any wake_;
-  std::deque<SessionRequest> queue_;
+  std::deque<std::pair<std::uint64_t, SessionRequest>> queue_;  ///< by number
+  std::uint64_t posted_ = 0;
+  std::vector<std::uint64_t> failed_;
   std::stop_source job_;
   Clock::time_point job_start_, next_play_;
   bool running_ = false;  ///< a request is being executed

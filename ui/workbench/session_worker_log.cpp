@@ -61,6 +61,15 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
   if (!now.finished.empty()) log.add(Level::success, "The scan is finished: " + now.finished);
 }
 
+/// A view that was taken where there were others after it left them where they are.
+void log_branch(const SessionSnapshot& before, const SessionSnapshot& now, SessionLog& log) {
+  const Branches &was = before.timeline->branches, &is = now.timeline->branches;
+  if (was.on == is.on) return;
+  const std::size_t left = now.timeline->line(was.current()).size();
+  log.add(Level::note, fmt::format("This begins '{}'; '{}' keeps its {}", is.current().name, was.current().name,
+                                   counted(left, "view")));
+}
+
 /// How a refinement went; of one that was cancelled, what is left of it.
 void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
   const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
@@ -77,7 +86,10 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   if (s.session != before.session) {
     log_start(request, before, s, log_);
   } else if (s.records.size() > before.records.size()) {
-    log_view(s, log_);
+    if (is<request::Step>(request)) {
+      log_branch(before, s, log_);
+      log_view(s, log_);
+    }
   } else if (is<request::SetTermination>(request)) {
     if (s.finished != before.finished)
       log_.add(s.finished.empty() ? Level::note : Level::success,
@@ -89,6 +101,8 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
              "Stopped by ending the scanner's program, which cannot stop a move itself; reach it again");
   } else if (s.map != before.map && !is<request::Refine>(request)) {
     log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
+  } else if (is<request::BeginBranch>(request)) {
+    log_.add(Level::note, fmt::format("What is taken from here on is on '{}'", s.timeline->branches.current().name));
   }
   if (is<request::Refine>(request) && s.gibbs && s.gibbs != before.gibbs)
     log_refinement(*s.gibbs, job_control().stop.stop_requested(), log_);

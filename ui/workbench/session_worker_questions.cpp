@@ -38,10 +38,15 @@ std::string SessionWorker::ask(std::string question, std::vector<std::string> an
   return std::exchange(answer_, std::nullopt).value_or(cautious);
 }
 
+const std::vector<std::string>& SessionWorker::offer_answers() {
+  static const std::vector<std::string> answers = {"Go on", "Begin anew"};
+  return answers;
+}
+
 void SessionWorker::offer(const UnfinishedSession& session) {
   const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
                                            counted(session.views, "view"));
-  if (ask(question, {"Go on", "Begin anew"}) == "Go on")
+  if (ask(question, offer_answers()) == offer_answers().front())
     runner_.open(session.folder, job_control());
   else
     close_session(session.folder);

@@ -81,13 +81,6 @@ bool StepTree::leads_through(std::uint32_t tip, std::uint32_t number) const {
   return tip == number;
 }
 
-std::size_t StepTree::branch_through(std::uint32_t number) const {
-  if (leads_through(branches.current().tip, number)) return branches.on;
-  const auto found =
-      std::ranges::find_if(branches.all, [&](const Branch& branch) { return leads_through(branch.tip, number); });
-  return found == branches.all.end() ? branches.on : static_cast<std::size_t>(found - branches.all.begin());
-}
-
 void StepTree::go_back_to(const Branches& then) {
   branches =
       branches.back_to(then, [&](std::uint32_t tip, std::uint32_t number) { return leads_through(tip, number); });

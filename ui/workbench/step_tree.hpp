@@ -42,8 +42,6 @@ class StepTree {
   std::uint32_t last_number() const { return nodes_.rbegin()->first; }
   /// The branches of another time, with what has come since.
   void go_back_to(const Branches& then);
-  /// The current branch if it leads through a step, else the first one that does.
-  std::size_t branch_through(std::uint32_t number) const;
   /// Numbers from the first step to this one.
   std::vector<std::uint32_t> line(std::uint32_t number) const;
   /// Those at the end of a step's line that would have to be taken again before the session could stand there.

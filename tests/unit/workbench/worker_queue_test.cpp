@@ -62,6 +62,7 @@ TEST_F(WorkerQueue, WhatWaitsIsDoneInItsOrder) {
   wait_until_idle();
   EXPECT_THAT(log(), ElementsAre(StartsWith("sphere: "), StartsWith("View 1 from the start view"),
                                  StartsWith("View 2 from your custom view"), "Back at view 1",
+                                 "This begins 'branch 2'; 'main' keeps its 2 views",
                                  StartsWith("View 2 from candidate ")));
 }
 

@@ -1,0 +1,346 @@
+// Steps that are gone along, and branches from them, against who only ever did what leads to where one stands.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "core/session/untitled_sessions.hpp"
+#include "tests/unit/workbench/session_runner_test.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::vector<std::string> branch_names(const SessionSnapshot& s) {
+  std::vector<std::string> names;
+  for (const Branch& branch : s.timeline->branches.all) names.push_back(branch.name);
+  return names;
+}
+
+Configuration long_scan() {
+  Configuration c = small_scan();
+  c.termination.views = 50;
+  return c;
+}
+
+class SessionBranches : public SessionRunnerTest {
+ protected:
+  /// On main four views, and from the second on another branch with a view of its own.
+  void fork() {
+    runner_.load(long_scan(), job_control());
+    steps(4);
+    runner_.go_to("", 2, job_control());
+    runner_.take_view(other());
+    steps(1);
+  }
+  /// A candidate that the planner does not propose.
+  std::size_t other() {
+    const SessionSnapshot& s = now();
+    for (std::size_t k = 0; k < s.candidates.size(); ++k)
+      if (s.available(k) && k != s.proposal()) return k;
+    ADD_FAILURE();
+    return 0;
+  }
+  std::size_t on() { return now().timeline->branches.on; }
+  std::size_t views() { return now().records.size(); }
+};
+
+TEST_F(SessionBranches, EachViewCanBeGoneToAndNothingIsCaptured) {
+  runner_.load(long_scan(), job_control());
+  steps(4);
+  const auto all = runner_.snapshot();
+  for (const std::size_t views : {2u, 0u, 4u, 1u, 3u}) {
+    runner_.go_to("", views, job_control());
+    expect_same_scan(now(), *fresh(int(views), long_scan()));
+    for (std::size_t k = 0; k < views; ++k) EXPECT_EQ(now().scans[k], all->scans[k]);
+    EXPECT_EQ(now().timeline->steps.size(), 4u);
+  }
+  EXPECT_THROW(runner_.go_to("", 5, job_control()), std::invalid_argument);
+  EXPECT_THROW(runner_.go_to("none", 1, job_control()), std::invalid_argument);
+  EXPECT_EQ(views(), 3u);
+}
+
+TEST_F(SessionBranches, GoingAlongIsOneChange) {
+  runner_.load(long_scan(), job_control());
+  steps(4);
+  for (const std::size_t views : {3u, 2u, 1u, 2u}) runner_.go_to("", views, job_control());
+  runner_.undo(job_control());
+  EXPECT_EQ(views(), 4u);
+  runner_.redo(job_control());
+  EXPECT_EQ(views(), 2u);
+  runner_.undo(job_control());
+  runner_.undo(job_control());
+  EXPECT_EQ(views(), 3u) << "before that the last view is undone";
+}
+
+TEST_F(SessionBranches, AViewFromTheMiddleBeginsOne) {
+  fork();
+  EXPECT_THAT(branch_names(now()), testing::ElementsAre("main", "branch 2"));
+  EXPECT_EQ(on(), 1u);
+  EXPECT_EQ(views(), 3u);
+  const auto there = runner_.snapshot();
+  EXPECT_EQ(there->timeline->in_common(there->timeline->branches.all[0]), 2u);
+  runner_.go_to("main", {}, job_control());
+  expect_same_scan(now(), *fresh(4, long_scan()));
+  runner_.go_to("branch 2", {}, job_control());
+  expect_same_scan(now(), *there);
+  steps(1);
+  EXPECT_EQ(branch_names(now()).size(), 2u) << "from its end a branch goes on";
+}
+
+TEST_F(SessionBranches, UndoGoesBackToTheBranchBeforeAndTheOtherStays) {
+  fork();
+  const auto forked = runner_.snapshot();
+  runner_.undo(job_control());
+  EXPECT_EQ(on(), 0u);
+  EXPECT_EQ(views(), 2u);
+  EXPECT_THAT(branch_names(now()), testing::ElementsAre("main", "branch 2")) << "its view was captured";
+  runner_.undo(job_control());
+  EXPECT_EQ(views(), 4u);
+  runner_.redo(job_control());
+  runner_.redo(job_control());
+  expect_same_scan(now(), *forked);
+  EXPECT_EQ(on(), 1u);
+}
+
+TEST_F(SessionBranches, NamedRenamedRemovedAndAllOfItUndone) {
+  runner_.load(long_scan(), job_control());
+  steps(2);
+  runner_.begin_branch("closer");
+  EXPECT_EQ(on(), 1u);
+  steps(1);
+  EXPECT_EQ(now().timeline->line(now().timeline->branches.all[0]).size(), 2u) << "main stays as it was";
+  runner_.rename_branch("main", "first");
+  EXPECT_THROW(runner_.remove_branch("closer"), std::invalid_argument);
+  runner_.remove_branch("first");
+  EXPECT_THAT(branch_names(now()), testing::ElementsAre("closer"));
+  runner_.undo(job_control());
+  EXPECT_THAT(branch_names(now()), testing::ElementsAre("first", "closer"));
+  runner_.undo(job_control());
+  EXPECT_THAT(branch_names(now()), testing::ElementsAre("main", "closer"));
+  runner_.undo(job_control());
+  runner_.undo(job_control());
+  EXPECT_EQ(views(), 2u);
+  EXPECT_EQ(on(), 0u);
+  runner_.begin_branch("");
+  EXPECT_EQ(now().timeline->branches.current().name, "branch 3");
+}
+
+TEST_F(SessionBranches, AreComparedAtTheirEnds) {
+  fork();
+  const auto here = runner_.snapshot();
+  PlannerConfig planner = runner_.configuration().planner;
+  planner.gain = "rear-side-voxel";
+  runner_.set_planner(planner, job_control());
+  runner_.compare("main", job_control());
+  ASSERT_TRUE(now().compared);
+  expect_same_scan(*now().compared->snapshot, *fresh(4, long_scan()));
+  EXPECT_EQ(now().configuration.planner.gain, "rear-side-voxel") << "this one stays as it is";
+  EXPECT_EQ(views(), here->records.size());
+  steps(1);
+  ASSERT_TRUE(now().compared) << "and is compared while it goes on";
+  runner_.go_to("main", {}, job_control());
+  ASSERT_TRUE(now().compared);
+  EXPECT_EQ(now().compared->branch, "branch 2") << "the two change places";
+  EXPECT_EQ(now().compared->snapshot->configuration.planner.gain, "rear-side-voxel");
+  runner_.compare("", job_control());
+  EXPECT_FALSE(now().compared);
+}
+
+TEST_F(SessionBranches, AreThereWhenASessionIsOpened) {
+  for (const double memory : {1.0, 0.0}) {
+    const fs::path state = folder_ / fmt::format("state {}", memory);
+    const auto keep = [&](SessionRunner& runner) {
+      runner.keep_sessions(state, [](const std::string& line) { ADD_FAILURE() << line; });
+    };
+    auto first = std::make_unique<SessionRunner>();
+    keep(*first);
+    Configuration c = long_scan();
+    c.history.memory = memory;
+    first->load(c, job_control());
+    for (int k = 0; k < 3; ++k) first->step(job_control());
+    PlannerConfig planner = first->configuration().planner;
+    planner.gain = "rear-side-voxel";
+    first->go_to("", 1, job_control());
+    first->begin_branch("by rear side");
+    first->set_planner(planner, job_control());
+    for (int k = 0; k < 2; ++k) first->step(job_control());
+    const auto aside = first->snapshot();
+    first->go_to("main", 2, job_control());
+    const auto main = first->snapshot();
+    const fs::path folder = fs::directory_iterator(state)->path();
+    first.reset();
+
+    SessionRunner second;
+    keep(second);
+    second.open(folder, job_control());
+    expect_same_scan(*second.snapshot(), *main);
+    const Timeline& timeline = *second.snapshot()->timeline;
+    EXPECT_EQ(timeline.branches, main->timeline->branches);
+    ASSERT_EQ(timeline.steps.size(), main->timeline->steps.size());
+    for (std::size_t k = 0; k < timeline.steps.size(); ++k) {
+      const TimelineStep &was = main->timeline->steps[k], &is = timeline.steps[k];
+      EXPECT_EQ(is.after, was.after);
+      ASSERT_TRUE(is.record && is.picture) << "it is known before one goes there";
+      EXPECT_EQ(is.record->coverage, was.record->coverage);
+      EXPECT_EQ(is.record->total_entropy, was.record->total_entropy);
+      EXPECT_EQ(is.record->view, was.record->view);
+    }
+    second.go_to("by rear side", {}, job_control());
+    expect_same_scan(*second.snapshot(), *aside);
+    second.compare("main", job_control());
+    EXPECT_EQ(second.snapshot()->compared->snapshot->records.size(), 3u) << "up to its end";
+  }
+}
+
+TEST_F(SessionBranches, ACancelledWayThereLeavesAllAsItWas) {
+  const fs::path state = folder_ / "state";
+  fs::path folder;
+  {
+    SessionRunner first;
+    first.keep_sessions(state, {});
+    first.load(long_scan(), job_control());
+    for (int k = 0; k < 4; ++k) first.step(job_control());
+    first.go_to("", 1, job_control());
+    first.step(job_control());
+    folder = fs::directory_iterator(state)->path();
+  }
+  runner_.keep_sessions(state, {});
+  runner_.open(folder, job_control());
+  const auto before = runner_.snapshot();
+  for (const double from : {0.0, 0.4, 0.8}) {
+    std::stop_source stop;
+    SessionRunner::JobControl stopping = job_control();
+    stopping.stop = stop.get_token();
+    stopping.progress = [&](double fraction, std::string_view) {
+      if (fraction >= from) stop.request_stop();
+    };
+    EXPECT_ANY_THROW(runner_.go_to("main", {}, stopping)) << from;
+    EXPECT_EQ(runner_.snapshot(), before);
+  }
+  steps(1);
+  EXPECT_EQ(views(), before->records.size() + 1);
+  runner_.go_to("main", {}, job_control());
+  expect_same_scan(now(), *fresh(4, long_scan()));
+  fs::remove(folder / "scans/0003.npy");
+  SessionRunner third;
+  third.keep_sessions(state, {});
+  third.open(folder, job_control());
+  EXPECT_THROW(third.go_to("main", 3, job_control()), std::runtime_error) << "its capture is gone";
+}
+
+TEST_F(SessionBranches, TheSessionThatIsOpenIsNotOpenedAgain) {
+  runner_.keep_sessions(folder_ / "state", {});
+  runner_.load(small_scan(), job_control());
+  steps(1);
+  const fs::path own = fs::directory_iterator(folder_ / "state")->path();
+  try {
+    runner_.open(own, job_control());
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is the session that is open"));
+  }
+}
+
+/// What led to where a session stands, and nothing else: the model that recomputes everything.
+struct Done {
+  std::vector<std::size_t> candidates;  ///< that were taken instead of the proposal; npos: the proposal
+  std::vector<std::string> gains;       ///< of the planner by which each was chosen
+  std::string gain = "new-surface";     ///< of now
+};
+
+constexpr std::size_t proposal = std::size_t(-1);
+
+std::shared_ptr<const SessionSnapshot> recomputed(const Done& done, const Configuration& configuration) {
+  SessionRunner runner;
+  runner.load(configuration, job_control());
+  const auto by = [&](const std::string& gain) {
+    PlannerConfig planner = runner.configuration().planner;
+    planner.gain = gain;
+    if (gain != runner.configuration().planner.gain) runner.set_planner(planner, job_control());
+  };
+  for (std::size_t k = 0; k < done.candidates.size(); ++k) {
+    by(done.gains[k]);
+    if (done.candidates[k] != proposal) runner.take_view(done.candidates[k]);
+    runner.step(job_control());
+  }
+  by(done.gain);
+  return runner.snapshot();
+}
+
+/// NEXTVIEW_RANDOM_COMMANDS sets how many; a thousand were run (CHANGELOG).
+TEST_F(SessionBranches, CommandsAtRandomEqualAModelThatRecomputesEverything) {
+  const char* const wanted = std::getenv("NEXTVIEW_RANDOM_COMMANDS");
+  const int commands = wanted ? std::atoi(wanted) : 60;
+  std::mt19937 random(11);
+  Configuration c = long_scan();
+  c.evaluation.enabled = false;
+  c.history.memory = 0.0005;
+  const auto open = [&](const fs::path& folder) {
+    auto runner = std::make_unique<SessionRunner>();
+    runner->keep_sessions(folder_ / "state", [](const std::string& line) { ADD_FAILURE() << line; });
+    folder.empty() ? runner->load(c, job_control()) : runner->open(folder, job_control());
+    return runner;
+  };
+  auto runner = open({});
+  runner->step(job_control());
+  const fs::path folder = fs::directory_iterator(folder_ / "state")->path();
+
+  // The model: by branch what was done up to its end and at each view; what undo and redo lead to.
+  struct Place {
+    std::string branch;
+    Done done;
+  };
+  std::map<std::string, std::vector<Done>> ends;  ///< by branch, after each of its views as last seen there
+  Place place{"main", {{proposal}, {c.planner.gain}, c.planner.gain}};
+  for (int k = 0; k < commands; ++k) {
+    SCOPED_TRACE(k);
+    const SessionSnapshot& s = *runner->snapshot();
+    const std::size_t kind = random() % 9;
+    if (kind < 3 && runner->can_step()) {
+      std::size_t taken = proposal;
+      if (random() % 3 == 0 && !s.records.empty())
+        for (std::size_t v = random() % 8; taken == proposal && v < 8; ++v)
+          if (s.available(v) && v != s.proposal()) runner->take_view(taken = v);
+      place.done.candidates.push_back(taken);
+      place.done.gains.push_back(place.done.gain);
+      runner->step(job_control());
+    } else if (kind == 3 && s.timeline->at > 0) {
+      const std::size_t views = random() % (place.done.candidates.size() + 1);
+      runner->go_to("", views, job_control());
+      if (views < place.done.candidates.size()) {
+        place.done.candidates.resize(views);
+        place.done.gains.resize(views);
+        place.done.gain = runner->configuration().planner.gain;
+      }
+    } else if (kind == 4) {
+      place.done.gain = random() % 2 ? "rear-side-voxel" : "proximity-count";
+      PlannerConfig planner = runner->configuration().planner;
+      planner.gain = place.done.gain;
+      runner->set_planner(planner, job_control());
+    } else if (kind == 5) {
+      runner->begin_branch("");
+    } else if (kind == 6 && s.changes > 2) {  // there and back again
+      const int far = 1 + int(random() % 2);
+      for (int i = 0; i < far; ++i) runner->undo(job_control());
+      for (int i = 0; i < far; ++i) runner->redo(job_control());
+    } else if (kind == 7) {
+      const auto names = branch_names(s);
+      const std::string here = s.timeline->branches.current().name, there = names[random() % names.size()];
+      const auto at = s.records.size();
+      runner->go_to(there, {}, job_control());
+      runner->go_to(here, at, job_control());
+    } else if (kind == 8) {
+      runner.reset();
+      runner = open(folder);
+    }
+    if (place.done.candidates.empty()) continue;  // where nothing is ranked all planners show the same
+    expect_same_scan(*runner->snapshot(), *recomputed(place.done, c));
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(runner->snapshot()->timeline->branches.all.size(), 3u);
+}
+
+}  // namespace
+}  // namespace nextview

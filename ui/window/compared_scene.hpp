@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+
+#include "ui/window/scene_view.hpp"
+
+namespace nextview {
+
+/// The branch that a session is compared with, in the right half of the scene, looked at by the same camera.
+class ComparedScene {
+ public:
+  ComparedScene(RenderTarget& target, double scale) : target_(target), scale_(scale) {}
+
+  /// Shows it beside `view` in this part of the target, or gives `view` all of it. Returns whether that has changed.
+  bool share(SceneView& view, const Rectangle& place, const SessionSnapshot& session);
+  /// Returns whether its picture changed.
+  bool show(const SessionSnapshot& session, const LayerChoice& layers);
+  void set_in_motion(bool in_motion);
+  /// Null unless there is one.
+  const Rectangle* rectangle() const { return beside_ ? &beside_->rectangle() : nullptr; }
+
+ private:
+  RenderTarget& target_;
+  double scale_;
+  std::unique_ptr<SceneView> beside_;
+  std::string caption_, other_caption_;
+  WindowState window_;  ///< with nothing selected: that is of the session
+  std::shared_ptr<const Inspection> nothing_ = std::make_shared<const Inspection>();
+};
+
+}  // namespace nextview
