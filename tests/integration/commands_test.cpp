@@ -142,6 +142,8 @@ TEST_F(Commands, EachIsDoneByAScript) {
       walk(user, fmt::format("{} {}", command, value));
   for (const char* kind : {"entropy", "coverage", "divergence", "gain", "time"})
     walk(user, fmt::format("curves {} entropy", kind));
+  walk(user, "previous-view\nnext-view\ngo-to-view 1\nbranch \"what if\"\nrename-branch \"what if\" closer\nstep\n");
+  walk(user, "go-to-branch main\ncompare closer\nstop-comparing\nremove-branch closer\n");
   walk(user, "export " + path("a scan") + "\n");
   walk(user, "save-picture " + path("a picture.png") + "\n");
   EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));

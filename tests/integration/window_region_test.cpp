@@ -43,6 +43,8 @@ TEST_F(WindowRegion, AFaceThatIsLetGoIsTheSettingAndStartsOver) {
   EXPECT_TRUE(user_.window().scene().camera_pose().isApprox(camera)) << "the camera is not what is dragged";
   user_.release();
   user_.wait();
+  EXPECT_EQ(user_.session().records.size(), 1u) << "it is asked first";
+  user_.run("answer \"Start over\"\n");
   EXPECT_EQ(user_.session().message, "");
   EXPECT_TRUE(user_.session().records.empty());
   Eigen::AlignedBox3d expected = before;
@@ -72,6 +74,7 @@ TEST_F(WindowRegion, ARegionThatIsRefusedGoesBackAndIsSaid) {
   drag(centre_handle, {0.9, 0.0, 0.0});  // away from the object
   user_.release();
   user_.wait();
+  user_.run("answer \"Start over\"\n");
   EXPECT_NE(user_.session().message, "");
   EXPECT_TRUE(region(user_).isApprox(before));
   EXPECT_EQ(user_.session().records.size(), 1u);

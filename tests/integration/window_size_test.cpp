@@ -20,7 +20,9 @@ TEST(Window, WorksAtAnySize) {
     User user(small_scan(), width, height, scale);
     user.run("step\ncustom-view\nlook-through\nframe\n");
     for (const std::string& panel : panel_names()) user.run("panel " + panel + "\n");
-    user.run("inspect-voxel 0 0 0\nshortcuts\nshortcuts\npalette\npalette\nlook-from 30 20\nzoom 1\nundo\nstep\n");
+    user.run(
+        "inspect-voxel 0 0 0\nshortcuts\nshortcuts\npalette\npalette\nlook-from 30 20\nzoom "
+        "1\nundo\nundo\nundo\nstep\n");
     user.move(width / 2.0, height / 2.0);
     user.press();
     user.move(width / 2.0 + 3, height / 2.0 + 2);

@@ -73,8 +73,8 @@ ArgumentOf<double> number(std::string name, std::string help, double low, double
   return {{std::move(name), Argument::Kind::number, std::move(help), low, high}};
 }
 
-ArgumentOf<std::string> text(std::string name, std::string help) {
-  return {{std::move(name), Argument::Kind::text, std::move(help)}};
+ArgumentOf<std::string> text(std::string name, std::string help, Argument::Choices suggestions) {
+  return {{std::move(name), Argument::Kind::text, std::move(help), 0, 0, std::move(suggestions)}};
 }
 
 ArgumentOf<std::string> file(std::string name, std::string help, Argument::Choices suggestions) {

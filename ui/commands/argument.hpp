@@ -52,7 +52,7 @@ struct ArgumentOf : Argument {};
 namespace argument {
 
 ArgumentOf<double> number(std::string name, std::string help, double low, double high);
-ArgumentOf<std::string> text(std::string name, std::string help);
+ArgumentOf<std::string> text(std::string name, std::string help, Argument::Choices suggestions = {});
 ArgumentOf<std::string> file(std::string name, std::string help, Argument::Choices suggestions = {});
 /// One of a list, by its name.
 ArgumentOf<std::string> name(std::string name, std::string help, Argument::Choices names);

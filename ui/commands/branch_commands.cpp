@@ -15,7 +15,7 @@ std::vector<std::string> branch_names(const SessionSnapshot& s) {
 
 std::vector<std::string> other_branches(const SessionSnapshot& s) {
   std::vector<std::string> names = branch_names(s);
-  if (s.timeline) std::erase(names, s.timeline->branches.current().name);
+  if (!names.empty()) std::erase(names, s.timeline->branches.current().name);
   return names;
 }
 
@@ -31,12 +31,13 @@ std::string previous_why_not(const CommandState& t) {
 
 std::string next_why_not(const CommandState& t) {
   if (const std::string reason = needs_session(t); !reason.empty()) return reason;
-  const Timeline& timeline = *t.session.timeline;
-  return timeline.at == timeline.branches.current().tip ? "it is the last view of this branch" : "";
+  const auto& timeline = t.session.timeline;
+  const bool is_last = !timeline || timeline->at == timeline->branches.current().tip;
+  return is_last ? "it is the last view of this branch" : "";
 }
 
 ArgumentOf<std::string> branch_name(const char* help, Argument::Choices names) {
-  return argument::name("branch", help, std::move(names));
+  return argument::text("branch", help, std::move(names));
 }
 
 /// In the timeline, which counts lost captures, too.

@@ -10,8 +10,6 @@
 namespace nextview {
 namespace {
 
-constexpr double gap_between = 2;  ///< the two halves [px]
-
 std::string caption(const std::string& branch, const SessionSnapshot& session) {
   return fmt::format("{} · {}", branch, counted(session.records.size(), "view"));
 }
@@ -22,9 +20,9 @@ bool ComparedScene::share(SceneView& view, const Rectangle& place, const Session
   const bool wanted = session.compared != nullptr, there_was = beside_ != nullptr;
   Rectangle left = place, right = place;
   if (wanted) {
-    left.width = std::floor((place.width - gap_between) / 2);
-    right.x += left.width + gap_between;
-    right.width -= left.width + gap_between;
+    left.width = std::floor(place.width / 2);
+    right.x += left.width;
+    right.width -= left.width;
   }
   const std::string of_session = wanted ? caption(session.timeline->branches.current().name, session) : "";
   const std::string of_other = wanted ? caption(session.compared->branch, *session.compared->snapshot) : "";

@@ -93,6 +93,9 @@ void Interface::Parts::draw_interface(double seconds) {
   if (!news.progress.doubtful) {
     draw_selection_overlay(view, context);
     pointer.region_handles().draw(view, context);
+    if (const Rectangle* const r = compared.rectangle())
+      ImGui::GetBackgroundDrawList()->AddLine({float(r->x), float(r->y)}, {float(r->x), float(r->y + r->height)},
+                                              to_imgui_u32(theme::hairline), host.style().px(2));
   }
   ImGui::Render();
   follow_tooltip();

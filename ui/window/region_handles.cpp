@@ -38,7 +38,8 @@ bool RegionHandles::follow(SceneView& view, const PanelContext& context) {
     *this = {};
     return false;
   }
-  if (!drag_ && !context.progress.busy) box_.reset();  // the session has it, or has refused it
+  if (!drag_ && !context.progress.busy && context.progress.question.empty())
+    box_.reset();  // the session has it, or has refused it
   if (drag_)
     drag(view, context);
   else

@@ -105,6 +105,11 @@ inline void open_all_ways(Desk& desk) {
   s->can_undo = s->can_redo = true;
   s->earlier_runs = std::make_shared<const std::vector<Run>>(1, Run{"sphere, random", s->records});
   s->next_candidate = *s->proposal() == 0 ? 1 : 0;
+  auto timeline = std::make_shared<Timeline>(*s->timeline);
+  timeline->branches.all.push_back({"other", 2, 1});
+  timeline->at = 1;
+  s->compared = std::make_shared<const Comparison>(Comparison{"other", s});
+  s->timeline = std::move(timeline);
   desk.snapshot = s;
   desk.window.selection.view = {ViewSelection::Kind::candidate, *s->proposal()};
   desk.window.selection.custom_view = Pose::Identity();

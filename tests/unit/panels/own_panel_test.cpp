@@ -34,7 +34,7 @@ TEST(OwnPanel, IsBroughtToTheFrontByItsNameAndDrawn) {
 TEST(OwnPanel, HasATabAndAKey) {
   Desk desk(1280, 800, 1.0, with_note());
   desk.frames();
-  desk.type(Key::f10);
+  desk.type(Key::f12);
   const auto calls = desk.frames();
   ASSERT_EQ(calls.size(), 1u);
   EXPECT_EQ(calls.front().text(), "panel note");

@@ -60,10 +60,10 @@ TEST_F(WorkerQueue, WhatWaitsIsDoneInItsOrder) {
   EXPECT_EQ(worker_.progress().waiting, 4u);
   open_gate();
   wait_until_idle();
-  EXPECT_THAT(log(), ElementsAre(StartsWith("sphere: "), StartsWith("View 1 from the start view"),
-                                 StartsWith("View 2 from your custom view"), "Back at view 1",
-                                 "This begins 'branch 2'; 'main' keeps its 2 views",
-                                 StartsWith("View 2 from candidate ")));
+  EXPECT_THAT(log(),
+              ElementsAre(StartsWith("sphere: "), StartsWith("View 1 from the start view"),
+                          StartsWith("View 2 from your custom view"), "Back at view 1",
+                          "This begins 'branch 2'; 'main' keeps its 2 views", StartsWith("View 2 from candidate ")));
 }
 
 TEST_F(WorkerQueue, PauseTakesWaitingPlaysAwayAndNothingElse) {
