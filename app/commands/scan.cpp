@@ -121,6 +121,7 @@ int finish(Session& session, const ScanArguments& arguments, Scanner* scanner, S
   }
   write_results(session, arguments, folder.out(), progress, stop);
   if (!failure.empty()) throw std::runtime_error(failure);
+  folder.keep_state(session);
   folder.close();
   return session.finished().empty() || stop.stop_requested() ? exit_stopped : 0;
 }

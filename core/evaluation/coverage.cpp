@@ -80,6 +80,11 @@ void SurfaceCoverage::add(const PointCloud& points, const std::stop_token& stop)
   throw_if_stopped(stop);
 }
 
+void SurfaceCoverage::set_observed(std::vector<std::uint8_t> observed) {
+  if (observed.size() != observed_.size()) throw std::invalid_argument("they are other samples");
+  observed_ = std::move(observed);
+}
+
 double SurfaceCoverage::of_all() const {  // Eq. 17
   return double(std::count(observed_.begin(), observed_.end(), 1)) / double(observed_.size());
 }

@@ -22,6 +22,9 @@ class SurfaceCoverage {
   /// @throws Stopped; then some are observed.
   void add(const PointCloud& points, const std::stop_token& stop = {});
 
+  /// Those that are observed, as observed() said. @throws std::invalid_argument if there are not as many
+  void set_observed(std::vector<std::uint8_t> observed);
+
   double of_all() const;      ///< share of all samples that are observed
   double of_visible() const;  ///< share of the visible samples that are observed; 0 if none is visible
   /// Share of the samples that are not 0 in `counted` that are observed; 0 if there is none.

@@ -44,6 +44,9 @@ class OccupancyMap {
   /// Sets one voxel, measured, as loading does.
   void set_log_odds(std::uint32_t voxel, float log_odds);
 
+  /// The voxels, to be read from a file.
+  std::span<CopyOnWrite<VoxelBricks::Brick>> change_bricks() { return voxels_.change_bricks(); }
+
   const VoxelGrid& grid() const { return grid_; }
   const InverseSensorModel& model() const { return model_; }
   const VoxelBricks& voxels() const { return voxels_; }

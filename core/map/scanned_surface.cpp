@@ -154,4 +154,25 @@ void ScannedSurface::grow() {
     if (cell.key != 0) cells_[slot_of(cell.key, cells_)] = cell;
 }
 
+void ScannedSurface::archive(ByteWriter& writer) const {
+  std::vector<std::uint64_t> cells;
+  for (const Cell& cell : cells_) cells.insert(cells.end(), {cell.key, cell.sub_cells});
+  writer(area_, cells);
+}
+
+void ScannedSurface::archive(ByteReader& reader) {
+  double area = 0.0;
+  std::vector<std::uint64_t> numbers;
+  reader(area, numbers);
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) cells.push_back({numbers[i], numbers[i + 1]});
+  const auto used = static_cast<std::size_t>(std::ranges::count_if(cells, [](const Cell& c) { return c.key != 0; }));
+  // A full table would be searched for ever.
+  if (numbers.size() % 2 != 0 || !std::has_single_bit(cells.size()) || used >= cells.size() || !std::isfinite(area))
+    throw std::runtime_error("it holds no scanned surface");
+  area_ = area;
+  cells_ = std::move(cells);
+  used_ = used;
+}
+
 }  // namespace nextview

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/file/bytes.hpp"
 
 namespace nextview {
 
@@ -26,6 +27,10 @@ class ScannedSurface {
   std::vector<Eigen::Vector3f> sparse_points(double share) const;
 
   std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
+
+  /// Writes what was seen, or reads it again: the radius stays. @throws std::runtime_error if it is none
+  void archive(ByteWriter& writer) const;
+  void archive(ByteReader& reader);
 
  private:
   struct Cell {

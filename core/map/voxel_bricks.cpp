@@ -48,6 +48,25 @@ std::size_t VoxelBricks::Brick::measured_count() const {
   return count;
 }
 
+bool VoxelBricks::Brick::holds_nothing() const {
+  return std::ranges::all_of(numbers_, [](float number) { return number == 0.0f; }) &&
+         std::ranges::all_of(states_, [](std::uint8_t state) { return state == 0; });
+}
+
+void VoxelBricks::Brick::set(const std::array<float, brick_voxels>& numbers,
+                             const std::array<std::uint8_t, brick_voxels>& states) {
+  constexpr float farthest = std::numeric_limits<std::uint16_t>::max();
+  for (std::size_t i = 0; i < brick_voxels; ++i) {
+    const bool is_distance = !(states[i] & is_measured);
+    if ((states[i] & class_bits) > static_cast<std::uint8_t>(VoxelClass::occupied) ||
+        states[i] > (class_bits | is_measured) || !std::isfinite(numbers[i]) ||
+        (is_distance && (numbers[i] < 0.0f || numbers[i] > farthest)))
+      throw std::invalid_argument("no voxels are kept as these");
+  }
+  numbers_ = numbers;
+  states_ = states;
+}
+
 void VoxelBricks::Brick::set(std::size_t i, const Voxel& voxel) {
   if (told_.empty()) told_.resize(brick_voxels);
   numbers_[i] = voxel.measured ? voxel.log_odds : float(voxel.occlusion_distance);

@@ -46,6 +46,13 @@ class VoxelBricks {
     }
     /// Of an unmeasured voxel, how far it lies behind a surface [voxels].
     void set_occlusion_distance(std::size_t i, std::uint16_t distance) { numbers_[i] = distance; }
+    /// Whether none of its voxels is measured or marked.
+    bool holds_nothing() const;
+    /// What the voxels are kept as, to be written to a file and read again. The map's own: what is told is not in it.
+    const std::array<float, brick_voxels>& numbers() const { return numbers_; }
+    const std::array<std::uint8_t, brick_voxels>& states() const { return states_; }
+    /// @throws std::invalid_argument: no voxels are kept as these
+    void set(const std::array<float, brick_voxels>& numbers, const std::array<std::uint8_t, brick_voxels>& states);
     /// As it is told, whatever the log-odds.
     void set(std::size_t i, const Voxel& voxel);
 

@@ -12,6 +12,7 @@
 #include "core/progress/part.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/session_folder.hpp"
+#include "core/session/state_file.hpp"
 #include "core/session/taken_views.hpp"
 
 namespace nextview {
@@ -83,12 +84,6 @@ bool holds_nothing_but(std::span<const InputFile> inputs, const fs::path& folder
          std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(), is_input);
 }
 
-/// What ranked the views when this one was chosen.
-PlannerConfig planner_at(const Journal& journal, const JournalStep& step, const PlannerConfig& now) {
-  if (step.settings == 0 || step.settings == journal.settings.size()) return now;
-  return configuration_of(journal.settings.at(step.settings - 1), "config.toml").planner;
-}
-
 }  // namespace
 
 bool is_session(const fs::path& folder) {
@@ -129,12 +124,28 @@ void require_free_for_session(const fs::path& folder, bool overwrite, std::span<
         "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
 }
 
+PlannerConfig planner_at(const SavedSession& saved, const JournalStep& step) {
+  const Journal& journal = *saved.journal;
+  if (step.settings == 0 || step.settings == journal.settings.size()) return saved.configuration.planner;
+  return configuration_of(journal.settings.at(step.settings - 1), "config.toml").planner;
+}
+
+bool restore_kept(Session& session, const SavedSession& saved, SessionFolder* folder) {
+  if (!saved.journal) return false;
+  const std::vector<JournalStep> line = saved.journal->line();
+  auto state = read_state_file(session, line, saved.folder);
+  if (!state) return false;
+  session.restore(*std::move(state));
+  if (folder)
+    for (const JournalStep& step : line) folder->line_.push_back(step.number);
+  return true;
+}
+
 bool take_again(Session& session, SavedSession& saved, std::span<const JournalStep> line,
                 const std::function<void(std::uint32_t)>& each, const Progress& progress, const std::stop_token& stop) {
-  const PlannerConfig now = session.configuration().planner;
   for (std::size_t k = 0; k < line.size(); ++k) {
     // As it went: a view is ranked and taken, and only then may another planner rank the next one.
-    session.set_planner(planner_at(*saved.journal, line[k], now), {}, stop);
+    session.set_planner(planner_at(saved, line[k]), {}, stop);
     Capture capture;
     try {
       capture = read_capture(line[k], saved.folder);
@@ -152,6 +163,7 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
 
 bool restore(Session& session, SavedSession& saved, SessionFolder* folder,
              const std::function<void(std::uint32_t)>& each, const Progress& progress, const std::stop_token& stop) {
+  if (!each && restore_kept(session, saved, folder)) return true;
   if (!saved.journal) {
     const Step step = [&](const Progress& p) {
       return folder ? folder->step(session, p, stop) : session.step(p, stop);

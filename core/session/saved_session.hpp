@@ -38,6 +38,12 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
                 const std::function<void(std::uint32_t)>& each, const Progress& progress = {},
                 const std::stop_token& stop = {});
 
+/// Brings a new session to where the saved one stands, by what it kept for that (write_state_file): the same as
+/// restore(), in a moment. False if it kept nothing, or that is out of date; then the session is as it was.
+bool restore_kept(Session& session, const SavedSession& saved, SessionFolder* folder);
+/// What ranked the views when this one was chosen. @pre saved.journal
+PlannerConfig planner_at(const SavedSession& saved, const JournalStep& step);
+
 /// Brings a new session to where the saved one stands: its views are taken again from what was captured, the same
 /// bytes; those of 0.4.0 are sensed again. Where a capture is lost the view is left out, and a notice added. `folder`,
 /// if given, is that of the session. `each` is called after each view, with

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "core/file/atomic_file.hpp"
 #include "core/journal/capture_file.hpp"
+#include "core/session/state_file.hpp"
 #include "core/session/step_outcome.hpp"
 
 namespace nextview {
@@ -157,6 +159,13 @@ void SessionFolder::keep_configuration(const Session& session) {
   writer_.keep_settings(text);
   write_file(out_.claim("config.toml"), text);
   settings_ = std::move(text);
+}
+
+void SessionFolder::keep_state(const Session& session) {
+  if (!keeps_) return;
+  std::vector<JournalStep> line;
+  for (const std::uint32_t number : line_) line.push_back(steps_.at(number));
+  write_state_file(session, line, out_.claim(state_file_name));
 }
 
 void SessionFolder::close() {

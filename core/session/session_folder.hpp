@@ -41,6 +41,8 @@ class SessionFolder {
   void keep_branches(const Branches& branches);
   /// The settings have changed in a way that what was scanned stays.
   void keep_configuration(const Session& session);
+  /// What makes it quick to open (write_state_file). @throws std::runtime_error naming the file
+  void keep_state(const Session& session);
   /// Nobody is in the middle of it any more.
   void close();
   /// Makes another folder one of the same session, with the views that it stands at. @pre copy.begin() was called
@@ -53,6 +55,7 @@ class SessionFolder {
  private:
   friend bool restore(Session&, SavedSession&, SessionFolder*, const std::function<void(std::uint32_t)>&,
                       const Progress&, const std::stop_token&);
+  friend bool restore_kept(Session&, const SavedSession&, SessionFolder*);
   SessionFolder(OutputFolder out, JournalWriter writer, JournalInput input)
       : out_(std::move(out)), writer_(std::move(writer)), input_(std::move(input)) {}
   static SessionFolder begun(OutputFolder out, const JournalInput& input, const Session& session);

@@ -7,6 +7,7 @@
 namespace nextview {
 
 bool KeptSession::step(Session& session, const Progress& progress, const std::stop_token& stop) {
+  closed_ = false;
   if (!folder_ && !state_.empty()) {
     try {
       folder_ = SessionFolder::begin(OutputFolder(untitled_folder(state_, session.name()), {}), session);
@@ -21,6 +22,7 @@ bool KeptSession::step(Session& session, const Progress& progress, const std::st
 
 void KeptSession::follow(const Session& session, const SessionFolder::Line& line, const Branches& branches) {
   if (!folder()) return;
+  closed_ = false;
   try {
     folder_->stand_at(line);
     folder_->keep_branches(branches);
@@ -31,10 +33,12 @@ void KeptSession::follow(const Session& session, const SessionFolder::Line& line
   }
 }
 
-void KeptSession::close() {
-  if (!folder()) return;
+void KeptSession::close(const Session* session) {
+  if (!folder() || closed_) return;
   try {
+    if (session) folder_->keep_state(*session);
     folder_->close();
+    closed_ = true;
   } catch (const std::runtime_error&) {  // it will be offered again: nothing is lost
   }
 }

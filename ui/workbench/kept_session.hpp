@@ -19,7 +19,7 @@ class KeptSession {
   /// In the folder that it was opened from; null: nowhere.
   KeptSession(std::optional<SessionFolder> folder, Notice notice)
       : folder_(std::move(folder)), notice_(std::move(notice)) {}
-  ~KeptSession() { close(); }
+  ~KeptSession() { close(nullptr); }
   KeptSession(const KeptSession&) = delete;
   KeptSession& operator=(const KeptSession&) = delete;
 
@@ -32,8 +32,8 @@ class KeptSession {
     return folder_ && folder_->keeps() && !folder_->line().empty() ? std::optional(folder_->line().back())
                                                                    : std::nullopt;
   }
-  /// Nobody is in the middle of it.
-  void close();
+  /// Nobody is in the middle of it. With what makes it quick to open, if the session is given.
+  void close(const Session* session);
   /// Null if it is kept nowhere.
   SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
 
@@ -42,6 +42,7 @@ class KeptSession {
 
   std::filesystem::path state_;
   std::optional<SessionFolder> folder_;
+  bool closed_ = false;
   Notice notice_;
 };
 

@@ -26,6 +26,12 @@ struct HistoryEntry {
 /// are asked for. Of other sessions a few stay.
 class ScanHistory {
  public:
+  /// What the maps may take [bytes].
+  static std::size_t limit(const Configuration& configuration) {
+    constexpr double bytes_per_gibibyte = 1073741824.0;
+    return static_cast<std::size_t>(configuration.history.memory * bytes_per_gibibyte);
+  }
+
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
   std::size_t changes() const { return undo_.size(); }

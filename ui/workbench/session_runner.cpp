@@ -15,19 +15,14 @@
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
-namespace {
 
-constexpr double bytes_per_gigabyte = 1073741824.0;
-
-bool is_same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
+bool SessionRunner::is_own(const std::filesystem::path& folder) const {
   std::error_code none;
-  return std::filesystem::equivalent(a, b, none);
+  return kept_ && kept_->folder() && std::filesystem::equivalent(kept_->folder()->path(), folder, none);
 }
 
-}  // namespace
-
-std::size_t SessionRunner::history_limit() const {
-  return static_cast<std::size_t>(session_->configuration().history.memory * bytes_per_gigabyte);
+SessionRunner::~SessionRunner() {
+  if (kept_) kept_->close(session_.get());
 }
 
 HistoryEntry SessionRunner::now() const {
@@ -43,7 +38,7 @@ Stand SessionRunner::stand_of(const Session& session, SeenSurface seen) {
 
 /// The session has changed since: that can be undone.
 void SessionRunner::remember(HistoryEntry before) {
-  history_.push(std::move(before), tree_->stand(tree_->at)->state.get(), history_limit());
+  history_.push(std::move(before), tree_->stand(tree_->at)->state.get(), ScanHistory::limit(session_->configuration()));
   kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);
 }
 
@@ -92,52 +87,10 @@ void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverCon
   SessionParts parts = scanner ? scanner_parts(configuration, scanner) : SessionParts{};
   auto session = std::make_shared<Session>(std::move(configuration), std::move(parts), control.progress, control.stop);
   Stand beginning = stand_of(*session, SeenSurface(*session));
-  if (session_) history_.push(now(), nullptr, history_limit());
+  if (session_) history_.push(now(), nullptr, ScanHistory::limit(session_->configuration()));
   auto tree = std::make_shared<StepTree>(beginning, session->camera());
   adopt({session, std::move(scanner), std::make_shared<KeptSession>(state_folder_, notice_), std::move(tree), 0,
          Branches(), std::move(beginning)});
-}
-
-/// It goes on where it stands, in its own folder. Each of its views can be undone.
-void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
-  if (kept_ && kept_->folder() && is_same_folder(kept_->folder()->path(), folder))
-    throw std::invalid_argument(folder.string() + ": is the session that is open");
-  const auto shared = std::make_shared<SavedSession>(read_session(folder));
-  SavedSession& saved = *shared;
-  const Configuration& c = saved.configuration;
-  SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
-  const auto session = std::make_shared<Session>(c, std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
-  std::optional<SessionFolder> own;
-  try {
-    if (saved.journal) own = SessionFolder::go_on(OutputFolder(folder, {}), saved, *session);
-  } catch (const std::runtime_error& error) {
-    saved.notices.push_back(std::string(error.what()) + ": it is shown, and what is done here is not kept there");
-  }
-  const auto kept = saved.journal ? std::make_shared<KeptSession>(std::move(own), notice_)
-                                  : std::make_shared<KeptSession>(state_folder_, notice_);
-  SeenSurface seen(*session);
-  const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());
-  if (saved.journal) tree->add(shared);
-  const auto taken = [&](std::uint32_t number) {
-    seen.follow(*session);
-    if (!tree->has(number)) return static_cast<void>(tree->step(number, stand_of(*session, seen)));
-    tree->set_stand(number, stand_of(*session, seen));
-    tree->at = number;
-  };
-  if (!restore(*session, saved, kept->folder(), taken, part(control.progress, 0.2, 1.0), control.stop)) throw Stopped();
-  tree->set_stand(tree->at, stand_of(*session, seen));  // the planner may have changed since
-  const auto entry = [&](std::uint32_t number) {
-    return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number)};
-  };
-  const auto limit = static_cast<std::size_t>(c.history.memory * bytes_per_gigabyte);
-  if (session_) history_.push(now(), nullptr, limit);
-  const ScanState* const here = tree->stand(tree->at)->state.get();
-  if (tree->at > 0) history_.push(entry(0), here, limit);
-  for (const std::uint32_t number : tree->line(tree->at))
-    if (number != tree->at && tree->stand(number)) history_.push(entry(number), here, limit);
-  adopt(entry(tree->at));
-  for (const std::string& notice : saved.notices)
-    if (notice_) notice_(folder.string() + ": " + notice);
 }
 
 void SessionRunner::set_termination(const TerminationConfig& termination) {
@@ -195,11 +148,13 @@ void SessionRunner::take_custom_view(const Pose& T_world_camera) {
 }
 
 void SessionRunner::undo(const JobControl& control) {
-  if (history_.can_undo()) adopt(history_.undo(now(), history_limit(), control.progress, control.stop));
+  if (history_.can_undo())
+    adopt(history_.undo(now(), ScanHistory::limit(session_->configuration()), control.progress, control.stop));
 }
 
 void SessionRunner::redo(const JobControl& control) {
-  if (history_.can_redo()) adopt(history_.redo(now(), history_limit(), control.progress, control.stop));
+  if (history_.can_redo())
+    adopt(history_.redo(now(), ScanHistory::limit(session_->configuration()), control.progress, control.stop));
 }
 
 /// Goes on from there. The next view is the planner's choice again.
@@ -208,7 +163,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_scan = same_session && session_->scans() == entry.stand.state->scans;
   const Planner* const planner = session_ ? &session_->planner() : nullptr;
   SessionSnapshot next = *snapshot_;
-  if (kept_ && kept_ != entry.kept) kept_->close();
+  if (kept_ && kept_ != entry.kept) kept_->close(session_.get());
   if (scanner_ && scanner_ != entry.scanner) scanner_->leave();
   session_ = std::move(entry.session);
   scanner_ = std::move(entry.scanner);
@@ -274,7 +229,7 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
   SessionFolder* const own = kept_->folder();
-  if (own && is_same_folder(own->path(), folder)) {
+  if (is_own(folder)) {
     OutputFolder out(folder, {});
     out.go_on("scan");
     return write_results(out, control);

@@ -16,6 +16,11 @@ namespace nextview {
 /// going back, refining. What came of it is in snapshot().
 class SessionRunner {
  public:
+  SessionRunner() = default;
+  ~SessionRunner();
+  SessionRunner(const SessionRunner&) = delete;
+  SessionRunner& operator=(const SessionRunner&) = delete;
+
   struct JobControl {
     Progress progress;                                       ///< of the job
     std::function<void(const SamplerDiagnostics&)> sampler;  ///< how the refinement goes
@@ -72,7 +77,9 @@ class SessionRunner {
   static Stand stand_of(const Session& session, SeenSurface seen);
   void remember(HistoryEntry before);
   void change_branches(const std::function<void(Branches&)>& change);
-  std::size_t history_limit() const;
+  bool is_own(const std::filesystem::path& folder) const;
+  void adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
+                    const std::shared_ptr<StepTree>& tree);
   Stand stand_at(std::uint32_t number, const JobControl& control);
   SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);

@@ -50,7 +50,7 @@ void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> vi
   after.stand = stand_at(after.at, control);
   // Going along the timeline is one change, however many views it goes by.
   if (history_.changes() != changes_when_gone_ || history_.can_redo())
-    history_.push(before, after.stand.state.get(), history_limit());
+    history_.push(before, after.stand.state.get(), ScanHistory::limit(session_->configuration()));
   changes_when_gone_ = history_.changes();
   const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == branch.name;
   adopt(std::move(after));

@@ -1,0 +1,80 @@
+// How a session runner opens a session that was kept.
+#include "core/progress/part.hpp"
+#include "core/progress/stopped.hpp"
+#include "core/session/driver_setup.hpp"
+#include "core/session/state_file.hpp"
+#include "ui/workbench/session_runner.hpp"
+
+namespace nextview {
+namespace {
+
+/// A session that was restored at once stands at each of its views in turn, without the maps of then.
+void look_at_each_view(Session& session, const SavedSession& saved, const std::function<void(std::uint32_t)>& look,
+                       const SessionRunner::JobControl& control) {
+  const ScanState last = session.state();
+  const PlannerConfig now = session.configuration().planner;
+  const std::vector<JournalStep> line = saved.journal->line();
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    throw_if_stopped(control.stop);
+    control.progress(0.2 + 0.8 * double(k) / double(line.size()), "opening the session");
+    const PlannerConfig planner = planner_at(saved, line[k]);
+    session.restore(earlier_state(session.setup_with(planner), last, k), planner);
+    look(line[k - 1].number);
+  }
+  session.restore(last, now);
+  look(line.back().number);
+}
+
+}  // namespace
+
+/// It goes on where it stands, in its own folder. Each of its views can be undone.
+void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
+  if (is_own(folder)) throw std::invalid_argument(folder.string() + ": is the session that is open");
+  const auto shared = std::make_shared<SavedSession>(read_session(folder));
+  SavedSession& saved = *shared;
+  const Configuration& c = saved.configuration;
+  SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
+  const auto session = std::make_shared<Session>(c, std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
+  std::optional<SessionFolder> own;
+  try {
+    if (saved.journal) own = SessionFolder::go_on(OutputFolder(folder, {}), saved, *session);
+  } catch (const std::runtime_error& error) {
+    saved.notices.push_back(std::string(error.what()) + ": it is shown, and what is done here is not kept there");
+  }
+  const auto kept = saved.journal ? std::make_shared<KeptSession>(std::move(own), notice_)
+                                  : std::make_shared<KeptSession>(state_folder_, notice_);
+  SeenSurface seen(*session);
+  const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());
+  if (saved.journal) tree->add(shared);
+  const auto taken = [&](std::uint32_t number) {
+    seen.follow(*session);
+    if (!tree->has(number)) return static_cast<void>(tree->step(number, stand_of(*session, seen)));
+    tree->set_stand(number, stand_of(*session, seen));
+    tree->at = number;
+  };
+  if (restore_kept(*session, saved, kept->folder()))
+    look_at_each_view(*session, saved, taken, control);
+  else if (!restore(*session, saved, kept->folder(), taken, part(control.progress, 0.2, 1.0), control.stop))
+    throw Stopped();
+  tree->set_stand(tree->at, stand_of(*session, seen));  // the planner may have changed since
+  adopt_opened(session, kept, tree);
+  for (const std::string& notice : saved.notices)
+    if (notice_) notice_(folder.string() + ": " + notice);
+}
+
+/// As if its views had been taken here.
+void SessionRunner::adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
+                                 const std::shared_ptr<StepTree>& tree) {
+  const auto entry = [&](std::uint32_t number) {
+    return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number)};
+  };
+  const std::size_t limit = ScanHistory::limit(session->configuration());
+  const ScanState* const here = tree->stand(tree->at)->state.get();
+  if (session_) history_.push(now(), nullptr, limit);
+  if (tree->at > 0) history_.push(entry(0), here, limit);
+  for (const std::uint32_t number : tree->line(tree->at))
+    if (number != tree->at && tree->stand(number)) history_.push(entry(number), here, limit);
+  adopt(entry(tree->at));
+}
+
+}  // namespace nextview
