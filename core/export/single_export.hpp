@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/export/export_kind.hpp"
+#include "core/export/scan_surfaces.hpp"
+
+namespace nextview {
+
+/// How a surface is exported.
+struct SurfaceExport {
+  SurfaceSource source = SurfaceSource::map;
+  bool unseen = false;  ///< also the hull of what no view saw, into a file of its own: NAME_unseen beside NAME
+};
+
+/// Sees that a file may be written, before a long job: its ending is one of the kind's, and it is no file that the
+/// session reads or that it cannot do without: journal, scans and configuration in its folder (empty: it has none).
+/// What is derived from them may be replaced. @throws std::invalid_argument in one line
+void require_exportable(ExportKind kind, const std::filesystem::path& file, const Configuration& configuration,
+                        const std::filesystem::path& session_folder);
+
+/// Writes one thing of a session, in the format that the file's ending says. Returns the files.
+/// @pre what is asked for is not drawn: no picture, no turntable, of curves a table
+/// @throws std::invalid_argument without a view, or without a surface; std::runtime_error naming the file and the
+/// reason; Stopped
+std::vector<std::filesystem::path> export_file(const Session& session, ExportKind kind,
+                                               const std::filesystem::path& file, const SurfaceExport& surface = {},
+                                               const Progress& progress = {}, const std::stop_token& stop = {});
+
+}  // namespace nextview
