@@ -81,24 +81,26 @@ std::string views_text(const Session& session, const std::string& ending) {
 
 }  // namespace
 
-void require_exportable(ExportKind kind, const fs::path& file, const Configuration& configuration,
-                        const fs::path& session_folder) {
-  require_ending(export_entry(kind), file);
+void require_no_kept_file(const fs::path& file, const Configuration& configuration, const fs::path& session_folder) {
   std::vector<InputFile> kept = input_files(configuration);
   if (!session_folder.empty()) {
     const std::vector<InputFile> own = kept_files(session_folder);
     kept.insert(kept.end(), own.begin(), own.end());
   }
-  std::vector<fs::path> written = {file};
-  if (kind == ExportKind::surface) written.push_back(with_unseen(file));
   for (const InputFile& input : kept)
-    for (const fs::path& path : written)
-      if (same_file(path, input.path))
-        throw std::invalid_argument(
-            fmt::format("{}: is {}, and is not written over; give another file", path.string(), input.what));
+    if (same_file(file, input.path))
+      throw std::invalid_argument(
+          fmt::format("{}: is {}, and is not written over; give another file", file.string(), input.what));
   const fs::path parent = file.has_parent_path() ? file.parent_path() : ".";
   if (!session_folder.empty() && same_file(parent, session_folder / scans_name))
     throw std::invalid_argument(fmt::format("{}: is among the session's scans; give another folder", file.string()));
+}
+
+void require_exportable(ExportKind kind, const fs::path& file, const Configuration& configuration,
+                        const fs::path& session_folder) {
+  require_ending(export_entry(kind), file);
+  require_no_kept_file(file, configuration, session_folder);
+  if (kind == ExportKind::surface) require_no_kept_file(with_unseen(file), configuration, session_folder);
 }
 
 std::vector<fs::path> export_file(const Session& session, ExportKind kind, const fs::path& file,

@@ -13,9 +13,12 @@ struct SurfaceExport {
   bool unseen = false;  ///< also the hull of what no view saw, into a file of its own: NAME_unseen beside NAME
 };
 
-/// Sees that a file may be written, before a long job: its ending is one of the kind's, and it is no file that the
-/// session reads or that it cannot do without: journal, scans and configuration in its folder (empty: it has none).
-/// What is derived from them may be replaced. @throws std::invalid_argument in one line
+/// Sees that a file is none that a session reads or cannot do without: journal, scans and configuration in its folder
+/// (empty: it has none). What is derived from them may be replaced. @throws std::invalid_argument in one line
+void require_no_kept_file(const std::filesystem::path& file, const Configuration& configuration,
+                          const std::filesystem::path& session_folder);
+/// The same of what an export writes, before a long job; and its ending must be one of the kind's.
+/// @throws std::invalid_argument in one line
 void require_exportable(ExportKind kind, const std::filesystem::path& file, const Configuration& configuration,
                         const std::filesystem::path& session_folder);
 

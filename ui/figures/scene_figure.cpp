@@ -51,7 +51,6 @@ SceneFigure::SceneFigure(const Session& session, const SceneLayers& layers, cons
   const StepPicture picture = step_picture(session);
   Scene& scene = parts_->scene;
   scene.set_scale(scale_of(size));
-  scene.set_backed(true);
   if (picture.object) scene.mesh().show(*picture.object, picture.object_style);
   scene.cloud().show(picture.cloud, picture.point_size);
   scene.octree().show(picture.grid, picture.voxels);
@@ -73,12 +72,14 @@ SceneFigure::SceneFigure(const Session& session, const SceneLayers& layers, cons
 SceneFigure::~SceneFigure() = default;
 
 Image SceneFigure::draw(const ViewDirection& direction, bool transparent) {
+  parts_->scene.set_backed(!transparent);
   parts_->scene.frame(direction);
   return parts_->apart.draw(transparent);
 }
 
 Image SceneFigure::draw_turned(const ViewDirection& start, int frame, int count, bool transparent) {
   Scene& scene = parts_->scene;
+  scene.set_backed(!transparent);
   scene.frame(swept(scene.outline(), parts_->centre), start);
   scene.turn(scene.stand(), parts_->centre, 360.0 * frame / count);
   return parts_->apart.draw(transparent);
