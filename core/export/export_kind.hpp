@@ -9,6 +9,15 @@ namespace nextview {
 /// What of a scan is exported by itself.
 enum class ExportKind { cloud, map, surface, views, curves, picture, turntable };
 
+/// What a surface is made of.
+enum class SurfaceSource { map, cloud };
+
+/// How a surface is exported.
+struct SurfaceExport {
+  SurfaceSource source = SurfaceSource::map;
+  bool unseen = false;  ///< also the hull of what no view saw, into a file of its own: NAME_unseen beside NAME
+};
+
 /// A kind as it is offered, on the command line and in the window.
 struct ExportEntry {
   ExportKind kind;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/evaluation/surface_error.hpp"
+#include "core/export/export_kind.hpp"
 #include "core/mesh/boundary_loops.hpp"
 #include "core/offline/refinement.hpp"
 #include "core/results/output_folder.hpp"
@@ -31,7 +32,6 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement,
                                        const Progress& progress = {}, std::stop_token stop = {});
 
-enum class SurfaceSource { map, cloud };
 /// One of the two of a session, without comparing it with the truth. @throws Stopped
 ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress = {},
                          std::stop_token stop = {});

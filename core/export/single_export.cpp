@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/config/input_files.hpp"
+#include "core/export/scan_surfaces.hpp"
 #include "core/export/scan_tables.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/journal/journal.hpp"

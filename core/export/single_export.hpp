@@ -3,15 +3,9 @@
 #include <vector>
 
 #include "core/export/export_kind.hpp"
-#include "core/export/scan_surfaces.hpp"
+#include "core/session/session.hpp"
 
 namespace nextview {
-
-/// How a surface is exported.
-struct SurfaceExport {
-  SurfaceSource source = SurfaceSource::map;
-  bool unseen = false;  ///< also the hull of what no view saw, into a file of its own: NAME_unseen beside NAME
-};
 
 /// Sees that a file is none that a session reads or cannot do without: journal, scans and configuration in its folder
 /// (empty: it has none). What is derived from them may be replaced. @throws std::invalid_argument in one line

@@ -11,8 +11,6 @@
 namespace nextview {
 namespace {
 
-constexpr int usual_width = 1280, usual_height = 800;  // that the scene's lines and letters are made for [px]
-
 /// The points as they are seen from all around: framed, they leave room for every frame of a turn.
 std::vector<Vector3> swept(const std::vector<Vector3>& points, const Vector3& centre) {
   constexpr int directions = 72;
@@ -32,10 +30,6 @@ std::vector<Vector3> swept(const std::vector<Vector3>& points, const Vector3& ce
 
 }  // namespace
 
-double scale_of(const PictureSize& size) {
-  return std::max(1.0, std::min(double(size.width) / usual_width, double(size.height) / usual_height));
-}
-
 struct SceneFigure::Parts {
   explicit Parts(const PictureSize& s) : size(s) { scene.attach(target); }
 
@@ -50,7 +44,7 @@ SceneFigure::SceneFigure(const Session& session, const SceneLayers& layers, cons
     : parts_(std::make_unique<Parts>(size)) {
   const StepPicture picture = step_picture(session);
   Scene& scene = parts_->scene;
-  scene.set_scale(scale_of(size));
+  scene.set_scale(picture_scale(size));
   if (picture.object) scene.mesh().show(*picture.object, picture.object_style);
   scene.cloud().show(picture.cloud, picture.point_size);
   scene.octree().show(picture.grid, picture.voxels);

@@ -13,9 +13,6 @@ struct SceneLayers {
   bool object = true, cloud = true, map = true, views = true, rays = true, region = true;
 };
 
-/// Pixels per pixel of the design: what is drawn larger has its lines and letters larger, too.
-double scale_of(const PictureSize& size);
-
 /// The scene of a session alone, as the window has it, drawn headless (ensure_headless).
 class SceneFigure {
  public:

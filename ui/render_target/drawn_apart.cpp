@@ -1,6 +1,5 @@
 #include "ui/render_target/drawn_apart.hpp"
 
-#include <fmt/format.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
@@ -8,8 +7,6 @@
 #include <vtkRendererCollection.h>
 
 #include <algorithm>
-#include <charconv>
-#include <stdexcept>
 
 #include "core/memory/available_memory.hpp"
 
@@ -75,19 +72,6 @@ Image without_background(const Image& on_black, const Image& on_white) {
 }
 
 }  // namespace
-
-PictureSize picture_size(const std::string& text, const std::string& name) {
-  PictureSize size;
-  const char* const end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  const bool has_height = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = has_height ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  const auto within = [](int side) { return side >= smallest_picture && side <= largest_picture; };
-  if (!has_height || height.ec != std::errc() || height.ptr != end || !within(size.width) || !within(size.height))
-    throw std::invalid_argument(fmt::format("{}: takes WIDTHxHEIGHT in pixels, each from {} to {}, not '{}'", name,
-                                            smallest_picture, largest_picture, text));
-  return size;
-}
 
 DrawnApart::DrawnApart(RenderTarget& target, const std::vector<vtkRenderer*>& drawn, const PictureSize& size)
     : target_(target),

@@ -2,25 +2,15 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
-#include <string>
 #include <vector>
 
+#include "ui/appearance/picture_size.hpp"
 #include "ui/render_target/render_target.hpp"
 
 class vtkOpenGLFramebufferObject;
 class vtkRenderer;
 
 namespace nextview {
-
-/// Of a picture [px].
-struct PictureSize {
-  int width = 1280, height = 800;
-
-  bool operator==(const PictureSize&) const = default;
-};
-inline constexpr int smallest_picture = 16, largest_picture = 8192;  // a side [px]
-/// "1920x1080". @throws std::invalid_argument in one line that begins with `name` if it is none, or beyond the limits
-PictureSize picture_size(const std::string& text, const std::string& name);
 
 /// While it lives a target draws pictures of any size into memory, beside what it shows. Only the renderers in `drawn`
 /// and those that are added meanwhile are drawn. Afterwards all is as it was; what the target shows has to be drawn

@@ -6,7 +6,6 @@
 
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
-#include "ui/window/panels_alone.hpp"
 #include "ui/window/selection_overlay.hpp"
 
 namespace nextview {
@@ -20,8 +19,8 @@ constexpr double rest = 0.15;
 /// A script waits until nothing runs and the news of that are here.
 bool Interface::Parts::script_may_go_on() const {
   const bool at_rest = (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy() &&
-                       !state.picture_file && !state.quit;
-  return script.may_go_on({*news.snapshot, news.progress, state}, at_rest);
+                       !state.picture && !state.quit;
+  return script.may_go_on({*news.snapshot, progress(), state}, at_rest);
 }
 
 void Interface::Parts::take_news() {
@@ -76,8 +75,9 @@ void Interface::Parts::draw_interface(double seconds) {
   host.begin_frame(int(layout.width), int(layout.height), seconds);
   std::vector<CommandCall> calls;
   std::optional<std::size_t> hovered;
-  const PanelContext context{*news.snapshot, news.progress, state, *news.inspection, *news.log,
-                             host.style(),   pictures,      calls, hovered};
+  const WorkerProgress shown = progress();
+  const PanelContext context{*news.snapshot, shown,    state, *news.inspection, *news.log,
+                             host.style(),   pictures, calls, hovered};
   state.scene_camera = view.camera_pose();
   obey_keys(context);
   follow_pointer(context, seconds);
@@ -106,7 +106,8 @@ void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
 
 /// What cannot be done now is told in the log.
 void Interface::Parts::do_call(const CommandCall& call) {
-  CommandTarget acted_on{worker, state, *news.snapshot, news.progress};
+  const WorkerProgress now = progress();
+  CommandTarget acted_on{worker, state, *news.snapshot, now};
   try {
     execute(call, acted_on);
   } catch (const std::exception& error) {
@@ -156,25 +157,6 @@ bool Interface::Parts::draw_scene() {
   ++scene_drawings;
   scene_is_old = false;
   return true;
-}
-
-/// Without what is in front of the panels; the back buffer then has the whole frame again.
-void Interface::Parts::write_picture() {
-  const std::string file = *std::exchange(state.picture_file, std::nullopt);
-  PanelsAlone alone(*ImGui::GetDrawData());
-  composer.compose(alone.data(), std::nullopt, false);
-  composer.fill_back_buffer();
-  const Image picture = target.read_back();
-  composer.compose(*ImGui::GetDrawData(), std::nullopt, false);
-  composer.fill_back_buffer();
-  try {
-    write_png(picture, file);
-    worker.log().add(LogEntry::Level::success, "Picture written to " + file);
-  } catch (const std::exception& error) {
-    const std::string reason = fmt::format("save-picture: {}", error.what());
-    script.refused(command::save_picture(file), reason);
-    worker.log().add(LogEntry::Level::warning, reason);
-  }
 }
 
 }  // namespace nextview
