@@ -15,7 +15,8 @@
 namespace nextview {
 namespace {
 
-constexpr std::array subcommands = {"scan", "score", "refine", "posterior", "calibrate", "info", "driver", "window"};
+constexpr std::array subcommands = {"scan", "score",  "refine", "posterior", "calibrate",
+                                    "info", "export", "driver", "window"};
 constexpr std::array drawing = {"scan", "refine", "calibrate"};
 
 template <class List>
@@ -57,6 +58,12 @@ void require_file_or_object(const std::string& word) {
                   word, nearest(word, known)));
 }
 
+/// Options may stand before what they are of, so any of the words may be the one.
+bool exports_pixels(const std::vector<std::string_view>& words) {
+  return has(words, "picture") || has(words, "turntable") ||
+         std::ranges::any_of(words, [](std::string_view word) { return word.ends_with(".png"); });
+}
+
 }  // namespace
 
 CommandLine command_line(std::vector<char*> arguments) {
@@ -67,8 +74,8 @@ CommandLine command_line(std::vector<char*> arguments) {
   const auto begin = line.arguments.begin() + static_cast<std::ptrdiff_t>(first);
   if (has(subcommands, word)) {
     const std::vector<std::string_view> others(begin, line.arguments.end());
-    line.draws_headless =
-        has(drawing, word) && !has(others, "--no-pictures") && !has(others, "--help") && !has(others, "-h");
+    line.draws_headless = (word == "export" ? exports_pixels(others) : has(drawing, word)) &&
+                          !has(others, "--no-pictures") && !has(others, "--help") && !has(others, "-h");
   } else if (word != "--help" && word != "-h" && word != "--version") {
     if (!word.starts_with('-')) require_file_or_object(word);
     line.arguments.insert(begin, window);

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 #include "app/commands/commands.hpp"
 #include "core/cloud/point_cloud.hpp"
 #include "core/cloud/range_scan_folder.hpp"
+#include "core/config/configuration_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
+#include "core/file/png_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/map/octree_file.hpp"
@@ -106,6 +109,19 @@ std::string configuration_info(const fs::path& file) {
   return text;
 }
 
+std::string picture_info(const fs::path& file) {
+  const PngInfo info = read_png_info(file);
+  const std::string text = png_configuration(file);
+  const std::string size = fmt::format("{} x {} pixels", info.width, info.height);
+  if (text.empty()) return fmt::format("a picture of {}; it carries no settings", size);
+  configuration_of(text, file);  // it is one
+  std::string lines = fmt::format("a picture of {} by Nextview, with the settings that it shows:", size);
+  std::istringstream toml(text);
+  for (std::string line; std::getline(toml, line);)
+    if (!line.empty()) lines += "\n  " + printable(line);
+  return lines;
+}
+
 std::string results_info(const fs::path& folder, const Manifest& manifest) {
   std::string text = fmt::format("results of `nextview {}` ({}): {}", manifest.command, manifest.program,
                                  counted(manifest.files.size(), "file"));
@@ -174,6 +190,7 @@ std::string info(const fs::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".ot" || extension == ".bt") return map_info(path);
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
+  if (extension == ".png") return picture_info(path);
   if (extension == ".toml") return configuration_info(path);
   if (extension == ".txt") return "a scene of recorded scans: " + scene_info(read_recorded_scene(path));
   const fs::path object = resolve_object(path.string());
@@ -199,7 +216,7 @@ void add_info_command(CLI::App& program) {
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
   app->add_option("PATH", *paths,
                   "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans (.txt), scan graph (.graph, .log), "
-                  "configuration (.toml), "
+                  "configuration (.toml), picture (.png), "
                   "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required();
   auto writes_dataset = std::make_shared<bool>(false);

@@ -51,6 +51,10 @@ PointCloud clean(const PointCloud& hits, const CloudConfig& config, const std::s
 /// @throws std::runtime_error naming the file and the reason.
 void write_ply(const PointCloud& cloud, const std::filesystem::path& file);
 
+/// Binary PCD (version 0.7, as PCL writes it) with x y z floats. Written beside the file, then renamed.
+/// @throws std::runtime_error naming the file and the reason.
+void write_pcd(const PointCloud& cloud, const std::filesystem::path& file);
+
 /// The vertices of an ASCII or binary PLY file; other elements and properties are passed over. A file whose name ends
 /// in .gz is decompressed first. Header lines that are not known are read on over; `notice`, if given, hears of the
 /// first.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
+#include "core/config/configuration_text.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
+#include "core/file/png_text.hpp"
 
 namespace nextview {
 namespace {
@@ -22,6 +25,11 @@ bool is_recording(const std::filesystem::path& input) {
 
 Configuration with_input(Configuration configuration, const std::filesystem::path& input) {
   if (input.extension() == ".toml") return read_configuration(input, configuration);
+  if (input.extension() == ".png") {
+    const std::string text = png_configuration(input);
+    if (text.empty()) throw std::runtime_error(input.string() + ": is a picture that carries no settings of Nextview");
+    return configuration_of(text, input);
+  }
   forget_fitted(configuration);
   configuration.recorded.folder = configuration.recorded.truth = configuration.recorded.start = "";
   if (is_recording(input))

@@ -6,50 +6,12 @@
 
 #include "core/evaluation/accuracy.hpp"
 #include "core/evaluation/openings.hpp"
+#include "core/export/scan_tables.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
 
 namespace nextview {
 namespace {
-
-bool is_registered(const Session& session) {
-  return session.configuration().registration.mode != RegistrationConfig::Mode::off;
-}
-
-std::string registration_text(const StepRecord& r) {
-  if (!r.registration) return ",,,";
-  return fmt::format(",{},{},{}", r.registration->shift, r.registration->rotation, r.registration->overlap);
-}
-
-std::string steps_csv(const Session& session) {
-  const std::string unit = session.planner().unit();
-  const auto d_reg = session.configuration().evaluation.d_reg;
-  std::string csv = fmt::format(
-      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],hits,points,"
-      "misses,new_voxels,"
-      "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
-      "nats],brier,"
-      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}{}{}\n",
-      unit, 1e3 * d_reg, 1e3 * d_reg,
-      session.setup().any_pose.empty() ? "" : fmt::format(",coverage_any_pose@{:g}mm", 1e3 * d_reg),
-      session.recording() ? fmt::format(",coverage_recorded@{:g}mm", 1e3 * d_reg) : "",
-      is_registered(session) ? ",registration_shift[m],registration_rotation[rad],registration_overlap" : "");
-  double path = 0.0;
-  for (const StepRecord& r : session.records()) {
-    path += r.motion.distance;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}{}\n",
-                       r.step, r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
-                       r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
-                       r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
-                       r.quality.brier, r.quality_near_surface.log_loss, r.quality_near_surface.brier,
-                       r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()),
-                       r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "",
-                       r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "",
-                       r.coverage_recorded ? fmt::format(",{}", *r.coverage_recorded) : "",
-                       is_registered(session) ? registration_text(r) : "");
-  }
-  return csv;
-}
 
 std::string scores_csv(const Session& session) {
   const bool refined = session.refinement() != nullptr;
@@ -78,16 +40,6 @@ std::string refinement_csv(const Session& session) {
                        n.changed_class, d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, int(d.stationary),
                        n.conventional_best ? fmt::format("{}", *n.conventional_best) : "", n.rank_correlation,
                        n.quality_near_surface.log_loss, n.quality_near_surface.brier);
-  }
-  return csv;
-}
-
-std::string views_csv(const Session& session) {
-  std::string csv = "step,view,x[m],y[m],z[m],qx,qy,qz,qw\n";
-  for (const StepRecord& r : session.records()) {
-    const Vector3 p = r.T_world_camera.translation();
-    const Eigen::Quaterniond q(r.T_world_camera.linear());
-    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", r.step, r.view, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
   }
   return csv;
 }

@@ -7,6 +7,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/surface/cloud_surface.hpp"
 #include "core/surface/map_surface.hpp"
 #include "core/surface/seen_part.hpp"
@@ -44,6 +45,32 @@ std::vector<Scan> within_region(std::span<const Scan* const> scans, const VoxelG
   return cropped;
 }
 
+ScanSurface of_map(const ReconstructionInput& input) {
+  return {input.prior ? "surface_posterior" : "surface_map",
+          input.prior ? "the Gibbs map" : "the occupancy map",
+          "Marching cubes at p = 0.5, through the middle of the outermost occupied voxels; closed where no "
+          "view has looked.",
+          input.prior ? map_surface(input.grid, without_undecided(input.voxels, *input.prior))
+                      : map_surface(input.grid, input.voxels),
+          {},
+          {}};
+}
+
+ScanSurface of_cloud(const ReconstructionInput& input, const SurfaceProgress& progress, const std::stop_token& stop) {
+  Surface cloud;
+  try {
+    cloud = cloud_surface(within_region(input.scans, input.grid), cloud_cell * input.grid.resolution, progress, stop);
+  } catch (const std::invalid_argument& error) {  // the points do not make one; what the scan found stands all the same
+    cloud.why_empty = error.what();
+  }
+  return {"surface_cloud",
+          "the point cloud",
+          "Signed distances to the planes of averaged points, integrated; open where no view has looked.",
+          std::move(cloud),
+          {},
+          {}};
+}
+
 std::vector<ScanSurface> scan_surfaces(const ReconstructionInput& input, const Progress& progress,
                                        std::stop_token stop) {
   const auto report = [&](double fraction, std::string_view what) {
@@ -52,29 +79,10 @@ std::vector<ScanSurface> scan_surfaces(const ReconstructionInput& input, const P
   };
   std::vector<ScanSurface> surfaces;
   if (!report(0.0, "making the map's surface")) return surfaces;
-  surfaces.push_back({input.prior ? "surface_posterior" : "surface_map",
-                      input.prior ? "the Gibbs map" : "the occupancy map",
-                      "Marching cubes at p = 0.5, through the middle of the outermost occupied voxels; closed where no "
-                      "view has looked.",
-                      input.prior ? map_surface(input.grid, without_undecided(input.voxels, *input.prior))
-                                  : map_surface(input.grid, input.voxels),
-                      {},
-                      {}});
-  Surface cloud;
-  try {
-    cloud = cloud_surface(
-        within_region(input.scans, input.grid), cloud_cell * input.grid.resolution,
-        [&](double fraction, std::string_view what) { report(0.1 + 0.6 * fraction, what); }, stop);
-  } catch (const std::invalid_argument& error) {  // the points do not make one; what the scan found stands all the same
-    cloud.why_empty = error.what();
-  }
-  if (!stop.stop_requested())
-    surfaces.push_back({"surface_cloud",
-                        "the point cloud",
-                        "Signed distances to the planes of averaged points, integrated; open where no view has looked.",
-                        std::move(cloud),
-                        {},
-                        {}});
+  surfaces.push_back(of_map(input));
+  ScanSurface cloud = of_cloud(
+      input, [&](double fraction, std::string_view what) { report(0.1 + 0.6 * fraction, what); }, stop);
+  if (!stop.stop_requested()) surfaces.push_back(std::move(cloud));
 
   std::optional<SignedDistance> truth;
   if (input.true_mesh) truth.emplace(*input.true_mesh);
@@ -125,19 +133,45 @@ Json to_json(const ScanSurface& s) {
   return json;
 }
 
+/// What of a session surfaces are made of.
+class ReconstructedSession {
+ public:
+  explicit ReconstructedSession(const Session& session)
+      : session_(session), voxels_(session.planning_voxels().dense()) {}
+
+  ReconstructionInput input() const {
+    std::vector<const Scan*> scans;
+    for (const auto& scan : session_.scans()) scans.push_back(scan.get());
+    const KnownObject* known = session_.known_object();
+    return {session_.map().grid(),
+            voxels_,
+            session_.refinement() ? std::optional(session_.configuration().gibbs.sampler.prior) : std::nullopt,
+            std::move(scans),
+            known ? session_.mesh().get() : nullptr,
+            known ? &known->samples() : nullptr,
+            known ? known->visible() : std::span<const std::uint8_t>{}};
+  }
+
+ private:
+  const Session& session_;
+  std::vector<Voxel> voxels_;
+};
+
 }  // namespace
 
 std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& progress, std::stop_token stop) {
-  std::vector<const Scan*> scans;
-  for (const auto& scan : session.scans()) scans.push_back(scan.get());
-  const KnownObject* known = session.known_object();
-  const std::vector<Voxel> voxels = session.planning_voxels().dense();
-  return scan_surfaces(
-      {session.map().grid(), voxels,
-       session.refinement() ? std::optional(session.configuration().gibbs.sampler.prior) : std::nullopt, scans,
-       known ? session.mesh().get() : nullptr, known ? &known->samples() : nullptr,
-       known ? known->visible() : std::span<const std::uint8_t>{}},
-      progress, stop);
+  const ReconstructedSession reconstructed(session);
+  return scan_surfaces(reconstructed.input(), progress, stop);
+}
+
+ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress, std::stop_token stop) {
+  const ReconstructedSession reconstructed(session);
+  if (progress) progress(0.0, source == SurfaceSource::map ? "making the map's surface" : "making the cloud's surface");
+  ScanSurface surface =
+      source == SurfaceSource::map ? of_map(reconstructed.input()) : of_cloud(reconstructed.input(), progress, stop);
+  throw_if_stopped(stop);
+  surface.openings = boundary_loops(surface.surface.mesh);
+  return surface;
 }
 
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement, const Progress& progress,

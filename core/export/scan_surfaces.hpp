@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/evaluation/surface_error.hpp"
+#include "core/export/export_kind.hpp"
 #include "core/mesh/boundary_loops.hpp"
 #include "core/offline/refinement.hpp"
 #include "core/results/output_folder.hpp"
@@ -30,6 +31,10 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
 /// The surface of the Gibbs map and that of the cloud.
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement,
                                        const Progress& progress = {}, std::stop_token stop = {});
+
+/// One of the two of a session, without comparing it with the truth. @throws Stopped
+ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress = {},
+                         std::stop_token stop = {});
 
 /// For people, how far it is closed, and how much of it was seen: "watertight, all of it seen: 0.785 m²"; "closed, but
 /// only 21 % of it was seen: 0.061 m² seen, 0.226 m² is the hull of what no view saw"; "3 openings, the longest …". A

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace nextview {
 namespace {
@@ -16,10 +19,33 @@ TriangleMesh part(const Surface& surface, bool seen) {
   return part;
 }
 
+/// What of the surface these triangles need.
+Surface with_triangles(const Surface& surface, const TriangleMesh& mesh) {
+  constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(surface.mesh.vertices.size(), unused);
+  Surface part;
+  for (auto triangle : mesh.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      if (number[corner] == unused) {
+        number[corner] = static_cast<std::uint32_t>(part.mesh.vertices.size());
+        part.mesh.vertices.push_back(surface.mesh.vertices[corner]);
+        part.uncertainty.push_back(surface.uncertainty[corner]);
+        part.seen.push_back(surface.seen[corner]);
+      }
+      corner = number[corner];
+    }
+    part.mesh.triangles.push_back(triangle);
+  }
+  return part;
+}
+
 }  // namespace
 
 TriangleMesh seen_part(const Surface& surface) { return part(surface, true); }
 TriangleMesh unseen_part(const Surface& surface) { return part(surface, false); }
+
+Surface seen_surface(const Surface& surface) { return with_triangles(surface, seen_part(surface)); }
+Surface unseen_surface(const Surface& surface) { return with_triangles(surface, unseen_part(surface)); }
 
 SeenArea seen_area(const Surface& surface) {
   return {seen_part(surface).surface_area(), unseen_part(surface).surface_area()};

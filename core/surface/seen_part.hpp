@@ -7,6 +7,9 @@ namespace nextview {
 TriangleMesh seen_part(const Surface& surface);
 /// The others, which close the surface where no view has looked; all vertices. @pre as above.
 TriangleMesh unseen_part(const Surface& surface);
+/// The same two as surfaces of their own, with the vertices that they need.
+Surface seen_surface(const Surface& surface);
+Surface unseen_surface(const Surface& surface);
 
 struct SeenArea {
   double seen = 0.0, unseen = 0.0;  ///< [m^2]

@@ -146,6 +146,15 @@ TEST_F(Commands, EachIsDoneByAScript) {
   walk(user, "go-to-branch main\ncompare closer\nstop-comparing\nremove-branch closer\n");
   walk(user, "export " + path("a scan") + "\n");
   walk(user, "save-picture " + path("a picture.png") + "\n");
+  for (const auto& [command, name] :
+       {std::pair("export-cloud", "a cloud.ply"), std::pair("export-map", "a map.bt"),
+        std::pair("export-surface", "a surface.stl"), std::pair("export-views", "some views.json"),
+        std::pair("export-curves", "curves.svg"), std::pair("export-picture", "a scene.png")}) {
+    walk(user, fmt::format("{} {}\n", command, path(name)));
+    EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
+  }
+  walk(user, "export-turntable " + path("a turn") + " 2 64x48\n");
+  EXPECT_TRUE(std::filesystem::exists(file("a turn") / "frame_00002.png"));
   EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
   EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
   walk(user, "reset\nspeed 0\nplay\npause\n");

@@ -39,6 +39,7 @@ std::string RandomCalls::number(const Command& command, const Argument& argument
   using Kind = Argument::Kind;
   double low = argument.low, high = argument.high;
   if (command.name == "speed") high = 0.02;  // nobody waits for a minute here
+  if (command.name == "export-turntable") high = 4;
   if (command.name == "refine") high = argument.name == "chains" ? 2 : 60;
   if (argument.kind == Kind::whole) return std::to_string(std::lround(low) + long(below(std::size_t(high - low) + 1)));
   switch (below(6)) {
@@ -60,7 +61,11 @@ std::string RandomCalls::number(const Command& command, const Argument& argument
 
 std::string RandomCalls::file(const Command& command) {
   if (command.name != "open") {
-    const std::string end = command.name == "save-picture" ? ".png" : command.name == "save-script" ? ".txt" : "";
+    const std::map<std::string, std::string> endings = {
+        {"save-picture", ".png"},   {"save-script", ".txt"},   {"export-cloud", ".pcd"},  {"export-map", ".ot"},
+        {"export-surface", ".stl"}, {"export-views", ".json"}, {"export-curves", ".svg"}, {"export-picture", ".png"}};
+    const auto found = endings.find(command.name);
+    const std::string end = found == endings.end() ? "" : found->second;
     return (folder_ / fmt::format("{} {}{}", command.name, below(3), end)).string();
   }
   const std::array files = {std::string("box"), std::string("sphere"), configuration_.string(),
@@ -87,6 +92,8 @@ std::string RandomCalls::value(const Command& command, const Argument& argument,
   const auto choices = argument.choices ? argument.choices(session) : std::vector<std::string>();
   const bool any = argument.kind != Argument::Kind::choice && below(8) == 0;  // a number that may be out of range
   if (!choices.empty() && !any) return choices[below(choices.size())];
+  if (argument.name == "size") return below(2) == 0 ? "64x48" : "two words";
+  if (command.name == "connect") return "/no/such/driver";  // "view" may be an editor, which then answers nothing
   if (argument.kind == Argument::Kind::text) return below(2) == 0 ? "view" : "two words";
   if (command.name == "inspect-ray" && !any) return std::to_string(below(48));
   return number(command, argument);

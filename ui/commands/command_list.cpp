@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "ui/commands/branch_commands.hpp"
+#include "ui/commands/export_commands.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/gibbs_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
@@ -20,8 +21,8 @@ std::span<const std::reference_wrapper<const Command>> commands() {
   using namespace command;
   static const std::vector<std::reference_wrapper<const Command>> all = {
       // File
-      open, set, reset_setting, reset_settings, connect, disconnect, reconnect, export_scan, save_picture, save_script,
-      quit,
+      open, set, reset_setting, reset_settings, connect, disconnect, reconnect, export_scan, export_cloud, export_map,
+      export_surface, export_views, export_curves, export_picture, export_turntable, save_picture, save_script, quit,
       // Scan
       step, play, go_on, pause, speed, take_view, take_proposal, take_custom_view, answer, cancel, undo, redo, reset,
       // Timeline

@@ -108,13 +108,14 @@ const CommandOf<std::string> command::open{
      "File",
      "Open an object, scans, a map…",
      "Scans another object (a mesh file or a known name), goes through recorded scans (a folder, .graph, .log, .txt), "
-     "goes on with a session (its folder), shows a map (.ot, .bt), or takes the settings of a .toml file.",
+     "goes on with a session (its folder), shows a map (.ot, .bt), or takes the settings of a .toml file or of a "
+     "picture (.png) that carries them.",
      {{key('O'), true}},
      {},
      {},
      false,
-     [](const CommandState& t, const auto&) {
-       return CommandQuestion{what_is_lost(t, true), "Open"};
+     [](const CommandState& s, const auto&) {
+       return CommandQuestion{what_is_lost(s, true), "Open"};
      }},
     argument::file("file", "a mesh file, a known object, recorded scans, a map, or a .toml file", objects),
     [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};
@@ -182,9 +183,11 @@ const CommandOf<std::string> command::export_scan{
     [](CommandTarget& t, const std::string& folder) { t.worker.post(request::Export{folder}); }};
 
 const CommandOf<std::string> command::save_picture{
-    {"save-picture", "File", "Save a picture…", "Writes the window as a PNG picture."},
+    {"save-picture", "File", "Save a picture…", "Writes the window as a PNG picture, with the settings that made it."},
     argument::file("file", "a file that ends in .png"),
-    [](CommandTarget& t, const std::string& file) { t.window.picture_file = file; }};
+    [](CommandTarget& t, const std::string& file) {
+      t.window.picture = PictureRequest{PictureRequest::Of::window, file};
+    }};
 
 const CommandOf<std::string> command::save_script{
     {"save-script", "File", "Save the commands so far…",

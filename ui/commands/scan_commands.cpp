@@ -138,7 +138,10 @@ const CommandOf<> command::cancel{{"cancel",
                                    "Stops what runs; a view that is not complete is not taken.",
                                    {},
                                    [](const CommandState& t) { return t.progress.busy ? "" : "nothing runs"; }},
-                                  [](CommandTarget& t) { t.worker.cancel(); }};
+                                  [](CommandTarget& t) {
+                                    t.worker.cancel();
+                                    t.window.picture.reset();
+                                  }};
 
 const CommandOf<> command::undo{
     {"undo",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/view/pose.hpp"
+#include "ui/appearance/picture_size.hpp"
 #include "ui/commands/panel_list.hpp"
 #include "ui/workbench/candidate_order.hpp"
 #include "ui/workbench/layer_choice.hpp"
@@ -31,6 +32,18 @@ struct Zoom {
 using CameraMotion =
     std::variant<camera_motion::Frame, camera_motion::LookFrom, camera_motion::LookThrough, camera_motion::Zoom>;
 
+/// A picture that is asked for.
+struct PictureRequest {
+  enum class Of { window, scene, turntable, curves };
+  Of of = Of::window;
+  std::string file;                      ///< of a turntable: its folder
+  std::optional<PictureSize> size = {};  ///< none: as it is in the window
+  bool transparent = false;              ///< without a background; not of the window
+  int frames = 1, drawn = 0;             ///< of a turntable: how many, and how many of them so far
+
+  bool operator==(const PictureRequest&) const = default;
+};
+
 /// Everything that is the window's own and not the session's; only commands change it.
 struct WindowState {
   LayerChoice layers;
@@ -48,7 +61,7 @@ struct WindowState {
 
   Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene
   std::vector<CameraMotion> camera_motions;  ///< to be made
-  std::optional<std::string> picture_file;   ///< the window's picture is to be written here
+  std::optional<PictureRequest> picture;     ///< to be drawn into a file
   std::vector<std::string> script;           ///< the commands so far, a line each
 
   /// The name of the panel in front; empty if there is none on this side.

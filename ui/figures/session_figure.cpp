@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/charts/scan_curves.hpp"
 #include "ui/layers/ray_segments.hpp"
 #include "ui/render_target/offscreen_target.hpp"
 
@@ -73,6 +74,19 @@ StepPicture step_picture(const Session& session) {
   if (session.known_object()) picture.coverage.series = {visible, all};
   if (session.recording()) picture.coverage.series.insert(picture.coverage.series.begin(), recorded);
   return picture;
+}
+
+std::vector<ChartContent> session_charts(const Session& session) {
+  ScanCourse course{session.records(), session.map().grid().voxel_count(), session.configuration().evaluation.d_reg,
+                    session.planner().unit(), session.known_object() != nullptr};
+  std::optional<CoverageByOrder> orders;
+  const auto taken = frames_taken(session.state().known);
+  if (const RecordedSurface* recorded = session.setup().recorded.get(); recorded && !taken.empty()) {
+    orders = recorded->compare_orders(taken, session.configuration().seed);
+    course.orders = &*orders;
+    course.d_reg = recorded->d_reg();
+  }
+  return scan_charts(course);
 }
 
 struct SessionFigure::Parts {

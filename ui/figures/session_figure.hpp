@@ -12,6 +12,9 @@ namespace nextview {
 /// @pre the session has taken a step
 StepPicture step_picture(const Session& session);
 
+/// The curves of a session up to its last step.
+std::vector<ChartContent> session_charts(const Session& session);
+
 /// Draws a session's steps headless, one after the other.
 class SessionFigure {
  public:

@@ -69,24 +69,6 @@ class Sheet : public vtkContextItem {
 
 vtkStandardNewMacro(Sheet);
 
-ViewsPicture views_of(const StepPicture& picture) {
-  ViewsPicture views;
-  views.camera = picture.camera;
-  views.candidates = picture.candidates;
-  views.scores = picture.scores;
-  views.taken = picture.taken;
-  views.chosen = picture.chosen;
-  views.path = picture.path;
-  views.score_name = picture.gain_name;
-  views.score_unit = picture.gain_unit;
-  const Vector3 target = 0.5 * (picture.grid.lower() + picture.grid.upper());
-  views.size = frustum_depth(picture.candidates, target);
-  if (picture.chosen) {
-    views.reach = (picture.candidates.at(*picture.chosen).translation() - target).norm();
-  }
-  return views;
-}
-
 }  // namespace
 
 struct StepFigure::Parts {
@@ -159,6 +141,24 @@ Image draw_step_figure(const StepPicture& picture, int width, int height) {
   figure.show(picture);
   target.render();
   return target.read_back();
+}
+
+ViewsPicture views_of(const StepPicture& picture) {
+  ViewsPicture views;
+  views.camera = picture.camera;
+  views.candidates = picture.candidates;
+  views.scores = picture.scores;
+  views.taken = picture.taken;
+  views.chosen = picture.chosen;
+  views.path = picture.path;
+  views.score_name = picture.gain_name;
+  views.score_unit = picture.gain_unit;
+  const Vector3 target = 0.5 * (picture.grid.lower() + picture.grid.upper());
+  views.size = frustum_depth(picture.candidates, target);
+  if (picture.chosen) {
+    views.reach = (picture.candidates.at(*picture.chosen).translation() - target).norm();
+  }
+  return views;
 }
 
 ViewDirection beside(const Pose& T_world_camera) {

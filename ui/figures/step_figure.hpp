@@ -67,6 +67,9 @@ class StepFigure {
 /// The figure as an image, drawn headless (ensure_headless).
 Image draw_step_figure(const StepPicture& picture, int width = 1600, int height = 1000);
 
+/// The views of a picture, as the scene shows them.
+ViewsPicture views_of(const StepPicture& picture);
+
 /// A direction from which the view's frustum is seen from its side, slightly from above.
 ViewDirection beside(const Pose& T_world_camera);
 

@@ -19,12 +19,12 @@ void Layer::set_visible(bool visible) {
 }
 
 void Layer::set_scale(double scale) {
-  const auto factor = static_cast<float>(scale / scale_);
+  const auto scaled = [&](float size) { return static_cast<float>(size / scale_ * scale); };  // there and back the same
   for (auto& prop : props_) {
     auto* actor = vtkActor::SafeDownCast(prop);
     if (!actor) continue;
-    actor->GetProperty()->SetLineWidth(actor->GetProperty()->GetLineWidth() * factor);
-    actor->GetProperty()->SetPointSize(actor->GetProperty()->GetPointSize() * factor);
+    actor->GetProperty()->SetLineWidth(scaled(actor->GetProperty()->GetLineWidth()));
+    actor->GetProperty()->SetPointSize(scaled(actor->GetProperty()->GetPointSize()));
   }
   scale_ = scale;
   on_scale();

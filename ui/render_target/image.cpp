@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/png_text.hpp"
 
 namespace nextview {
 namespace {
@@ -31,11 +32,12 @@ vtkNew<vtkImageData> to_vtk(const Image& image) {
 
 }  // namespace
 
-void write_png(const Image& image, const std::filesystem::path& file) {
+void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration) {
   if (image.rgba.empty()) throw std::runtime_error(fmt::format("{}: the picture is empty", file.string()));
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
   writer->SetInputData(to_vtk(image));
+  if (!configuration.empty()) writer->AddText(png_configuration_keyword, configuration.c_str());
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
   write_file(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), std::size_t(bytes->GetNumberOfValues())});

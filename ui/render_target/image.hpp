@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace nextview {
@@ -14,9 +15,10 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// Atomic (AtomicFile). The same picture gives the same bytes.
+/// Atomic (AtomicFile). The same picture gives the same bytes. It carries the text of a configuration file, if one is
+/// given (png_configuration finds it again).
 /// @throws std::runtime_error naming the file and the reason.
-void write_png(const Image& image, const std::filesystem::path& file);
+void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration = {});
 
 /// @throws std::runtime_error naming the file and the reason: missing, not a PNG picture, truncated.
 Image read_png(const std::filesystem::path& file);

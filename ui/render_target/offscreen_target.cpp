@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <thread>
 
@@ -65,6 +66,7 @@ OffscreenTarget::~OffscreenTarget() {
 
 void OffscreenTarget::make_current() {
   const auto make_current = osmesa<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
+  buffer_.resize(std::max(buffer_.size(), std::size_t(width()) * height() * 4));  // a picture may be larger
   if (!make_current(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, width(), height())) {
     throw std::runtime_error(fmt::format("cannot draw into memory: OSMesa takes no {} x {} pixels", width(), height()));
   }

@@ -15,7 +15,8 @@
 namespace nextview {
 namespace {
 
-constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_back = 0x0405, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401;
+constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_back = 0x0405, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401,
+                       gl_point_sprite_coord_origin = 0x8CA0, gl_upper_left = 0x8CA2;
 
 void answer_vtk(vtkObject*, unsigned long event, void* target_pointer, void* answer) {
   auto& target = *static_cast<RenderTarget*>(target_pointer);
@@ -57,8 +58,11 @@ void RenderTarget::finish() {
 }
 
 void RenderTarget::render() {
+  using PointParameter = void (*)(unsigned int, int);
   const VtkMessages messages;
   make_current();
+  // Charts turn the sprites of points upside down and leave them so; a scene's points would then be lit from below.
+  reinterpret_cast<PointParameter>(gl_function("glPointParameteri"))(gl_point_sprite_coord_origin, gl_upper_left);
   window_->Render();
   if (!messages.errors().empty()) throw std::runtime_error(explain_drawing_error(messages.errors()));
 }

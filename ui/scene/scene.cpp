@@ -134,14 +134,16 @@ void Scene::annotate() {
   }
 }
 
-void Scene::frame(const ViewDirection& direction) {
+std::vector<Vector3> Scene::outline() const {
   std::vector<Vector3> points;
   for (const Layer* layer : layers()) {
     if (layer->visible()) points.insert(points.end(), layer->outline().begin(), layer->outline().end());
   }
   if (points.empty()) points = corners({Vector3::Constant(-0.5), Vector3::Constant(0.5)});
-  frame(points, direction);
+  return points;
 }
+
+void Scene::frame(const ViewDirection& direction) { frame(outline(), direction); }
 
 /// The nearest camera of this orientation that shows all points clear of the legends.
 Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const {
@@ -178,6 +180,19 @@ void Scene::restore(const Stand& stand) {
   renderer_->GetActiveCamera()->DeepCopy(stand.camera);
   renderer_->GetActiveCamera()->Modified();  // which a copy is not by itself
   overlay_->item->scale_reference = stand.scale_reference;
+  renderer_->ResetCameraClippingRange();
+}
+
+void Scene::turn(const Stand& start, const Vector3& centre, double degrees) {
+  restore(start);
+  vtkCamera& camera = *renderer_->GetActiveCamera();
+  const Eigen::AngleAxisd turn(radians(degrees), Vector3::UnitZ());
+  const auto turned = [&](const double* point) { return Vector3(centre + turn * (Vector3(point) - centre)); };
+  const Vector3 position = turned(camera.GetPosition()), focus = turned(camera.GetFocalPoint());
+  const Vector3 up = turn * Vector3(camera.GetViewUp());
+  camera.SetPosition(position.data());
+  camera.SetFocalPoint(focus.data());
+  camera.SetViewUp(up.data());
   renderer_->ResetCameraClippingRange();
 }
 

@@ -60,6 +60,8 @@ class Scene {
   /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a target, for its
   /// proportions.
   void frame(const ViewDirection& direction = {});
+  /// Points that enclose what is visible [m, world].
+  std::vector<Vector3> outline() const;
   /// Frames these points [m, world].
   void frame(std::span<const Vector3> points, const ViewDirection& direction = {});
 
@@ -73,6 +75,8 @@ class Scene {
   };
   Stand stand() const;
   void restore(const Stand& stand);
+  /// Where the camera stands once it has gone around the vertical axis through a point, from where it stood.
+  void turn(const Stand& start, const Vector3& centre, double degrees);
 
   /// Takes over the layers' legends and labels; call it after layers changed. frame() does so too.
   void annotate();

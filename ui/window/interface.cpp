@@ -57,7 +57,10 @@ void Interface::ask_to_quit() {
   p.do_for_people(command::quit());
   p.settling = frames_to_settle;
 }
-bool Interface::wants_to_quit() const { return parts_->state.quit && !parts_->state.picture_file; }
+bool Interface::wants_to_quit() const {
+  const auto& picture = parts_->state.picture;  // that is asked for is still drawn, but for a turntable's many
+  return parts_->state.quit && (!picture || picture->of == PictureRequest::Of::turntable);
+}
 const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
 SceneView& Interface::scene() { return parts_->view; }
@@ -66,7 +69,8 @@ std::size_t Interface::pixels_drawn() const { return parts_->composer.drawn().pi
 
 double Interface::seconds_to_next_frame() const {
   const Parts& p = *parts_;
-  if (p.settling > 0 || !p.queue.empty() || p.layout_is_old() || p.script_may_go_on() || !(p.news == p.latest()))
+  if (p.settling > 0 || p.state.picture || !p.queue.empty() || p.layout_is_old() || p.script_may_go_on() ||
+      !(p.news == p.latest()))
     return 0.0;
   double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
@@ -86,7 +90,7 @@ bool Interface::draw(double seconds) {
   p.host.make_current();
   p.target.make_current();
   p.settling = std::max(p.settling - 1, 0);
-  const bool wants_picture = p.state.picture_file.has_value();  // since a frame: what it was asked from is gone
+  const bool wants_picture = p.state.picture.has_value();  // since a frame: what it was asked from is gone
   p.take_news();
   p.follow_session();
   p.take_input();
@@ -96,9 +100,10 @@ bool Interface::draw(double seconds) {
   p.draw_interface(seconds);
   p.move_camera();
   p.ask_inspector();
+  if (wants_picture) p.draw_wanted_picture();
   const auto new_scene = p.draw_scene() ? std::optional(p.layout.scene) : std::nullopt;
   const bool new_frame = p.composer.compose(*ImGui::GetDrawData(), new_scene, p.pictures.uploads() != pictures);
-  if (wants_picture) p.write_picture();
+  if (wants_picture) p.write_window_picture();
   return new_frame || wants_picture;
 }
 

@@ -7,7 +7,6 @@
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/scanner_commands.hpp"
-#include "ui/window/panels_alone.hpp"
 #include "ui/window/selection_overlay.hpp"
 
 namespace nextview {
@@ -21,8 +20,8 @@ constexpr double rest = 0.15;
 /// A script waits until nothing runs and the news of that are here.
 bool Interface::Parts::script_may_go_on() const {
   const bool at_rest = (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy() &&
-                       !state.picture_file && !state.quit;
-  return script.may_go_on({*news.snapshot, news.progress, state}, at_rest);
+                       !state.picture && !state.quit;
+  return script.may_go_on({*news.snapshot, progress(), state}, at_rest);
 }
 
 void Interface::Parts::take_news() {
@@ -83,8 +82,8 @@ void Interface::Parts::draw_interface(double seconds) {
   host.begin_frame(int(layout.width), int(layout.height), seconds);
   std::vector<CommandCall> calls;
   std::optional<std::size_t> hovered;
-  const WorkerProgress progress = asked_call.with_question(news.progress);
-  const PanelContext context{*news.snapshot, progress, state, *news.inspection, *news.log,
+  const WorkerProgress shown = asked_call.with_question(progress());
+  const PanelContext context{*news.snapshot, shown,    state, *news.inspection, *news.log,
                              host.style(),   pictures, calls, hovered};
   state.scene_camera = view.camera_pose();
   obey_keys(context);
@@ -129,7 +128,8 @@ void Interface::Parts::do_for_people(const CommandCall& call) {
 
 /// What cannot be done now is told in the log.
 void Interface::Parts::do_call(const CommandCall& call) {
-  CommandTarget acted_on{worker, state, *news.snapshot, news.progress};
+  const WorkerProgress now = progress();
+  CommandTarget acted_on{worker, state, *news.snapshot, now};
   const Selection before = state.selection;
   const std::uint64_t posted = worker.posted();
   try {
@@ -186,25 +186,6 @@ bool Interface::Parts::draw_scene() {
   ++scene_drawings;
   scene_is_old = false;
   return true;
-}
-
-/// Without what is in front of the panels; the back buffer then has the whole frame again.
-void Interface::Parts::write_picture() {
-  const std::string file = *std::exchange(state.picture_file, std::nullopt);
-  PanelsAlone alone(*ImGui::GetDrawData());
-  composer.compose(alone.data(), std::nullopt, false);
-  composer.fill_back_buffer();
-  const Image picture = target.read_back();
-  composer.compose(*ImGui::GetDrawData(), std::nullopt, false);
-  composer.fill_back_buffer();
-  try {
-    write_png(picture, file);
-    worker.log().add(LogEntry::Level::success, "Picture written to " + file);
-  } catch (const std::exception& error) {
-    const std::string reason = fmt::format("save-picture: {}", error.what());
-    script.refused(command::save_picture(file), reason);
-    worker.log().add(LogEntry::Level::warning, reason);
-  }
 }
 
 }  // namespace nextview

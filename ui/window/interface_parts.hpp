@@ -85,7 +85,18 @@ struct Interface::Parts {
   void bring_to_rest();
   void ask_inspector();
   bool draw_scene();
-  void write_picture();
+  /// Of the session's worker, or of the turntable that is drawn.
+  WorkerProgress progress() const;
+  void draw_wanted_picture();
+  void write_window_picture();
+
+ private:
+  Image draw_window();
+  void draw_apart();
+  void draw_next_frame();
+  void draw_curves() const;
+  void write_wanted(const Image& image, const std::filesystem::path& file) const;
+  void picture_failed(const std::string& reason);
 };
 
 }  // namespace nextview

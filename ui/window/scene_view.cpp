@@ -41,7 +41,7 @@ std::shared_ptr<const ScoreExplanation> explanation_of(const SessionSnapshot& s,
 
 }  // namespace
 
-SceneView::SceneView(RenderTarget& target, double scale) : target_(target) {
+SceneView::SceneView(RenderTarget& target, double scale) : target_(target), scale_(scale) {
   scene_.attach(target);
   scene_.set_scale(scale);
   scene_.set_backed(true);

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "ui/panels/layout.hpp"
+#include "ui/render_target/drawn_apart.hpp"
 #include "ui/scene/scene.hpp"
 #include "ui/window/box_handles.hpp"
 #include "ui/workbench/inspection.hpp"
@@ -40,6 +41,9 @@ class SceneView {
   std::size_t voxel_faces() { return scene_.octree().face_count(); }
   /// What is shown; tests look here for what its colours mean.
   Scene& layers() { return scene_; }
+  /// The scene alone, at a size of its own or as it is in the window, the camera gone around the region's vertical axis
+  /// by an angle. What the target shows has to be drawn anew.
+  Image draw_apart(const std::optional<PictureSize>& size, bool transparent, double degrees = 0);
   /// Where the scene is looked at from: T_world_camera.
   Pose camera_pose();
 
@@ -57,6 +61,7 @@ class SceneView {
 
   RenderTarget& target_;
   Rectangle rectangle_;
+  double scale_;  ///< of the display
   Scene scene_;
   std::shared_ptr<const SessionSnapshot> shown_;
   LayerChoice choice_;

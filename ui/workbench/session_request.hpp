@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/config/configuration.hpp"
+#include "core/export/export_kind.hpp"
 #include "core/session/untitled_sessions.hpp"
 
 namespace nextview {
@@ -90,6 +91,12 @@ struct Refine {
 struct Export {
   std::filesystem::path folder;
 };
+/// Writes one thing of the scan that needs no drawing.
+struct ExportOne {
+  ExportKind kind;
+  std::filesystem::path file;
+  SurfaceExport surface = {};
+};
 /// Forgets the curves of earlier runs.
 struct ForgetRuns {};
 
@@ -100,6 +107,6 @@ using SessionRequest =
                  request::Reconnect, request::SetTermination, request::SetPlanner, request::Reset, request::Step,
                  request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
                  request::Redo, request::GoTo, request::BeginBranch, request::RenameBranch, request::RemoveBranch,
-                 request::Compare, request::Refine, request::Export, request::ForgetRuns>;
+                 request::Compare, request::Refine, request::Export, request::ExportOne, request::ForgetRuns>;
 
 }  // namespace nextview

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/config/input_files.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/config/opened_input.hpp"
-#include "core/export/scan_files.hpp"
-#include "core/export/scan_surfaces.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/driver_setup.hpp"
@@ -224,33 +221,6 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
   publish(std::move(next));
-}
-
-std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
-  if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
-  SessionFolder* const own = kept_->folder();
-  if (is_own(folder)) {
-    OutputFolder out(folder, {});
-    out.go_on("scan");
-    return write_results(out, control);
-  }
-  const std::vector<InputFile> inputs = input_files(session_->configuration());
-  OutputFolder out(folder, inputs, "");
-  require_free_for_session(folder, false, inputs);
-  out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
-  if (own) own->copy_to(out, *session_);
-  return write_results(out, control);
-}
-
-std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const JobControl& control) const {
-  control.progress(0.0, "writing the scan");
-  write_scan(*session_, out);
-  const auto surfaces = scan_surfaces(*session_, part(control.progress, 0.2, 0.9), control.stop);
-  if (control.stop.stop_requested()) throw Stopped();
-  write_surfaces(surfaces, out);
-  std::vector<std::string> summaries;
-  for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
-  return summaries;
 }
 
 void SessionRunner::forget_runs() {

@@ -8,6 +8,7 @@
 #include "core/session/session.hpp"
 #include "ui/workbench/scan_history.hpp"
 #include "ui/workbench/seen_surface.hpp"
+#include "ui/workbench/session_request.hpp"
 #include "ui/workbench/session_snapshot.hpp"
 
 namespace nextview {
@@ -68,6 +69,8 @@ class SessionRunner {
   void refine(int chains, int sweeps, const JobControl& control);
   /// Writes what `nextview scan` writes. Returns a line for people on each surface.
   std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
+  /// Writes one thing of it that needs no drawing. Returns the files.
+  std::vector<std::filesystem::path> write_one(const request::ExportOne& wanted, const JobControl& control) const;
   void forget_runs();
   /// Shown until the next thing that works.
   void set_message(const std::string& message);

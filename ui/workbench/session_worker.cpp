@@ -222,6 +222,10 @@ void SessionWorker::execute(const SessionRequest& request) {
                    for (const std::string& line : runner_.write(r.folder, job_control()))
                      log_.add(LogEntry::Level::note, line);
                  },
+                 [&](const request::ExportOne& r) {
+                   for (const auto& file : runner_.write_one(r, job_control()))
+                     log_.add(LogEntry::Level::success, "Written to " + file.string());
+                 },
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },
              request);

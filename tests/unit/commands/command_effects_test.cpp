@@ -20,7 +20,7 @@ auto scene_state(const WindowState& w) {
   return std::tuple(l.object, l.cloud, l.octree, l.views, l.rays, l.region, l.missed, l.object_style, l.cloud_colouring,
                     l.map, l.colouring, l.ranges_locked, v.occupied, v.unknown, v.free, v.uncertain, v.unknown_from,
                     v.entropy_from, v.slice.has_value(), w.front, w.curves, w.sort_column, w.sort_ascending,
-                    w.palette_open, w.shortcuts_open, w.picture_file, w.quit);
+                    w.palette_open, w.shortcuts_open, w.picture.has_value(), w.quit);
 }
 
 class CommandEffects : public testing::Test {
@@ -107,7 +107,7 @@ TEST_F(CommandEffects, EachChoiceIsTheOneOfItsName) {
     w.sort_column = CandidateColumn::gain;
     w.sort_ascending = false;
   });
-  expect_effect("save-picture a.png", [](WindowState& w) { w.picture_file = "a.png"; });
+  expect_effect("save-picture a.png", [](WindowState& w) { w.picture = PictureRequest{}; });
   expect_effect("quit", [](WindowState& w) { w.quit = true; });
 }
 

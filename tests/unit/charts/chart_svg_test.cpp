@@ -1,0 +1,97 @@
+// Charts as SVG: well formed, a line a series, each value where the ticks say that it is.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "ui/charts/chart_page.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Every element is closed, in its order; no bare & or < is left.
+void expect_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  const std::regex tag(R"(<(/?)([a-zA-Z?]+)((?:\s+[a-zA-Z0-9-]+="[^"<]*"|\s+[a-zA-Z]+='[^']*')*)\s*([/?]?)>)");
+  std::string rest = xml;
+  for (std::smatch m; std::regex_search(rest, m, tag); rest = m.suffix()) {
+    EXPECT_EQ(m.prefix().str().find_first_of("<>"), std::string::npos) << m.prefix();
+    if (m[1] == "/") {
+      ASSERT_FALSE(open.empty());
+      EXPECT_EQ(open.back(), m[2]);
+      open.pop_back();
+    } else if (m[4] == "") {
+      open.push_back(m[2]);
+    }
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_TRUE(std::regex_search(xml, std::regex("&(amp|lt|gt|quot);")));
+  EXPECT_FALSE(std::regex_search(xml, std::regex("&(?!amp;|lt;|gt;|quot;)")));
+}
+
+std::vector<std::string> all(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator m(text.begin(), text.end(), regex), end; m != end; ++m) found.push_back((*m)[1]);
+  return found;
+}
+
+/// Where a value is drawn, worked out from the places of the ticks' own numbers.
+struct Scale {
+  double pixel_a, value_a, pixel_b, value_b;
+  double at(double value) const { return pixel_a + (value - value_a) / (value_b - value_a) * (pixel_b - pixel_a); }
+};
+
+Scale scale(const std::string& svg, const std::string& anchor, bool is_x) {
+  const std::regex tick(R"re(<text x="([-.0-9]+)" y="([-.0-9]+)"[^>]*text-anchor=")re" + anchor +
+                        R"re(">([-.0-9]+)</text>)re");
+  std::vector<std::pair<double, double>> ticks;
+  for (std::sregex_iterator m(svg.begin(), svg.end(), tick), end; m != end; ++m)
+    ticks.emplace_back(std::stod((*m)[is_x ? 1 : 2]) - (is_x ? 0 : 4), std::stod((*m)[3]));
+  return {ticks.front().first, ticks.front().second, ticks.back().first, ticks.back().second};
+}
+
+TEST(ChartSvg, EachValueLiesWhereTheTicksSay) {
+  const ChartContent content{"a < b & c", "view", "",
+                             "gain",      "nats", {{"one", {0, 1, 2, 3}, {5, -2, 7.5, 3}}, {"two", {1, 3}, {1, 2}}},
+                             {},          true};
+  const std::string svg = charts_svg(std::vector{content}, {1280, 800}, false);
+  expect_well_formed(svg);
+  EXPECT_THAT(svg, HasSubstr("width=\"1280\" height=\"800\""));
+  EXPECT_THAT(svg, HasSubstr(">gain [nats]</text>"));
+  const auto lines = all(svg, "<polyline[^>]*points=\"([^\"]*)\"");
+  ASSERT_EQ(lines.size(), 2u);
+  ASSERT_EQ(all(svg, "(<circle)").size(), 6u);
+  const Scale x = scale(svg, "middle", true), y = scale(svg, "end", false);
+  for (std::size_t s = 0; s < 2; ++s) {
+    std::istringstream points(lines[s]);
+    for (std::size_t i = 0; i < content.series[s].x.size(); ++i) {
+      double px = 0, py = 0;
+      char comma = 0;
+      points >> px >> comma >> py;
+      EXPECT_NEAR(px, x.at(content.series[s].x[i]), 0.02) << s << " " << i;
+      EXPECT_NEAR(py, y.at(content.series[s].y[i]), 0.02) << s << " " << i;
+    }
+  }
+}
+
+TEST(ChartSvg, ValuesThatAreNotFiniteLeaveGaps) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ChartContent content{"t", "view", "", "gain", "&", {{"one", {0, 1, 2, 3, 4}, {1, 2, nan, 4, 5}}}, {}, true};
+  const std::string svg = charts_svg(std::vector{content}, {640, 400}, true);
+  expect_well_formed(svg);
+  EXPECT_EQ(all(svg, "(<polyline)").size(), 2u);
+  EXPECT_EQ(all(svg, "(<circle)").size(), 4u);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("width=\"100%\""), std::string::npos) << "transparent: no paper";
+  content.series[0].y.pop_back();
+  EXPECT_THROW(charts_svg(std::vector{content}, {640, 400}, true), std::invalid_argument);
+  content.series.clear();
+  EXPECT_EQ(all(charts_svg(std::vector{content, content, content}, {9, 9}, false), "(<g>)").size(), 3u);
+}
+
+}  // namespace
+}  // namespace nextview

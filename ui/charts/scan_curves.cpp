@@ -1,0 +1,118 @@
+#include "ui/charts/scan_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <optional>
+
+#include "core/setting/length_text.hpp"
+
+namespace nextview {
+namespace {
+
+struct Value {
+  const char* name;
+  std::function<double(const StepRecord&)> of;
+};
+
+void add_series(ChartContent& content, const ScanCourse& course, const std::vector<Value>& values,
+                std::optional<double> at_start = {}) {
+  for (const Value& value : values) {
+    ChartSeries series{value.name, {}, {}};
+    if (at_start) {
+      series.x.push_back(0);
+      series.y.push_back(*at_start);
+    }
+    for (const StepRecord& r : course.records) {
+      series.x.push_back(r.step);
+      series.y.push_back(value.of(r));
+    }
+    content.series.push_back(std::move(series));
+  }
+}
+
+}  // namespace
+
+ChartContent entropy_chart(const ScanCourse& course) {
+  ChartContent content{"Entropy of the map [Mbit]", "view", "", "entropy", "Mbit", {}, {}, true};
+  add_series(content, course,
+             {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }},
+              {"total, ΣH(p)", [](const StepRecord& r) { return r.total_entropy / 1e6; }}},
+             double(course.voxels) / 1e6);
+  return content;
+}
+
+ChartContent recorded_coverage_chart(const ScanCourse& course) {
+  const std::string title = fmt::format("Of what all frames show, within {} [%]", length_text(course.d_reg));
+  ChartContent content{title, "view", "", "coverage", "%", {}, 100.0, true};
+  if (!course.orders) return content;
+  const auto add = [&](const char* name, const std::vector<double>& shares) {
+    ChartSeries series{name, {}, {}};
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      series.x.push_back(double(k + 1));
+      series.y.push_back(100.0 * shares[k]);
+    }
+    content.series.push_back(std::move(series));
+  };
+  add("planned", course.orders->planned);
+  add("as recorded", course.orders->recorded);
+  add("random", course.orders->random);
+  return content;
+}
+
+ChartContent coverage_chart(const ScanCourse& course) {
+  const std::string title = fmt::format("Surface within {:g} mm of a point [%]", 1e3 * course.d_reg);
+  ChartContent content{title, "view", "", "coverage", "%", {}, 100.0, true};
+  add_series(content, course,
+             {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }},
+              {"of all surface", [](const StepRecord& r) { return 100 * r.coverage; }}},
+             0.0);
+  return content;
+}
+
+ChartContent divergence_chart(const ScanCourse& course) {
+  ChartContent content{"D_KL to the truth, visited voxels [knats]", "view", "", "D_KL", "knats", {}, {}, true};
+  add_series(content, course, {{"conventional map", [](const StepRecord& r) { return r.quality.divergence / 1e3; }}});
+  return content;
+}
+
+/// What a planner expects of a view can be seen in one unit only if that is the surface's; else beside Eq. 12.
+ChartContent gain_chart(const ScanCourse& course) {
+  if (course.gain_unit == "cm²") {
+    ChartContent surface{"New surface of a view [cm²]", "view", "", "new surface", "cm²", {}, {}, true};
+    add_series(surface, course,
+               {{"seen", [](const StepRecord& r) { return r.new_surface; }},
+                {"expected", [](const StepRecord& r) { return r.gain; }}});
+    return surface;
+  }
+  const std::string unit = course.gain_unit.empty() ? "" : fmt::format(" [{}]", course.gain_unit);
+  ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
+  add_series(content, course,
+             {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
+              {"predicted", [](const StepRecord& r) { return r.gain; }}});
+  return content;
+}
+
+ChartContent time_chart(const ScanCourse& course) {
+  ChartContent content{"Time of a step [s]", "view", "", "time", "s", {}, {}, true};
+  add_series(content, course,
+             {{"score", [](const StepRecord& r) { return r.seconds.score; }},
+              {"insert", [](const StepRecord& r) { return r.seconds.insert; }},
+              {"sense, clean", [](const StepRecord& r) { return r.seconds.sense + r.seconds.clean; }},
+              {"evaluate", [](const StepRecord& r) { return r.seconds.evaluate; }},
+              {"refine", [](const StepRecord& r) { return r.seconds.refine; }}});
+  return content;
+}
+
+std::vector<ChartContent> scan_charts(const ScanCourse& course) {
+  std::vector<ChartContent> charts = {entropy_chart(course)};
+  if (course.orders)
+    charts.push_back(recorded_coverage_chart(course));
+  else if (course.is_evaluated)
+    charts.push_back(coverage_chart(course));
+  charts.push_back(gain_chart(course));
+  if (course.is_evaluated) charts.push_back(divergence_chart(course));
+  return charts;
+}
+
+}  // namespace nextview

@@ -1,0 +1,92 @@
+#include "ui/commands/export_commands.hpp"
+
+#include <fmt/format.h>
+
+#include "core/export/single_export.hpp"
+#include "ui/commands/command_target.hpp"
+#include "ui/commands/needs.hpp"
+
+namespace nextview {
+namespace {
+
+CommandDeclaration declaration(ExportKind kind, std::string text) {
+  const ExportEntry& entry = export_entry(kind);
+  return {fmt::format("export-{}", entry.name),  "File", std::move(text),
+          fmt::format("Writes {}.", entry.what), {},     needs_view};
+}
+
+ArgumentOf<std::string> where_to(ExportKind kind) {
+  const ExportEntry& entry = export_entry(kind);
+  if (entry.endings.empty()) return argument::file("folder", "an empty folder, or one of earlier frames");
+  return argument::file("file", "a file that ends in " + entry.endings_text());
+}
+
+ArgumentOf<std::optional<std::string>> size() {
+  return argument::optional(argument::text("size", "in pixels, such as 1920x1080; else as it is in the window"));
+}
+
+ArgumentOf<std::optional<Background>> background() {
+  return argument::optional(argument::choice<Background>("background", "what is behind it", {"opaque", "transparent"}));
+}
+
+/// On the session's worker.
+void write(CommandTarget& t, ExportKind kind, const std::string& file, const SurfaceExport& surface = {}) {
+  require_ending(export_entry(kind), file);
+  t.worker.post(request::ExportOne{kind, file, surface});
+}
+
+/// On the drawing thread, which has the pixels.
+void draw(CommandTarget& t, ExportKind kind, PictureRequest::Of of, const std::string& file,
+          const std::optional<std::string>& wanted_size, const std::optional<Background>& behind, int frames = 1) {
+  require_ending(export_entry(kind), file);
+  require_no_kept_file(file, t.session.configuration, {});
+  std::optional<PictureSize> pixels;
+  if (wanted_size) pixels = picture_size(*wanted_size, fmt::format("export-{}: SIZE", export_entry(kind).name));
+  t.window.picture = PictureRequest{of, file, pixels, behind == Background::transparent, frames};
+}
+
+CommandOf<std::string> written(ExportKind kind, std::string text) {
+  return {declaration(kind, std::move(text)), where_to(kind),
+          [kind](CommandTarget& t, const std::string& file) { write(t, kind, file); }};
+}
+
+}  // namespace
+
+const CommandOf<std::string> command::export_cloud = written(ExportKind::cloud, "Export the cloud…");
+const CommandOf<std::string> command::export_map = written(ExportKind::map, "Export the map…");
+const CommandOf<std::string> command::export_views = written(ExportKind::views, "Export the views…");
+
+const CommandOf<std::string, std::optional<SurfaceSource>, std::optional<SurfacePart>> command::export_surface{
+    declaration(ExportKind::surface, "Export a surface…"), where_to(ExportKind::surface),
+    argument::optional(argument::choice<SurfaceSource>("of", "what it is made of", {"map", "cloud"})),
+    argument::optional(argument::choice<SurfacePart>(
+        "part", "what was seen, or also what closes it, into NAME_unseen beside it", {"seen", "all"})),
+    [](CommandTarget& t, const std::string& file, const auto& of, const auto& part) {
+      write(t, ExportKind::surface, file, {of.value_or(SurfaceSource::map), part == SurfacePart::all});
+    }};
+
+const CommandOf<std::string, std::optional<std::string>, std::optional<Background>> command::export_curves{
+    declaration(ExportKind::curves, "Export the curves…"), where_to(ExportKind::curves), size(), background(),
+    [](CommandTarget& t, const std::string& file, const auto& pixels, const auto& behind) {
+      if (file.ends_with(".csv")) return write(t, ExportKind::curves, file);
+      draw(t, ExportKind::curves, PictureRequest::Of::curves, file, pixels, behind);
+    }};
+
+const CommandOf<std::string, std::optional<std::string>, std::optional<Background>> command::export_picture{
+    declaration(ExportKind::picture, "Export the scene's picture…"), where_to(ExportKind::picture), size(),
+    background(), [](CommandTarget& t, const std::string& file, const auto& pixels, const auto& behind) {
+      draw(t, ExportKind::picture, PictureRequest::Of::scene, file, pixels, behind);
+    }};
+
+const CommandOf<std::string, std::optional<int>, std::optional<std::string>, std::optional<Background>>
+    command::export_turntable{
+        declaration(ExportKind::turntable, "Export a turntable…"),
+        where_to(ExportKind::turntable),
+        argument::optional(argument::whole<int>("frames", "how many (36)", 2, 3600)),
+        size(),
+        background(),
+        [](CommandTarget& t, const std::string& folder, const auto& frames, const auto& pixels, const auto& behind) {
+          draw(t, ExportKind::turntable, PictureRequest::Of::turntable, folder, pixels, behind, frames.value_or(36));
+        }};
+
+}  // namespace nextview

@@ -1,0 +1,82 @@
+#include "ui/figures/scene_figure.hpp"
+
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "ui/figures/session_figure.hpp"
+#include "ui/render_target/offscreen_target.hpp"
+
+namespace nextview {
+namespace {
+
+/// The points as they are seen from all around: framed, they leave room for every frame of a turn.
+std::vector<Vector3> swept(const std::vector<Vector3>& points, const Vector3& centre) {
+  constexpr int directions = 72;
+  double radius = 0.0, low = centre.z(), high = low;
+  for (const Vector3& p : points) {
+    radius = std::max(radius, (p - centre).head<2>().norm());
+    low = std::min(low, p.z()), high = std::max(high, p.z());
+  }
+  std::vector<Vector3> all;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2 * std::numbers::pi * i / directions;
+    for (const double z : {low, high})
+      all.emplace_back(centre.x() + radius * std::cos(angle), centre.y() + radius * std::sin(angle), z);
+  }
+  return all;
+}
+
+}  // namespace
+
+struct SceneFigure::Parts {
+  explicit Parts(const PictureSize& s) : size(s) { scene.attach(target); }
+
+  PictureSize size;
+  OffscreenTarget target{smallest_picture, smallest_picture};
+  Scene scene;
+  DrawnApart apart{target, {&scene.renderer()}, size};
+  Vector3 centre = Vector3::Zero();
+};
+
+SceneFigure::SceneFigure(const Session& session, const SceneLayers& layers, const PictureSize& size)
+    : parts_(std::make_unique<Parts>(size)) {
+  const StepPicture picture = step_picture(session);
+  Scene& scene = parts_->scene;
+  scene.set_scale(picture_scale(size));
+  if (picture.object) scene.mesh().show(*picture.object, picture.object_style);
+  scene.cloud().show(picture.cloud, picture.point_size);
+  scene.octree().show(picture.grid, picture.voxels);
+  scene.rays().show(picture.rays, picture.ray_values);
+  ViewsPicture views = views_of(picture);
+  views.numbered_path = true;
+  scene.views().show(views);
+  scene.region().show({picture.grid.lower(), picture.grid.upper()});
+  scene.mesh().set_visible(layers.object);
+  scene.cloud().set_visible(layers.cloud);
+  scene.octree().set_visible(layers.map);
+  scene.rays().set_visible(layers.rays);
+  scene.views().set_visible(layers.views);
+  scene.region().set_visible(layers.region);
+  scene.annotate();
+  parts_->centre = 0.5 * (picture.grid.lower() + picture.grid.upper());
+}
+
+SceneFigure::~SceneFigure() = default;
+
+Image SceneFigure::draw(const ViewDirection& direction, bool transparent) {
+  parts_->scene.set_backed(!transparent);
+  parts_->scene.frame(direction);
+  return parts_->apart.draw(transparent);
+}
+
+Image SceneFigure::draw_turned(const ViewDirection& start, int frame, int count, bool transparent) {
+  Scene& scene = parts_->scene;
+  scene.set_backed(!transparent);
+  scene.frame(swept(scene.outline(), parts_->centre), start);
+  scene.turn(scene.stand(), parts_->centre, 360.0 * frame / count);
+  return parts_->apart.draw(transparent);
+}
+
+}  // namespace nextview

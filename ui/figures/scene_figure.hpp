@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/session/session.hpp"
+#include "ui/render_target/drawn_apart.hpp"
+#include "ui/scene/scene.hpp"
+
+namespace nextview {
+
+/// What of a scan the scene shows.
+struct SceneLayers {
+  bool object = true, cloud = true, map = true, views = true, rays = true, region = true;
+};
+
+/// The scene of a session alone, as the window has it, drawn headless (ensure_headless).
+class SceneFigure {
+ public:
+  /// @pre the session has taken a step
+  SceneFigure(const Session& session, const SceneLayers& layers, const PictureSize& size);
+  ~SceneFigure();
+
+  /// All of what is shown.
+  Image draw(const ViewDirection& direction, bool transparent);
+  /// One of `count` pictures from all around, each at the same distance.
+  Image draw_turned(const ViewDirection& start, int frame, int count, bool transparent);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace nextview

@@ -1,0 +1,49 @@
+// What a session runner writes of its session.
+#include <stdexcept>
+
+#include "core/config/input_files.hpp"
+#include "core/export/scan_files.hpp"
+#include "core/export/scan_surfaces.hpp"
+#include "core/export/single_export.hpp"
+#include "core/progress/part.hpp"
+#include "core/progress/stopped.hpp"
+#include "ui/workbench/session_runner.hpp"
+
+namespace nextview {
+
+std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
+  if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
+  SessionFolder* const own = kept_->folder();
+  if (is_own(folder)) {
+    OutputFolder out(folder, {});
+    out.go_on("scan");
+    return write_results(out, control);
+  }
+  const std::vector<InputFile> inputs = input_files(session_->configuration());
+  OutputFolder out(folder, inputs, "");
+  require_free_for_session(folder, false, inputs);
+  out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
+  if (own) own->copy_to(out, *session_);
+  return write_results(out, control);
+}
+
+std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const JobControl& control) const {
+  control.progress(0.0, "writing the scan");
+  write_scan(*session_, out);
+  const auto surfaces = scan_surfaces(*session_, part(control.progress, 0.2, 0.9), control.stop);
+  if (control.stop.stop_requested()) throw Stopped();
+  write_surfaces(surfaces, out);
+  std::vector<std::string> summaries;
+  for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
+  return summaries;
+}
+
+std::vector<std::filesystem::path> SessionRunner::write_one(const request::ExportOne& wanted,
+                                                            const JobControl& control) const {
+  if (!session_) throw std::invalid_argument("there is no view to write yet");
+  const SessionFolder* const own = kept_->folder();
+  require_exportable(wanted.kind, wanted.file, session_->configuration(), own ? own->path() : std::filesystem::path());
+  return export_file(*session_, wanted.kind, wanted.file, wanted.surface, control.progress, control.stop);
+}
+
+}  // namespace nextview
