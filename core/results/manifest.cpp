@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t largest_manifest = std::uintmax_t{1} << 20;  // [bytes]
 
-constexpr std::array<std::string_view, 37> names = {"calibration.json",
+constexpr std::array<std::string_view, 38> names = {"calibration.json",
                                                     "calibration.png",
                                                     "cloud.ply",
                                                     "config.toml",
@@ -50,6 +50,7 @@ constexpr std::array<std::string_view, 37> names = {"calibration.json",
                                                     "surface_cloud_unseen.stl",
                                                     "timings.csv",
                                                     "trace.csv",
+                                                    "state",
                                                     "views.csv",
                                                     "surface_posterior.ply",
                                                     "surface_posterior.png",

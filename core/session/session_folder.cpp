@@ -64,7 +64,7 @@ SessionFolder SessionFolder::begun(OutputFolder out, const JournalInput& input, 
   JournalWriter writer = JournalWriter::begin(out.path(), input, text);
   write_file(out.claim("config.toml"), text);
   SessionFolder result(std::move(out), std::move(writer), input);
-  result.settings_ = text;
+  result.settings_ = {text};
   return result;
 }
 
@@ -75,6 +75,12 @@ SessionFolder SessionFolder::begin(OutputFolder out, const Session& session) {
   const fs::path folder = out.claim(journal_name).parent_path();
   const JournalInput input = input_of(session, folder);
   return begun(std::move(out), input, session);
+}
+
+SessionFolder SessionFolder::in_memory(const Session& session) {
+  SessionFolder result(input_of(session, "/"));
+  result.settings_ = {to_toml(session.configuration(), "/")};
+  return result;
 }
 
 SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, const Session& session) {
@@ -88,7 +94,7 @@ SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, 
   result.last_ = now.last_number();
   result.branches_ = std::move(now.branches);
   result.steps_ = std::move(now.steps);
-  if (!now.settings.empty()) result.settings_ = now.settings.back();
+  result.settings_ = std::move(now.settings);
   return result;
 }
 
@@ -101,92 +107,121 @@ bool SessionFolder::step(Session& session, const Progress& progress, const std::
       what();
     } catch (const std::runtime_error& error) {
       if (!not_kept) throw;
-      keeps_ = false;
+      leave();
       not_kept(error.what());
     }
   };
   const auto accept = [&](const Acquired& acquired) {
-    write([&] { keep(choice, acquired); });
+    JournalStep& step = add_step(choice, acquired);
+    write([&] {
+      out_->claim(fmt::format("{}/{}", scans_name, capture_name(acquired.capture, step.number)));
+      writer_->add(step, acquired.capture);
+    });
+    if (!keeps_) captures_.insert_or_assign(step.number, acquired.capture);
     return true;
   };
   const bool taken = session.step(progress, stop, accept);
-  if (!keeps_ || !pending_) return taken;
-  if (taken) {
-    const std::uint32_t number = *std::exchange(pending_, std::nullopt);
-    branches_.add_step(number, line_.empty() ? 0 : line_.back());
-    line_.push_back(number);
-    write([&] { writer_.keep_outcome(number, outcome_of(session.records().back())); });
-  } else {
+  if (!pending_) return taken;
+  if (!taken) {
     write([&] { withdraw(); });
+    pending_.reset();
+    return false;
   }
-  return taken;
+  const std::uint32_t number = *std::exchange(pending_, std::nullopt);
+  branches_.add_step(number, line_.empty() ? 0 : line_.back());
+  line_.push_back(number);
+  const auto& outcome = steps_.at(number).outcome = outcome_of(session.records().back());
+  write([&] { writer_->keep_outcome(number, outcome); });
+  return true;
 }
 
 /// What is kept, and not taken after all.
 void SessionFolder::withdraw() {
-  writer_.stand_at(line_.empty() ? 0 : line_.back());
-  writer_.keep_branches(branches_);
+  writer_->stand_at(line_.empty() ? 0 : line_.back());
+  writer_->keep_branches(branches_);
   pending_.reset();
 }
 
-void SessionFolder::keep(const NextView& choice, const Acquired& acquired) {
+JournalStep& SessionFolder::add_step(const NextView& choice, const Acquired& acquired) {
   JournalStep step = step_of(choice, acquired);
   step.number = last_ + 1;
   step.after = line_.empty() ? 0 : line_.back();
-  out_.claim(fmt::format("{}/{}", scans_name, capture_name(acquired.capture, step.number)));
-  writer_.add(step, acquired.capture);
+  step.settings = settings_.size();
   pending_ = last_ = step.number;
-  steps_.emplace(step.number, std::move(step));
+  return steps_.insert_or_assign(step.number, std::move(step)).first->second;
+}
+
+void SessionFolder::leave() {
+  keeps_ = false;
+  for (const auto& [number, step] : steps_) {
+    try {
+      captures_.emplace(number, read_capture(step, path()));
+    } catch (const std::runtime_error&) {  // who copies the session hears of it
+    }
+  }
 }
 
 void SessionFolder::stand_at(const Line& line) {
-  if (!keeps_ || (line == line_ && !pending_)) return;
-  if (pending_) withdraw();
+  if (pending_ && keeps_) withdraw();
+  pending_.reset();
   if (line == line_) return;
-  writer_.stand_at(line.empty() ? 0 : line.back());
   line_ = line;
+  if (keeps_) writer_->stand_at(line.empty() ? 0 : line.back());
 }
 
 void SessionFolder::keep_branches(const Branches& branches) {
-  if (!keeps_ || branches == branches_) return;
-  writer_.keep_branches(branches);
+  if (branches == branches_) return;
   branches_ = branches;
+  if (keeps_) writer_->keep_branches(branches);
 }
 
 void SessionFolder::keep_configuration(const Session& session) {
-  std::string text = to_toml(session.configuration(), path());
-  if (!keeps_ || text == settings_) return;
-  writer_.keep_settings(text);
-  write_file(out_.claim("config.toml"), text);
-  settings_ = std::move(text);
+  std::string text = to_toml(session.configuration(), out_ ? path() : std::filesystem::path("/"));
+  if (text == settings_.back()) return;
+  settings_.push_back(std::move(text));
+  if (!keeps_) return;
+  writer_->keep_settings(settings_.back());
+  write_file(out_->claim("config.toml"), settings_.back());
 }
 
 void SessionFolder::keep_state(const Session& session) {
   if (!keeps_) return;
   std::vector<JournalStep> line;
   for (const std::uint32_t number : line_) line.push_back(steps_.at(number));
-  write_state_file(session, line, out_.claim(state_file_name));
+  write_state_file(session, line, out_->claim(state_file_name));
 }
 
 void SessionFolder::close() {
-  if (keeps_) writer_.close();
+  if (keeps_) writer_->close();
 }
 
 void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
-  JournalInput input = input_;
-  if (input.hash) input.path = named_from(copy.path(), path() / input.path);
+  JournalInput input = input_of(session, copy.path());
+  input.hash = input_.hash;  // of the file that was scanned
   copy.claim(journal_name);
-  JournalWriter writer = JournalWriter::begin(copy.path(), input, to_toml(session.configuration(), copy.path()));
-  std::uint32_t number = 0;
-  for (const std::uint32_t of_line : line_) {
-    JournalStep step = steps_.at(of_line);
-    const Capture capture = read_capture(step, path());
-    step.after = number++;
-    step.number = number;
+  JournalWriter writer = JournalWriter::begin(copy.path(), input, settings_.front());
+  std::size_t settings = 1;
+  for (const std::uint32_t number : steps_of_branches()) {
+    JournalStep step = steps_.at(number);
+    for (; settings < step.settings; ++settings) writer.keep_settings(settings_[settings]);
+    const auto here = captures_.find(number);
+    const Capture capture = here != captures_.end() ? here->second : read_capture(step, path());
     copy.claim(fmt::format("{}/{}", scans_name, capture_name(capture, number)));
     writer.add(step, capture);
+    if (!step.outcome.empty()) writer.keep_outcome(number, step.outcome);
   }
+  writer.keep_settings(to_toml(session.configuration(), copy.path()));
+  writer.keep_branches(branches_);
+  writer.stand_at(line_.empty() ? 0 : line_.back());
   writer.close();
+}
+
+std::set<std::uint32_t> SessionFolder::steps_of_branches() const {
+  std::set<std::uint32_t> steps(line_.begin(), line_.end());
+  for (const Branch& branch : branches_.all)
+    for (auto step = steps_.find(branch.tip); step != steps_.end(); step = steps_.find(step->second.after))
+      if (!steps.insert(step->first).second) break;
+  return steps;
 }
 
 }  // namespace nextview

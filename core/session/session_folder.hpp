@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,8 +29,12 @@ class SessionFolder {
   /// Goes on with a saved one, which is to be restored. @throws as begin()
   static SessionFolder go_on(OutputFolder out, const SavedSession& saved, const Session& session);
 
+  /// A session that is kept nowhere: in memory alone, to be copied to a folder.
+  static SessionFolder in_memory(const Session& session);
+
   /// Session::step, with the capture kept before it is absorbed. Where it cannot be, the view is not taken, or with
-  /// `not_kept` it is, and from there on nothing is kept. @throws as Session::step; std::runtime_error naming the file
+  /// `not_kept` it is, and from there on the session is in memory alone. @throws as Session::step; std::runtime_error
+  /// naming the file
   bool step(Session& session, const Progress& progress = {}, const std::stop_token& stop = {},
             const NotKept& not_kept = {});
   /// The session has been put where its views were these.
@@ -45,12 +50,15 @@ class SessionFolder {
   void keep_state(const Session& session);
   /// Nobody is in the middle of it any more.
   void close();
-  /// Makes another folder one of the same session, with the views that it stands at. @pre copy.begin() was called
+  /// Makes another folder one of the same session, with its branches. @throws std::runtime_error naming
+  /// the file: a capture is lost @pre copy.begin() was called
   void copy_to(OutputFolder& copy, const Session& session) const;
+  /// Nothing can be written any more: what is there is taken into memory, where all else goes from here on.
+  void leave();
 
-  OutputFolder& out() { return out_; }
-  const std::filesystem::path& path() const { return out_.path(); }
-  bool keeps() const { return keeps_; }  ///< false once something could not be kept
+  OutputFolder& out() { return *out_; }                               ///< @pre not in_memory()
+  const std::filesystem::path& path() const { return out_->path(); }  ///< likewise
+  bool keeps() const { return keeps_; }                               ///< false where it is in memory alone
 
  private:
   friend bool restore(Session&, SavedSession&, SessionFolder*, const std::function<void(std::uint32_t)>&,
@@ -58,17 +66,20 @@ class SessionFolder {
   friend bool restore_kept(Session&, const SavedSession&, SessionFolder*);
   SessionFolder(OutputFolder out, JournalWriter writer, JournalInput input)
       : out_(std::move(out)), writer_(std::move(writer)), input_(std::move(input)) {}
+  explicit SessionFolder(JournalInput input) : input_(std::move(input)), keeps_(false) {}
   static SessionFolder begun(OutputFolder out, const JournalInput& input, const Session& session);
-  void keep(const NextView& choice, const Acquired& acquired);
+  std::set<std::uint32_t> steps_of_branches() const;
+  JournalStep& add_step(const NextView& choice, const Acquired& acquired);
   void withdraw();
 
-  OutputFolder out_;
-  JournalWriter writer_;
+  std::optional<OutputFolder> out_;
+  std::optional<JournalWriter> writer_;
   JournalInput input_;
-  std::string settings_;  ///< text of config.toml
+  std::vector<std::string> settings_;  ///< texts of config.toml, the last one of now
   Line line_;
   Branches branches_;
   std::map<std::uint32_t, JournalStep> steps_;  ///< of this session, by number
+  std::map<std::uint32_t, Capture> captures_;   ///< of those that are in memory alone
   std::uint32_t last_ = 0;                      ///< number of the last capture
   std::optional<std::uint32_t> pending_;        ///< kept, and not yet absorbed
   bool keeps_ = true;

@@ -1,8 +1,10 @@
 /* Loaded before a program, it ends it (SIGKILL) at the N-th call that changes a file below a folder: half of a write is
  * done, anything else is not. NEXTVIEW_KILL_BELOW names the folder, NEXTVIEW_KILL_AT is N. At a normal end the number of
- * calls is written to the file NEXTVIEW_KILL_COUNT. */
+ * calls is written to the file NEXTVIEW_KILL_COUNT. With NEXTVIEW_FULL_AT = N the disk is full from that call on: half of
+ * a write is done, what makes more of it fails, and what only changes names does not. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
+#include <errno.h>
 #include <limits.h>
 #include <signal.h>
 #include <stdio.h>
@@ -26,10 +28,20 @@ static int is_file_below(int file) {
   return is_below(path);
 }
 
-/* Whether this is the call. */
+static int full;
+
+/* Whether the program ends at this call; sets whether the disk is full. */
 static int counts(void) {
-  const char* at = getenv("NEXTVIEW_KILL_AT");
-  return at && __atomic_add_fetch(&calls, 1, __ATOMIC_SEQ_CST) == atol(at);
+  const char *at = getenv("NEXTVIEW_KILL_AT"), *full_at = getenv("NEXTVIEW_FULL_AT");
+  if (!at && !full_at) return 0;
+  const long call = __atomic_add_fetch(&calls, 1, __ATOMIC_SEQ_CST);
+  if (full_at && call >= atol(full_at)) full = 1;
+  return at && call == atol(at);
+}
+
+static int no_space(void) {
+  errno = ENOSPC;
+  return -1;
 }
 
 static void end(void) { kill(getpid(), SIGKILL); }
@@ -41,6 +53,7 @@ ssize_t write(int file, const void* bytes, size_t count) {
     real(file, bytes, count / 2);
     end();
   }
+  if (full && is_file_below(file)) return count > 1 && full++ == 1 ? real(file, bytes, count / 2) : no_space();
   return real(file, bytes, count);
 }
 
@@ -49,7 +62,7 @@ ssize_t write(int file, const void* bytes, size_t count) {
     static int (*real)(int);                                    \
     if (!real) real = (int (*)(int))dlsym(RTLD_NEXT, #name);    \
     if (is_file_below(file) && counts()) end();                 \
-    return real(file);                                          \
+    return full && is_file_below(file) ? no_space() : real(file); \
   }
 ON_FILE(fsync)
 ON_FILE(fdatasync)
@@ -72,7 +85,7 @@ int mkdir(const char* path, mode_t mode) {
   static int (*real)(const char*, mode_t);
   if (!real) real = (int (*)(const char*, mode_t))dlsym(RTLD_NEXT, "mkdir");
   if (is_below(path) && counts()) end();
-  return real(path, mode);
+  return full && is_below(path) ? no_space() : real(path, mode);
 }
 
 __attribute__((destructor)) static void tell(void) {

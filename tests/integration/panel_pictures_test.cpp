@@ -75,6 +75,18 @@ TEST(PanelPictures, CurvesOfSeveralRuns) {
   expect_screenshot("panel_curves", user.look(), bound());
 }
 
+TEST(PanelPictures, TimelineThenAComparison) {
+  Configuration c = housing();
+  c.termination.surface_left = 0.0;
+  User user(c);
+  user.run("step\nstep\nstep\nstep\nrename-branch main \"by new surface\"\ngo-to-view 2\n");
+  user.run("branch \"by entropy\"\nset planner.gain average-entropy\nstep\nstep\nstep\n");
+  user.run("toggle-rays\ntoggle-region\npanel timeline\n");
+  expect_screenshot("panel_timeline", user.look(), bound());
+  user.run("compare \"by new surface\"\ntoggle-views\ntoggle-octree\ntoggle-missed\nframe\n");
+  expect_screenshot("panel_comparison", user.look(), bound());
+}
+
 TEST(PanelPictures, Palette) {
   User user(housing());
   user.run("step\npalette\n");

@@ -80,6 +80,29 @@ TEST_F(SessionFolders, KilledAtAnyWriteItGoesOnToTheSameBytes) {
   }
 }
 
+/// At every write by NEXTVIEW_EVERY_WRITE=1, at some of them here. Where there is room again it goes on.
+TEST_F(SessionFolders, AFullDiskAtAnyWriteIsSaidAndItGoesOnLater) {
+  const std::string scan = "scan box --views 3 " + camera + quick;
+  const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
+  const long stride = std::getenv("NEXTVIEW_EVERY_WRITE") ? 1 : calls / 10;
+  for (long at = 1; at <= calls; at += stride) {
+    SCOPED_TRACE(at);
+    fs::remove_all(in("full"));
+    const Result full = nextview_behind("LD_PRELOAD=" NEXTVIEW_KILL_AT_CALL " NEXTVIEW_KILL_BELOW=" + in("full") +
+                                            " NEXTVIEW_FULL_AT=" + std::to_string(at),
+                                        scan + "--out " + in("full"));
+    EXPECT_EQ(full.exit_code, 2);
+    EXPECT_THAT(full.err, HasSubstr(in("full")));
+    EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+    EXPECT_EQ(std::ranges::count(full.err, '\n'), 1) << full.err;
+    const bool has_begun = fs::exists(in("full/journal")) && fs::file_size(in("full/journal")) > 0;
+    const Result on = has_begun ? nextview("scan --resume " + in("full") + " --no-pictures --no-surfaces")
+                                : nextview(scan + "--overwrite --out " + in("full"));
+    EXPECT_EQ(on.exit_code, 0) << on.err;
+    expect_same("full", "whole");
+  }
+}
+
 TEST_F(SessionFolders, KilledBehindADriverItGoesOnToTheSameBytes) {
   const std::string driver = "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated box " + camera + "' ";
   const std::string scan = "scan " + driver + "--views 3 " + quick;

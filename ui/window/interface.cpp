@@ -53,10 +53,14 @@ bool Interface::script_is_done() const { return parts_->script.done() || parts_-
 ScriptPlayer& Interface::script() { return parts_->script; }
 void Interface::ask_to_quit() {
   Parts& p = *parts_;
-  if (p.asked_call.waiting()) p.state.quit = true;  // for the second time
-  p.do_for_people(command::quit());
-  p.settling = frames_to_settle;
+  if (p.asked_call.waiting()) p.state.quit = true;
+  ask(command::quit());
 }
+void Interface::ask(const CommandCall& call) {
+  parts_->do_for_people(call);
+  parts_->settling = frames_to_settle;
+}
+std::string Interface::question() const { return parts_->asked_call.with_question(parts_->worker.progress()).question; }
 bool Interface::wants_to_quit() const {
   const auto& picture = parts_->state.picture;  // that is asked for is still drawn, but for a turntable's many
   return parts_->state.quit && (!picture || picture->of == PictureRequest::Of::turntable);

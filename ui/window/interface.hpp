@@ -44,8 +44,12 @@ class Interface {
   /// the last one; if not, the back buffer is left alone. The scene is drawn anew only if it changed.
   bool draw(double seconds);
 
-  /// The window is to be closed: asks if something would be lost.
+  /// Does what a person wants, who is asked first if it costs something.
+  void ask(const CommandCall& call);
+  /// The window is to be closed; who wants that a second time means it.
   void ask_to_quit();
+  /// That waits for an answer; empty if none does.
+  std::string question() const;
   bool wants_to_quit() const;
   /// "Nextview - gearbox - view 3 of 20"
   std::string title() const;

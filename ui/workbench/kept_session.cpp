@@ -13,6 +13,7 @@ bool KeptSession::step(Session& session, const Progress& progress, const std::st
       folder_ = SessionFolder::begin(OutputFolder(untitled_folder(state_, session.name()), {}), session);
     } catch (const std::runtime_error& error) {
       state_.clear();
+      folder_ = SessionFolder::in_memory(session);
       not_kept(error.what());
     }
   }
@@ -21,15 +22,19 @@ bool KeptSession::step(Session& session, const Progress& progress, const std::st
 }
 
 void KeptSession::follow(const Session& session, const SessionFolder::Line& line, const Branches& branches) {
-  if (!folder()) return;
+  if (!folder_) return;
   closed_ = false;
-  try {
+  const auto follow_all = [&] {
     folder_->stand_at(line);
     folder_->keep_branches(branches);
     folder_->keep_configuration(session);
+  };
+  try {
+    follow_all();
   } catch (const std::runtime_error& error) {
     not_kept(error.what());
-    folder_.reset();
+    folder_->leave();
+    follow_all();  // in memory
   }
 }
 

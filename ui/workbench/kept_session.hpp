@@ -27,15 +27,18 @@ class KeptSession {
   bool step(Session& session, const Progress& progress, const std::stop_token& stop);
   /// The session was put to where its views were these, maybe with other branches or another end.
   void follow(const Session& session, const SessionFolder::Line& line, const Branches& branches);
-  /// The number of the last capture; none if it is not kept.
+  /// The number of the last capture; none if captures are not kept.
   std::optional<std::uint32_t> last_number() const {
-    return folder_ && folder_->keeps() && !folder_->line().empty() ? std::optional(folder_->line().back())
-                                                                   : std::nullopt;
+    return folder_ && !folder_->line().empty() ? std::optional(folder_->line().back()) : std::nullopt;
   }
   /// Nobody is in the middle of it. With what makes it quick to open, if the session is given.
   void close(const Session* session);
   /// Null if it is kept nowhere.
   SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
+  /// Makes another folder one of the same session, also where this one is in memory alone. Nothing without captures.
+  void copy_to(OutputFolder& copy, const Session& session) const {
+    if (folder_) folder_->copy_to(copy, session);
+  }
 
  private:
   void not_kept(const std::string& reason);

@@ -13,7 +13,6 @@ namespace nextview {
 
 std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
-  SessionFolder* const own = kept_->folder();
   if (is_own(folder)) {
     OutputFolder out(folder, {});
     out.go_on("scan");
@@ -23,7 +22,7 @@ std::vector<std::string> SessionRunner::write(const std::filesystem::path& folde
   OutputFolder out(folder, inputs, "");
   require_free_for_session(folder, false, inputs);
   out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
-  if (own) own->copy_to(out, *session_);
+  kept_->copy_to(out, *session_);
   return write_results(out, control);
 }
 

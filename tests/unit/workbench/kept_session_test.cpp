@@ -3,8 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <condition_variable>
+#include <csignal>
 #include <random>
 
 #include "core/session/untitled_sessions.hpp"
@@ -135,6 +137,41 @@ TEST_F(KeptSessionTest, WhereNothingCanBeWrittenItSaysSoOnceAndGoesOn) {
   steps(*first, 2);
   EXPECT_EQ(first->snapshot()->records.size(), 2u);
   EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("goes on in memory")));
+}
+
+/// No file may grow beyond a limit: wherever that is met first, it is said once, the scan goes on, and is whole when
+/// it is exported to where there is room.
+TEST_F(KeptSessionTest, WhereTheDiskIsFullAtAnyWriteItGoesOnInMemory) {
+  Configuration c = small_scan();
+  const auto whole = runner();
+  whole->load(c, job_control());
+  steps(*whole, 2);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  int said = 0;
+  for (const rlim_t room : {0, 10, 500, 5000, 9000, 12000, 14000, 16000, 18000, 19000, 19500, 25000}) {
+    SCOPED_TRACE(room);
+    fs::remove_all(state());
+    notices_.clear();
+    auto first = runner();
+    first->load(c, job_control());
+    const rlimit full{room, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+    steps(*first, 2);
+    first->undo(job_control());
+    first->redo(job_control());
+    first->begin_branch("aside");
+    first->go_to("main", {}, job_control());
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_LE(notices_.size(), 1u);
+    said += int(notices_.size());
+    expect_same_scan(*whole->snapshot(), *first->snapshot());
+    fs::remove_all(folder_ / "elsewhere");
+    first->write(folder_ / "elsewhere", job_control());
+    EXPECT_TRUE(fs::exists(folder_ / "elsewhere/map.ot"));
+  }
+  EXPECT_GT(said, 6);
 }
 
 TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {

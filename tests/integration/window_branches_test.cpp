@@ -1,0 +1,140 @@
+// The timeline and the comparison, by hand, and what a person is asked.
+#include <gmock/gmock.h>
+
+#include "tests/integration/small_scan.hpp"
+#include "tests/integration/user.hpp"
+#include "tests/integration/window_pixels.hpp"
+#include "ui/commands/file_commands.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+
+class WindowBranches : public testing::Test {
+ protected:
+  std::string question() { return user_.window().question(); }
+  std::size_t views() { return user_.session().records.size(); }
+  Rectangle bottom() { return user_.window().layout().bottom; }
+  /// Where the timeline shows a view: as drawn on a display that does not scale.
+  Point cell(std::size_t row, std::size_t view) {
+    return {bottom().x + 14 + 158 + 20 + double(view - 1) * 66 + 30, bottom().y + 32 + 12 + double(row) * 73 + 22};
+  }
+  User user_{small_scan()};
+};
+
+TEST_F(WindowBranches, AClickOnAViewGoesThereAndADragAlong) {
+  user_.run("step\nstep\nstep\npanel timeline\n");
+  const Point second = cell(0, 2);
+  user_.click(second.x, second.y);
+  user_.wait();
+  EXPECT_EQ(views(), 2u);
+  user_.move(second.x, second.y);
+  user_.press();
+  user_.wait();
+  for (const std::size_t view : {1u, 2u, 3u}) {
+    user_.move(cell(0, view).x, cell(0, view).y);
+    user_.wait();
+    EXPECT_EQ(views(), view);
+  }
+  user_.release();
+  user_.wait();
+  user_.type(Key::page_up);
+  user_.wait();
+  EXPECT_EQ(views(), 2u);
+  user_.run("step\n");
+  EXPECT_EQ(user_.session().timeline->branches.all.size(), 2u);
+  user_.click(cell(0, 3).x, cell(0, 3).y);
+  user_.wait();
+  EXPECT_EQ(user_.session().timeline->branches.current().name, "main") << "a click on another row goes to its branch";
+  EXPECT_EQ(views(), 3u);
+}
+
+TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
+  user_.run("step\nstep\nbranch other\nstep\n");
+  const Rectangle scene = user_.window().layout().scene;
+  EXPECT_EQ(user_.window().scene().rectangle(), scene);
+  user_.run("compare main\n");
+  EXPECT_EQ(user_.window().scene().rectangle().width, std::floor(scene.width / 2));
+  const Rectangle right{scene.x + scene.width / 2, scene.y, scene.width / 2, scene.height};
+  const auto blue = [&] { return count(user_.look(), right, theme::cloud); };
+  const int before = blue();
+  EXPECT_GT(before, 0) << "its cloud is seen";
+  const Pose camera = user_.window().scene().camera_pose();
+  user_.move(right.x + right.width / 2, right.y + right.height / 2);
+  user_.press();
+  user_.wait();
+  user_.move(right.x + right.width / 2 + 80, right.y + right.height / 2 + 20);
+  user_.wait();
+  user_.release();
+  user_.wait();
+  EXPECT_FALSE(user_.window().scene().camera_pose().isApprox(camera)) << "a drag there turns both";
+  user_.run("toggle-cloud\n");
+  EXPECT_LT(blue(), before) << "layers are those of both";
+  user_.run("toggle-cloud\nstop-comparing\n");
+  EXPECT_EQ(user_.window().scene().rectangle(), scene);
+  EXPECT_EQ(user_.target().gl_error(), 0u);
+}
+
+TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
+  user_.run("step\nstep\n");
+  user_.window().ask(command::set("map.resolution", "0.05"));
+  EXPECT_THAT(question(), HasSubstr("starts the scan over. Its 2 views are set aside: undo brings them back."));
+  user_.type(Key::escape);
+  user_.wait();
+  EXPECT_EQ(question(), "");
+  EXPECT_EQ(views(), 2u);
+  user_.window().ask(command::set("map.resolution", "0.05"));
+  user_.run("answer \"Start over\"\n");
+  EXPECT_EQ(views(), 0u);
+  user_.run("undo\n");
+  EXPECT_EQ(views(), 2u);
+  user_.window().ask(command::set("planner.gain", "random"));
+  user_.wait();
+  EXPECT_EQ(question(), "") << "it keeps the scan";
+  EXPECT_EQ(user_.session().configuration.planner.gain, "random");
+  user_.run("set map.resolution 0.05\n");
+  EXPECT_EQ(views(), 0u) << "a script is not asked";
+}
+
+TEST_F(WindowBranches, QuitAsksWhereViewsAreKeptNowhere) {
+  user_.window().ask_to_quit();
+  EXPECT_TRUE(user_.window().wants_to_quit()) << "nothing is lost";
+  User other(small_scan());
+  other.run("step\n");
+  other.window().ask_to_quit();
+  other.wait();
+  EXPECT_FALSE(other.window().wants_to_quit());
+  EXPECT_THAT(other.window().question(), HasSubstr("The view is kept nowhere"));
+  other.type(Key::escape);
+  other.wait();
+  EXPECT_FALSE(other.window().wants_to_quit());
+  other.window().ask_to_quit();
+  other.window().ask_to_quit();
+  EXPECT_TRUE(other.window().wants_to_quit()) << "who closes it twice means it";
+}
+
+TEST_F(WindowBranches, UndoTakesBackWhatWasDoneLast) {
+  user_.run("step\nselect-view 3\nselect-view 4\n");
+  const auto selected = [&] { return user_.window().state().selection.candidate(); };
+  user_.run("undo\n");
+  EXPECT_EQ(selected(), 3u);
+  user_.run("undo\n");
+  EXPECT_EQ(selected(), std::nullopt);
+  user_.run("redo\nredo\n");
+  EXPECT_EQ(selected(), 4u);
+  EXPECT_EQ(views(), 1u);
+  user_.run("undo\nundo\nundo\n");
+  EXPECT_EQ(views(), 0u);
+}
+
+TEST_F(WindowBranches, ASavedScriptLeavesOutWhatFailed) {
+  user_.run("step\n");
+  user_.window().run_script(parse_script("open \"/no/such file.ply\"\nstep\n"));
+  user_.wait();
+  for (const std::string& line : user_.window().state().script) EXPECT_EQ(line.find("no such file"), line.npos) << line;
+  EXPECT_THAT(user_.window().state().script, testing::Contains("step").Times(2));
+}
+
+}  // namespace
+}  // namespace nextview
