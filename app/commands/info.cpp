@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/session_info.hpp"
 #include "core/cloud/point_cloud.hpp"
 #include "core/cloud/range_scan_folder.hpp"
 #include "core/config/configuration_text.hpp"
@@ -15,6 +16,7 @@
 #include "core/file/png_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
+#include "core/journal/journal.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/recording/cloud_file.hpp"
 #include "core/recording/dataset_guess.hpp"
@@ -130,6 +132,7 @@ std::string results_info(const fs::path& folder, const Manifest& manifest) {
     const std::string views = read_file(folder / "views.csv", std::uintmax_t{1} << 24);
     text += "\n  " + counted(std::size_t(std::max<std::ptrdiff_t>(1, std::ranges::count(views, '\n'))) - 1, "view");
   }
+  if (has_journal(folder)) text += "\n" + session_info(folder);
   return text;
 }
 

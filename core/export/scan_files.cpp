@@ -9,6 +9,7 @@
 #include "core/export/scan_tables.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
+#include "core/session/timings.hpp"
 
 namespace nextview {
 namespace {
@@ -57,14 +58,6 @@ std::string orders_csv(const Session& session) {
                        was_taken ? session.recording()->frames[taken[k]].name : "",
                        was_taken ? fmt::format("{}", orders.planned[k]) : "", orders.recorded[k], orders.random[k]);
   }
-  return csv;
-}
-
-std::string timings_csv(const Session& session) {
-  std::string csv = "step,sense[s],clean[s],insert[s],refine[s],score[s],evaluate[s]\n";
-  for (const StepRecord& r : session.records())
-    csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", r.step, r.seconds.sense, r.seconds.clean,
-                       r.seconds.insert, r.seconds.refine, r.seconds.score, r.seconds.evaluate);
   return csv;
 }
 
@@ -141,7 +134,7 @@ void write_scan(const Session& session, OutputFolder& out) {
   write_file(out.claim("steps.csv"), steps_csv(session));
   write_file(out.claim("scores.csv"), scores_csv(session));
   write_file(out.claim("views.csv"), views_csv(session));
-  write_file(out.claim("timings.csv"), timings_csv(session));
+  write_file(out.claim(timings_name), timings_csv(session));
   if (session.recording()) write_file(out.claim("orders.csv"), orders_csv(session));
   write_file(out.claim("metrics.json"), metrics_json(session, cloud));
   write_octree(session.map(), out.claim("map.ot"));

@@ -9,6 +9,7 @@
 #include "core/journal/capture_file.hpp"
 #include "core/session/state_file.hpp"
 #include "core/session/step_outcome.hpp"
+#include "core/session/timings.hpp"
 
 namespace nextview {
 namespace {
@@ -188,7 +189,8 @@ void SessionFolder::keep_state(const Session& session) {
   if (!keeps_) return;
   std::vector<JournalStep> line;
   for (const std::uint32_t number : line_) line.push_back(steps_.at(number));
-  write_state_file(session, line, out_->claim(state_file_name));
+  if (write_state_file(session, line, path() / state_file_name)) out_->claim(state_file_name);
+  write_file(out_->claim(timings_name), timings_csv(session));
 }
 
 void SessionFolder::close() {

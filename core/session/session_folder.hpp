@@ -46,7 +46,8 @@ class SessionFolder {
   void keep_branches(const Branches& branches);
   /// The settings have changed in a way that what was scanned stays.
   void keep_configuration(const Session& session);
-  /// What makes it quick to open (write_state_file). @throws std::runtime_error naming the file
+  /// What makes it quick to open (write_state_file), and how long its steps took. @throws std::runtime_error naming the
+  /// file
   void keep_state(const Session& session);
   /// Nobody is in the middle of it any more.
   void close();

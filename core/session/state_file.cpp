@@ -9,7 +9,7 @@
 #include "core/file/bytes.hpp"
 #include "core/file/read_file.hpp"
 #include "core/memory/available_memory.hpp"
-#include "core/session/step_outcome.hpp"
+#include "core/session/timings.hpp"
 
 namespace nextview {
 namespace {
@@ -58,7 +58,8 @@ void each_candidate(Archive& archive, Candidates& candidates) {
   for (auto& c : candidates) archive(c.available, c.gain, c.cost, c.utility, c.seconds, c.unreachable);
 }
 
-/// All but a refinement, and the seconds that it took: those are in the journal, and the file is the same each time.
+/// All but a refinement, and the seconds that it took: those stand apart (timings.hpp), and the file is the same each
+/// time.
 template <class Archive, class Record>
 void each_record(Archive& archive, Record& r) {
   archive(r.step, r.view, r.overridden);
@@ -170,10 +171,12 @@ ScanState state_in(ByteReader& reader, const Session& session, std::span<const J
                    const fs::path& folder) {
   const ScanSetup& setup = session.setup();
   ScanState state = nothing_scanned(setup, {});
+  std::vector<StageSeconds> timings = read_timings(folder);
+  timings.resize(line.size());
   for (std::size_t k = 0; k < line.size(); ++k) {
     StepRecord record;
     each_record(reader, record);
-    record.seconds = record_with(line[k].outcome).seconds;
+    record.seconds = timings[k];
     if (record.candidates.size() != state.candidates.size() ||
         record.ranking.best.value_or(0) >= std::max<std::size_t>(1, state.candidates.size()) ||
         (record.view >= 0 && std::size_t(record.view) >= state.candidates.size()))
@@ -203,9 +206,9 @@ ScanState state_in(ByteReader& reader, const Session& session, std::span<const J
 
 }  // namespace
 
-void write_state_file(const Session& session, std::span<const JournalStep> line, const fs::path& file) {
+bool write_state_file(const Session& session, std::span<const JournalStep> line, const fs::path& file) {
   const ScanState& state = session.state();
-  if (!can_be_kept(session) || line.size() != state.records.size()) return;
+  if (!can_be_kept(session) || line.size() != state.records.size()) return false;
   ByteWriter writer;
   writer(key_of(session, line, file.parent_path()));
   for (const auto& record : state.records) each_record(writer, *record);
@@ -218,6 +221,7 @@ void write_state_file(const Session& session, std::span<const JournalStep> line,
   if (state.evaluation) write_evaluation(writer, *state.evaluation);
   for (const auto& scan : state.scans) writer(coordinates(scan->hits));
   write_file(file, fmt::format("{}{}\n{}", magic, hash_of(writer.bytes).crc32, writer.bytes));
+  return true;
 }
 
 std::optional<ScanState> read_state_file(const Session& session, std::span<const JournalStep> line,

@@ -35,12 +35,6 @@ void each_value(Record& r, const Take& take) {
   take("divergence", r.quality.divergence);
   take("log_loss", r.quality.log_loss);
   take("brier", r.quality.brier);
-  take("sense_time", r.seconds.sense);
-  take("clean_time", r.seconds.clean);
-  take("insert_time", r.seconds.insert);
-  take("refine_time", r.seconds.refine);
-  take("evaluate_time", r.seconds.evaluate);
-  take("score_time", r.seconds.score);
 }
 
 struct Writer {

@@ -30,9 +30,9 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
                            "cloud.ply",         "step_01.png",       "step_02.png",     "step_03.png",
                            "surface_map.ply",   "surface_map.stl",   "surface_map.png", "surface_map_unseen.stl",
                            "manifest.json",     "journal",           "scans/0003.npy",  "surface_cloud.ply",
-                           "surface_cloud.stl", "surface_cloud.png", "surfaces.json"})
+                           "surface_cloud.stl", "surface_cloud.png", "surfaces.json",   "state"})
     EXPECT_GT(fs::file_size(folder.path() / file), 0u) << file;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 23)
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 24)
       << "something else was left behind";
   const std::string steps = read_file(folder.path() / "steps.csv");
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 4) << "a head and a row per view";

@@ -113,10 +113,10 @@ TEST_F(SceneRanges, ASelectionLastsAsLongAsWhatItIsOf) {
   user_.run("step\nstep\nselect-view 3\ninspect-voxel 0 0 0\nstep\n");
   EXPECT_TRUE(selection().view.is(Kind::candidate, 3)) << "a step leaves it";
   EXPECT_TRUE(selection().voxel);
-  user_.run("select-taken 3\nundo\n");
+  user_.run("select-taken 3\ngo-to-view 2\n");
   EXPECT_TRUE(selection().view == ViewSelection{}) << "a view that is no more";
   EXPECT_TRUE(selection().voxel);
-  user_.run("select-taken 2\nredo\n");
+  user_.run("select-taken 2\ngo-to-view 3\n");
   EXPECT_TRUE(selection().view.is(Kind::taken, 1));
   user_.run("set seed 5\n");
   EXPECT_EQ(selection(), Selection{}) << "of another scan";
