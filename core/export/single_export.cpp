@@ -92,6 +92,13 @@ void require_no_kept_file(const fs::path& file, const Configuration& configurati
     if (same_file(file, input.path))
       throw std::invalid_argument(
           fmt::format("{}: is {}, and is not written over; give another file", file.string(), input.what));
+  std::error_code none;
+  const fs::path recorded = fs::weakly_canonical(configuration.recorded.folder, none);
+  const fs::path relative = fs::weakly_canonical(file, none).lexically_relative(recorded);
+  if (!configuration.recorded.folder.empty() && fs::is_directory(recorded, none) && fs::exists(file, none) &&
+      !relative.empty() && *relative.begin() != "..")
+    throw std::invalid_argument(
+        fmt::format("{}: is among the recorded data, and is not written over; give another file", file.string()));
   const fs::path parent = file.has_parent_path() ? file.parent_path() : ".";
   if (!session_folder.empty() && same_file(parent, session_folder / scans_name))
     throw std::invalid_argument(fmt::format("{}: is among the session's scans; give another folder", file.string()));

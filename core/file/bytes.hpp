@@ -92,10 +92,10 @@ class ByteReader {
   void take(std::vector<Value>& values) {
     std::uint64_t size = 0;
     take(size);
-    if (size > left_.size()) throw std::runtime_error("it ends too early");  // no value takes less than a byte
+    constexpr std::size_t least = PlainValue<Value> ? sizeof(Value) : 1;  // [bytes] of a value
+    if (size > left_.size() / least) throw std::runtime_error("it ends too early");
     values.resize(size);
     if constexpr (PlainValue<Value>) {
-      if (size > left_.size() / sizeof(Value)) throw std::runtime_error("it ends too early");
       if (size > 0) std::memcpy(values.data(), next(size * sizeof(Value)).data(), size * sizeof(Value));
     } else {
       for (Value& value : values) take(value);

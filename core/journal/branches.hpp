@@ -40,7 +40,8 @@ struct Branches {
   /// "branch 2", or the next that is free.
   std::string free_name() const;
   /// Those of another time, on the one of then, with what they have gained since; what has begun since stays if it has
-  /// steps of its own. `leads_through(tip, step)` tells whether a step is on the way to another one.
+  /// steps of its own, what was removed since is back, and what was removed then is not. `leads_through(tip, step)`
+  /// tells whether a step is on the way to another one.
   template <class LeadsThrough>
   Branches back_to(const Branches& then, const LeadsThrough& leads_through) const;
 
@@ -58,7 +59,8 @@ Branches Branches::back_to(const Branches& then, const LeadsThrough& leads_throu
     const auto same = std::ranges::find(result.all, now.id, &Branch::id);
     if (same != result.all.end())
       same->tip = now.tip;
-    else if (std::ranges::none_of(result.all, [&](const Branch& b) { return leads_through(b.tip, now.tip); }))
+    else if (now.id >= then.next_id &&
+             std::ranges::none_of(result.all, [&](const Branch& b) { return leads_through(b.tip, now.tip); }))
       result.all.push_back({result.has(now.name) ? result.free_name() : now.name, now.tip, now.id});
   }
   return result;

@@ -78,7 +78,10 @@ Capture read_capture(const JournalStep& step, const fs::path& folder) {
   const fs::path file = folder / scans_name / step.scan;
   if (!(file_hash(file) == step.hash))
     throw std::runtime_error(fmt::format("{}: is not what was captured: it is damaged, or was changed", file.string()));
-  return {read_captured(file, step.camera), step.T_world_camera, step.max_range};
+  Capture capture{read_captured(file, step.camera), step.T_world_camera, step.max_range};
+  if (std::holds_alternative<DepthImage>(capture.measured) && !(step.camera.fx > 0 && step.camera.fy > 0))
+    throw std::runtime_error(fmt::format("{}: the journal does not say by what camera", file.string()));
+  return capture;
 }
 
 void require_same_input(const Journal& journal, const fs::path& folder) {

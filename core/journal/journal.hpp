@@ -46,12 +46,13 @@ struct JournalInput {
 struct Journal {
   std::string program;  ///< that began it
   JournalInput input;
-  std::vector<std::string> settings;           ///< texts of config.toml, the last one of now
-  std::map<std::uint32_t, JournalStep> steps;  ///< by number
-  std::uint32_t at = 0;                        ///< the step that the session stands at; 0: before the first
-  Branches branches;                           ///< the session stands on the current one
-  bool closed = false;                         ///< nobody was in the middle of it
-  std::vector<std::string> damage;             ///< what is lost of it, a line each, for people
+  std::vector<std::string> settings;                 ///< texts of config.toml, the last one of now
+  std::map<std::uint32_t, JournalStep> steps;        ///< by number
+  std::map<std::uint32_t, std::size_t> settings_at;  ///< how many texts there were when it last stood at a step
+  std::uint32_t at = 0;                              ///< the step that the session stands at; 0: before the first
+  Branches branches;                                 ///< the session stands on the current one
+  bool closed = false;                               ///< nobody was in the middle of it
+  std::vector<std::string> damage;                   ///< what is lost of it, a line each, for people
 
   /// The steps from the first to where it stands, or to another one.
   std::vector<JournalStep> line() const { return line(at); }

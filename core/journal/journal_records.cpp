@@ -49,7 +49,12 @@ PinholeCamera camera_of(const Json& json) {
   const auto [width, height] = std::pair{json.at(0).get<int>(), json.at(1).get<int>()};
   constexpr int most = 1 << 16;
   if (width < 1 || height < 1 || width > most || height > most) throw std::runtime_error("no camera");
-  return {width, height, number_of(json.at(2)), number_of(json.at(3)), number_of(json.at(4)), number_of(json.at(5))};
+  const PinholeCamera camera{
+      width, height, number_of(json.at(2)), number_of(json.at(3)), number_of(json.at(4)), number_of(json.at(5))};
+  const bool is_one =
+      std::isfinite(camera.fx) && std::isfinite(camera.fy) && std::isfinite(camera.cx) && std::isfinite(camera.cy);
+  if (!is_one) throw std::runtime_error("no camera");
+  return camera;
 }
 
 Json to_json(const FileHash& hash) { return {{"bytes", hash.bytes}, {"crc32", hash.crc32}}; }
@@ -197,10 +202,12 @@ bool read_record(const std::string& record, Journal& journal) {
     JournalStep step = step_of(json);
     step.settings = journal.settings.size();
     journal.at = step.number;
+    journal.settings_at[step.number] = step.settings;
     journal.branches.add_step(step.number, step.after);
     journal.steps.insert_or_assign(step.number, std::move(step));
   } else if (kind == "settings") {
     journal.settings.push_back(json.at("toml").get<std::string>());
+    journal.settings_at[journal.at] = journal.settings.size();
   } else if (kind == "at") {
     const auto number = json.at("number").get<std::uint32_t>();
     if (number > journal.last_number()) throw std::runtime_error("no step");

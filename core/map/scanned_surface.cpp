@@ -168,7 +168,8 @@ void ScannedSurface::archive(ByteReader& reader) {
   for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) cells.push_back({numbers[i], numbers[i + 1]});
   const auto used = static_cast<std::size_t>(std::ranges::count_if(cells, [](const Cell& c) { return c.key != 0; }));
   // A full table would be searched for ever.
-  if (numbers.size() % 2 != 0 || !std::has_single_bit(cells.size()) || used >= cells.size() || !std::isfinite(area))
+  if (numbers.size() % 2 != 0 || !std::has_single_bit(cells.size()) || used > cells.size() / 2 || cells.size() < 1024 ||
+      !std::isfinite(area))
     throw std::runtime_error("it holds no scanned surface");
   area_ = area;
   cells_ = std::move(cells);

@@ -124,10 +124,16 @@ void require_free_for_session(const fs::path& folder, bool overwrite, std::span<
         "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
 }
 
-PlannerConfig planner_at(const SavedSession& saved, const JournalStep& step) {
+PlannerConfig chosen_by(const SavedSession& saved, const JournalStep& step) {
+  if (step.settings == 0) return saved.configuration.planner;
+  return configuration_of(saved.journal->settings.at(step.settings - 1), "config.toml").planner;
+}
+
+Configuration settings_at(const SavedSession& saved, std::uint32_t number) {
   const Journal& journal = *saved.journal;
-  if (step.settings == 0 || step.settings == journal.settings.size()) return saved.configuration.planner;
-  return configuration_of(journal.settings.at(step.settings - 1), "config.toml").planner;
+  const auto texts = journal.settings_at.find(number);
+  if (texts == journal.settings_at.end() || texts->second == 0) return saved.configuration;
+  return configuration_of(journal.settings.at(texts->second - 1), "config.toml");
 }
 
 bool restore_kept(Session& session, const SavedSession& saved, SessionFolder* folder) {
@@ -145,17 +151,19 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
                 const std::function<void(std::uint32_t)>& each, const Progress& progress, const std::stop_token& stop) {
   for (std::size_t k = 0; k < line.size(); ++k) {
     // As it went: a view is ranked and taken, and only then may another planner rank the next one.
-    session.set_planner(planner_at(saved, line[k]), {}, stop);
+    session.set_planner(chosen_by(saved, line[k]), {}, stop);
     Capture capture;
     try {
       capture = read_capture(line[k], saved.folder);
     } catch (const std::runtime_error& error) {
-      saved.notices.push_back(fmt::format("view {} is left out: {}", k + 1, error.what()));
+      saved.notices.push_back(fmt::format("a view is left out: {}", error.what()));
       continue;
     }
     if (!session.step_again(choice_of(line[k]), acquired_of(line[k], std::move(capture)),
                             part_of_view(progress, k, line.size()), stop))
       return false;
+    const bool is_last = k + 1 == line.size();
+    session.set_planner(is_last ? settings_at(saved, line[k].number).planner : chosen_by(saved, line[k + 1]), {}, stop);
     each(line[k].number);
   }
   return true;

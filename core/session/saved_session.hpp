@@ -32,8 +32,9 @@ void require_free_for_session(const std::filesystem::path& folder, bool overwrit
 class SessionFolder;
 
 /// Takes views again that were captured before, from where the session stands, each ranked by the planner of then: the
-/// same bytes. Where a capture is lost the view is left out, and a notice added. `each` is called after each view, with
-/// the number of its capture. False if it was stopped. @pre saved.journal @throws as Session::step
+/// same bytes; the session is left with the planner with which it last stood there. Where a capture is lost the view is
+/// left out, and a notice added. `each` is called after each view, with the number of its capture. False if it was
+/// stopped. @pre saved.journal @throws as Session::step
 bool take_again(Session& session, SavedSession& saved, std::span<const JournalStep> line,
                 const std::function<void(std::uint32_t)>& each, const Progress& progress = {},
                 const std::stop_token& stop = {});
@@ -42,7 +43,9 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
 /// restore(), in a moment. False if it kept nothing, or that is out of date; then the session is as it was.
 bool restore_kept(Session& session, const SavedSession& saved, SessionFolder* folder);
 /// What ranked the views when this one was chosen. @pre saved.journal
-PlannerConfig planner_at(const SavedSession& saved, const JournalStep& step);
+PlannerConfig chosen_by(const SavedSession& saved, const JournalStep& step);
+/// The settings with which it last stood at a step. @pre saved.journal
+Configuration settings_at(const SavedSession& saved, std::uint32_t number);
 
 /// Brings a new session to where the saved one stands: its views are taken again from what was captured, the same
 /// bytes; those of 0.4.0 are sensed again. Where a capture is lost the view is left out, and a notice added. `folder`,

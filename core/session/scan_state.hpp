@@ -50,7 +50,7 @@ struct ScanState {
   std::vector<View> candidates;            ///< that are ranked
   NextView next;                           ///< of no meaning once finished
   std::string finished;                    ///< why the scan is done; empty while it is not
-  Pose T_world_camera = Pose::Identity();  ///< where the robot is
+  Pose T_world_camera = Pose::Identity();  ///< where the robot is, as it knows it
   bool has_maps = true;                    ///< false after drop_maps
 };
 

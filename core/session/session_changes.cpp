@@ -36,7 +36,8 @@ void Session::set_planner(const PlannerConfig& config, const Progress& progress,
   if (setup.planner == setup_.planner) return;
   ScanState state = state_;
   const PolicyNeeds before = setup_.planner->needs(), now = setup.planner->needs();
-  if (before.occlusions != now.occlusions || before.posterior != now.posterior) {
+  if (before.occlusions != now.occlusions || before.posterior != now.posterior ||
+      configuration().planner.semantics != config.semantics) {
     const ScanState nothing = nothing_scanned(setup, state.T_world_camera);
     remake(setup, state, nothing, progress, stop);
   }

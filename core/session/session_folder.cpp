@@ -78,9 +78,17 @@ SessionFolder SessionFolder::begin(OutputFolder out, const Session& session) {
   return begun(std::move(out), input, session);
 }
 
-SessionFolder SessionFolder::in_memory(const Session& session) {
+SessionFolder SessionFolder::in_memory(const Session& session, const SavedSession* saved) {
   SessionFolder result(input_of(session, "/"));
   result.settings_ = {to_toml(session.configuration(), "/")};
+  if (!saved || !saved->journal) return result;
+  const Journal& journal = *saved->journal;
+  result.input_.hash = journal.input.hash;
+  result.settings_ = journal.settings;
+  result.branches_ = journal.branches;
+  result.steps_ = journal.steps;
+  result.last_ = journal.last_number();
+  result.take_into_memory(saved->folder);
   return result;
 }
 
@@ -153,10 +161,13 @@ JournalStep& SessionFolder::add_step(const NextView& choice, const Acquired& acq
 }
 
 void SessionFolder::leave() {
-  keeps_ = false;
+  if (std::exchange(keeps_, false)) take_into_memory(path());
+}
+
+void SessionFolder::take_into_memory(const fs::path& folder) {
   for (const auto& [number, step] : steps_) {
     try {
-      captures_.emplace(number, read_capture(step, path()));
+      captures_.emplace(number, read_capture(step, folder));
     } catch (const std::runtime_error&) {  // who copies the session hears of it
     }
   }
@@ -205,11 +216,17 @@ void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
   std::size_t settings = 1;
   for (const std::uint32_t number : steps_of_branches()) {
     JournalStep step = steps_.at(number);
-    for (; settings < step.settings; ++settings) writer.keep_settings(settings_[settings]);
     const auto here = captures_.find(number);
-    const Capture capture = here != captures_.end() ? here->second : read_capture(step, path());
-    copy.claim(fmt::format("{}/{}", scans_name, capture_name(capture, number)));
-    writer.add(step, capture);
+    std::optional<Capture> capture;
+    try {
+      if (here == captures_.end() && !out_) continue;
+      capture = here != captures_.end() ? here->second : read_capture(step, path());
+    } catch (const std::runtime_error&) {  // it is lost: those after it go on without it, as where it is opened
+      continue;
+    }
+    for (; settings < step.settings; ++settings) writer.keep_settings(settings_[settings]);
+    copy.claim(fmt::format("{}/{}", scans_name, capture_name(*capture, number)));
+    writer.add(step, *capture);
     if (!step.outcome.empty()) writer.keep_outcome(number, step.outcome);
   }
   writer.keep_settings(to_toml(session.configuration(), copy.path()));

@@ -29,8 +29,9 @@ class SessionFolder {
   /// Goes on with a saved one, which is to be restored. @throws as begin()
   static SessionFolder go_on(OutputFolder out, const SavedSession& saved, const Session& session);
 
-  /// A session that is kept nowhere: in memory alone, to be copied to a folder.
-  static SessionFolder in_memory(const Session& session);
+  /// A session that is kept nowhere: in memory alone, to be copied to a folder; of a saved one, which is to be
+  /// restored, with its captures.
+  static SessionFolder in_memory(const Session& session, const SavedSession* saved = nullptr);
 
   /// Session::step, with the capture kept before it is absorbed. Where it cannot be, the view is not taken, or with
   /// `not_kept` it is, and from there on the session is in memory alone. @throws as Session::step; std::runtime_error
@@ -51,8 +52,8 @@ class SessionFolder {
   void keep_state(const Session& session);
   /// Nobody is in the middle of it any more.
   void close();
-  /// Makes another folder one of the same session, with its branches. @throws std::runtime_error naming
-  /// the file: a capture is lost @pre copy.begin() was called
+  /// Makes another folder one of the same session, with its branches, but for lost captures.
+  /// @throws std::runtime_error naming the file and the reason @pre copy.begin() was called
   void copy_to(OutputFolder& copy, const Session& session) const;
   /// Nothing can be written any more: what is there is taken into memory, where all else goes from here on.
   void leave();
@@ -72,6 +73,7 @@ class SessionFolder {
   std::set<std::uint32_t> steps_of_branches() const;
   JournalStep& add_step(const NextView& choice, const Acquired& acquired);
   void withdraw();
+  void take_into_memory(const std::filesystem::path& folder);
 
   std::optional<OutputFolder> out_;
   std::optional<JournalWriter> writer_;

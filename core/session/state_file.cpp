@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/bytes.hpp"
@@ -24,6 +25,7 @@ constexpr std::uintmax_t largest = std::uintmax_t{4} << 30;  // [bytes]
 template <class Archive, class PoseValue>
 void each(Archive& archive, PoseValue& pose) requires std::is_same_v<std::remove_const_t<PoseValue>, Pose> {
   for (int i = 0; i < 16; ++i) archive(pose.matrix()(i / 4, i % 4));
+  if (!is_rigid(pose)) throw std::runtime_error("no pose");
 }
 
 template <class Archive, class Optional, class Each>
@@ -163,6 +165,7 @@ void read_scans(ByteReader& reader, ScanState& state, std::span<const JournalSte
     if (hits[k].size() != 3 * state.records[k]->points) throw std::runtime_error("it is of another scan");
     scan.hits.resize(hits[k].size() / 3);
     for (std::size_t i = 0; i < scan.hits.size(); ++i) scan.hits[i] = Eigen::Vector3f(&hits[k][3 * i]);
+    if (!std::ranges::all_of(hits[k], [](float x) { return std::isfinite(x); })) throw std::runtime_error("no points");
     state.scans[k] = std::make_shared<const Scan>(std::move(scan));
   });
 }
@@ -247,11 +250,11 @@ std::optional<ScanState> read_state_file(const Session& session, std::span<const
   }
 }
 
-ScanState earlier_state(const ScanSetup& setup, const ScanState& state, std::size_t views) {
+ScanState earlier_state(const ScanSetup& setup, const ScanState& state, std::size_t views, const Pose& reached) {
   const auto first = [&](const auto& all) {
     return std::decay_t<decltype(all)>(all.begin(), all.begin() + std::ptrdiff_t(views));
   };
-  ScanState earlier = nothing_scanned(setup, state.records.at(views - 1)->T_world_camera);
+  ScanState earlier = nothing_scanned(setup, reached);
   earlier.scans = first(state.scans);
   earlier.records = first(state.records);
   earlier.known.taken = first(state.known.taken);

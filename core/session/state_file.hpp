@@ -13,7 +13,8 @@ inline constexpr const char* state_file_name = "state";
 
 /// Writes where a session stands, so that it is opened without working it out again. Derived from the journal and its
 /// scans, like a map: it holds only for this line of captures, these settings and this version, and may be deleted.
-/// False, and nothing, where it would not be whole: with a Gibbs or a reference map, or candidates that change from view to view.
+/// False, and nothing, where it would not be whole: with a Gibbs or a reference map, or candidates that change from
+/// view to view.
 /// @throws std::runtime_error naming the file and the reason
 bool write_state_file(const Session& session, std::span<const JournalStep> line, const std::filesystem::path& file);
 
@@ -23,7 +24,8 @@ bool write_state_file(const Session& session, std::span<const JournalStep> line,
 std::optional<ScanState> read_state_file(const Session& session, std::span<const JournalStep> line,
                                          const std::filesystem::path& folder);
 
-/// Where the scan stood after some of its views, without its maps: remake() makes them.
-ScanState earlier_state(const ScanSetup& setup, const ScanState& state, std::size_t views);
+/// Where the scan stood after some of its views, the last one reached as the robot knew it, without its maps: remake()
+/// makes them.
+ScanState earlier_state(const ScanSetup& setup, const ScanState& state, std::size_t views, const Pose& reached);
 
 }  // namespace nextview

@@ -1,5 +1,7 @@
 #include "ui/commands/branch_commands.hpp"
 
+#include <algorithm>
+
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 
@@ -40,8 +42,16 @@ ArgumentOf<std::string> branch_name(const char* help, Argument::Choices names) {
   return argument::text("branch", help, std::move(names));
 }
 
-/// In the timeline, which counts lost captures, too.
-std::size_t views_now(const CommandTarget& t) { return t.session.timeline->line(t.session.timeline->at).size(); }
+/// Goes along the current branch by a view, past those whose captures are lost.
+void go_by(CommandTarget& t, int by) {
+  const Timeline& timeline = *t.session.timeline;
+  const auto line = timeline.line(timeline.branches.current());
+  auto views = static_cast<std::ptrdiff_t>(timeline.line(timeline.at).size());
+  do {
+    views += by;
+  } while (views > 0 && views < std::ssize(line) && !line[std::size_t(views) - 1]->picture);
+  t.worker.post(request::GoTo{timeline.branches.current().name, std::size_t(std::max<std::ptrdiff_t>(views, 0))});
+}
 
 }  // namespace
 
@@ -64,9 +74,7 @@ const CommandOf<> command::previous_view{{"previous-view",
                                           "Goes back by a view; it stays in the timeline.",
                                           {{Key::page_up}},
                                           previous_why_not},
-                                         [](CommandTarget& t) {
-                                           t.worker.post(request::GoTo{"", views_now(t) - 1});
-                                         }};
+                                         [](CommandTarget& t) { go_by(t, -1); }};
 
 const CommandOf<> command::next_view{{"next-view",
                                       "Timeline",
@@ -74,9 +82,7 @@ const CommandOf<> command::next_view{{"next-view",
                                       "Goes forward by a view that was taken on this branch.",
                                       {{Key::page_down}},
                                       next_why_not},
-                                     [](CommandTarget& t) {
-                                       t.worker.post(request::GoTo{"", views_now(t) + 1});
-                                     }};
+                                     [](CommandTarget& t) { go_by(t, 1); }};
 
 const CommandOf<std::optional<std::string>> command::branch{
     {"branch",

@@ -12,10 +12,12 @@ namespace nextview {
 
 std::string Shortcut::text() const {
   const auto code = static_cast<int>(key);
-  const std::string name = key == Key::space    ? "Space"
-                           : key == Key::escape ? "Esc"
-                           : key >= Key::f1     ? fmt::format("F{}", code - static_cast<int>(Key::f1) + 1)
-                                                : std::string(1, static_cast<char>(code));
+  const std::string name = key == Key::space       ? "Space"
+                           : key == Key::escape    ? "Esc"
+                           : key == Key::page_up   ? "Page Up"
+                           : key == Key::page_down ? "Page Down"
+                           : key >= Key::f1        ? fmt::format("F{}", code - static_cast<int>(Key::f1) + 1)
+                                                   : std::string(1, static_cast<char>(code));
   return control ? "Ctrl+" + name : name;
 }
 

@@ -47,7 +47,7 @@ std::string continue_why_not(const CommandState& t) {
   return available_candidates(t.session).empty() ? "no candidate view is left" : "";
 }
 
-SelectionHistory::Moment moment(const CommandState& t) { return {t.session.session, t.session.changes}; }
+SelectionHistory::Moment moment(const CommandState& t) { return {t.session.session, t.session.change}; }
 
 void look_at_next_view(WindowState& window) {
   window.selection.view = {};

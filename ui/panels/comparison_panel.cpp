@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "core/file/counted.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/commands/branch_commands.hpp"
 
@@ -47,10 +48,12 @@ void draw_choice(const PanelContext& context) {
   small_text(context.style, "Compare with");
   for (const Branch& branch : timeline->branches.all) {
     if (branch == timeline->branches.current()) continue;
-    if (ImGui::Button(branch.name.c_str())) context.post(command::compare(branch.name));
-    ImGui::SameLine();
+    ImGui::PushID(int(branch.id));
+    if (ImGui::Selectable("##branch")) context.post(command::compare(branch.name));
+    ImGui::SameLine(context.style.px(16));
+    ImGui::TextUnformatted(branch.name.c_str());  // which may have what means something in a label
+    ImGui::PopID();
   }
-  ImGui::NewLine();
 }
 
 void draw_cells(const Difference& row) {
@@ -96,15 +99,15 @@ void draw_comparison_panel(const PanelContext& context, const Rectangle& rectang
   if (!s.compared) return draw_choice(context);
   const Branches& branches = s.timeline->branches;
   const Branch& other = branches.all[branches.find(s.compared->branch)];
-  small_text(context.style, fmt::format("The first {} views are the same.", s.timeline->in_common(other)));
+  small_text(context.style, fmt::format("They have {} in common.", counted(s.timeline->in_common(other), "view")));
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - context.style.px(110));
   if (ImGui::SmallButton("Stop comparing")) context.post(command::stop_comparing());
   ImGui::PushFont(context.style.small);
   if (ImGui::BeginTable("differences", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH)) {
     ImGui::TableSetupColumn("");
-    ImGui::TableSetupColumn(branches.current().name.c_str());
-    ImGui::TableSetupColumn(other.name.c_str());
-    ImGui::TableHeadersRow();
+    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("");
+    draw_cells({"", branches.current().name, other.name});
     for (const Difference& row : differences(s, *s.compared->snapshot)) draw_cells(row);
     ImGui::EndTable();
   }

@@ -6,6 +6,7 @@
 
 #include "core/file/counted.hpp"
 #include "ui/commands/branch_commands.hpp"
+#include "ui/commands/script.hpp"
 #include "ui/commands/window_commands.hpp"
 #include "ui/panels/view_pictures.hpp"
 
@@ -65,11 +66,7 @@ void TimelinePanel::go_to(const PanelContext& context, const Row& row, std::size
   if (dragging_ && gone_to_ == there) return;
   dragging_ = true;
   gone_to_ = there;
-  const std::string& name = timeline.branches.all[row.branch].name;
-  if (row.branch == timeline.branches.on)
-    context.post(command::go_to_view(views));
-  else
-    context.post(command::go_to_view(views, name));
+  context.post(command::go_to_view(views, timeline.branches.all[row.branch].name));
 }
 
 /// Name and length of a branch, and what can be done with it.
@@ -85,7 +82,8 @@ void draw_label(const PanelContext& context, const Branch& branch, bool current,
   if (ImGui::BeginPopupContextItem("what can be done")) {
     if (ImGui::MenuItem("Compare with this branch", nullptr, false, !current))
       context.post(command::compare(branch.name));
-    if (ImGui::MenuItem("Rename…")) context.post(command::palette(fmt::format("rename-branch \"{}\" ", branch.name)));
+    if (ImGui::MenuItem("Rename…"))
+      context.post(command::palette(fmt::format("rename-branch {} ", quoted(branch.name))));
     if (ImGui::MenuItem("Remove", nullptr, false, !current)) context.post(command::remove_branch(branch.name));
     ImGui::EndPopup();
   }
@@ -122,9 +120,12 @@ void draw_cell(const PanelContext& context, const TimelineStep* step, const ImVe
   if (texture) list.AddImage(texture, from, to);
   if (later) list.AddRectFilled(from, to, to_imgui_u32(theme::paper, 0.6));
   list.AddRect(from, to, to_imgui_u32(is_here ? theme::chosen : theme::hairline), 0, 0, style.px(is_here ? 2.5f : 1));
-  const std::string text =
-      step->record ? fmt::format("{} · {}", view, brief(s, *step->record)) : fmt::format("{}", view);
-  const float width = style.small->CalcTextSizeA(style.small->FontSize, FLT_MAX, 0, text.c_str()).x;
+  const auto width_of = [&](const std::string& text) {
+    return style.small->CalcTextSizeA(style.small->FontSize, FLT_MAX, 0, text.c_str()).x;
+  };
+  std::string text = step->record ? fmt::format("{} · {}", view, brief(s, *step->record)) : fmt::format("{}", view);
+  if (width_of(text) > to.x - from.x + style.px(gap)) text = fmt::format("{}", view);  // its tooltip says the rest
+  const float width = width_of(text);
   list.AddText(style.small, style.small->FontSize, {(from.x + to.x - width) / 2, to.y + style.px(1)},
                to_imgui_u32(is_here ? theme::chosen : theme::soft_ink), text.c_str());
 }
@@ -143,8 +144,10 @@ void TimelinePanel::draw_cells(const PanelContext& context, const Row& row) {
         current &&
         (timeline.at == 0 ? view > 0 : here != row.line.end() && row.line.begin() + std::ptrdiff_t(view) > here + 1);
     draw_cell(context, step, from, to, view, later);
-    const bool pointed_at = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
-                            ImGui::IsMouseHoveringRect(from, {to.x, to.y + style.px(16)});
+    const bool pointed_at =
+        ImGui::GetIO().MousePos.x > row.corner.x + ImGui::GetScrollX() + style.px(label_width - 10) &&
+        ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+        ImGui::IsMouseHoveringRect(from, {to.x, to.y + style.px(16)});
     if (!pointed_at) continue;
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) || (dragging_ && ImGui::IsMouseDown(ImGuiMouseButton_Left)))
       go_to(context, row, view);
@@ -163,8 +166,6 @@ void TimelinePanel::draw_row(const PanelContext& context, const Row& row) {
   const Style& style = context.style;
   const Branches& branches = context.snapshot.timeline->branches;
   ImGui::PushID(int(row.branch));
-  ImGui::SetCursorScreenPos(row.corner);
-  draw_label(context, branches.all[row.branch], row.branch == branches.on, row.line);
   const float middle = row.corner.y + style.px(picture_height / 2);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (row.branch > 0) {  // where it leaves the row above
@@ -174,6 +175,12 @@ void TimelinePanel::draw_row(const PanelContext& context, const Row& row) {
     if (row.line.size() == row.shared) list.AddCircleFilled({x, middle}, style.px(4), to_imgui_u32(theme::muted));
   }
   draw_cells(context, row);
+  // Names stay where they are while the views are scrolled beneath them.
+  const ImVec2 label{row.corner.x + ImGui::GetScrollX(), row.corner.y};
+  list.AddRectFilled({label.x - style.px(14), label.y}, {label.x + style.px(label_width - 10), label.y + style.px(62)},
+                     to_imgui_u32(theme::paper));
+  ImGui::SetCursorScreenPos(label);
+  draw_label(context, branches.all[row.branch], row.branch == branches.on, row.line);
   ImGui::PopID();
 }
 

@@ -15,6 +15,7 @@ class AskedCall {
   /// The call, if the answer is that it is to be done. @pre waiting()
   std::optional<CommandCall> answered(const std::string& answer);
   bool waiting() const { return call_.has_value(); }
+  bool waiting_for(const Command& command) const { return call_ && call_->command == &command; }
   /// What runs, and the question if nothing else is asked.
   WorkerProgress with_question(WorkerProgress progress) const;
 

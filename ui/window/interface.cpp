@@ -53,7 +53,7 @@ bool Interface::script_is_done() const { return parts_->script.done() || parts_-
 ScriptPlayer& Interface::script() { return parts_->script; }
 void Interface::ask_to_quit() {
   Parts& p = *parts_;
-  if (p.asked_call.waiting()) p.state.quit = true;
+  if (p.asked_call.waiting_for(command::quit)) p.state.quit = true;
   ask(command::quit());
 }
 void Interface::ask(const CommandCall& call) {

@@ -116,7 +116,7 @@ void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
 
 /// Asks before what costs something; a script's calls are done as they are.
 void Interface::Parts::do_for_people(const CommandCall& call) {
-  if (asked_call.waiting() && call.command == &command::answer) {
+  if (asked_call.waiting() && news.progress.question.empty() && call.command == &command::answer) {
     if (const auto wanted = asked_call.answered(call.values().front())) do_call(*wanted);
   } else if (call.command == &command::answer && news.progress.answers == SessionWorker::offer_answers()) {
     do_call(call);
@@ -135,7 +135,7 @@ void Interface::Parts::do_call(const CommandCall& call) {
   try {
     execute(call, acted_on);
     if (before != state.selection && call.command->menu == "Select")
-      state.selections.push(before, {news.snapshot->session, news.snapshot->changes});
+      state.selections.push(before, {news.snapshot->session, news.snapshot->change});
   } catch (const std::exception& error) {
     script.refused(call, error.what());
     return worker.log().add(LogEntry::Level::warning, error.what());

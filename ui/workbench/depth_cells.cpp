@@ -17,11 +17,11 @@ DepthCells measured_depth(const Scan& scan, const Pose& T_world_camera, const Pi
   const Pose T_camera_world = T_world_camera.inverse();
   for (const Eigen::Vector3f& point : scan.hits) {
     const Vector3 p = T_camera_world * point.cast<double>();
-    if (p.z() <= 0) continue;
+    if (!(p.z() > 0)) continue;
     const Eigen::Vector2d pixel = camera.project(p);
     const double column = std::floor((pixel.x() + 0.5) * columns / camera.width);
     const double row = std::floor((pixel.y() + 0.5) * rows / camera.height);
-    if (column < 0 || row < 0 || column >= columns || row >= rows) continue;
+    if (!(column >= 0 && row >= 0 && column < columns && row < rows)) continue;
     float& nearest = cells.depth[std::size_t(row) * std::size_t(columns) + std::size_t(column)];
     if (nearest < 0 || p.z() < nearest) nearest = static_cast<float>(p.z());
   }

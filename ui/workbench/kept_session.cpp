@@ -6,18 +6,20 @@
 
 namespace nextview {
 
+void KeptSession::begin(const Session& session) {
+  if (folder_) return;
+  try {
+    folder_ = state_.empty() ? SessionFolder::in_memory(session)
+                             : SessionFolder::begin(OutputFolder(untitled_folder(state_, session.name()), {}), session);
+  } catch (const std::runtime_error& error) {
+    folder_ = SessionFolder::in_memory(session);
+    not_kept(error.what());
+  }
+}
+
 bool KeptSession::step(Session& session, const Progress& progress, const std::stop_token& stop) {
   closed_ = false;
-  if (!folder_ && !state_.empty()) {
-    try {
-      folder_ = SessionFolder::begin(OutputFolder(untitled_folder(state_, session.name()), {}), session);
-    } catch (const std::runtime_error& error) {
-      state_.clear();
-      folder_ = SessionFolder::in_memory(session);
-      not_kept(error.what());
-    }
-  }
-  if (!folder_) return session.step(progress, stop);
+  begin(session);
   return folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); });
 }
 
@@ -41,10 +43,18 @@ void KeptSession::follow(const Session& session, const SessionFolder::Line& line
 void KeptSession::close(const Session* session) {
   if (!folder() || closed_) return;
   try {
-    if (session) folder_->keep_state(*session);
+    if (session) keep_state(*session);
     folder_->close();
     closed_ = true;
-  } catch (const std::runtime_error&) {  // it will be offered again: nothing is lost
+  } catch (const std::exception&) {  // it will be offered again: nothing is lost
+  }
+}
+
+/// Without it the session opens all the same, and takes longer.
+void KeptSession::keep_state(const Session& session) {
+  try {
+    folder_->keep_state(session);
+  } catch (const std::exception&) {
   }
 }
 

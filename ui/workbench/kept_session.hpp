@@ -16,13 +16,15 @@ class KeptSession {
 
   /// Below `state`, in a folder that is made with the first view; an empty path: nowhere.
   KeptSession(std::filesystem::path state, Notice notice) : state_(std::move(state)), notice_(std::move(notice)) {}
-  /// In the folder that it was opened from; null: nowhere.
-  KeptSession(std::optional<SessionFolder> folder, Notice notice)
-      : folder_(std::move(folder)), notice_(std::move(notice)) {}
+  /// In the folder that it was opened from.
+  KeptSession(SessionFolder folder, Notice notice) : folder_(std::move(folder)), notice_(std::move(notice)) {}
   ~KeptSession() { close(nullptr); }
   KeptSession(const KeptSession&) = delete;
   KeptSession& operator=(const KeptSession&) = delete;
 
+  /// Before the first view, or with it: from here on captures are kept, in a folder or, where that cannot be, in
+  /// memory.
+  void begin(const Session& session);
   /// Session::step, kept. @throws as that
   bool step(Session& session, const Progress& progress, const std::stop_token& stop);
   /// The session was put to where its views were these, maybe with other branches or another end.
@@ -35,12 +37,15 @@ class KeptSession {
   void close(const Session* session);
   /// Null if it is kept nowhere.
   SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
+  /// What is kept, wherever; null if nothing is.
+  SessionFolder* record() { return folder_ ? &*folder_ : nullptr; }
   /// Makes another folder one of the same session, also where this one is in memory alone. Nothing without captures.
   void copy_to(OutputFolder& copy, const Session& session) const {
     if (folder_) folder_->copy_to(copy, session);
   }
 
  private:
+  void keep_state(const Session& session);
   void not_kept(const std::string& reason);
 
   std::filesystem::path state_;

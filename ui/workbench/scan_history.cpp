@@ -33,6 +33,7 @@ struct ScanHistory::Held {
 
 void ScanHistory::push(HistoryEntry before, const ScanState* now, std::size_t limit) {
   redo_.clear();
+  before.change = ++changes_;
   undo_.push_back(std::move(before));
   keep_few_sessions(undo_);
   keep_within(limit, now);
@@ -52,6 +53,7 @@ HistoryEntry ScanHistory::travel(Entries& from, Entries& to, HistoryEntry now, s
                                  const Progress& progress, const std::stop_token& stop) {
   HistoryEntry entry = from.back();
   bring_back_maps(*entry.session, *entry.tree, entry.at, entry.stand, progress, stop);
+  now.change = entry.change;
   from.pop_back();
   to.push_back(std::move(now));
   keep_within(limit, entry.stand.state.get());
@@ -62,7 +64,7 @@ void ScanHistory::bring_back_maps(const Session& session, const StepTree& tree, 
                                   const Stand& stand, const Progress& progress, const std::stop_token& stop) {
   if (stand.state->has_maps) return;
   const ScanSetup setup = session.setup_with(stand.planner);
-  const ScanState* const nearest = tree.nearest_maps(number, stand.needs);
+  const ScanState* const nearest = tree.nearest_maps(number, stand);
   remake(setup, *stand.state, nearest ? *nearest : nothing_scanned(setup, stand.state->T_world_camera), progress, stop);
 }
 

@@ -19,6 +19,7 @@ struct HistoryEntry {
   std::uint32_t at;                ///< the step that it stood at
   Branches branches;
   Stand stand;
+  std::uint64_t change = 0;  ///< that was made from there
 };
 
 /// The states to go back to, and those to go forward to again. Their maps, and those of all steps of their sessions,
@@ -34,7 +35,8 @@ class ScanHistory {
 
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
-  std::size_t changes() const { return undo_.size(); }
+  /// The number of the change that undo would take back; no two have the same. 0: there is none.
+  std::uint64_t last_change() const { return undo_.empty() ? 0 : undo_.back().change; }
 
   /// Something has changed: `before` can be gone back to. What was undone is forgotten. `limit` in bytes; `now` keeps
   /// its maps.
@@ -44,6 +46,8 @@ class ScanHistory {
   HistoryEntry undo(HistoryEntry now, std::size_t limit, const Progress& progress, const std::stop_token& stop);
   HistoryEntry redo(HistoryEntry now, std::size_t limit, const Progress& progress, const std::stop_token& stop);
 
+  /// The states lose their maps, the oldest first, until they take no more; `now` keeps its own.
+  void keep_within(std::size_t limit, const ScanState* now);
   /// What the maps of all states take, what they share counted once [bytes].
   std::size_t bytes() const;
   /// Gives a state its maps again, if they were dropped. @throws Stopped; then it is as it was
@@ -56,9 +60,9 @@ class ScanHistory {
                       const std::stop_token& stop);
   struct Held;
   std::vector<Held> held() const;
-  void keep_within(std::size_t limit, const ScanState* now);
 
   Entries undo_, redo_;
+  std::uint64_t changes_ = 0;  ///< so far
 };
 
 }  // namespace nextview

@@ -12,8 +12,7 @@ constexpr std::size_t max_entries = 200;
 void SelectionHistory::push(const Selection& before, const Moment& now) {
   redo_.clear();
   // Those of a change that was undone since, or of another session, lead nowhere.
-  std::erase_if(undo_,
-                [&](const Entry& e) { return e.moment.session != now.session || e.moment.changes > now.changes; });
+  std::erase_if(undo_, [&](const Entry& e) { return e.moment.session != now.session || e.moment.change > now.change; });
   if (undo_.size() == max_entries) undo_.erase(undo_.begin());
   undo_.push_back({before, now});
 }

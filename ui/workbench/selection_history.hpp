@@ -10,10 +10,9 @@ namespace nextview {
 /// done last, whichever of the two it was.
 class SelectionHistory {
  public:
-  /// What the session's numbers mean, and how many of its changes could be undone.
+  /// What the session's numbers mean, and the last change that was made to it.
   struct Moment {
-    std::uint64_t session = 0;
-    std::size_t changes = 0;
+    std::uint64_t session = 0, change = 0;
 
     bool operator==(const Moment&) const = default;
   };

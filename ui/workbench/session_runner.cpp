@@ -184,7 +184,8 @@ void SessionRunner::adopt(HistoryEntry entry) {
     refinement_.reset();
     refined_scans_.clear();
   }
-  if (next.gibbs && !begin_with(next.scans, next.gibbs->views)) next.gibbs = nullptr;
+  next.gibbs =
+      gibbs_ && gibbs_->views <= gibbs_scans_.size() && begin_with(gibbs_scans_, gibbs_->views) ? gibbs_ : nullptr;
   if (!same_session) {
     next.compared = nullptr;
     ++next.session;
@@ -220,6 +221,8 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
   refinement_->refine(probabilities(session_->map().voxels()), 0, progress, control.stop);
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
+  gibbs_ = next.gibbs;
+  gibbs_scans_ = session_->scans();
   publish(std::move(next));
 }
 

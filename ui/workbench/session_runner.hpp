@@ -83,6 +83,9 @@ class SessionRunner {
   bool is_own(const std::filesystem::path& folder) const;
   void adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
                     const std::shared_ptr<StepTree>& tree);
+  static Stand stand_as_saved(const Session& session, SeenSurface seen, const SavedSession& saved,
+                              std::uint32_t number);
+  std::shared_ptr<KeptSession> kept_of(SavedSession& saved, const Session& session) const;
   Stand stand_at(std::uint32_t number, const JobControl& control);
   SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
@@ -105,10 +108,12 @@ class SessionRunner {
   std::optional<SeenSurface> seen_;
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
   ScanHistory history_;
-  std::size_t changes_when_gone_ = 0;          ///< when the timeline was last gone along
-  std::shared_ptr<DriverConnection> scanner_;  ///< of the session, if it is a live one
-  Configuration before_scanner_;               ///< to go back to
-  std::filesystem::path state_folder_;         ///< empty: sessions are not kept
+  std::uint64_t change_when_gone_ = 0;                    ///< the last one when the timeline was gone along
+  std::shared_ptr<const GibbsMap> gibbs_;                 ///< the last one that was asked for
+  std::vector<std::shared_ptr<const Scan>> gibbs_scans_;  ///< that it is of
+  std::shared_ptr<DriverConnection> scanner_;             ///< of the session, if it is a live one
+  Configuration before_scanner_;                          ///< to go back to
+  std::filesystem::path state_folder_;                    ///< empty: sessions are not kept
   KeptSession::Notice notice_;
   std::shared_ptr<KeptSession> kept_;  ///< of the session; null without one
   std::shared_ptr<StepTree> tree_;     ///< likewise

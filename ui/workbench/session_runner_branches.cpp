@@ -23,7 +23,7 @@ Stand SessionRunner::stand_at(std::uint32_t number, const JobControl& control) {
     session_->restore(*nearest.state, nearest.planner);
     const auto taken = [&](std::uint32_t step) {
       seen.follow(*session_);
-      tree_->set_stand(step, stand_of(*session_, seen));
+      tree_->set_stand(step, stand_as_saved(*session_, seen, *tree_->saved(), step));
     };
     if (!take_again(*session_, *tree_->saved(), missing, taken, control.progress, control.stop)) throw Stopped();
   } catch (...) {
@@ -49,9 +49,12 @@ void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> vi
   if (after.at == before.at && after.branches.on == before.branches.on) return;
   after.stand = stand_at(after.at, control);
   // Going along the timeline is one change, however many views it goes by.
-  if (history_.changes() != changes_when_gone_ || history_.can_redo())
-    history_.push(before, after.stand.state.get(), ScanHistory::limit(session_->configuration()));
-  changes_when_gone_ = history_.changes();
+  const std::size_t limit = ScanHistory::limit(session_->configuration());
+  if (history_.last_change() != change_when_gone_ || history_.can_redo())
+    history_.push(before, after.stand.state.get(), limit);
+  else
+    history_.keep_within(limit, after.stand.state.get());
+  change_when_gone_ = history_.last_change();
   const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == branch.name;
   adopt(std::move(after));
   if (is_swapped) compare(before.branches.current().name, control);
@@ -87,6 +90,7 @@ void SessionRunner::compare(const std::string& name, const JobControl& control) 
     const Branch& branch = tree_->branches.all[tree_->branches.find(name)];
     auto there = std::make_shared<const SessionSnapshot>(snapshot_of(stand_at(branch.tip, control)));
     next.compared = std::make_shared<const Comparison>(Comparison{branch.name, std::move(there)});
+    history_.keep_within(ScanHistory::limit(session_->configuration()), tree_->stand(tree_->at)->state.get());
   }
   publish(std::move(next));
 }
@@ -97,15 +101,23 @@ SessionSnapshot SessionRunner::snapshot_of(const Stand& stand) {
   const Configuration& c = session_->configuration();
   const auto [planner, termination] = std::pair(c.planner, c.termination);
   const SeenSurface seen = std::exchange(*seen_, stand.seen);
+  const auto come_back = [&] {
+    session_->restore(here, planner);
+    session_->set_termination(termination);
+    *seen_ = seen;
+  };
   SessionSnapshot there = *snapshot_;
   there.compared = nullptr;
   there.gibbs = nullptr;
-  session_->restore(*stand.state, stand.planner);
-  session_->set_termination(stand.termination);
-  fill_map(there);
-  session_->restore(here, planner);
-  session_->set_termination(termination);
-  *seen_ = seen;
+  try {
+    session_->restore(*stand.state, stand.planner);
+    session_->set_termination(stand.termination);
+    fill_map(there);
+  } catch (...) {
+    come_back();
+    throw;
+  }
+  come_back();
   return there;
 }
 

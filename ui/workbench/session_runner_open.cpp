@@ -17,9 +17,10 @@ void look_at_each_view(Session& session, const SavedSession& saved, const std::f
   for (std::size_t k = 1; k < line.size(); ++k) {
     throw_if_stopped(control.stop);
     control.progress(0.2 + 0.8 * double(k) / double(line.size()), "opening the session");
-    const PlannerConfig planner = planner_at(saved, line[k]);
-    session.restore(earlier_state(session.setup_with(planner), last, k), planner);
-    look(line[k - 1].number);
+    const JournalStep& step = line[k - 1];
+    const PlannerConfig planner = chosen_by(saved, line[k]);
+    session.restore(earlier_state(session.setup_with(planner), last, k, step.reached), planner);
+    look(step.number);
   }
   session.restore(last, now);
   look(line.back().number);
@@ -35,31 +36,47 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
   const Configuration& c = saved.configuration;
   SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
   const auto session = std::make_shared<Session>(c, std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
-  std::optional<SessionFolder> own;
-  try {
-    if (saved.journal) own = SessionFolder::go_on(OutputFolder(folder, {}), saved, *session);
-  } catch (const std::runtime_error& error) {
-    saved.notices.push_back(std::string(error.what()) + ": it is shown, and what is done here is not kept there");
-  }
-  const auto kept = saved.journal ? std::make_shared<KeptSession>(std::move(own), notice_)
-                                  : std::make_shared<KeptSession>(state_folder_, notice_);
+  const std::shared_ptr<KeptSession> kept = kept_of(saved, *session);
   SeenSurface seen(*session);
   const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());
   if (saved.journal) tree->add(shared);
   const auto taken = [&](std::uint32_t number) {
     seen.follow(*session);
     if (!tree->has(number)) return static_cast<void>(tree->step(number, stand_of(*session, seen)));
-    tree->set_stand(number, stand_of(*session, seen));
+    tree->set_stand(number, stand_as_saved(*session, seen, saved, number));
     tree->at = number;
   };
-  if (restore_kept(*session, saved, kept->folder()))
+  if (restore_kept(*session, saved, kept->record()))
     look_at_each_view(*session, saved, taken, control);
-  else if (!restore(*session, saved, kept->folder(), taken, part(control.progress, 0.2, 1.0), control.stop))
+  else if (!restore(*session, saved, kept->record(), taken, part(control.progress, 0.2, 1.0), control.stop))
     throw Stopped();
   tree->set_stand(tree->at, stand_of(*session, seen));  // the planner may have changed since
   adopt_opened(session, kept, tree);
   for (const std::string& notice : saved.notices)
     if (notice_) notice_(folder.string() + ": " + notice);
+}
+
+/// With the end that was set there, too.
+Stand SessionRunner::stand_as_saved(const Session& session, SeenSurface seen, const SavedSession& saved,
+                                    std::uint32_t number) {
+  Stand stand = stand_of(session, std::move(seen));
+  stand.termination = settings_at(saved, number).termination;
+  return stand;
+}
+
+/// In its own folder if this program can write it; what has no journal is kept anew.
+std::shared_ptr<KeptSession> SessionRunner::kept_of(SavedSession& saved, const Session& session) const {
+  if (!saved.journal) {
+    const auto kept = std::make_shared<KeptSession>(state_folder_, notice_);
+    kept->begin(session);
+    return kept;
+  }
+  try {
+    return std::make_shared<KeptSession>(SessionFolder::go_on(OutputFolder(saved.folder, {}), saved, session), notice_);
+  } catch (const std::runtime_error& error) {
+    saved.notices.push_back(std::string(error.what()) + ": it is shown, and what is done here is not kept there");
+    return std::make_shared<KeptSession>(SessionFolder::in_memory(session, &saved), notice_);
+  }
 }
 
 /// As if its views had been taken here.

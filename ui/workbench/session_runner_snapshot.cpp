@@ -31,7 +31,7 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   snapshot.message.clear();
   snapshot.can_undo = history_.can_undo();
   snapshot.can_redo = history_.can_redo();
-  snapshot.changes = history_.changes();
+  snapshot.change = history_.last_change();
   snapshot.timeline = tree_ ? std::make_shared<const Timeline>(tree_->timeline()) : nullptr;
   const bool is_there = snapshot.compared && tree_ && tree_->branches.has(snapshot.compared->branch);
   if (!is_there || snapshot.compared->branch == tree_->branches.current().name) snapshot.compared = nullptr;

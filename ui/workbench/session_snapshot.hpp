@@ -107,7 +107,7 @@ struct SessionSnapshot {
   std::shared_ptr<const ScoreExplanation> explanation;  ///< of the next view's score; null if its gain has no rays
   std::string finished;                                 ///< why the scan is done; empty while it is not
   bool can_undo = false, can_redo = false;
-  std::size_t changes = 0;                     ///< that can be undone
+  std::uint64_t change = 0;                    ///< the number of the one that undo takes back; no two have the same
   std::shared_ptr<const Timeline> timeline;    ///< null without a session
   std::shared_ptr<const Comparison> compared;  ///< null if the session is shown alone
   bool kept = false;                           ///< what was taken is in a folder

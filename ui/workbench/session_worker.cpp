@@ -96,8 +96,8 @@ void SessionWorker::post(SessionRequest request) {
       progress_.playing = false;
       std::erase_if(queue_, [](const auto& waiting) { return is<request::Play>(waiting.second); });
     } else {
-      if (is<request::GoTo>(request))  // only the last place counts
-        std::erase_if(queue_, [](const auto& waiting) { return is<request::GoTo>(waiting.second); });
+      // Of going along only the last place counts; what was asked for in between is done where it was asked for.
+      if (is<request::GoTo>(request) && !queue_.empty() && is<request::GoTo>(queue_.back().second)) queue_.pop_back();
       queue_.emplace_back(posted_, std::move(request));
     }
   }

@@ -50,6 +50,7 @@ void StepTree::add(std::shared_ptr<SavedSession> saved) {
 }
 
 bool StepTree::step(std::uint32_t number, Stand stand) {
+  if (has(number)) throw std::logic_error("a step is taken once");
   nodes_[number].after = at;
   const bool begins_branch = branches.add_step(number, at);
   set_stand(number, std::move(stand));
@@ -98,11 +99,11 @@ std::uint32_t StepTree::nearest_here(std::uint32_t number) const {
   return number;
 }
 
-const ScanState* StepTree::nearest_maps(std::uint32_t number, const PolicyNeeds& needs) const {
+const ScanState* StepTree::nearest_maps(std::uint32_t number, const Stand& like) const {
   for (;; number = nodes_.at(number).after) {
     const auto& stand = nodes_.at(number).stand;
-    if (stand && stand->state->has_maps && stand->needs.occlusions == needs.occlusions &&
-        stand->needs.posterior == needs.posterior)
+    if (stand && stand->state->has_maps && stand->needs.occlusions == like.needs.occlusions &&
+        stand->needs.posterior == like.needs.posterior && stand->planner.semantics == like.planner.semantics)
       return stand->state.get();
     if (number == 0) return nullptr;
   }

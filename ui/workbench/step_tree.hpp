@@ -48,8 +48,8 @@ class StepTree {
   std::vector<JournalStep> not_here(std::uint32_t number) const;
   /// The number before those.
   std::uint32_t nearest_here(std::uint32_t number) const;
-  /// The nearest state before a step, itself included, that has maps as this planner needs them; null if there is none.
-  const ScanState* nearest_maps(std::uint32_t number, const PolicyNeeds& needs) const;
+  /// The nearest state before a step, itself included, that has maps as this stand needs them; null if there is none.
+  const ScanState* nearest_maps(std::uint32_t number, const Stand& like) const;
   /// Every state that is kept, with the number before it.
   std::vector<std::pair<ScanState*, const ScanState*>> states() const;
   /// The steps were taken by the saved session.

@@ -74,6 +74,18 @@ TEST(Branches, GoingBackUndoesWhatHasNone) {
   EXPECT_THAT(names(b.back_to(then, leads_through)), testing::ElementsAre("main")) << "a removed one comes back";
 }
 
+TEST(Branches, ARemovedOneWithStepsGoesAndComesBack) {
+  Branches b;
+  b.add_step(1, 0);
+  b.add_step(2, 1);
+  b.add_step(3, 1);
+  b.on = 0;
+  Branches without = b;
+  without.remove("branch 2");
+  EXPECT_THAT(names(without.back_to(b, leads_through)), testing::ElementsAre("main", "branch 2"));
+  EXPECT_THAT(names(b.back_to(without, leads_through)), testing::ElementsAre("main")) << "and is removed again";
+}
+
 TEST(Branches, ARecordSaysThem) {
   Journal journal;
   read_record(beginning_record({"box"}, ""), journal);

@@ -97,7 +97,7 @@ TEST_F(StateFile, EarlierStatesAreThoseOfThen) {
     states.push_back(session.state());
   }
   for (std::size_t k = 1; k < 3; ++k) {
-    ScanState earlier = earlier_state(session.setup(), session.state(), k);
+    ScanState earlier = earlier_state(session.setup(), session.state(), k, states[k - 1].T_world_camera);
     remake(session.setup(), earlier, nothing_scanned(session.setup(), {}), {}, {});
     Session then(small_scan());
     then.restore(earlier);

@@ -243,6 +243,92 @@ TEST_F(SessionBranches, TheSessionThatIsOpenIsNotOpenedAgain) {
   }
 }
 
+TEST_F(SessionBranches, GoingIsUndoneAlsoWhereAsManyChangesWereMadeBefore) {
+  runner_.load(long_scan(), job_control());
+  steps(5);
+  runner_.go_to("", 3, job_control());
+  runner_.undo(job_control());
+  steps(1);
+  runner_.go_to("", 2, job_control());
+  runner_.undo(job_control());
+  EXPECT_EQ(views(), 6u);
+}
+
+TEST_F(SessionBranches, ABranchKeepsThePlannerThatWasSetAtItsEnd) {
+  const fs::path state = folder_ / "state";
+  {
+    SessionRunner first;
+    first.keep_sessions(state, {});
+    first.load(long_scan(), job_control());
+    first.step(job_control());
+    first.begin_branch("other");
+    first.step(job_control());
+    PlannerConfig planner = first.configuration().planner;
+    planner.gain = "rear-side-voxel";
+    first.set_planner(planner, job_control());
+    first.go_to("main", {}, job_control());
+    EXPECT_EQ(first.configuration().planner.gain, long_scan().planner.gain);
+  }
+  runner_.keep_sessions(state, {});
+  runner_.open(fs::directory_iterator(state)->path(), job_control());
+  runner_.go_to("other", {}, job_control());
+  EXPECT_EQ(runner_.configuration().planner.gain, "rear-side-voxel");
+}
+
+TEST_F(SessionBranches, AfterUndoTheRobotStandsWhereItStood) {
+  Configuration c = long_scan();
+  c.registration.mode = RegistrationConfig::Mode::correct;
+  c.robot.position_error = 0.004;
+  c.sensor.width = 160;
+  c.sensor.height = 120;
+  runner_.load(c, job_control());
+  steps(4);
+  const double whole = now().records[3].motion.distance;
+  runner_.undo(job_control());
+  steps(1);
+  EXPECT_EQ(now().records[3].motion.distance, whole);
+}
+
+TEST_F(SessionBranches, AScanOfAnEarlierVersionGoesOnInAFolderOfItsOwn) {
+  runner_.load(long_scan(), job_control());
+  steps(2);
+  runner_.write(folder_ / "old", job_control());
+  fs::remove(folder_ / "old/journal");
+  fs::remove_all(folder_ / "old/scans");
+  SessionRunner second;
+  second.keep_sessions(folder_ / "state", {});
+  second.open(folder_ / "old", job_control());
+  EXPECT_EQ(second.snapshot()->records.size(), 2u);
+  second.step(job_control());
+  expect_same_scan(*second.snapshot(), *fresh(3, long_scan()));
+  EXPECT_EQ(read_journal(fs::directory_iterator(folder_ / "state")->path()).line().size(), 3u);
+}
+
+TEST_F(SessionBranches, WhatIsShownOnlyIsExportedWhole) {
+  const fs::path state = folder_ / "state";
+  runner_.keep_sessions(state, {});
+  runner_.load(long_scan(), job_control());
+  steps(3);
+  SessionRunner second;
+  second.open(fs::directory_iterator(state)->path(), job_control());  // while the first one writes it
+  second.step(job_control());
+  second.write(folder_ / "out", job_control());
+  SessionRunner third;
+  third.open(folder_ / "out", job_control());
+  expect_same_scan(*third.snapshot(), *fresh(4, long_scan()));
+}
+
+TEST_F(SessionBranches, TheGibbsMapIsThereAgainWhereItsViewsAre) {
+  runner_.load(long_scan(), job_control());
+  steps(2);
+  runner_.refine(2, 8, job_control());
+  const auto gibbs = now().gibbs;
+  runner_.go_to("", 1, job_control());
+  EXPECT_FALSE(now().gibbs);
+  runner_.go_to("", 2, job_control());
+  EXPECT_EQ(now().gibbs, gibbs);
+}
+
 /// What led to where a session stands, and nothing else: the model that recomputes everything.
 struct Done {
   std::vector<std::size_t> candidates;  ///< that were taken instead of the proposal; npos: the proposal
@@ -321,10 +407,10 @@ TEST_F(SessionBranches, CommandsAtRandomEqualAModelThatRecomputesEverything) {
       runner->set_planner(planner, job_control());
     } else if (kind == 5) {
       runner->begin_branch("");
-    } else if (kind == 6 && s.changes > 2) {  // there and back again
-      const int far = 1 + int(random() % 2);
-      for (int i = 0; i < far; ++i) runner->undo(job_control());
-      for (int i = 0; i < far; ++i) runner->redo(job_control());
+    } else if (kind == 6) {  // there and back again
+      int far = 0;
+      for (; far < 2 && runner->snapshot()->can_undo; ++far) runner->undo(job_control());
+      for (; far > 0; --far) runner->redo(job_control());
     } else if (kind == 7) {
       const auto names = branch_names(s);
       const std::string here = s.timeline->branches.current().name, there = names[random() % names.size()];
