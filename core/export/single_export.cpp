@@ -10,6 +10,7 @@
 #include "core/export/scan_surfaces.hpp"
 #include "core/export/scan_tables.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/same_file.hpp"
 #include "core/journal/journal.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/progress/part.hpp"
@@ -21,12 +22,6 @@ namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// By device and inode: links and other spellings are the same.
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return fs::equivalent(a, b, error) && !error;
-}
 
 /// What a session cannot do without.
 std::vector<InputFile> kept_files(const fs::path& folder) {

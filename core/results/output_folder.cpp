@@ -7,18 +7,13 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/same_file.hpp"
 #include "core/file/unchanged.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// By device and inode: links and other spellings are the same.
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return fs::equivalent(a, b, error) && !error;
-}
 
 /// What is in the folder under a name that results have.
 std::vector<fs::path> result_files(const fs::path& folder) {

@@ -5,6 +5,7 @@
 
 #include "core/config/object_lengths.hpp"
 #include "core/config/opened_input.hpp"
+#include "core/file/same_file.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/driver_setup.hpp"
@@ -14,8 +15,7 @@
 namespace nextview {
 
 bool SessionRunner::is_own(const std::filesystem::path& folder) const {
-  std::error_code none;
-  return kept_ && kept_->folder() && std::filesystem::equivalent(kept_->folder()->path(), folder, none);
+  return kept_ && kept_->folder() && same_file(kept_->folder()->path(), folder);
 }
 
 SessionRunner::~SessionRunner() {
