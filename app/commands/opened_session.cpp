@@ -19,7 +19,9 @@ void stand_at(SavedSession& saved, int views) {
   const auto line = saved.journal->line();
   if (views < 1 || static_cast<std::size_t>(views) >= line.size()) return;
   saved.journal->at = line[static_cast<std::size_t>(views) - 1].number;
-  saved.configuration.planner = chosen_by(saved, line[static_cast<std::size_t>(views)]);
+  const PlanningConfig planning = chosen_by(saved, line[static_cast<std::size_t>(views)]);
+  saved.configuration.planner = planning.planner;
+  saved.configuration.views = planning.views;
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ std::unique_ptr<Session> opened_session(const std::filesystem::path& folder, con
   if (views && saved.journal) stand_at(saved, *views);
   const Configuration& c = saved.configuration;
   SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
-  auto session = std::make_unique<Session>(c, std::move(parts), progress, stop);
+  auto session = std::make_unique<Session>(began_with(saved), std::move(parts), progress, stop);
   std::stop_source enough;
   const std::stop_callback user_stops(stop, [&] { enough.request_stop(); });
   const auto stop_where_wanted = [&](std::uint32_t) {

@@ -171,7 +171,7 @@ int resume(const ScanArguments& arguments) {
   std::optional<Scanner> scanner;
   if (arguments.scanner.wanted()) scanner.emplace(arguments.scanner, c, stop.token());
   SessionParts parts = scanner ? scanner->parts(c) : c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
-  Session session(c, std::move(parts), progress, stop.token());
+  Session session(began_with(saved), std::move(parts), progress, stop.token());
   progress.clear();
   print_head(session);
   SessionFolder folder = SessionFolder::go_on(OutputFolder(saved.folder, {}), saved, session);

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "core/evaluation/any_pose.hpp"
-#include "core/evaluation/covering_order.hpp"
 #include "core/evaluation/visited_voxels.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -40,8 +39,8 @@ KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::
       samples_(std::move(samples)),
       normals_(sample_normals(seen, samples_)),
       all_samples_(numbers_to(samples_.points.size())),
-      seen_from_(see_from(candidates, progress, stop)),
-      visible_(seen_by_any()),
+      sight_(sight_of(candidates, progress, stop)),
+      visible_(sight_.seen_by_any()),
       truth_(ground_truth(seen, grid, stop)),
       nothing_seen_{std::vector<std::uint8_t>(samples_.points.size()),
                     {samples_.points, visible_, d_reg},
@@ -50,23 +49,18 @@ KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::
   if (stop.stop_requested()) throw Stopped();
 }
 
-std::vector<std::vector<std::uint32_t>> KnownObject::see_from(std::span<const Pose> candidates,
-                                                              const Progress& progress, std::stop_token stop) const {
-  std::vector<std::vector<std::uint32_t>> seen_from(candidates.size());
+CandidateSight KnownObject::sight_of(std::span<const Pose> candidates, const Progress& progress,
+                                     const std::stop_token& stop) const {
+  CandidateSight sight{{candidates.begin(), candidates.end()}, {}, samples_.points.size()};
+  sight.samples.resize(candidates.size());
   std::atomic<std::size_t> done = 0;
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
-    seen_from[v] = samples_seen(candidates[v], stop);
+    sight.samples[v] = samples_seen(candidates[v], stop);
     if (progress) progress(double(++done) / double(candidates.size()), "finding what each candidate can see");
   });
-  return seen_from;
-}
-
-std::vector<std::uint8_t> KnownObject::seen_by_any() const {
-  std::vector<std::uint8_t> seen(samples_.points.size());
-  for (const auto& samples : seen_from_)
-    for (const std::uint32_t s : samples) seen[s] = 1;
-  return seen;
+  throw_if_stopped(stop);
+  return sight;
 }
 
 std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera, const std::stop_token& stop) const {
@@ -86,10 +80,6 @@ void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, c
   for (const std::uint32_t s : samples_seen(T_world_camera, stop)) state.seen[s] = 1;
   state.coverage.add(points, stop);
   state.coverage_paper.add(points, stop);
-}
-
-std::vector<std::size_t> KnownObject::covering_order(std::uint64_t seed) const {
-  return nextview::covering_order(seen_from_, samples_.points.size(), seed);
 }
 
 }  // namespace nextview

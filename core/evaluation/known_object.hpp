@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/evaluation/candidate_sight.hpp"
 #include "core/evaluation/coverage.hpp"
 #include "core/evaluation/visible_samples.hpp"
 #include "core/map/bit_mask.hpp"
@@ -54,31 +55,26 @@ class KnownObject {
   void add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                 const std::stop_token& stop = {}) const;
 
-  /// The candidates in the order of a greedy set cover of the samples, the cover's own views shuffled, then the others.
-  std::vector<std::size_t> covering_order(std::uint64_t seed) const;
-
-  /// Which surface samples the candidate sees, in ascending order.
-  std::span<const std::uint32_t> seen_from(std::size_t candidate) const { return seen_from_[candidate]; }
-  std::size_t candidate_count() const { return seen_from_.size(); }
-  std::size_t visible_samples() const { return std::size_t(std::count(visible_.begin(), visible_.end(), 1)); }
+  /// What the candidates see that the scan began with: coverage_visible is a share of that.
+  const CandidateSight& sight() const { return sight_; }
+  /// What other candidates see. @throws Stopped
+  CandidateSight sight_of(std::span<const Pose> candidates, const Progress& progress = {},
+                          const std::stop_token& stop = {}) const;
 
   const GroundTruth& truth() const { return truth_; }
   const SurfaceSamples& samples() const { return samples_; }
   std::span<const std::uint8_t> visible() const { return visible_; }  ///< one per sample, 1: some candidate sees it
 
  private:
-  std::vector<std::vector<std::uint32_t>> see_from(std::span<const Pose> candidates, const Progress& progress,
-                                                   std::stop_token stop) const;
-  std::vector<std::uint8_t> seen_by_any() const;
   SampledSurface surface() const { return {samples_.points, normals_}; }
 
   std::shared_ptr<const MeshRayCaster> scene_;
   DepthCamera camera_;
   SurfaceSamples samples_;
-  std::vector<Eigen::Vector3f> normals_;               ///< of the samples
-  std::vector<std::uint32_t> all_samples_;             ///< their numbers
-  std::vector<std::vector<std::uint32_t>> seen_from_;  ///< of each candidate
-  std::vector<std::uint8_t> visible_;                  ///< 1: some candidate sees the sample
+  std::vector<Eigen::Vector3f> normals_;    ///< of the samples
+  std::vector<std::uint32_t> all_samples_;  ///< their numbers
+  CandidateSight sight_;
+  std::vector<std::uint8_t> visible_;  ///< 1: some candidate sees the sample
   GroundTruth truth_;
   EvaluationState nothing_seen_;
 };

@@ -35,7 +35,7 @@ SceneScores score_session(Session& session, std::span<const std::string> names, 
       scores.views[v].gains.push_back(candidates[v].available ? candidates[v].gain : std::nan(""));
       scores.views[v].milliseconds += 1e3 * seconds / double(scores.views.size());
     }
-    session.restore(as_it_stands, own);
+    session.restore(as_it_stands, {own, session.configuration().views});
   }
   return scores;
 }

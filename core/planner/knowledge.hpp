@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/gain/map_rays.hpp"
@@ -31,9 +32,12 @@ struct Knowledge {
 
   /// The voxels that views are planned on: the Gibbs map's if there is one.
   const VoxelBricks& planning_voxels() const { return posterior ? posterior->voxels() : map.voxels(); }
-  bool has_taken(const View& view) const {
-    return std::ranges::any_of(taken, [&](const TakenView& t) { return t.wanted == view; });
+  /// Which of those taken it was, from 0; none if it was not.
+  std::optional<std::size_t> taken_as(const View& view) const {
+    const auto same = std::ranges::find(taken, view, &TakenView::wanted);
+    return same == taken.end() ? std::nullopt : std::optional(std::size_t(same - taken.begin()));
   }
+  bool has_taken(const View& view) const { return taken_as(view).has_value(); }
 };
 
 /// The frames of a recording that were taken, in order; other views are passed over.

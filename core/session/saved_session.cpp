@@ -124,9 +124,16 @@ void require_free_for_session(const fs::path& folder, bool overwrite, std::span<
         "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
 }
 
-PlannerConfig chosen_by(const SavedSession& saved, const JournalStep& step) {
-  if (step.settings == 0) return saved.configuration.planner;
-  return configuration_of(saved.journal->settings.at(step.settings - 1), "config.toml").planner;
+Configuration began_with(const SavedSession& saved) {
+  Configuration configuration = saved.configuration;
+  if (saved.journal && !saved.journal->settings.empty())
+    configuration.views = configuration_of(saved.journal->settings.front(), "config.toml").views;
+  return configuration;
+}
+
+PlanningConfig chosen_by(const SavedSession& saved, const JournalStep& step) {
+  if (step.settings == 0) return planning_of(saved.configuration);
+  return planning_of(configuration_of(saved.journal->settings.at(step.settings - 1), "config.toml"));
 }
 
 Configuration settings_at(const SavedSession& saved, std::uint32_t number) {
@@ -139,8 +146,13 @@ Configuration settings_at(const SavedSession& saved, std::uint32_t number) {
 bool restore_kept(Session& session, const SavedSession& saved, SessionFolder* folder) {
   if (!saved.journal) return false;
   const std::vector<JournalStep> line = saved.journal->line();
+  const PlanningConfig began = session.planning();
+  session.set_planning(planning_of(saved.configuration));
   auto state = read_state_file(session, line, saved.folder);
-  if (!state) return false;
+  if (!state) {
+    session.set_planning(began);
+    return false;
+  }
   session.restore(*std::move(state));
   if (folder)
     for (const JournalStep& step : line) folder->line_.push_back(step.number);
@@ -151,7 +163,7 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
                 const std::function<void(std::uint32_t)>& each, const Progress& progress, const std::stop_token& stop) {
   for (std::size_t k = 0; k < line.size(); ++k) {
     // As it went: a view is ranked and taken, and only then may another planner rank the next one.
-    session.set_planner(chosen_by(saved, line[k]), {}, stop);
+    session.set_planning(chosen_by(saved, line[k]), {}, stop);
     Capture capture;
     try {
       capture = read_capture(line[k], saved.folder);
@@ -163,7 +175,8 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
                             part_of_view(progress, k, line.size()), stop))
       return false;
     const bool is_last = k + 1 == line.size();
-    session.set_planner(is_last ? settings_at(saved, line[k].number).planner : chosen_by(saved, line[k + 1]), {}, stop);
+    session.set_planning(is_last ? planning_of(settings_at(saved, line[k].number)) : chosen_by(saved, line[k + 1]), {},
+                         stop);
     each(line[k].number);
   }
   return true;
@@ -179,13 +192,12 @@ bool restore(Session& session, SavedSession& saved, SessionFolder* folder,
     return sense_again(session, saved, step, each, progress);
   }
   const std::vector<JournalStep> line = saved.journal->line();
-  const PlannerConfig now = session.configuration().planner;
   const auto taken = [&](std::uint32_t number) {
     if (folder) folder->line_.push_back(number);
     if (each) each(number);
   };
   if (!take_again(session, saved, line, taken, progress, stop)) return false;
-  session.set_planner(now, {}, stop);
+  session.set_planning(planning_of(saved.configuration), {}, stop);
   return true;
 }
 

@@ -42,8 +42,10 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
 /// Brings a new session to where the saved one stands, by what it kept for that (write_state_file): the same as
 /// restore(), in a moment. False if it kept nothing, or that is out of date; then the session is as it was.
 bool restore_kept(Session& session, const SavedSession& saved, SessionFolder* folder);
+/// The settings to make the session with: those of now, but for the candidate views that it began with.
+Configuration began_with(const SavedSession& saved);
 /// What ranked the views when this one was chosen. @pre saved.journal
-PlannerConfig chosen_by(const SavedSession& saved, const JournalStep& step);
+PlanningConfig chosen_by(const SavedSession& saved, const JournalStep& step);
 /// The settings with which it last stood at a step. @pre saved.journal
 Configuration settings_at(const SavedSession& saved, std::uint32_t number);
 

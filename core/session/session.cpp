@@ -42,11 +42,13 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   robot_ = std::move(parts.robot);
   setup_.start =
       recording_ ? setup_.source.frames.at(start_frame(c, *recording_)) : start_view(c, setup_.source, robot_.get());
+  robot_as_configured_ = !robot_;
   if (!robot_) robot_ = std::make_unique<FreeFlyingCamera>(setup_.start.T_world_camera);
   setup_.planner = std::move(parts.planner);
   if (!setup_.planner) setup_.planner = make_planner(c.planner);
   setup_.candidates = std::move(parts.candidates);
   if (map_alone) setup_.candidates = std::make_shared<FixedCandidates>(std::vector<View>{});
+  views_as_configured_ = !setup_.candidates;
   if (!setup_.candidates) {
     const auto notice = [this](const std::string& text) { views_notes_.push_back(text); };
     setup_.candidates = configured_candidates(c, setup_.source, notice);
@@ -107,6 +109,7 @@ void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, c
                                     std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
                                     poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
                                     setup_.region, c.evaluation.d_reg, progress, stop);
+  setup_.sight = {setup_.truth, &setup_.truth->sight()};
   if (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive)
     setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
 }

@@ -6,6 +6,7 @@
 
 #include "core/mesh/mesh_file.hpp"
 #include "core/registration/alignment.hpp"
+#include "core/session/planning_config.hpp"
 #include "core/session/scan_loop.hpp"
 #include "core/source/recorded_source.hpp"
 #include "core/source/simulated_source.hpp"
@@ -59,7 +60,7 @@ class Session {
   /// robot is put back, a real one stays where it is.
   void restore(ScanState state);
   /// The same of a state that another planner has ranked. @throws std::invalid_argument if it is not valid
-  void restore(ScanState state, const PlannerConfig& planner);
+  void restore(ScanState state, const PlanningConfig& planning);
 
   /// Makes a candidate the next view instead of the proposal. @throws std::invalid_argument if it is not available.
   void override_next_view(std::size_t candidate);
@@ -71,12 +72,19 @@ class Session {
   /// Leaves the choice of the next view to the planner again.
   void take_proposal();
 
-  /// Ranks the candidates by another planner from here on, and keeps the scan; where it needs other maps they are made
-  /// again from the scans. @throws std::invalid_argument if it is not valid; Stopped. Then all is as it was.
-  void set_planner(const PlannerConfig& config, const Progress& progress = {}, const std::stop_token& stop = {});
+  /// Ranks other candidates or by another planner from here on, and keeps the scan; where it needs other maps they are
+  /// made again from the scans. Coverage stays a share of what the first candidates could see.
+  /// @throws std::invalid_argument if it is not valid; std::runtime_error naming the file of views; Stopped. Then all
+  /// is as it was.
+  void set_planning(const PlanningConfig& config, const Progress& progress = {}, const std::stop_token& stop = {});
+  /// The same of the planner alone.
+  void set_planner(const PlannerConfig& config, const Progress& progress = {}, const std::stop_token& stop = {}) {
+    set_planning({config, configuration().views}, progress, stop);
+  }
+  PlanningConfig planning() const { return planning_of(configuration()); }
 
-  /// What it scans with, with another planner. @throws std::invalid_argument if it is not valid
-  ScanSetup setup_with(const PlannerConfig& config) const;
+  /// What it scans with, with another planner or other candidates. @throws as set_planning
+  ScanSetup setup_with(const PlanningConfig& config, const std::stop_token& stop = {}) const;
 
   /// Changes when the scan is done, and keeps all else; a finished scan may go on by it.
   /// @throws std::invalid_argument if it is not valid.
@@ -135,6 +143,7 @@ class Session {
                     const std::stop_token& stop);
   void adopt(ScanState state);
   void require_first_step() const;
+  void follow_views(ScanSetup& setup, const std::stop_token& stop) const;
   std::string unreachable(const View& view) const;
 
   ScanSetup setup_;
@@ -146,6 +155,7 @@ class Session {
   const Recording* recording_ = nullptr;  ///< of the source
   std::unique_ptr<ScanSource> source_;
   std::unique_ptr<Robot> robot_;
+  bool views_as_configured_ = false, robot_as_configured_ = false;  // unless the parts had others
   Judge judge_;
   ScanState state_;
   std::optional<Acquired> taken_;    ///< captured, and not yet in the state: a step failed after that

@@ -1,9 +1,11 @@
 // What of a session changes without a view being taken: where it stands, what comes next, what ranks and what ends it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/planner/look_ahead_planner.hpp"
+#include "core/planner/policy.hpp"
 #include "core/session/session.hpp"
 #include "core/session/session_parts.hpp"
 
@@ -15,29 +17,57 @@ void Session::restore(ScanState state) {
   adopt(std::move(state));
 }
 
-void Session::restore(ScanState state, const PlannerConfig& planner) {
-  setup_ = setup_with(planner);
+void Session::restore(ScanState state, const PlanningConfig& planning) {
+  setup_ = setup_with(planning);
   restore(std::move(state));
 }
 
-ScanSetup Session::setup_with(const PlannerConfig& config) const {
+ScanSetup Session::setup_with(const PlanningConfig& config, const std::stop_token& stop) const {
   ScanSetup setup = setup_;
   Configuration wanted = configuration();
-  wanted.planner = config;
+  wanted.planner = config.planner;
+  wanted.views = config.views;
+  wanted.views.projections = configuration().views.projections;
   setup.configuration = validated(std::move(wanted));
   if (to_toml(setup.configuration) == to_toml(configuration())) return setup_;  // also with a planner of its own
-  setup.planner = make_planner(config);
+  setup.planner = make_planner(config.planner);
   setup.bundle = scoring_rays(setup.configuration, setup.source.camera);
+  if (views_as_configured_ && !recording_) follow_views(setup, stop);
+  if (robot_as_configured_ && !recording_) setup.start = start_view(setup.configuration, setup.source, nullptr);
   return setup;
 }
 
-void Session::set_planner(const PlannerConfig& config, const Progress& progress, const std::stop_token& stop) {
-  ScanSetup setup = setup_with(config);
+namespace {
+
+bool same_views(CandidateViewsConfig a, CandidateViewsConfig b) {
+  const auto all_a = settings(a), all_b = settings(b);
+  return std::ranges::equal(all_a, all_b, {}, &Setting::text, &Setting::text);
+}
+
+}  // namespace
+
+/// The candidates of its configuration, and what each sees of the true surface, for a planner that may know.
+void Session::follow_views(ScanSetup& setup, const std::stop_token& stop) const {
+  const Configuration& c = setup.configuration;
+  if (c.views.layout == ViewLayout::adaptive || !same_views(c.views, configuration().views))
+    setup.candidates = configured_candidates(c, setup.source);
+  if (!setup.truth || !policy_entry(c.planner.gain).baseline) return;
+  const auto poses = poses_of(setup.candidates->candidates(nothing_known(c, setup.region, {})));
+  const auto same = [](const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); };
+  if (std::ranges::equal(poses, setup.sight->candidates, same)) return;
+  setup.sight = std::make_shared<const CandidateSight>(setup.truth->sight_of(poses, {}, stop));
+}
+
+void Session::set_planning(const PlanningConfig& config, const Progress& progress, const std::stop_token& stop) {
+  ScanSetup setup = setup_with(config, stop);
   if (setup.planner == setup_.planner) return;
   ScanState state = state_;
   const PolicyNeeds before = setup_.planner->needs(), now = setup.planner->needs();
-  if (before.occlusions != now.occlusions || before.posterior != now.posterior ||
-      configuration().planner.semantics != config.semantics) {
+  if (state.records.empty()) {
+    if (robot_as_configured_) robot_->restored(setup.start.T_world_camera);
+    state = nothing_scanned(setup, robot_->pose());
+  } else if (before.occlusions != now.occlusions || before.posterior != now.posterior ||
+             configuration().planner.semantics != config.planner.semantics) {
     const ScanState nothing = nothing_scanned(setup, state.T_world_camera);
     remake(setup, state, nothing, progress, stop);
   }

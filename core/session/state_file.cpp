@@ -105,7 +105,9 @@ std::string key_of(const Session& session, std::span<const JournalStep> line, co
 bool can_be_kept(const Session& session) {
   const ScanState& state = session.state();
   const Knowledge& known = state.known;
+  const auto same_number = [&](const auto& record) { return record->candidates.size() == state.candidates.size(); };
   return state.has_maps && known.scanned && !known.posterior && !known.reference && !state.records.empty() &&
+         std::ranges::all_of(state.records, same_number) &&
          state.candidates == session.setup().candidates->candidates(nothing_scanned(session.setup(), {}).known);
 }
 

@@ -14,7 +14,7 @@ inline constexpr const char* state_file_name = "state";
 /// Writes where a session stands, so that it is opened without working it out again. Derived from the journal and its
 /// scans, like a map: it holds only for this line of captures, these settings and this version, and may be deleted.
 /// False, and nothing, where it would not be whole: with a Gibbs or a reference map, or candidates that change from
-/// view to view.
+/// view to view or did in number.
 /// @throws std::runtime_error naming the file and the reason
 bool write_state_file(const Session& session, std::span<const JournalStep> line, const std::filesystem::path& file);
 

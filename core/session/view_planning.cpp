@@ -46,8 +46,8 @@ struct PlanningInput {
     if (scan.recorded)
       surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
                                                                scan.recorded->seen(frames_taken(state.known)));
-    else if (state.evaluation)
-      surface = std::make_unique<SurfaceLeft<KnownObject>>(*scan.truth, state.evaluation->seen);
+    else if (state.evaluation && scan.sight)
+      surface = std::make_unique<SurfaceLeft<CandidateSight>>(*scan.sight, state.evaluation->seen);
     setup.true_surface = surface.get();
   }
   PlanningInput(const PlanningInput&) = delete;

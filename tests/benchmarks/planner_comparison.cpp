@@ -116,9 +116,9 @@ struct LeastViews {
 };
 
 std::string least_views(const KnownObject& object, double share) {
-  std::vector<std::vector<Covered>> seen(object.candidate_count());
+  std::vector<std::vector<Covered>> seen(object.sight().candidates.size());
   for (std::size_t v = 0; v < seen.size(); ++v)
-    for (const std::uint32_t sample : object.seen_from(v)) seen[v].push_back({sample, 1.0f});
+    for (const std::uint32_t sample : object.sight().seen_from(v)) seen[v].push_back({sample, 1.0f});
   const auto all = double(std::ranges::count(object.visible(), 1));
   const SetCover cover = least_cover(seen, (1.0 - share) * all, CoverLimits::patient());
   return fmt::format("{}{}", cover.is_least ? "" : "<=", cover.views.size());

@@ -34,13 +34,15 @@ std::string shown_name(const Setting& setting) { return fmt::format("{} ({})", s
 
 constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, too
 
-/// What ends a scan and what ranks its views may change while it goes on; what was scanned depends on all else. Nothing
-/// happens if the setting is so already.
+/// What ends a scan and what ranks which views may change while it goes on; what was scanned depends on all else.
+/// Before the first view the candidates are those that coverage is a share of. Nothing happens if the setting is so
+/// already.
 void change_setting(CommandTarget& target, const std::string& key, const Configuration& wanted) {
   wanted.validate();
   if (to_toml(wanted) == to_toml(target.session.configuration)) return;
   if (key.starts_with("termination.")) return target.worker.post(request::SetTermination{wanted.termination});
-  if (key.starts_with("planner.")) return target.worker.post(request::SetPlanner{wanted.planner});
+  if (key.starts_with("planner.") || (key.starts_with("views.") && !target.session.records.empty()))
+    return target.worker.post(request::SetPlanning{planning_of(wanted)});
   target.worker.post(request::Load{wanted});
 }
 
@@ -101,7 +103,9 @@ std::string reset_settings_why_not(const CommandState& t) {
 
 }  // namespace
 
-bool keeps_scan(std::string_view key) { return key.starts_with("termination.") || key.starts_with("planner."); }
+bool keeps_scan(std::string_view key) {
+  return key.starts_with("termination.") || key.starts_with("planner.") || key.starts_with("views.");
+}
 
 const CommandOf<std::string> command::open{
     {"open",
@@ -124,7 +128,7 @@ const CommandOf<std::string, std::string> command::set{
     {"set",
      "File",
      "Change a setting…",
-     "Changes a setting. Those of planner and termination keep the scan, the others start it over.",
+     "Changes a setting. Those of planner, views and termination keep the scan, the others start it over.",
      {},
      needs_session,
      {},

@@ -48,10 +48,10 @@ StepPicture step_picture(const Session& session) {
     picture.scores.push_back(candidate.gain);
     picture.utilities.push_back(candidate.utility);
   }
-  for (const StepRecord& r : session.records()) {
-    picture.path.push_back(r.T_world_camera);
-    if (r.view >= 0) picture.taken.push_back(static_cast<std::size_t>(r.view));
-  }
+  for (const StepRecord& r : session.records()) picture.path.push_back(r.T_world_camera);
+  const ScanState& state = session.state();
+  for (std::size_t v = 0; v < state.candidates.size(); ++v)
+    if (state.known.has_taken(state.candidates[v])) picture.taken.push_back(v);
   if (picture.chosen) {
     if (const auto explanation = session.explain(*picture.chosen))
       picture.rays = ray_segments(*explanation, session.next_view().translation(), picture.grid.resolution);

@@ -44,10 +44,8 @@ void number_cell(const PanelContext& context, const std::string& text, double va
 }
 
 int step_of(const SessionSnapshot& snapshot, std::size_t candidate) {
-  for (const StepRecord& record : snapshot.records) {
-    if (record.view == static_cast<int>(candidate)) return record.step;
-  }
-  return 0;
+  const auto taken = snapshot.state.known.taken_as(snapshot.state.candidates[candidate]);
+  return taken ? snapshot.records[*taken].step : 0;
 }
 
 bool is_proposed(const SessionSnapshot& s, std::size_t candidate) {

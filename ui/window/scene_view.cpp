@@ -147,10 +147,9 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   std::vector<double> utilities;
   std::vector<std::size_t> taken, unreachable;
   std::vector<Pose> path;
-  for (const StepRecord& record : s.records) {
-    path.push_back(record.T_world_camera);
-    if (record.view >= 0) taken.push_back(static_cast<std::size_t>(record.view));
-  }
+  for (const StepRecord& record : s.records) path.push_back(record.T_world_camera);
+  for (std::size_t v = 0; v < s.state.candidates.size(); ++v)
+    if (s.state.known.has_taken(s.state.candidates[v])) taken.push_back(v);
   ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   if (!s.records.empty()) {
     for (const Candidate& candidate : s.records.back().candidates) {

@@ -63,7 +63,7 @@ HistoryEntry ScanHistory::travel(Entries& from, Entries& to, HistoryEntry now, s
 void ScanHistory::bring_back_maps(const Session& session, const StepTree& tree, std::uint32_t number,
                                   const Stand& stand, const Progress& progress, const std::stop_token& stop) {
   if (stand.state->has_maps) return;
-  const ScanSetup setup = session.setup_with(stand.planner);
+  const ScanSetup setup = session.setup_with(stand.planning, stop);
   const ScanState* const nearest = tree.nearest_maps(number, stand);
   remake(setup, *stand.state, nearest ? *nearest : nothing_scanned(setup, stand.state->T_world_camera), progress, stop);
 }

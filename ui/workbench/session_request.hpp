@@ -7,6 +7,7 @@
 
 #include "core/config/configuration.hpp"
 #include "core/export/export_kind.hpp"
+#include "core/session/planning_config.hpp"
 #include "core/session/untitled_sessions.hpp"
 
 namespace nextview {
@@ -40,9 +41,9 @@ struct Reconnect {};
 struct SetTermination {
   TerminationConfig termination;
 };
-/// Changes what ranks the views, and keeps the scan.
-struct SetPlanner {
-  PlannerConfig planner;
+/// Changes what ranks which views, and keeps the scan.
+struct SetPlanning {
+  PlanningConfig planning;
 };
 /// Starts over with the same configuration.
 struct Reset {};
@@ -104,7 +105,7 @@ struct ForgetRuns {};
 
 using SessionRequest =
     std::variant<request::Load, request::OpenFile, request::OfferSession, request::Connect, request::Disconnect,
-                 request::Reconnect, request::SetTermination, request::SetPlanner, request::Reset, request::Step,
+                 request::Reconnect, request::SetTermination, request::SetPlanning, request::Reset, request::Step,
                  request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
                  request::Redo, request::GoTo, request::BeginBranch, request::RenameBranch, request::RemoveBranch,
                  request::Compare, request::Refine, request::Export, request::ExportOne, request::ForgetRuns>;

@@ -29,7 +29,7 @@ HistoryEntry SessionRunner::now() const {
 Stand SessionRunner::stand_of(const Session& session, SeenSurface seen) {
   seen.follow(session);
   const Configuration& c = session.configuration();
-  return {c.termination, c.planner, session.planner().needs(), std::make_shared<ScanState>(session.state()),
+  return {c.termination, planning_of(c), session.planner().needs(), std::make_shared<ScanState>(session.state()),
           std::move(seen)};
 }
 
@@ -99,11 +99,11 @@ void SessionRunner::set_termination(const TerminationConfig& termination) {
   show_next();
 }
 
-void SessionRunner::set_planner(const PlannerConfig& planner, const JobControl& control) {
+void SessionRunner::set_planning(const PlanningConfig& planning, const JobControl& control) {
   if (!session_) return;
   HistoryEntry before = now();
   control.progress(0.0, "ranking the candidate views");
-  session_->set_planner(planner, control.progress, control.stop);
+  session_->set_planning(planning, control.progress, control.stop);
   tree_->set_stand(tree_->at, stand_of(*session_, *seen_));
   remember(std::move(before));
   SessionSnapshot next = *snapshot_;
@@ -168,7 +168,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   tree_ = std::move(entry.tree);
   tree_->at = entry.at;
   tree_->go_back_to(entry.branches);
-  session_->restore(*entry.stand.state, entry.stand.planner);
+  session_->restore(*entry.stand.state, entry.stand.planning);
   session_->set_termination(entry.stand.termination);
   session_->take_proposal();
   kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);

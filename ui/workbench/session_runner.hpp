@@ -48,8 +48,8 @@ class SessionRunner {
   /// The scan stays; what it has taken so far may be all there is to it, or it may go on.
   /// @throws std::invalid_argument if it is not valid
   void set_termination(const TerminationConfig& termination);
-  /// Views are ranked by another planner from here on; the scan stays. @throws as Session::set_planner
-  void set_planner(const PlannerConfig& planner, const JobControl& control);
+  /// Other views are ranked, or by another planner, from here on; the scan stays. @throws as Session::set_planning
+  void set_planning(const PlanningConfig& planning, const JobControl& control);
   /// Nothing without a session that can step.
   /// `judge` is asked of a scan that does not fit those before it (Session::Judge).
   void step(const JobControl& control, const Session::Judge& judge = {});

@@ -15,12 +15,12 @@ Stand SessionRunner::stand_at(std::uint32_t number, const JobControl& control) {
   ScanHistory::bring_back_maps(*session_, *tree_, from, nearest, control.progress, control.stop);
   if (missing.empty()) return nearest;
   const ScanState here = session_->state();
-  const PlannerConfig planner = session_->configuration().planner;
-  const auto come_back = [&] { session_->restore(here, planner); };
+  const PlanningConfig planning = session_->planning();
+  const auto come_back = [&] { session_->restore(here, planning); };
   SeenSurface seen = nearest.seen;
   const std::size_t notices = tree_->saved()->notices.size();
   try {
-    session_->restore(*nearest.state, nearest.planner);
+    session_->restore(*nearest.state, nearest.planning);
     const auto taken = [&](std::uint32_t step) {
       seen.follow(*session_);
       tree_->set_stand(step, stand_as_saved(*session_, seen, *tree_->saved(), step));
@@ -98,11 +98,11 @@ void SessionRunner::compare(const std::string& name, const JobControl& control) 
 /// What the window would show if the session stood there.
 SessionSnapshot SessionRunner::snapshot_of(const Stand& stand) {
   const ScanState here = session_->state();
-  const Configuration& c = session_->configuration();
-  const auto [planner, termination] = std::pair(c.planner, c.termination);
+  const PlanningConfig planning = session_->planning();
+  const TerminationConfig termination = session_->configuration().termination;
   const SeenSurface seen = std::exchange(*seen_, stand.seen);
   const auto come_back = [&] {
-    session_->restore(here, planner);
+    session_->restore(here, planning);
     session_->set_termination(termination);
     *seen_ = seen;
   };
@@ -110,7 +110,7 @@ SessionSnapshot SessionRunner::snapshot_of(const Stand& stand) {
   there.compared = nullptr;
   there.gibbs = nullptr;
   try {
-    session_->restore(*stand.state, stand.planner);
+    session_->restore(*stand.state, stand.planning);
     session_->set_termination(stand.termination);
     fill_map(there);
   } catch (...) {

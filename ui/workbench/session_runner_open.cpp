@@ -12,14 +12,14 @@ namespace {
 void look_at_each_view(Session& session, const SavedSession& saved, const std::function<void(std::uint32_t)>& look,
                        const SessionRunner::JobControl& control) {
   const ScanState last = session.state();
-  const PlannerConfig now = session.configuration().planner;
+  const PlanningConfig now = session.planning();
   const std::vector<JournalStep> line = saved.journal->line();
   for (std::size_t k = 1; k < line.size(); ++k) {
     throw_if_stopped(control.stop);
     control.progress(0.2 + 0.8 * double(k) / double(line.size()), "opening the session");
     const JournalStep& step = line[k - 1];
-    const PlannerConfig planner = chosen_by(saved, line[k]);
-    session.restore(earlier_state(session.setup_with(planner), last, k, step.reached), planner);
+    const PlanningConfig planning = chosen_by(saved, line[k]);
+    session.restore(earlier_state(session.setup_with(planning), last, k, step.reached), planning);
     look(step.number);
   }
   session.restore(last, now);
@@ -35,7 +35,8 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
   SavedSession& saved = *shared;
   const Configuration& c = saved.configuration;
   SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
-  const auto session = std::make_shared<Session>(c, std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
+  const auto session =
+      std::make_shared<Session>(began_with(saved), std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
   const std::shared_ptr<KeptSession> kept = kept_of(saved, *session);
   SeenSurface seen(*session);
   const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());

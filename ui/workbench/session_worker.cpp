@@ -184,7 +184,7 @@ void SessionWorker::execute(const SessionRequest& request) {
                    log_.add(LogEntry::Level::success, "The scanner is reached again");
                  },
                  [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
-                 [&](const request::SetPlanner& r) { runner_.set_planner(r.planner, job_control()); },
+                 [&](const request::SetPlanning& r) { runner_.set_planning(r.planning, job_control()); },
                  [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
                  [&](request::Step) {
                    runner_.step(job_control(),

@@ -94,7 +94,7 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     if (s.finished != before.finished)
       log_.add(s.finished.empty() ? Level::note : Level::success,
                s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
-  } else if (is<request::SetPlanner>(request)) {
+  } else if (is<request::SetPlanning>(request)) {
     if (!s.records.empty()) log_.add(Level::note, "The candidates are ranked anew; the scan stays");
   } else if (s.scanner_lost && !before.scanner_lost) {
     log_.add(Level::warning,

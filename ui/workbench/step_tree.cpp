@@ -103,7 +103,8 @@ const ScanState* StepTree::nearest_maps(std::uint32_t number, const Stand& like)
   for (;; number = nodes_.at(number).after) {
     const auto& stand = nodes_.at(number).stand;
     if (stand && stand->state->has_maps && stand->needs.occlusions == like.needs.occlusions &&
-        stand->needs.posterior == like.needs.posterior && stand->planner.semantics == like.planner.semantics)
+        stand->needs.posterior == like.needs.posterior &&
+        stand->planning.planner.semantics == like.planning.planner.semantics)
       return stand->state.get();
     if (number == 0) return nullptr;
   }

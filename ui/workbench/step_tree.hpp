@@ -15,8 +15,8 @@ namespace nextview {
 /// Where a session stands: all that is there again when one comes back.
 struct Stand {
   TerminationConfig termination;
-  PlannerConfig planner;
-  PolicyNeeds needs;                 ///< of that planner
+  PlanningConfig planning;
+  PolicyNeeds needs;                 ///< of its planner
   std::shared_ptr<ScanState> state;  ///< never null; its maps may have been dropped
   SeenSurface seen;
 };

@@ -143,5 +143,41 @@ TEST(ScanState, AnotherPlannerRanksTheSameScan) {
   }
 }
 
+// Nor is which views are ranked; a planner that knows the truth knows what those see.
+TEST(ScanState, OtherCandidatesRankTheSameScan) {
+  Configuration c = small_scan();
+  Session session(c);
+  session.step();
+  session.step();
+  const ScanState before = session.state();
+  const PlanningConfig first = session.planning();
+  for (const char* gain : {"new-surface", "oracle", "set-cover", "covering-order"}) {
+    PlanningConfig other = first;
+    other.planner.gain = gain;
+    other.views.count = 17;
+    other.views.layout = ViewLayout::fibonacci;
+    session.set_planning(other);
+    ASSERT_EQ(session.candidates().size(), 17u);
+    EXPECT_EQ(session.records().back().coverage_visible, before.records.back()->coverage_visible);
+
+    c.planner = other.planner;
+    c.views = other.views;
+    Session fresh(c);
+    fresh.step();
+    fresh.override_next_view(session.records()[1].T_world_camera);
+    fresh.step();
+    EXPECT_TRUE(same_map(session.map(), fresh.map())) << gain;
+    EXPECT_TRUE(same_candidates(session.records()[1].candidates, fresh.records()[1].candidates)) << gain;
+    EXPECT_EQ(session.next_candidate(), fresh.next_candidate()) << gain;
+  }
+  session.set_planning(first);
+  EXPECT_TRUE(same_state(session.state(), before));
+  PlanningConfig wrong = first;
+  wrong.views.layout = ViewLayout::file;
+  wrong.views.file = "none";
+  EXPECT_THROW(session.set_planning(wrong), std::runtime_error);
+  EXPECT_TRUE(same_state(session.state(), before));
+}
+
 }  // namespace
 }  // namespace nextview

@@ -114,7 +114,7 @@ TEST(SessionGains, CoveringOrderCoversFirst) {
   c.views.count = 30;
   const Session session(c);
   const KnownObject& object = *session.known_object();
-  const auto order = object.covering_order(c.seed);
+  const auto order = object.sight().covering_order(c.seed);
   EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 30u);
   std::set<std::uint32_t> all, covered;
   for (const Pose& view : session.candidates())
@@ -123,7 +123,7 @@ TEST(SessionGains, CoveringOrderCoversFirst) {
   while (covered.size() < all.size())
     for (const std::uint32_t s : object.samples_seen(session.candidates()[order.at(needed++)])) covered.insert(s);
   EXPECT_LE(needed, 14u);  // a box shows itself to eight corners
-  EXPECT_EQ(object.covering_order(c.seed), order);
+  EXPECT_EQ(object.sight().covering_order(c.seed), order);
 }
 
 TEST(SessionGains, CombinedWithOneGainRanksAsThatGain) {

