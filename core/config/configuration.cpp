@@ -33,6 +33,23 @@ std::string beside(const fs::path& file, const std::string& said, bool may_be_fo
   return !said.empty() && fs::path(said).is_relative() && is_there ? there.string() : said;
 }
 
+/// `all`: the configuration's own settings, which take a while to list.
+void give_one_of(std::vector<Setting>& all, Configuration& configuration, const std::string& key,
+                 const std::string& text, const std::string& name, const std::string& place) {
+  const SettingSources here{{key, {name, place, text}}};
+  try {
+    if (key == "sensor.preset")
+      apply_sensor_preset(configuration, text);
+    else
+      find_setting(all, key).set(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_given(error.what(), here));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(as_given(error.what(), here));
+  }
+  configuration.sources[key] = {name, place, find_setting(all, key).text()};
+}
+
 class TomlReader {
  public:
   /// With `only`, keys outside of that section are errors.
@@ -104,7 +121,7 @@ class TomlReader {
 
   void take(const std::string& key, const std::string& text, std::uint32_t line) {
     try {
-      give(configuration_, key, located(key, text), key, place(line));
+      give_one_of(settings_, configuration_, key, located(key, text), key, place(line));
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(error.what());
     }
@@ -194,21 +211,8 @@ std::string Configuration::as_given(const std::string& message) const {
 
 void give(Configuration& configuration, const std::string& key, const std::string& text, const std::string& name,
           const std::string& place) {
-  const SettingSources here{{key, {name, place, text}}};
-  try {
-    if (key == "sensor.preset") {
-      apply_sensor_preset(configuration, text);
-    } else {
-      auto all = settings(configuration);
-      find_setting(all, key).set(text);
-    }
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(as_given(error.what(), here));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(as_given(error.what(), here));
-  }
   auto all = settings(configuration);
-  configuration.sources[key] = {name, place, find_setting(all, key).text()};
+  give_one_of(all, configuration, key, text, name, place);
 }
 
 void read_settings(const fs::path& file, Configuration& configuration) {

@@ -1,5 +1,7 @@
 #include "ui/workbench/seen_surface.hpp"
 
+#include <tbb/parallel_for.h>
+
 namespace nextview {
 namespace {
 
@@ -23,11 +25,14 @@ void SeenSurface::follow(const Session& session) {
     const PointCloud& hits = session.scans()[scans_]->hits;
     if (missed_) missed_->add(hits);
     const std::size_t stride = hits.size() / points_per_view + 1;
-    for (std::size_t i = 0; i < hits.size(); i += stride) {
-      cloud->points.push_back(hits[i]);
-      cloud->views.push_back(static_cast<std::uint16_t>(scans_));
-      if (surface_) cloud->distances.push_back(static_cast<float>((*surface_)(hits[i])));
-    }
+    for (std::size_t i = 0; i < hits.size(); i += stride) cloud->points.push_back(hits[i]);
+    cloud->views.resize(cloud->points.size(), static_cast<std::uint16_t>(scans_));
+  }
+  const std::size_t known = cloud->distances.size();
+  if (surface_) {
+    cloud->distances.resize(cloud->points.size());
+    tbb::parallel_for(known, cloud->points.size(),
+                      [&](std::size_t i) { cloud->distances[i] = static_cast<float>((*surface_)(cloud->points[i])); });
   }
   cloud_ = std::move(cloud);
 }

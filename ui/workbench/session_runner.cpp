@@ -157,6 +157,7 @@ void SessionRunner::redo(const JobControl& control) {
 /// Goes on from there. The next view is the planner's choice again.
 void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_session = session_ == entry.session;
+  if (!same_session) put_off_.clear();
   const bool same_scan = same_session && session_->scans() == entry.stand.state->scans;
   const Planner* const planner = session_ ? &session_->planner() : nullptr;
   SessionSnapshot next = *snapshot_;

@@ -71,6 +71,10 @@ class SessionRunner {
   std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
   /// Writes one thing of it that needs no drawing. Returns the files.
   std::vector<std::filesystem::path> write_one(const request::ExportOne& wanted, const JobControl& control) const;
+  /// What opening a session put off, so that it is shown at once: the maps of its earlier views, one view at a time.
+  /// False if nothing is left to be done. @throws Stopped; OutOfMemory
+  bool catch_up(const std::stop_token& stop);
+  bool is_behind() const { return !put_off_.empty(); }
   void forget_runs();
   /// Shown until the next thing that works.
   void set_message(const std::string& message);
@@ -115,8 +119,9 @@ class SessionRunner {
   Configuration before_scanner_;                          ///< to go back to
   std::filesystem::path state_folder_;                    ///< empty: sessions are not kept
   KeptSession::Notice notice_;
-  std::shared_ptr<KeptSession> kept_;  ///< of the session; null without one
-  std::shared_ptr<StepTree> tree_;     ///< likewise
+  std::shared_ptr<KeptSession> kept_;   ///< of the session; null without one
+  std::shared_ptr<StepTree> tree_;      ///< likewise
+  std::vector<std::uint32_t> put_off_;  ///< steps of it whose maps are to be made again
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };
 

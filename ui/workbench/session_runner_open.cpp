@@ -93,6 +93,22 @@ void SessionRunner::adopt_opened(const std::shared_ptr<Session>& session, const 
   for (const std::uint32_t number : tree->line(tree->at))
     if (number != tree->at && tree->stand(number)) history_.push(entry(number), here, limit);
   adopt(entry(tree->at));
+  put_off_ = tree->line(tree->at);
+}
+
+/// Each is made of the one before. Where there is no room for one there is none for those after it.
+bool SessionRunner::catch_up(const std::stop_token& stop) {
+  const std::vector<std::uint32_t> steps = std::exchange(put_off_, {});
+  for (auto step = steps.begin(); step != steps.end(); ++step) {
+    if (!tree_ || !tree_->has(*step)) return false;  // another session is open by now
+    const auto& stand = tree_->stand(*step);
+    if (!stand || stand->state->has_maps) continue;
+    ScanHistory::bring_back_maps(*session_, *tree_, *step, *stand, {}, stop);
+    history_.keep_within(ScanHistory::limit(session_->configuration()), tree_->stand(tree_->at)->state.get());
+    if (stand->state->has_maps) put_off_.assign(step + 1, steps.end());
+    return is_behind();
+  }
+  return false;
 }
 
 }  // namespace nextview

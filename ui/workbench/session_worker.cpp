@@ -118,6 +118,7 @@ std::vector<std::uint64_t> SessionWorker::take_failed() {
 std::optional<std::pair<std::uint64_t, SessionRequest>> SessionWorker::next_request(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   for (;;) {
+    catch_up(lock);
     wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
     if (stop.stop_requested()) return std::nullopt;
     if (!queue_.empty() || next_play_ <= Clock::now()) break;
@@ -130,6 +131,19 @@ std::optional<std::pair<std::uint64_t, SessionRequest>> SessionWorker::next_requ
   auto request = std::move(queue_.front());
   queue_.pop_front();
   return request;
+}
+
+void SessionWorker::catch_up(std::unique_lock<std::mutex>& lock) {
+  job_ = std::stop_source();
+  const std::stop_token stop = job_.get_token();
+  while (queue_.empty() && !progress_.playing && !stop.stop_requested() && runner_.is_behind()) {
+    lock.unlock();
+    try {
+      runner_.catch_up(stop);
+    } catch (const std::exception&) {  // who goes there does it again, and hears of it
+    }
+    lock.lock();
+  }
 }
 
 void SessionWorker::run(std::stop_token stop) {

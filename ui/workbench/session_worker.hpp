@@ -53,6 +53,8 @@ class SessionWorker {
   void run(std::stop_token stop);
   /// Waits for the next request; none if the worker is to end.
   std::optional<std::pair<std::uint64_t, SessionRequest>> next_request(std::stop_token stop);
+  /// Does what was put off, while nothing is asked for.
+  void catch_up(std::unique_lock<std::mutex>& lock);
   void execute(const SessionRequest& request);
   void attempt(std::uint64_t number, const SessionRequest& request);
   void finish(const SessionRequest& request, const SessionSnapshot& before);

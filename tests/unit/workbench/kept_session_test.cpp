@@ -98,6 +98,33 @@ TEST_F(KeptSessionTest, WhatIsExportedIsASession) {
   EXPECT_EQ(read_journal(folder_ / "out").line().size(), 3u);
 }
 
+// What is put off when a session is opened is done while nothing is asked for, as far as there is room.
+TEST_F(KeptSessionTest, GoingBackInAnOpenedSessionMakesNoMapsAgain) {
+  for (const double memory : {1.0, 0.0}) {
+    Configuration c = small_scan();
+    c.history.memory = memory;
+    auto first = runner();
+    first->load(c, job_control());
+    steps(*first, 2);
+    const auto earlier = first->snapshot();
+    steps(*first, 1);
+    const fs::path folder = kept().back();
+    first.reset();
+    ASSERT_TRUE(fs::exists(folder / "state"));
+    auto second = runner();
+    second->open(folder, job_control());
+    int pieces = 0;
+    while (second->catch_up({})) ++pieces;
+    EXPECT_FALSE(second->is_behind());
+    EXPECT_EQ(pieces, memory > 0 ? 2 : 0);
+    int reports = 0;
+    const auto count = [&](double, std::string_view) { ++reports; };
+    second->undo({count, [](const SamplerDiagnostics&) {}, {}});
+    EXPECT_EQ(reports == 0, memory > 0);
+    expect_same_scan(*second->snapshot(), *earlier);
+  }
+}
+
 TEST_F(KeptSessionTest, AnotherPlannerShowsAllThatIsIts) {
   auto first = runner();
   Configuration c = small_scan();
