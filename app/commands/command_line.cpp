@@ -16,7 +16,7 @@ namespace nextview {
 namespace {
 
 constexpr std::array subcommands = {"scan", "score",  "refine", "posterior", "calibrate",
-                                    "info", "export", "driver", "window"};
+                                    "info", "export", "study",  "driver",    "window"};
 constexpr std::array drawing = {"scan", "refine", "calibrate"};
 
 template <class List>
