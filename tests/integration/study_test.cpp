@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <random>
+#include <sstream>
 
 #include "core/file/read_file.hpp"
 #include "tests/integration/program.hpp"
@@ -162,6 +163,25 @@ TEST(Study, TheSmokeStudyRuns) {
         "maps,slotted_plate,clean,4,octomap,rows_open_by_width[%],10",
         "maps,sphere,noisy,4,calibrated,reliability_true,0.05"})
     EXPECT_THAT(csv, HasSubstr(row));
+  const Result list = nextview("figure --list");
+  const std::string from =
+      fmt::format("--study '{}' --out '{}'", (folder.path() / "out").string(), (folder.path() / "figures").string());
+  const Result drawn = nextview("figure all --dpi 96 " + from);
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  std::istringstream names(list.out);
+  int figures = 0;
+  for (std::string line; std::getline(names, line); ++figures) {
+    const std::string name = line.substr(0, line.find(' '));
+    for (const char* ending : {".png", ".svg", ".json"})
+      if (name != "table_1") EXPECT_TRUE(fs::exists(folder.path() / "figures" / (name + ending))) << name << ending;
+  }
+  EXPECT_EQ(figures, 15);
+  EXPECT_TRUE(fs::exists(folder.path() / "figures" / "table_1.tex"));
+  const Result refused =
+      nextview(fmt::format("figure all --study '{0}' --out '{0}'", (folder.path() / "out").string()));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("something else than figures"));
+  EXPECT_EQ(nextview("figure gap_close " + from).exit_code, 2);
 }
 
 }  // namespace
