@@ -172,8 +172,9 @@ TEST(Study, TheSmokeStudyRuns) {
   int figures = 0;
   for (std::string line; std::getline(names, line); ++figures) {
     const std::string name = line.substr(0, line.find(' '));
+    if (name == "table_1") continue;
     for (const char* ending : {".png", ".svg", ".json"})
-      if (name != "table_1") EXPECT_TRUE(fs::exists(folder.path() / "figures" / (name + ending))) << name << ending;
+      EXPECT_TRUE(fs::exists(folder.path() / "figures" / (name + ending))) << name << ending;
   }
   EXPECT_EQ(figures, 15);
   EXPECT_TRUE(fs::exists(folder.path() / "figures" / "table_1.tex"));
