@@ -93,6 +93,8 @@ int run(int argc, char** argv) {
   add_calibrate_command(program);
   add_info_command(program);
   add_export_command(program);
+  add_study_command(program);
+  add_figure_command(program);
   add_driver_command(program);
   CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
   options.add_to(*window);

@@ -15,9 +15,9 @@
 namespace nextview {
 namespace {
 
-constexpr std::array subcommands = {"scan", "score",  "refine", "posterior", "calibrate",
-                                    "info", "export", "driver", "window"};
-constexpr std::array drawing = {"scan", "refine", "calibrate"};
+constexpr std::array subcommands = {"scan",   "score", "refine", "posterior", "calibrate", "info",
+                                    "export", "study", "figure", "driver",    "window"};
+constexpr std::array drawing = {"scan", "refine", "calibrate", "figure"};
 
 template <class List>
 bool has(const List& list, std::string_view word) {
@@ -75,7 +75,8 @@ CommandLine command_line(std::vector<char*> arguments) {
   if (has(subcommands, word)) {
     const std::vector<std::string_view> others(begin, line.arguments.end());
     line.draws_headless = (word == "export" ? exports_pixels(others) : has(drawing, word)) &&
-                          !has(others, "--no-pictures") && !has(others, "--help") && !has(others, "-h");
+                          !has(others, "--no-pictures") && !has(others, "--list") && !has(others, "--help") &&
+                          !has(others, "-h");
   } else if (word != "--help" && word != "-h" && word != "--version") {
     if (!word.starts_with('-')) require_file_or_object(word);
     line.arguments.insert(begin, window);

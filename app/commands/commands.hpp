@@ -12,6 +12,8 @@ void add_posterior_command(CLI::App& program);
 void add_calibrate_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_export_command(CLI::App& program);
+void add_study_command(CLI::App& program);
+void add_figure_command(CLI::App& program);
 void add_driver_command(CLI::App& program);
 
 /// Exit codes: 0 done, 2 bad input or settings, 130 stopped by the user.

@@ -1,0 +1,122 @@
+#include "core/study/study_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/file/atomic_file.hpp"
+#include "core/study/summary_rows.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Six significant digits: more than any of the numbers means.
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string csv_row(const SummaryRow& r) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}-{},{},{}\n", r.part, csv_cell(r.object), csv_cell(r.sensor),
+                     r.views, csv_cell(r.method), csv_cell(r.measure), number(r.at), r.runs,
+                     r.measure == "failure" ? "" : number(r.mean), r.measure == "failure" ? "" : number(r.spread),
+                     r.better ? std::to_string(*r.better) : "", r.first_run, r.last_run, r.hash, csv_cell(r.note));
+}
+
+Json json_row(const SummaryRow& r) {
+  Json json = {{"part", r.part},     {"object", r.object},   {"sensor", r.sensor}, {"views", r.views},
+               {"method", r.method}, {"measure", r.measure}, {"at", r.at},         {"runs", r.runs}};
+  if (r.measure != "failure") json["mean"] = std::stod(number(r.mean)), json["spread"] = std::stod(number(r.spread));
+  if (r.better) json["better"] = *r.better;
+  json["of_runs"] = {r.first_run, r.last_run};
+  json["hash"] = r.hash;
+  if (!r.note.empty()) json["reason"] = r.note;
+  return json;
+}
+
+/// summary.csv, summary.json and runs.csv, as their rows come.
+class SummaryFiles {
+ public:
+  SummaryFiles(const Study& study, const fs::path& out)
+      : csv_(out / "summary.csv"), json_(out / "summary.json"), runs_(out / "runs.csv") {
+    csv_.stream() << "part,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
+    json_.stream() << "{\"program\": \"nextview " NEXTVIEW_VERSION "\", \"study\": "
+                   << Json(study.name).dump(-1, ' ', false, Json::error_handler_t::replace) << ", \"rows\": [";
+    runs_.stream() << "run,key,part,object,sensor,views,method,start,seed,measure,value,failure\n";
+  }
+
+  void add(const SummaryRow& row) {
+    csv_.stream() << csv_row(row);
+    json_.stream() << (rows_++ == 0 ? "\n" : ",\n")
+                   << json_row(row).dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  void add(const FinishedRun& run) {
+    const char* measure = main_measure(run.run.part);
+    const MeasuredValue* value = run.result.find(measure, 0.0);
+    runs_.stream() << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", run.number, run.key, name(run.run.part),
+                                  csv_cell(run.run.object), csv_cell(run.run.sensor), run.run.views,
+                                  csv_cell(run.run.method), run.run.start, run.run.seed, csv_cell(measure),
+                                  value ? number(value->value) : "", csv_cell(run.result.failure));
+  }
+  std::size_t commit() {
+    json_.stream() << "\n]}\n";
+    for (AtomicFile* file : {&csv_, &json_, &runs_}) file->commit();
+    return rows_;
+  }
+
+ private:
+  AtomicFile csv_, json_, runs_;
+  std::size_t rows_ = 0;
+};
+
+/// Finds results in several folders. Shards took the runs in turns, so the next is likely in the next folder.
+class Results {
+ public:
+  explicit Results(std::span<const StudyFolder> folders) : folders_(folders) {}
+  RunResult read(const std::string& key, std::size_t number, std::size_t of) {
+    for (std::size_t i = 0; i < folders_.size(); ++i) {
+      const std::size_t folder = (next_ + i) % folders_.size();
+      if (!folders_[folder].has(key)) continue;
+      next_ = folder + 1;
+      return folders_[folder].result(key);
+    }
+    throw std::runtime_error(fmt::format("{}: run {} of {} is not done yet; --resume goes on with it",
+                                         folders_.front().path().string(), number, of));
+  }
+
+ private:
+  std::span<const StudyFolder> folders_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+StudySummary summarise(const Study& study, std::span<const std::string> keys, std::span<const StudyFolder> folders,
+                       const RunRange& range, const fs::path& out) {
+  StudySummary summary;
+  SummaryFiles files(study, out);
+  Results results(folders);
+  std::size_t begin = 0;
+  for (const StudyBlock& block : study.blocks) {
+    SummaryRows rows(block, [&](const SummaryRow& row) { files.add(row); });
+    const std::size_t together = block.methods.size() * block.runs_of_a_method();
+    for (std::size_t first = begin; first < begin + block.size(); first += together) {
+      std::vector<FinishedRun> runs;
+      for (std::size_t i = first; i < first + together; ++i) {
+        if (i + 1 < range.first || i + 1 > range.last) continue;
+        runs.push_back({i + 1, keys[i], study.run(i), results.read(keys[i], i + 1, keys.size())});
+        files.add(runs.back());
+        summary.failed += runs.back().result.failure.empty() ? 0 : 1;
+      }
+      rows.add(runs);
+      summary.runs += runs.size();
+    }
+    rows.finish();
+    begin += block.size();
+  }
+  summary.rows = files.commit();
+  return summary;
+}
+
+}  // namespace nextview

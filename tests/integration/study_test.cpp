@@ -1,0 +1,189 @@
+// Studies as a user runs them: shards, kills, broken objects, folders that hold something else.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "core/file/read_file.hpp"
+#include "tests/integration/program.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr const char* tiny = R"(
+[settings]
+object.longest_side = 0.5
+sensor.width = 80
+sensor.height = 60
+map.resolution = 0.04
+views.count = 8
+planner.ray_columns = 8
+planner.ray_rows = 6
+evaluation.surface_samples = 500
+gibbs.sweeps = 20
+[[planning]]
+objects = ["sphere", "broken.ply", "box"]
+policies = ["new-surface", "random"]
+seeds = [1, 2]
+views = 3
+[[maps]]
+objects = ["box"]
+maps = ["octomap", "gibbs"]
+views = 3
+)";
+
+class StudyCommand : public testing::Test {
+ protected:
+  StudyCommand() {
+    std::ofstream(file("study.toml")) << tiny;
+    std::ofstream(file("broken.ply")) << "ply, or so it says\n";
+  }
+  fs::path file(const std::string& name) const { return folder_.path() / name; }
+  std::string quoted(const std::string& name) const { return "'" + file(name).string() + "'"; }
+  Result study(const std::string& out, const std::string& more = "") const {
+    return nextview(fmt::format("study {} --out {} {}", quoted("study.toml"), quoted(out), more));
+  }
+  /// All that is no time.
+  std::map<std::string, std::string> content(const std::string& out) const {
+    std::map<std::string, std::string> content;
+    for (const auto& entry : fs::recursive_directory_iterator(file(out)))
+      if (entry.is_regular_file() && entry.path().filename() != "timings.csv")
+        content[entry.path().lexically_relative(file(out)).string()] = read_file(entry.path());
+    return content;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(StudyCommand, ABrokenObjectIsReportedAndTheOthersGoOn) {
+  const Result run = study("out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("4 of 14 runs came to nothing"));
+  const std::string csv = read_file(file("out") / "summary.csv");
+  EXPECT_THAT(csv, HasSubstr("planning,broken,paper,3,random,failure,0,2,,,,7-8,"));
+  EXPECT_THAT(csv, HasSubstr("broken.ply"));
+  EXPECT_THAT(csv, HasSubstr("planning,box,paper,3,random,mean_coverage[%],0,2,"));
+  EXPECT_THAT(csv, HasSubstr("planning,(mean),paper,3,random,mean_coverage[%],0,2,"));  // of two objects
+}
+
+TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
+  ASSERT_EQ(study("whole", "--threads 1").exit_code, 0);
+  std::string folders;
+  for (const int i : {2, 3, 1}) {
+    const std::string out = fmt::format("shard{}", i);
+    ASSERT_EQ(study(out, fmt::format("--threads 2 --resume --shard {}/3", i)).exit_code, 0);
+    folders += quoted(out) + " ";
+  }
+  const Result merged = nextview(fmt::format("study --merge {} --out {}", folders, quoted("merged")));
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  for (const char* name : {"summary.csv", "summary.json", "runs.csv", "study.toml", "keys"})
+    EXPECT_EQ(read_file(file("merged") / name), read_file(file("whole") / name)) << name;
+  const Result incomplete = nextview(fmt::format("study --merge {} --out {}", quoted("shard1"), quoted("incomplete")));
+  EXPECT_EQ(incomplete.exit_code, 2);
+  EXPECT_THAT(incomplete.err, HasSubstr("run 2 of 14 is not done yet"));
+  EXPECT_FALSE(fs::exists(file("incomplete") / "summary.csv"));
+}
+
+TEST_F(StudyCommand, KilledAtAnyMomentItResumesToTheSameBytes) {
+  ASSERT_EQ(study("whole").exit_code, 0);
+  std::mt19937 random(std::uint32_t(GTEST_FLAG_GET(random_seed)) + 18);
+  int killed = 0;
+  for (int kill = 0; kill < 8; ++kill) {
+    const double after = 0.05 + 0.4 * double(random() % 1000) / 1000.0;
+    const Result run =
+        nextview_behind(fmt::format("timeout --signal=KILL {:.3f}", after),
+                        fmt::format("study {} --resume --out {}", quoted("study.toml"), quoted("killed")));
+    killed += run.exit_code == 137;
+    EXPECT_TRUE(run.exit_code == 137 || run.exit_code == 0) << run.err;
+  }
+  EXPECT_GT(killed, 0);
+  ASSERT_EQ(study("killed", "--resume").exit_code, 0);
+  EXPECT_EQ(content("killed"), content("whole"));
+  const std::string timings = read_file(file("killed") / "timings.csv");
+  const Result again = study("killed", "--resume");  // nothing is left to do
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(read_file(file("killed") / "timings.csv"), timings);
+  EXPECT_EQ(content("killed"), content("whole"));
+}
+
+TEST_F(StudyCommand, LeavesAFolderOfOthersAlone) {
+  fs::create_directory(file("mine"));
+  std::ofstream(file("mine") / "letter.txt") << "dear reader";
+  for (const char* more : {"", "--resume"}) {
+    const Result refused = study("mine", more);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("mine: is not empty, and holds no study"));
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1);
+  }
+  EXPECT_EQ(content("mine"), (std::map<std::string, std::string>{{"letter.txt", "dear reader"}}));
+  ASSERT_EQ(study("out", "--runs 3-3").exit_code, 0);
+  EXPECT_THAT(study("out").err, HasSubstr("--resume goes on with it"));
+  std::ofstream(file("broken.ply"), std::ios::app) << "x";
+  const Result changed = study("out", "--resume");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_THAT(changed.err, HasSubstr("other objects made it"));
+  std::ofstream(file("study.toml"), std::ios::app) << "# x\n";
+  EXPECT_THAT(study("out", "--resume").err, HasSubstr("another study"));
+  EXPECT_THAT(nextview(fmt::format("study --merge {} --out {}", quoted("mine"), quoted("new"))).err,
+              HasSubstr("is no folder of a study"));
+}
+
+TEST_F(StudyCommand, KeepsScansIfItIsAskedTo) {
+  ASSERT_EQ(study("out", "--runs 4-4 --keep-scans").exit_code, 0);
+  const auto kept = fs::directory_iterator(file("out") / "sessions")->path();
+  const Result info = nextview(fmt::format("info '{}'", kept.string()));
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("3 views"));
+}
+
+TEST_F(StudyCommand, OptionsThatMakeNoSenseAreRefused) {
+  for (const char* more : {"--shard 3/2", "--shard 0/2", "--shard 1", "--runs 0-3", "--runs 3-1", "--runs 1-99"}) {
+    const Result refused = study("out", more);
+    EXPECT_EQ(refused.exit_code, 2) << more;
+    EXPECT_THAT(refused.err, HasSubstr(std::string(more).substr(0, 6))) << more;
+    EXPECT_FALSE(fs::exists(file("out"))) << more;
+  }
+}
+
+/// The small study that is shipped; all that it shows works.
+TEST(Study, TheSmokeStudyRuns) {
+  const TemporaryFolder folder;
+  const Result run = nextview(fmt::format("study '{}/assets/studies/smoke.toml' --out '{}'", NEXTVIEW_SOURCE_DIR,
+                                          (folder.path() / "out").string()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const std::string csv = read_file(folder.path() / "out" / "summary.csv");
+  for (const char* row :
+       {"planning,(mean),clean,6,new-surface,gap_closed", "planning,(mean),clean,6,paper,coverage[%],6",
+        "maps,(mean),noisy,4,gibbs,log_loss_near_surface[nats] - octomap",
+        "maps,slotted_plate,clean,4,octomap,rows_open_by_width[%],10",
+        "maps,sphere,noisy,4,calibrated,reliability_true,0.05"})
+    EXPECT_THAT(csv, HasSubstr(row));
+  const Result list = nextview("figure --list");
+  const std::string from =
+      fmt::format("--study '{}' --out '{}'", (folder.path() / "out").string(), (folder.path() / "figures").string());
+  const Result drawn = nextview("figure all --dpi 96 " + from);
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  std::istringstream names(list.out);
+  int figures = 0;
+  for (std::string line; std::getline(names, line); ++figures) {
+    const std::string name = line.substr(0, line.find(' '));
+    if (name == "table_1") continue;
+    for (const char* ending : {".png", ".svg", ".json"})
+      EXPECT_TRUE(fs::exists(folder.path() / "figures" / (name + ending))) << name << ending;
+  }
+  EXPECT_EQ(figures, 15);
+  EXPECT_TRUE(fs::exists(folder.path() / "figures" / "table_1.tex"));
+  const Result refused =
+      nextview(fmt::format("figure all --study '{0}' --out '{0}'", (folder.path() / "out").string()));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("something else than figures"));
+  EXPECT_EQ(nextview("figure gap_close " + from).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include "core/offline/refinement.hpp"
+#include "core/session/session.hpp"
+#include "core/study/run_result.hpp"
+#include "core/view/candidate_views.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr const char* text = R"(
+[settings]
+sensor.width = 160
+sensor.height = 120
+map.resolution = 0.02
+views.count = 12
+planner.ray_columns = 16
+planner.ray_rows = 12
+evaluation.surface_samples = 2000
+gibbs.sweeps = 40
+object.longest_side = 0.5
+[[planning]]
+objects = ["sphere", "nowhere.ply"]
+policies = ["new-surface"]
+views = 4
+[[maps]]
+objects = ["slotted_plate"]
+maps = ["octomap", "gibbs"]
+views = 3
+)";
+
+class StudyRuns : public testing::Test {
+ protected:
+  RunResult run(std::size_t i) {
+    RunSeconds seconds;
+    return perform(study_, study_.run(i), seconds);
+  }
+  TemporaryFolder folder_;
+  Study study_ = read_study(folder_.write("study.toml", text));
+};
+
+TEST_F(StudyRuns, APlanIsAScan) {
+  const RunResult result = run(0);
+  Configuration c;
+  c.object.file = "sphere";
+  c.object.longest_side = 0.5;
+  c.sensor.width = 160;
+  c.sensor.height = 120;
+  c.map.resolution = 0.02;
+  c.views.count = 12;
+  c.planner.ray_columns = 16;
+  c.planner.ray_rows = 12;
+  c.evaluation.surface_samples = 2000;
+  c.termination.views = 4;
+  c.termination.surface_left = 0.0;
+  Session session(c);
+  double path = 0.0, sum = 0.0;
+  while (session.finished().empty()) session.step();
+  for (const StepRecord& r : session.records()) {
+    path += r.motion.distance;
+    sum += 100.0 * r.coverage_visible;
+    EXPECT_EQ(result.find("coverage[%]", r.step)->value, 100.0 * r.coverage_visible);
+    EXPECT_EQ(result.find("entropy[bits]", r.step)->value, r.entropy);
+    EXPECT_EQ(result.find("path[m]", r.step)->value, path);
+  }
+  EXPECT_NEAR(result.find("mean_coverage[%]", 0)->value, sum / 4.0, 1e-9);
+}
+
+TEST_F(StudyRuns, ABrokenObjectIsAResult) {
+  EXPECT_NE(run(1).failure.find("nowhere.ply"), std::string::npos);
+  EXPECT_TRUE(run(1).measured.empty());
+}
+
+TEST_F(StudyRuns, AMapIsScoredAsRefineScoresIt) {
+  const Configuration c = configuration_of(study_, study_.run(2));
+  CandidateViewsConfig around = c.views;
+  around.layout = ViewLayout::fibonacci;
+  around.count = 3;
+  const RefinementJob job = refinement_job(c, candidate_views(around, Vector3::Zero()));
+  const Refinement expected = refine(job);
+  const RunResult octomap = run(2), gibbs = run(3);
+  EXPECT_EQ(octomap.find("log_loss_near_surface[nats]", 0)->value, expected.scores_before->touch_band.log_loss);
+  EXPECT_EQ(gibbs.find("log_loss_near_surface[nats]", 0)->value, expected.scores_after->touch_band.log_loss);
+  EXPECT_EQ(gibbs.find("rows_open[%]", 0)->value, 100.0 * *expected.scores_after->openings.row_openness());
+  EXPECT_EQ(gibbs.find("sweeps", 0)->value, expected.posterior.diagnostics.sweeps);
+  // By width, one each: the plate has slots and bores of 10, 20, 30 and 40 mm.
+  for (const double width : {10.0, 20.0, 30.0, 40.0})
+    EXPECT_TRUE(octomap.find("rows_open_by_width[%]", width)) << width;
+}
+
+TEST_F(StudyRuns, AResultComesBackFromItsFileToTheBit) {
+  const RunResult result = run(2);
+  const RunResult again = read_result(folder_.write("result.json", to_json(result, "0123", study_.run(2))));
+  EXPECT_EQ(again.measured, result.measured);
+  EXPECT_THROW(read_result(folder_.write("other.json", "{\"failure\": 3}")), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace nextview

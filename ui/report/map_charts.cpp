@@ -1,0 +1,161 @@
+// Charts of what a study says of maps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "ui/report/study_chart_parts.hpp"
+
+namespace nextview {
+namespace {
+
+/// With the most views there are.
+std::optional<StudySetting> maps_setting(const SummaryTable& table, const std::string& measure) {
+  auto all = table.settings(StudyPart::maps, measure);
+  if (all.empty()) return std::nullopt;
+  const auto most = table.objects(all.front(), measure).size() * table.methods(all.front(), measure).size();
+  std::erase_if(all, [&](const StudySetting& s) {
+    return table.objects(s, measure).size() * table.methods(s, measure).size() < most;
+  });
+  return *std::ranges::max_element(all, {}, &StudySetting::views);
+}
+
+/// A row a map, a column a sensor, each the mean over the objects.
+StudyChart by_sensor(const SummaryTable& table, const Look& look, const std::string& measure, MatrixPlot plot) {
+  // Those of one number of views, under which most sensors were tried.
+  std::map<int, std::vector<StudySetting>> by_views;
+  for (const StudySetting& setting : table.settings(StudyPart::maps, measure))
+    by_views[setting.views].push_back(setting);
+  if (by_views.empty()) return std::nullopt;
+  const auto most = std::ranges::max_element(by_views, {}, [](const auto& entry) { return entry.second.size(); });
+  plot.title += fmt::format(", {} views", most->first);
+  for (const StudySetting& setting : most->second) {
+    plot.columns.push_back(in_words(setting.sensor));
+    for (const std::string& method : table.methods(setting, measure))
+      if (std::ranges::find(plot.rows, in_words(method)) == plot.rows.end()) plot.rows.push_back(in_words(method));
+  }
+  for (const std::string& row : plot.rows) {
+    auto& values = plot.values.emplace_back();
+    for (const StudySetting& setting : most->second) {
+      values.emplace_back();
+      for (const std::string& method : table.methods(setting, measure))
+        if (in_words(method) == row) values.back() = table.value(setting, mean_object, method, measure);
+    }
+  }
+  const double height = 120 + 28.0 * double(plot.rows.size());
+  VectorDrawing drawing(860, height, look);
+  draw_matrix(drawing, {0, 0, 860, height}, plot);
+  return drawing;
+}
+
+}  // namespace
+
+StudyChart divergence_by_object(const SummaryTable& table, const Look& look) {
+  const auto setting = maps_setting(table, "d_kl[nats]");
+  if (!setting) return std::nullopt;
+  MatrixPlot plot;
+  plot.title =
+      fmt::format("D_KL to the truth over all visited voxels, {} views, {} [knats]", setting->views, setting->sensor);
+  plot.note = "darker: less, better";
+  plot.digits = 0;
+  plot.dark_is_high = false;
+  return by_object(table, look, *setting, "d_kl[nats]", plot, 1e3);
+}
+
+StudyChart log_loss_by_object(const SummaryTable& table, const Look& look) {
+  const auto setting = maps_setting(table, "log_loss_near_surface[nats]");
+  if (!setting) return std::nullopt;
+  MatrixPlot plot;
+  plot.title = fmt::format("Log loss within 3 voxels of the surface, {} views, {} [nats per voxel]", setting->views,
+                           setting->sensor);
+  plot.note = "darker: less, better. Truth: the surface touches the voxel";
+  plot.digits = 3;
+  plot.dark_is_high = false;
+  return by_object(table, look, *setting, "log_loss_near_surface[nats]", plot);
+}
+
+StudyChart log_loss_by_sensor(const SummaryTable& table, const Look& look) {
+  MatrixPlot plot;
+  plot.title = "Log loss within 3 voxels of the surface by noise and field of view [nats per voxel]";
+  plot.note = "darker: less, better. Truth: the surface touches the voxel";
+  plot.digits = 3;
+  plot.dark_is_high = false;
+  return by_sensor(table, look, "log_loss_near_surface[nats]", plot);
+}
+
+StudyChart openings_by_sensor(const SummaryTable& table, const Look& look) {
+  MatrixPlot plot;
+  plot.title = "Rows of slots and bores with an open line through [%]";
+  plot.note = "darker: more";
+  plot.dark_is_high = true;
+  plot.digits = 0;
+  return by_sensor(table, look, "rows_open[%]", plot);
+}
+
+StudyChart openings_by_width(const SummaryTable& table, const Look& look) {
+  const std::pair<const char*, const char*> measures[] = {
+      {"rows_open_by_width[%]", "Open rows of slots and bores by their width"},
+      {"leaks_by_width[%]", "Rows called open through solid wall beside them"}};
+  const auto setting = maps_setting(table, measures[0].first);
+  if (!setting) return std::nullopt;
+  constexpr double height = 400;
+  VectorDrawing drawing(760, 2 * height, look);
+  for (int i = 0; i < 2; ++i) {
+    Plot plot = courses(table, *setting, measures[i].first);
+    for (PlotSeries& series : plot.series) series.spread.clear();
+    plot.title =
+        fmt::format("{}: {}, {} views", measures[i].second, scope(table, *setting, measures[i].first), setting->views);
+    plot.x_label = "width [mm]";
+    plot.y_label = "rows [%]";
+    plot.y_high = i == 0 ? std::optional(100.0) : std::nullopt;
+    draw_plot(drawing, {0, i * height, 760, height}, plot);
+  }
+  return drawing;
+}
+
+StudyChart reliability(const SummaryTable& table, const Look& look) {
+  const auto setting = maps_setting(table, "reliability_true");
+  if (!setting) return std::nullopt;
+  Plot plot;
+  plot.title = fmt::format("Reliability near the surface: {}, {} views", scope(table, *setting, "reliability_true"),
+                           setting->views);
+  plot.x_label = "probability that the map says [%]";
+  plot.y_label = "voxels that the surface touches [%]";
+  plot.diagonal = true;
+  plot.x_low = 0.0, plot.x_high = 100.0, plot.y_low = 0.0, plot.y_high = 100.0;
+  for (const std::string& method : table.methods(*setting, "reliability_true")) {
+    PlotSeries series = series_of(table.course(*setting, mean_object, method, "reliability_true"), method, false);
+    const auto said = table.course(*setting, mean_object, method, "reliability_said");
+    for (std::size_t i = 0; i < series.x.size(); ++i) series.x[i] = 100.0 * said.at(i).mean, series.y[i] *= 100.0;
+    plot.series.push_back(std::move(series));
+  }
+  return one_plot(plot, look, 520);
+}
+
+/// Under which the most chains were tried.
+StudyChart stationarity(const SummaryTable& table, const Look& look) {
+  const std::string trace = "log_posterior_below_last[nats]", divergence = "d_kl_of_mean[nats]";
+  auto settings = table.settings(StudyPart::maps, trace);
+  if (settings.empty()) return std::nullopt;
+  const StudySetting setting =
+      *std::ranges::max_element(settings, {}, [&](const StudySetting& s) { return table.methods(s, trace).size(); });
+  constexpr double height = 420;
+  VectorDrawing drawing(760, 2 * height, look);
+  Plot way = courses(table, setting, trace, 1e3);
+  way.title = "The chain's way to its log-posterior at the end: mean over objects, " + in_words(setting.sensor);
+  way.x_label = "sweeps";
+  way.y_label = "log-posterior still to be gained [knats]";
+  Plot change = courses(table, setting, divergence);
+  change.title = "What a sweep changes of the running mean: mean over objects, " + in_words(setting.sensor);
+  change.x_label = "sweeps";
+  change.y_label = "D_KL between successive means [nats]";
+  change.logarithmic_y = true;
+  for (Plot* plot : {&way, &change})
+    for (PlotSeries& series : plot->series) series.spread.clear();
+  draw_plot(drawing, {0, 0, 760, height}, way);
+  draw_plot(drawing, {0, height, 760, height}, change);
+  return drawing;
+}
+
+}  // namespace nextview

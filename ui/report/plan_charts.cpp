@@ -1,0 +1,127 @@
+// Charts of what a study says of plans.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "ui/report/study_chart_parts.hpp"
+
+namespace nextview {
+namespace {
+
+/// Coverage over something that was spent on it.
+StudyChart coverage_by(const SummaryTable& table, const Look& look, const std::string& spent,
+                       const std::string& label) {
+  const auto setting = main_setting(table, StudyPart::planning, "coverage[%]");
+  if (!setting) return std::nullopt;
+  Plot plot = courses(table, *setting, "coverage[%]");
+  plot.whole_x = false;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const auto methods = table.methods(*setting, "coverage[%]");
+    const auto points = table.course(*setting, mean_object, methods[i], spent);
+    for (std::size_t k = 0; k < std::min(points.size(), plot.series[i].x.size()); ++k)
+      plot.series[i].x[k] = points[k].mean;
+    plot.series[i].spread.clear();
+  }
+  plot.title = "Coverage of the visible surface: " + scope(table, *setting, "coverage[%]");
+  plot.x_label = label;
+  plot.y_label = "coverage [%]";
+  plot.x_low = 0.0;
+  plot.y_high = 100.0;
+  return one_plot(plot, look);
+}
+
+}  // namespace
+
+StudyChart coverage_by_view(const SummaryTable& table, const Look& look) {
+  const auto setting = main_setting(table, StudyPart::planning, "coverage[%]");
+  if (!setting) return std::nullopt;
+  Plot plot = courses(table, *setting, "coverage[%]");
+  plot.title = "Coverage of the visible surface: " + scope(table, *setting, "coverage[%]");
+  plot.x_label = "views";
+  plot.y_label = "coverage [%]";
+  plot.y_high = 100.0;
+  return one_plot(plot, look);
+}
+
+StudyChart coverage_by_path(const SummaryTable& table, const Look& look) {
+  return coverage_by(table, look, "path[m]", "path of the camera [m]");
+}
+StudyChart coverage_by_time(const SummaryTable& table, const Look& look) {
+  return coverage_by(table, look, "robot_time[s]", "time of moves and scans [s]");
+}
+
+/// Under each setting there is: plans, and plans with the Gibbs map in the loop.
+StudyChart entropy_by_view(const SummaryTable& table, const Look& look) {
+  const auto settings = table.settings(StudyPart::planning, "entropy[bits]");
+  if (settings.empty()) return std::nullopt;
+  constexpr double height = 440;
+  VectorDrawing drawing(760, height * double(settings.size()), look);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    Plot plot = courses(table, settings[i], "entropy[bits]", 1e3);
+    plot.title = "Entropy of the map (Eq. 18): " + scope(table, settings[i], "entropy[bits]");
+    plot.x_label = "views";
+    plot.y_label = "entropy [kbit]";
+    draw_plot(drawing, {0, height * double(i), 760, height}, plot);
+  }
+  return drawing;
+}
+
+StudyChart gap_closed(const SummaryTable& table, const Look& look) {
+  const auto setting = main_setting(table, StudyPart::planning, "gap_closed");
+  if (!setting) return std::nullopt;
+  DotPlot plot;
+  plot.title = "Gap closed between random views and the oracle: " + scope(table, *setting, "gap_closed");
+  plot.label = "gap closed (0: random views, 1: greedy oracle); bars: spread over objects";
+  plot.marks = {{0.0, "random"}, {1.0, "oracle"}};
+  for (const std::string& method : table.methods(*setting, "gap_closed")) {
+    if (method == "random" || method == "oracle") continue;
+    double squares = 0.0, sum = 0.0, count = 0.0;
+    for (const std::string& object : table.objects(*setting, "gap_closed"))
+      if (const auto closed = table.value(*setting, object, method, "gap_closed"))
+        sum += *closed, squares += *closed * *closed, count += 1.0;
+    const double variance = count < 2 ? 0.0 : std::max(0.0, (squares - sum * sum / count) / (count - 1.0));
+    plot.rows.push_back({in_words(method), table.value(*setting, mean_object, method, "gap_closed").value_or(0.0),
+                         std::sqrt(variance), method == "new-surface"});
+  }
+  std::ranges::stable_sort(plot.rows, std::greater(), &DotPlot::Row::value);
+  const double height = 120 + 26.0 * double(plot.rows.size());
+  VectorDrawing drawing(760, height, look);
+  draw_dot_plot(drawing, {0, 0, 760, height}, plot);
+  return drawing;
+}
+
+StudyChart coverage_by_object(const SummaryTable& table, const Look& look) {
+  const auto setting = main_setting(table, StudyPart::planning, "mean_coverage[%]");
+  if (!setting) return std::nullopt;
+  MatrixPlot plot;
+  plot.title = fmt::format("Mean coverage of the visible surface over {} views [%]", setting->views);
+  plot.note = "darker: more";
+  return by_object(table, look, *setting, "mean_coverage[%]", plot);
+}
+
+/// Each object's means, view by view.
+StudyChart predicted_and_seen(const SummaryTable& table, const Look& look) {
+  const std::string predicted = "predicted_gain[cm²]", seen = "new_surface[cm²]";
+  const auto setting = main_setting(table, StudyPart::planning, predicted);
+  if (!setting) return std::nullopt;
+  Plot plot;
+  plot.title = "New surface of a view: predicted by new-surface, and seen";
+  plot.x_label = "predicted [cm²]";
+  plot.y_label = "seen [cm²]";
+  plot.diagonal = true;
+  plot.x_low = 0.0;
+  PlotSeries points;
+  points.joined = false;
+  for (const std::string& object : table.objects(*setting, predicted)) {
+    const auto seen_course = table.course(*setting, object, "new-surface", seen);
+    for (const auto& point : table.course(*setting, object, "new-surface", predicted))
+      for (const auto& other : seen_course)
+        if (other.at == point.at) points.x.push_back(point.mean), points.y.push_back(other.mean);
+  }
+  plot.series.push_back(std::move(points));
+  return one_plot(plot, look, 480);
+}
+
+}  // namespace nextview

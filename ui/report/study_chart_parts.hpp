@@ -1,0 +1,48 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/study/summary_table.hpp"
+#include "ui/report/plot.hpp"
+
+namespace nextview {
+
+// What charts of a study have in common.
+
+using StudyChart = std::optional<VectorDrawing>;  ///< none: the study has nothing of it
+
+/// What most methods are compared under.
+std::optional<StudySetting> main_setting(const SummaryTable& table, StudyPart part, const std::string& measure);
+/// A method that plots are about has a colour of its own and is stronger than the others, which are grey.
+PlotSeries series_of(const std::vector<SummaryTable::Point>& points, const std::string& method, bool with_spread);
+/// A measure over what it is at, a curve a method; `unit`: that it is shown in.
+Plot courses(const SummaryTable& table, const StudySetting& setting, const std::string& measure, double unit = 1.0);
+/// "mean of 8 objects, clean"
+std::string scope(const SummaryTable& table, const StudySetting& setting, const std::string& measure);
+StudyChart one_plot(const Plot& plot, const Look& look, double height = 460);
+/// A row a method, a column an object, and the mean.
+StudyChart by_object(const SummaryTable& table, const Look& look, const StudySetting& setting,
+                     const std::string& measure, MatrixPlot plot, double unit = 1.0);
+/// "average_entropy_eq13" as it is read: "average entropy eq13"
+std::string in_words(std::string name);
+
+// Charts of plans.
+StudyChart coverage_by_view(const SummaryTable& table, const Look& look);
+StudyChart coverage_by_path(const SummaryTable& table, const Look& look);
+StudyChart coverage_by_time(const SummaryTable& table, const Look& look);
+StudyChart coverage_by_object(const SummaryTable& table, const Look& look);
+StudyChart entropy_by_view(const SummaryTable& table, const Look& look);
+StudyChart gap_closed(const SummaryTable& table, const Look& look);
+StudyChart predicted_and_seen(const SummaryTable& table, const Look& look);
+
+// Charts of maps.
+StudyChart divergence_by_object(const SummaryTable& table, const Look& look);
+StudyChart log_loss_by_object(const SummaryTable& table, const Look& look);
+StudyChart log_loss_by_sensor(const SummaryTable& table, const Look& look);
+StudyChart openings_by_sensor(const SummaryTable& table, const Look& look);
+StudyChart openings_by_width(const SummaryTable& table, const Look& look);
+StudyChart reliability(const SummaryTable& table, const Look& look);
+StudyChart stationarity(const SummaryTable& table, const Look& look);
+
+}  // namespace nextview

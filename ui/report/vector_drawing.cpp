@@ -1,0 +1,166 @@
+#include "ui/report/vector_drawing.hpp"
+
+#include <fmt/format.h>
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkPen.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ui/appearance/colour_map.hpp"
+#include "ui/charts/page.hpp"
+
+namespace nextview {
+namespace {
+
+std::string hex(const Colour& c) {
+  const auto channel = [](double value) { return int(std::lround(255 * value)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", channel(c[0]), channel(c[1]), channel(c[2]));
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return result;
+}
+
+}  // namespace
+
+Look Look::light() { return {theme::paper, theme::ink, theme::soft_ink, theme::hairline}; }
+
+Look Look::dark() {
+  return {theme::from_hex(0x15191F), theme::from_hex(0xE9EDF2), theme::from_hex(0xA3AEBB), theme::from_hex(0x39424E)};
+}
+
+Colour Look::series(std::size_t i) const { return on_paper(theme::series[i % theme::series.size()]); }
+
+Colour Look::on_paper(const Colour& colour) const { return is_dark() ? mix(colour, ink, 0.45) : colour; }
+
+void VectorDrawing::line(std::vector<Eigen::Vector2d> points, const Colour& colour, double thickness, bool dashed) {
+  shapes_.emplace_back(Line{std::move(points), colour, thickness, dashed});
+}
+
+void VectorDrawing::area(std::vector<Eigen::Vector2d> corners, const Colour& colour, double opacity) {
+  shapes_.emplace_back(Area{std::move(corners), colour, opacity});
+}
+
+void VectorDrawing::box(double x, double y, double width, double height, const Colour& colour, double opacity) {
+  area({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, colour, opacity);
+}
+
+void VectorDrawing::dot(double x, double y, double radius, const Colour& colour) {
+  std::vector<Eigen::Vector2d> corners;
+  constexpr int count = 16;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    corners.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle));
+  }
+  area(std::move(corners), colour);
+}
+
+void VectorDrawing::text(double x, double y, const std::string& words, int size, const Colour& colour, TextAlign align,
+                         bool bold) {
+  shapes_.emplace_back(Text{x, y, words, size, colour, align, bold});
+}
+
+class VectorDrawing::SvgWriter {
+ public:
+  std::string operator()(const Line& line) const {
+    return fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{} points=\"{}\"/>\n",
+                       hex(line.colour), line.thickness, line.dashed ? " stroke-dasharray=\"5 4\"" : "",
+                       list(line.points));
+  }
+  std::string operator()(const Area& area) const {
+    return fmt::format("<polygon fill=\"{}\"{} points=\"{}\"/>\n", hex(area.colour),
+                       area.opacity < 1.0 ? fmt::format(" fill-opacity=\"{:g}\"", area.opacity) : "",
+                       list(area.corners));
+  }
+  std::string operator()(const Text& text) const {
+    constexpr const char* anchors[] = {"start", "middle", "end"};
+    return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n",
+                       text.x, text.y, text.size, hex(text.colour), anchors[int(text.align)],
+                       text.bold ? " font-weight=\"600\"" : "", escaped(text.words));
+  }
+
+ private:
+  static std::string list(const std::vector<Eigen::Vector2d>& points) {
+    std::string text;
+    for (const Eigen::Vector2d& p : points)
+      text += fmt::format("{}{:.2f},{:.2f}", text.empty() ? "" : " ", p.x(), p.y());
+    return text;
+  }
+};
+
+std::string VectorDrawing::svg() const {
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\" "
+      "font-family=\"Inter, Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"{2}\"/>\n",
+      width_, height_, hex(look_.paper));
+  for (const auto& shape : shapes_) svg += std::visit(SvgWriter(), shape);
+  return svg + "</svg>\n";
+}
+
+class VectorDrawing::PixelPainter {
+ public:
+  PixelPainter(vtkContext2D& context, double height, double scale)
+      : context_(context), painter_(context, scale), height_(height), scale_(scale) {}
+
+  void operator()(const Line& line) {
+    for (std::size_t i = 1; i < line.points.size(); ++i) {
+      if (line.dashed)
+        dashes(line.points[i - 1], line.points[i], line);
+      else
+        piece(line.points[i - 1], line.points[i], line);
+    }
+  }
+  void operator()(const Area& area) {
+    std::vector<float> corners;
+    for (const Eigen::Vector2d& p : area.corners) {
+      corners.push_back(float(p.x() * scale_));
+      corners.push_back(float((height_ - p.y()) * scale_));
+    }
+    const auto channel = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
+    context_.GetPen()->SetLineType(vtkPen::NO_PEN);
+    context_.GetBrush()->SetColor(channel(area.colour[0]), channel(area.colour[1]), channel(area.colour[2]),
+                                  channel(area.opacity));
+    context_.DrawPolygon(corners.data(), int(area.corners.size()));
+  }
+  void operator()(const Text& text) {
+    // Letters stand on their baseline; VTK places them by their box.
+    painter_.text(text.x, height_ - text.y - 0.22 * text.size, text.words, text.size, text.colour,
+                  text.bold ? TextWeight::semi_bold : TextWeight::regular, text.align);
+  }
+
+ private:
+  void piece(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Line& line) {
+    painter_.line(a.x(), height_ - a.y(), b.x(), height_ - b.y(), line.thickness, line.colour);
+  }
+  void dashes(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Line& line) {
+    constexpr double on = 5.0, period = 9.0;  // [px]
+    const double length = (b - a).norm();
+    for (double at = 0.0; at < length; at += period)
+      piece(a + (b - a) * at / length, a + (b - a) * std::min(at + on, length) / length, line);
+  }
+
+  vtkContext2D& context_;
+  Painter painter_;
+  double height_, scale_;
+};
+
+Image VectorDrawing::image(double scale) const {
+  const auto pixels = [&](double length) { return int(std::lround(length * scale)); };
+  return draw_page(pixels(width_), pixels(height_), [&](vtkContext2D& context) {
+    PixelPainter painter(context, height_, scale);
+    painter(Area{{{0, 0}, {width_, 0}, {width_, height_}, {0, height_}}, look_.paper, 1.0});
+    for (const auto& shape : shapes_) std::visit(painter, shape);
+  });
+}
+
+double text_width(const std::string& words, int size) {
+  std::size_t letters = 0;
+  for (const char c : words) letters += (c & 0xC0) != 0x80;  // of UTF-8
+  return 0.55 * size * double(letters);
+}
+
+}  // namespace nextview
