@@ -150,7 +150,8 @@ const CommandOf<std::string> command::reset_setting{
     {"reset-setting",
      "File",
      "Set a setting back…",
-     "Gives a setting its default again. Those of planner and termination keep the scan, the others start it over.",
+     "Gives a setting its default again. Those of planner, views and termination keep the scan, the others start it "
+     "over.",
      {},
      needs_session,
      {},
