@@ -12,6 +12,7 @@ inline std::shared_ptr<SessionSnapshot> made_scan() {
   s->gain_unit = "nats";
   StepRecord& r = s->records[1];
   r.view = 5;
+  s->state.known.taken.at(1).wanted = s->state.candidates.at(5);
   r.overridden = false;
   r.gain = 12.5;
   r.utility = 0.375;
