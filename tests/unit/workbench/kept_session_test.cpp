@@ -122,6 +122,8 @@ TEST_F(KeptSessionTest, GoingBackInAnOpenedSessionMakesNoMapsAgain) {
     second->undo({count, [](const SamplerDiagnostics&) {}, {}});
     EXPECT_EQ(reports == 0, memory > 0);
     expect_same_scan(*second->snapshot(), *earlier);
+    second.reset();
+    fs::remove_all(folder);
   }
 }
 
