@@ -67,7 +67,10 @@ std::vector<JournalStep> Journal::line(std::uint32_t tip) const {
   return line;
 }
 
-bool has_journal(const fs::path& folder) { return is_there(folder / journal_name); }
+bool has_journal(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / journal_name, ignored);  // a folder may be called that for other reasons
+}
 
 Journal read_journal(const fs::path& folder) {
   const fs::path file = folder / journal_name;
@@ -99,9 +102,10 @@ JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::m
         fmt::format("{}: cannot be made a folder: {}", (folder_ / scans_name).string(), error.message()));
 }
 
-JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input, const std::string& settings) {
+JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input, const std::string& settings,
+                                   const std::map<std::string, std::string>& fitted) {
   JournalWriter writer(folder, JournalFile::begin(folder / journal_name));
-  writer.file_.append(beginning_record(input, settings));
+  writer.file_.append(beginning_record(input, settings, fitted));
   return writer;
 }
 

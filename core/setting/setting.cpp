@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/setting/quantity.hpp"
+
 namespace nextview {
 namespace {
 
@@ -34,6 +36,7 @@ struct Expected {
 
 struct Assign {
   const std::string& text;
+  const std::string& unit;
   bool operator()(bool* v) const {
     if (text != "true" && text != "false") return false;
     *v = text == "true";
@@ -49,6 +52,7 @@ struct Assign {
     c.set(static_cast<std::size_t>(found - c.names.begin()));
     return true;
   }
+  bool operator()(double* v) const { return read_quantity(text, unit, *v); }
   template <class Number>
   bool operator()(Number* v) const {
     return parse_number(text, *v);
@@ -81,7 +85,7 @@ struct Allowed {
 std::string Setting::text() const { return std::visit(Text{}, value); }
 
 void Setting::set(const std::string& new_text) {
-  if (std::visit(Assign{new_text}, value)) return;
+  if (std::visit(Assign{new_text, unit}, value)) return;
   std::string hint;
   if (const auto* c = std::get_if<Choice>(&value))
     hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));

@@ -25,6 +25,7 @@ struct Setting {
   std::optional<Bounds> bounds = {};  ///< of int and double
 
   std::string text() const;
+  /// Numbers may have their unit behind them, lengths any of theirs: "5 mm".
   /// @throws std::invalid_argument naming the key and what it takes.
   void set(const std::string& text);
   /// @throws std::invalid_argument naming the key and its bounds.
