@@ -157,6 +157,12 @@ TEST_F(Commands, EachIsDoneByAScript) {
   EXPECT_TRUE(std::filesystem::exists(file("a turn") / "frame_00002.png"));
   EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
   EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
+  walk(user,
+       "turn 30 -10\ntoggle-candidates\ntoggle-candidates\ntoggle-legends\ntoggle-legends\nmeasure\n"
+       "measure-point 0 0 0.1\nmeasure-point 0.1 0 0.1\nmeasure bore\nmeasure\n");
+  walk(user,
+       "text-size bigger\nhide-panels\nhide-panels\ntext-size usual\nfull-screen\nfull-screen\n"
+       "file-dialog export\nfile-dialog\nguide\nguide\n");
   walk(user, "reset\nspeed 0\nplay\npause\n");
   walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
   walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +

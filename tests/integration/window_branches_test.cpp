@@ -57,9 +57,9 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
   user_.run("compare main\n");
   EXPECT_EQ(user_.window().scene().rectangle().width, std::floor(scene.width / 2));
   const Rectangle right{scene.x + scene.width / 2, scene.y, scene.width / 2, scene.height};
-  const auto blue = [&] { return count(user_.look(), right, theme::cloud); };
-  const int before = blue();
-  EXPECT_GT(before, 0) << "its cloud is seen";
+  const auto amber = [&] { return count_amber(user_.look(), right); };
+  const int before = amber();
+  EXPECT_GT(before, 0) << "its voxels are seen";
   const Pose camera = user_.window().scene().camera_pose();
   user_.move(right.x + right.width / 2, right.y + right.height / 2);
   user_.press();
@@ -69,9 +69,9 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
   user_.release();
   user_.wait();
   EXPECT_FALSE(user_.window().scene().camera_pose().isApprox(camera)) << "a drag there turns both";
-  user_.run("toggle-cloud\n");
-  EXPECT_LT(blue(), before) << "layers are those of both";
-  user_.run("toggle-cloud\nstop-comparing\n");
+  user_.run("toggle-octree\n");
+  EXPECT_LT(amber(), before / 2) << "layers are those of both";
+  user_.run("toggle-octree\nstop-comparing\n");
   EXPECT_EQ(user_.window().scene().rectangle(), scene);
   EXPECT_EQ(user_.target().gl_error(), 0u);
 }

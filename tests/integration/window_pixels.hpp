@@ -48,6 +48,11 @@ inline int count_blue(const Image& image, const Rectangle& r) {
   return count(image, r, [](const std::uint8_t* p) { return p[2] > p[0] + 40 && p[2] > p[1] + 15; });
 }
 
+/// Shades of amber as undecided voxels have them.
+inline int count_amber(const Image& image, const Rectangle& r) {
+  return count(image, r, [](const std::uint8_t* p) { return p[0] > p[2] + 70 && p[1] > p[2] + 35; });
+}
+
 inline std::size_t colours(const Image& image, const Rectangle& r) {
   std::set<std::uint32_t> seen;
   count(image, r, [&](const std::uint8_t* p) { return seen.insert(p[0] << 16 | p[1] << 8 | p[2]).second; });

@@ -75,7 +75,7 @@ TEST_P(WindowQuestion, LayersThatAreSwitchedMeanwhileWait) {
   user_.wait();
   EXPECT_EQ(user_.session().records.size(), 2u);
   EXPECT_FALSE(scene.octree().visible()) << "it was switched off";
-  EXPECT_TRUE(scene.cloud().visible());
+  EXPECT_TRUE(scene.mesh().visible());
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, WindowQuestion, testing::Values(std::pair{1280, 800}, std::pair{640, 480}));

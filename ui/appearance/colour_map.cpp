@@ -31,7 +31,7 @@ Colour from_lab(const Eigen::Vector3d& lab) {
 
 }  // namespace
 
-ColourMap ColourMap::score() { return ColourMap({{{0.93, 0.03, 180}, {0.645, 0.09, 225}, {0.36, 0.13, 262}}}); }
+ColourMap ColourMap::score() { return ColourMap({{{0.93, 0.03, 310}, {0.645, 0.12, 305}, {0.36, 0.15, 300}}}); }
 ColourMap ColourMap::contribution() { return ColourMap({{{0.87, 0.08, 85}, {0.635, 0.15, 55}, {0.40, 0.15, 25}}}); }
 ColourMap ColourMap::probability() { return ColourMap({{{0.55, 0.11, 235}, {0.93, 0.02, 150}, {0.45, 0.10, 50}}}); }
 ColourMap ColourMap::deviation() { return ColourMap({{{0.47, 0.16, 258}, {0.94, 0.0, 0}, {0.47, 0.17, 27}}}); }

@@ -22,7 +22,7 @@ inline constexpr Colour soft_ink = from_hex(0x5B6675);  ///< secondary text, axe
 inline constexpr Colour hairline = from_hex(0xD3D9E1);  ///< grid lines, frames
 
 inline constexpr Colour object = from_hex(0xB9BFC9);
-inline constexpr Colour cloud = from_hex(0x2A5B8C);
+inline constexpr Colour cloud = from_hex(0x6B7C93);
 inline constexpr Colour new_scan = from_hex(0xE0761E);        ///< that may not fit the cloud
 inline constexpr Colour corrected_scan = from_hex(0x45B8D0);  ///< the same where registration puts it
 inline constexpr Colour region = from_hex(0x8A95A3);
@@ -33,7 +33,7 @@ inline constexpr Colour free = from_hex(0x9CCBD9);
 
 inline constexpr Colour missed = from_hex(0xD9722E);  ///< surface that no view has seen
 
-inline constexpr Colour unreachable = from_hex(0xC9A0C8);  ///< views that the robot cannot take
+inline constexpr Colour unreachable = from_hex(0xC4B49A);  ///< views that the robot cannot take
 inline constexpr Colour chosen = from_hex(0xD1401F);
 inline constexpr Colour muted = from_hex(0x6E7781);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <stdexcept>
 
@@ -16,6 +17,10 @@ std::string Shortcut::text() const {
                            : key == Key::escape    ? "Esc"
                            : key == Key::page_up   ? "Page Up"
                            : key == Key::page_down ? "Page Down"
+                           : key == Key::left      ? "Left"
+                           : key == Key::right     ? "Right"
+                           : key == Key::up        ? "Up"
+                           : key == Key::down      ? "Down"
                            : key >= Key::f1        ? fmt::format("F{}", code - static_cast<int>(Key::f1) + 1)
                                                    : std::string(1, static_cast<char>(code));
   return control ? "Ctrl+" + name : name;
@@ -30,6 +35,15 @@ std::string CommandCall::text() const {
 Command::Command(CommandDeclaration declaration, std::vector<Argument> arguments)
     : CommandDeclaration(std::move(declaration)), arguments_(std::move(arguments)) {
   for (Argument& argument : arguments_) argument.command = name;
+}
+
+std::string Command::why_not_now(const CommandState& state) const {
+  constexpr std::array of_the_session = {"File", "Scan", "Timeline", "Gibbs"};
+  constexpr std::array answers = {"answer", "cancel", "quit"};
+  const bool waits =
+      !state.progress.question.empty() && std::ranges::find(of_the_session, menu) != of_the_session.end();
+  if (waits && std::ranges::find(answers, name) == answers.end()) return "answer the question first";
+  return why_not ? why_not(state) : "";
 }
 
 std::string Command::keys() const {

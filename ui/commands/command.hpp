@@ -87,7 +87,10 @@ class Command : public CommandDeclaration {
   const std::vector<Argument>& arguments() const { return arguments_; }
   /// Whether it can be called without a value.
   bool needs_no_value() const { return arguments_.empty() || arguments_.front().optional; }
-  bool available(const CommandState& state) const { return !why_not || why_not(state).empty(); }
+  bool takes_file() const { return !arguments_.empty() && arguments_.front().kind == Argument::Kind::file; }
+  /// Why it cannot be done now; empty: it can. While something is asked, the session takes nothing but the answer.
+  std::string why_not_now(const CommandState& state) const;
+  bool available(const CommandState& state) const { return why_not_now(state).empty(); }
   std::string keys() const;   ///< "S, Space"; empty if it has none
   std::string usage() const;  ///< "take-view CANDIDATE"
 

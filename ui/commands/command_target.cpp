@@ -6,10 +6,8 @@ namespace nextview {
 
 void execute(const CommandCall& call, CommandTarget& target) {
   const Command& command = *call.command;
-  if (command.why_not) {
-    const std::string reason = command.why_not(target.state());
-    if (!reason.empty()) throw std::invalid_argument(command.name + ": " + reason);
-  }
+  const std::string reason = command.why_not_now(target.state());
+  if (!reason.empty()) throw std::invalid_argument(command.name + ": " + reason);
   call.run(target);
 }
 

@@ -17,8 +17,10 @@ CommandDeclaration declaration(ExportKind kind, std::string text) {
 
 ArgumentOf<std::string> where_to(ExportKind kind) {
   const ExportEntry& entry = export_entry(kind);
-  if (entry.endings.empty()) return argument::file("folder", "an empty folder, or one of earlier frames");
-  return argument::file("file", "a file that ends in " + entry.endings_text());
+  const std::string name = std::string(entry.name) + std::string(entry.endings.empty() ? "" : entry.endings.front());
+  const auto usual = argument::fixed({name});
+  if (entry.endings.empty()) return argument::file("folder", "an empty folder, or one of earlier frames", usual);
+  return argument::file("file", "a file that ends in " + entry.endings_text(), usual);
 }
 
 ArgumentOf<std::optional<std::string>> size() {

@@ -76,16 +76,6 @@ void set_from(CommandTarget& target, const std::string& key, Configuration wante
   change_setting(target, key, configuration);
 }
 
-CommandQuestion restart_question(const CommandState& t, const std::string& what) {
-  const std::size_t views = t.session.records.size();
-  if (views == 0) return {};
-  const std::string lost = what_is_lost(t, true);
-  return {fmt::format("{} starts the scan over. Its {} set aside: undo brings {} back.{}{}", what,
-                      views == 1 ? "view is" : fmt::format("{} views are", views), views == 1 ? "it" : "them",
-                      lost.empty() ? "" : " ", lost),
-          "Start over"};
-}
-
 /// `values`: a key, and what it is to be; its default without.
 CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std::string>& values) {
   const std::string& key = values.at(0);
@@ -138,14 +128,6 @@ const CommandOf<std::string, std::string> command::set{
     argument::text("value", "what it is to be"),
     set_as_text};
 
-CommandCall command::set_as_in(const Configuration& wanted, const std::string& key) {
-  const auto values = [wanted, key] {
-    Configuration configuration = wanted;
-    return std::vector<std::string>{key, setting(configuration, key).text()};
-  };
-  return {&set, [wanted, key](CommandTarget& t) { set_from(t, key, wanted); }, values};
-}
-
 const CommandOf<std::string> command::reset_setting{
     {"reset-setting",
      "File",
@@ -184,12 +166,12 @@ const CommandOf<std::string> command::export_scan{
      "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
      {{key('E'), true}},
      needs_view},
-    argument::file("folder", "a folder; it is made if it is not there"),
+    argument::file("folder", "a folder; it is made if it is not there", argument::fixed({"scan"})),
     [](CommandTarget& t, const std::string& folder) { t.worker.post(request::Export{folder}); }};
 
 const CommandOf<std::string> command::save_picture{
     {"save-picture", "File", "Save a picture…", "Writes the window as a PNG picture, with the settings that made it."},
-    argument::file("file", "a file that ends in .png"),
+    argument::file("file", "a file that ends in .png", argument::fixed({"window.png"})),
     [](CommandTarget& t, const std::string& file) {
       t.window.picture = PictureRequest{PictureRequest::Of::window, file};
     }};
@@ -197,7 +179,7 @@ const CommandOf<std::string> command::save_picture{
 const CommandOf<std::string> command::save_script{
     {"save-script", "File", "Save the commands so far…",
      "Writes what was done in this window as a script, to be done again with `nextview window --script`."},
-    argument::file("file", "a text file"),
+    argument::file("file", "a text file", argument::fixed({"commands.txt"})),
     [](CommandTarget& t, const std::string& file) {
       write_file(file, fmt::format("{}\n", fmt::join(t.window.script, "\n")));
       t.worker.log().add(LogEntry::Level::success, "Script written to " + file);

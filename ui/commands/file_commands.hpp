@@ -10,9 +10,6 @@ extern const CommandOf<std::string> reset_setting;     ///< its key
 extern const CommandOf<> reset_settings, quit;
 extern const CommandOf<std::string> export_scan, save_picture, save_script;  ///< where to
 
-/// `set`: gives a setting the value that it has in `wanted`.
-CommandCall set_as_in(const Configuration& wanted, const std::string& key);
-
 }  // namespace nextview::command
 
 namespace nextview {

@@ -6,10 +6,13 @@
 
 namespace nextview {
 
-std::string needs_session(const CommandState& t) { return t.session.loaded() ? "" : "there is no object yet"; }
+std::string needs_session(const CommandState& t) {
+  if (t.progress.opening) return "wait until it is open, or cancel that";
+  return t.session.loaded() ? "" : "there is no object yet";
+}
 
 std::string needs_view(const CommandState& t) {
-  if (!t.session.loaded()) return "there is no object yet";
+  if (const std::string reason = needs_session(t); !reason.empty()) return reason;
   return t.session.records.empty() ? "take a view first" : "";
 }
 
@@ -28,6 +31,16 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",
                         s.records.size() == 1 ? "The view is" : fmt::format("The {} views are", s.records.size()));
   return lost;
+}
+
+CommandQuestion restart_question(const CommandState& t, const std::string& what) {
+  const std::size_t views = t.session.records.size();
+  const std::string lost = what_is_lost(t, true);
+  if (views == 0) return {lost, "Start over"};
+  return {fmt::format("{} starts the scan over. Its {} set aside: undo brings {} back.{}{}", what,
+                      views == 1 ? "view is" : fmt::format("{} views are", views), views == 1 ? "it" : "them",
+                      lost.empty() ? "" : " ", lost),
+          "Start over"};
 }
 
 }  // namespace nextview

@@ -15,4 +15,7 @@ std::string needs_rest(const CommandState& state);
 /// What is in memory alone, for people, with how to keep it; empty if nothing is. `undoable`: the views come back.
 std::string what_is_lost(const CommandState& state, bool undoable);
 
+/// Asked before what starts the scan over, which `what` names; nothing if nothing is set aside by it.
+CommandQuestion restart_question(const CommandState& state, const std::string& what);
+
 }  // namespace nextview

@@ -9,7 +9,7 @@ namespace nextview {
 namespace {
 
 std::string needs_more_to_scan(const CommandState& t) {
-  if (!t.session.loaded()) return "there is no object yet";
+  if (const std::string reason = needs_session(t); !reason.empty()) return reason;
   return t.session.finished.empty() ? "" : "the scan is finished: " + t.session.finished;
 }
 
@@ -42,7 +42,7 @@ std::vector<std::string> available_candidates(const SessionSnapshot& s) {
 }
 
 std::string continue_why_not(const CommandState& t) {
-  if (!t.session.loaded()) return "there is no object yet";
+  if (const std::string reason = needs_session(t); !reason.empty()) return reason;
   if (t.session.finished.empty()) return "the scan is not finished";
   return available_candidates(t.session).empty() ? "no candidate view is left" : "";
 }
@@ -186,9 +186,7 @@ const CommandOf<> command::reset{{"reset",
                                   needs_session,
                                   {},
                                   false,
-                                  [](const CommandState& t, const auto&) {
-                                    return CommandQuestion{what_is_lost(t, true), "Start over"};
-                                  }},
+                                  [](const CommandState& t, const auto&) { return restart_question(t, "This"); }},
                                  [](CommandTarget& t) { t.worker.post(request::Reset{}); }};
 
 }  // namespace nextview

@@ -38,7 +38,7 @@ CommandOf<> toggle_voxels(const char* which, const char* help, bool VoxelFilter:
 template <class Enum>
 CommandOf<Enum> choose(const char* name, const char* text, const char* help, const char* argument, const Names& names,
                        Enum LayerChoice::*member) {
-  return {{name, "Scene", std::string("Show ") + text, help},
+  return {{name, "Scene", text, help},
           argument::choice<Enum>(argument, help, names),
           [member](CommandTarget& t, Enum chosen) { t.window.layers.*member = chosen; }};
 }
@@ -68,15 +68,42 @@ void move_slice(CommandTarget& t, double position, std::optional<double> thickne
 
 }  // namespace
 
-const CommandOf<> command::frame{{"frame", "Scene", "Frame all", "Frames all that is shown.", {{key('F')}}},
-                                 [](CommandTarget& t) { t.window.camera_motions.push_back(camera_motion::Frame{}); }};
+const CommandOf<std::optional<Framed>> command::frame{
+    {"frame",
+     "Scene",
+     "Frame",
+     "Brings the object, all that is shown, or the region of interest into the middle of the scene, as near as it "
+     "fits.",
+     {{key('F')}, {key('A'), false, {"all"}}}},
+    argument::optional(argument::choice<Framed>("what", "the object if nothing is said", {"object", "all", "region"})),
+    [](CommandTarget& t, const std::optional<Framed>& what) {
+      t.window.camera_motions.push_back(camera_motion::Frame{what.value_or(Framed::object)});
+    }};
 
 const CommandOf<double, double> command::look_from{
-    {"look-from", "Scene", "Look from…", "Frames all that is shown, seen from this direction."},
+    {"look-from", "Scene", "Look from…", "Frames the object, seen from this direction."},
     argument::number("azimuth", "from x towards y [deg]", -360, 360),
     argument::number("elevation", "above the horizon [deg]", -89, 89),
     [](CommandTarget& t, double azimuth, double elevation) {
       t.window.camera_motions.push_back(camera_motion::LookFrom{azimuth, elevation});
+    }};
+
+const CommandOf<double, double> command::turn{
+    {"turn",
+     "Scene",
+     "Turn the scene…",
+     "Turns the scene's camera around the object.",
+     {{Key::left, false, {"-10", "0"}},
+      {Key::right, false, {"10", "0"}},
+      {Key::up, false, {"0", "10"}},
+      {Key::down, false, {"0", "-10"}}},
+     {},
+     {},
+     true},
+    argument::number("azimuth", "to the right [deg]", -360, 360),
+    argument::number("elevation", "up [deg]", -180, 180),
+    [](CommandTarget& t, double azimuth, double elevation) {
+      t.window.camera_motions.push_back(camera_motion::Turn{azimuth, elevation});
     }};
 
 const CommandOf<double> command::zoom{
@@ -84,7 +111,7 @@ const CommandOf<double> command::zoom{
      "Scene",
      "Nearer or farther…",
      "Moves the scene's camera nearer; negative steps move it away.",
-     {},
+     {{key('='), false, {"1"}}, {key('-'), false, {"-1"}}},
      {},
      {},
      true},
@@ -107,9 +134,30 @@ const CommandOf<> command::edit_region{
      {},
      region_why_not,
      [](const WindowState& w) { return w.edit_region; }},
-    [](CommandTarget& t) { t.window.edit_region = !t.window.edit_region; }};
-const CommandOf<> command::toggle_missed =
-    toggle("missed", "the missed surface, painted on the object", '7', &LayerChoice::missed);
+    [](CommandTarget& t) {
+      t.window.edit_region = !t.window.edit_region;
+      if (!t.window.edit_region) return;
+      t.window.layers.region = true;  // with all of its handles
+      t.window.camera_motions.push_back(camera_motion::Frame{Framed::region});
+    }};
+const CommandOf<> command::toggle_missed{
+    {"toggle-missed",
+     "Scene",
+     "Show the missed surface, painted on the object",
+     "Shows or hides the missed surface, painted on the object, without points and voxels in front of it.",
+     {{key('7')}},
+     {},
+     [](const WindowState& w) { return w.layers.missed; }},
+    [](CommandTarget& t) {
+      LayerChoice& layers = t.window.layers;
+      layers.missed = !layers.missed;
+      layers.octree = !layers.missed;
+      if (layers.missed) layers.cloud = false;
+    }};
+
+const CommandOf<> command::toggle_candidates =
+    toggle("candidates", "all candidate views, not only the best five", '8', &LayerChoice::all_candidates);
+const CommandOf<> command::toggle_legends = toggle("legends", "the legends of the colours", 'K', &LayerChoice::legends);
 
 const CommandOf<MeshStyle> command::object_style =
     choose("object-style", "Draw the object…", "How the object is drawn.", "style", {"solid", "wire", "ghost"},

@@ -7,12 +7,13 @@ enum class SliceAxis { none, x, y, z };
 
 namespace command {
 
-extern const CommandOf<> frame, lock_ranges;
-extern const CommandOf<double, double> look_from;  ///< azimuth, elevation [deg]
-extern const CommandOf<double> zoom;               ///< steps
+extern const CommandOf<> lock_ranges;
+extern const CommandOf<std::optional<Framed>> frame;
+extern const CommandOf<double, double> look_from, turn;  ///< azimuth, elevation [deg]
+extern const CommandOf<double> zoom;                     ///< steps
 
 extern const CommandOf<> toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays, toggle_region,
-    toggle_missed, edit_region;
+    toggle_missed, toggle_candidates, toggle_legends, edit_region;
 extern const CommandOf<MeshStyle> object_style;
 extern const CommandOf<CloudColouring> cloud_colour;
 

@@ -32,7 +32,8 @@ void ScriptRecorder::begin_with(const std::filesystem::path& input) {
 }
 
 void ScriptRecorder::add(const CommandCall& call, std::uint64_t request) {
-  if (call.command == &command::palette || call.command == &command::shortcuts) return;
+  if (call.command == &command::palette || call.command == &command::shortcuts || call.command == &command::file_dialog)
+    return;
   if (last_ && replaces(call, *last_)) {
     script_.pop_back();
     requests_.pop_back();

@@ -62,11 +62,13 @@ void inspect_ray_of(CommandTarget& t, std::size_t ray) {
 /// As the scene is looked at now, moved to where the sensor is of use.
 Pose view_of_scene(CommandTarget& t) {
   const PlacedView placed = within_sight(t.session, t.window.scene_camera);
-  if (std::abs(placed.moved) > 0.005)
-    t.worker.log().add(
-        LogEntry::Level::success,
-        fmt::format("Your view is moved {} {} along the line of sight: {}", length_text(std::abs(placed.moved)),
-                    placed.moved > 0 ? "forward" : "back", why_empty(t.session, t.window.scene_camera)));
+  if (std::abs(placed.moved) > 0.005) {
+    const std::string reason = why_empty(t.session, t.window.scene_camera);
+    t.worker.log().add(LogEntry::Level::success,
+                       fmt::format("Your view is moved {} {} along the line of sight: {}",
+                                   length_text(std::abs(placed.moved)), placed.moved > 0 ? "forward" : "back",
+                                   reason.empty() ? "from there the sensor measures more than twice as much" : reason));
+  }
   return placed.T_world_camera;
 }
 
@@ -172,14 +174,16 @@ const CommandOf<std::size_t> command::inspect_ray{
     argument::whole("ray", "its number, row by row", 0, 1e6),
     inspect_ray_of};
 
-const CommandOf<> command::clear_selection{{"clear-selection",
-                                            "Select",
-                                            "Select nothing",
-                                            "Leaves voxel, ray, view and the handles of the region alone.",
-                                            {{Key::escape}}},
-                                           [](CommandTarget& t) {
-                                             t.window.selection = {};
-                                             t.window.edit_region = false;
-                                           }};
+const CommandOf<> command::clear_selection{
+    {"clear-selection",
+     "Select",
+     "Select nothing",
+     "Leaves voxel, ray, view, the handles of the region and what is measured alone.",
+     {{Key::escape}}},
+    [](CommandTarget& t) {
+      t.window.selection = {};
+      t.window.edit_region = false;
+      t.window.measurement.reset();
+    }};
 
 }  // namespace nextview

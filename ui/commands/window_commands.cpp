@@ -1,5 +1,8 @@
 #include "ui/commands/window_commands.hpp"
 
+#include <algorithm>
+
+#include "ui/commands/command_list.hpp"
 #include "ui/commands/command_target.hpp"
 
 namespace nextview {
@@ -16,6 +19,13 @@ std::vector<Shortcut> panel_keys() {
   for (const PanelInfo& panel : panel_list())
     if (key <= static_cast<int>(Key::f12)) keys.push_back({static_cast<Key>(key++), false, {panel.name}});
   return keys;
+}
+
+std::vector<std::string> file_takers() {
+  std::vector<std::string> names;
+  for (const Command& command : commands())
+    if (command.takes_file()) names.push_back(command.name);
+  return names;
 }
 
 }  // namespace
@@ -66,8 +76,60 @@ const CommandOf<std::optional<std::string>> command::palette{
       t.window.palette_text = text.value_or("");
     }};
 
+const CommandOf<std::optional<std::string>> command::file_dialog{
+    {"file-dialog", "Window", "Choose a file…",
+     "Opens the file dialog for a command that takes a file, such as open or export, or closes it."},
+    argument::optional(
+        argument::name("command", "that takes a file", [](const SessionSnapshot&) { return file_takers(); })),
+    [](CommandTarget& t, const std::optional<std::string>& taker) {
+      t.window.file_for = taker || !t.window.file_for.empty() ? taker.value_or("") : "open";
+    }};
+
+const CommandOf<TextSize> command::text_size{
+    {"text-size",
+     "Window",
+     "Size of text and controls…",
+     "Makes text and controls bigger or smaller, or of the display's usual size; it is kept for the next start.",
+     {{key('='), true, {"bigger"}}, {key('-'), true, {"smaller"}}, {key('0'), true, {"usual"}}},
+     {},
+     {},
+     true},
+    argument::choice<TextSize>("size", "than it is now", {"smaller", "usual", "bigger"}),
+    [](CommandTarget& t, TextSize size) {
+      double& scale = t.window.text_scale;
+      const double wanted = size == TextSize::usual ? 1.0 : size == TextSize::bigger ? scale * 1.25 : scale / 1.25;
+      scale = std::clamp(wanted, 0.64, 3.0517578125);
+    }};
+
+const CommandOf<> command::hide_panels{{"hide-panels",
+                                        "Window",
+                                        "The scene alone",
+                                        "Hides all panels, or shows them again.",
+                                        {{key('H'), true}},
+                                        {},
+                                        [](const WindowState& w) { return w.panels_hidden; }},
+                                       [](CommandTarget& t) { t.window.panels_hidden = !t.window.panels_hidden; }};
+
+const CommandOf<> command::full_screen{{"full-screen",
+                                        "Window",
+                                        "Full screen",
+                                        "Gives the window the whole screen, or its former place.",
+                                        {{Key::f12}},
+                                        {},
+                                        [](const WindowState& w) { return w.full_screen; }},
+                                       [](CommandTarget& t) { t.window.full_screen = !t.window.full_screen; }};
+
+const CommandOf<> command::guide{{"guide",
+                                  "Help",
+                                  "First steps",
+                                  "Shows or hides what to do first.",
+                                  {},
+                                  {},
+                                  [](const WindowState& w) { return w.guide_open; }},
+                                 [](CommandTarget& t) { t.window.guide_open = !t.window.guide_open; }};
+
 const CommandOf<> command::shortcuts{{"shortcuts",
-                                      "Window",
+                                      "Help",
                                       "Keys and mouse",
                                       "Shows or hides the sheet of keys.",
                                       {{Key::f1}},

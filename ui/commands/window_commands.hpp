@@ -4,14 +4,18 @@
 namespace nextview {
 
 enum class SortOrder { ascending, descending };
+enum class TextSize { smaller, usual, bigger };
 
 namespace command {
 
 extern const CommandOf<std::string> panel;            ///< its name
 extern const CommandOf<CurveKind, CurveKind> curves;  ///< of the left and of the right plot
-extern const CommandOf<> forget_runs, shortcuts;
+extern const CommandOf<> forget_runs, shortcuts, hide_panels, full_screen, guide;
+extern const CommandOf<TextSize> text_size;
 extern const CommandOf<CandidateColumn, SortOrder> sort;
 extern const CommandOf<std::optional<std::string>> palette;  ///< what it starts with
+extern const CommandOf<std::optional<std::string>>
+    file_dialog;  ///< the command that it asks a file for; none: close it
 
 }  // namespace command
 }  // namespace nextview

@@ -10,17 +10,27 @@
 #include "ui/commands/panel_list.hpp"
 #include "ui/workbench/candidate_order.hpp"
 #include "ui/workbench/layer_choice.hpp"
+#include "ui/workbench/measurement.hpp"
 #include "ui/workbench/selection_history.hpp"
 
 namespace nextview {
 
 enum class CurveKind { entropy, coverage, divergence, gain, time };
 
+/// What is brought into view: what is scanned, all that is shown, or the region of interest.
+enum class Framed { object, all, region };
+
 /// What the scene's camera is to do.
 namespace camera_motion {
-struct Frame {};
+struct Frame {
+  Framed what = Framed::object;
+};
 struct LookFrom {
   double azimuth, elevation;  ///< [deg]
+};
+/// Around the object, as a drag does.
+struct Turn {
+  double azimuth, elevation;  ///< [deg] to the right and up
 };
 struct LookThrough {
   Pose T_world_camera;
@@ -29,8 +39,8 @@ struct Zoom {
   double steps;
 };
 }  // namespace camera_motion
-using CameraMotion =
-    std::variant<camera_motion::Frame, camera_motion::LookFrom, camera_motion::LookThrough, camera_motion::Zoom>;
+using CameraMotion = std::variant<camera_motion::Frame, camera_motion::LookFrom, camera_motion::Turn,
+                                  camera_motion::LookThrough, camera_motion::Zoom>;
 
 /// A picture that is asked for.
 struct PictureRequest {
@@ -54,9 +64,14 @@ struct WindowState {
   std::array<CurveKind, 2> curves = {CurveKind::entropy, CurveKind::coverage};  ///< left and right plot
   CandidateColumn sort_column = CandidateColumn::utility;
   bool sort_ascending = false;
-  bool edit_region = false;  ///< the mouse drags the region of interest
+  std::optional<Measurement> measurement;  ///< clicks pick its points
+  bool edit_region = false;                ///< the mouse drags the region of interest
   bool palette_open = false, shortcuts_open = false;
   std::string palette_text;  ///< what the palette starts with
+  std::string file_for;      ///< the command that the file dialog asks a file for; empty: it is closed
+  bool guide_open = true;    ///< what to do first; shown until a view is taken
+  bool panels_hidden = false, full_screen = false;
+  double text_scale = 1.0;  ///< of text and controls, beside the display's own
   bool quit = false;
 
   Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -26,6 +27,9 @@ void check(const CloudPicture& picture) {
     if (count == picture.points.size() || (count == 0 && picture.colouring != needs)) return;
     throw std::invalid_argument(fmt::format("cloud: {} points, but {} {}", picture.points.size(), count, what));
   };
+  if (!picture.normals.empty() && picture.normals.size() != picture.points.size())
+    throw std::invalid_argument(
+        fmt::format("cloud: {} points, but {} normals", picture.points.size(), picture.normals.size()));
   fits(picture.views.size(), CloudColouring::by_view, "views");
   fits(picture.distances.size(), CloudColouring::by_distance, "distances");
   if (picture.heights && !(picture.heights->first < picture.heights->second))
@@ -102,6 +106,14 @@ vtkSmartPointer<vtkUnsignedCharArray> colours_of(const CloudPicture& picture, co
   return colours;
 }
 
+vtkSmartPointer<vtkFloatArray> float_vectors(std::span<const Eigen::Vector3f> vectors) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(vtkIdType(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i) array->SetTypedTuple(vtkIdType(i), vectors[i].data());
+  return array;
+}
+
 }  // namespace
 
 CloudLayer::CloudLayer(vtkRenderer& renderer)
@@ -109,12 +121,16 @@ CloudLayer::CloudLayer(vtkRenderer& renderer)
   mapper_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
   actor_->SetMapper(mapper_);
   actor_->GetProperty()->SetRenderPointsAsSpheres(true);
-  actor_->GetProperty()->SetAmbient(0.35);
+  actor_->GetProperty()->SetAmbient(0.5);
+  actor_->GetProperty()->SetDiffuse(0.7);
   set_colour(*actor_->GetProperty(), theme::cloud);
   add(*actor_);
 }
 
-void CloudLayer::set_flat(bool flat) { actor_->GetProperty()->SetRenderPointsAsSpheres(!flat); }
+void CloudLayer::set_flat(bool flat) {
+  moving_ = flat;
+  actor_->GetProperty()->SetRenderPointsAsSpheres(!moving_ && !has_normals_);
+}
 
 void CloudLayer::show(const PointCloud& cloud, double point_size) {
   CloudPicture picture;
@@ -131,6 +147,9 @@ void CloudLayer::show(const CloudPicture& picture) {
     legends.push_back(legend_of(picture));
     if (legends[0].range) polydata->GetPointData()->SetScalars(colours_of(picture, *legends[0].range));
   }
+  if (!picture.normals.empty()) polydata->GetPointData()->SetNormals(float_vectors(picture.normals));
+  has_normals_ = !picture.normals.empty();
+  set_flat(moving_);
   mapper_->SetInputDataObject(polydata);
   actor_->GetProperty()->SetPointSize(static_cast<float>(picture.point_size * scale()));
   Eigen::AlignedBox3d box;

@@ -18,8 +18,9 @@ struct CloudPicture {
   CloudColouring colouring = CloudColouring::single;
   /// Of the colours by height [m], locked; that of the points if not given.
   std::optional<ValueRange> heights = {};
-  double farthest = 0.005;  ///< [m] points at this distance and beyond take the last colour
-  double point_size = 2.5;  ///< [px]
+  double farthest = 0.005;                        ///< [m] points at this distance and beyond take the last colour
+  double point_size = 2.5;                        ///< [px]
+  std::span<const Eigen::Vector3f> normals = {};  ///< that light is shed by; one a point, or none: small balls
 };
 
 /// The measured points.
@@ -37,6 +38,7 @@ class CloudLayer : public Layer {
  private:
   vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
+  bool moving_ = false, has_normals_ = false;
 };
 
 }  // namespace nextview

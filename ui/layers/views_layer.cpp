@@ -95,7 +95,8 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
   if (picture.custom_view) views.swatches.push_back({"custom view", theme::chosen});
   if (!picture.taken.empty()) views.swatches.push_back({"taken", theme::muted});
   if (!picture.unreachable.empty()) views.swatches.push_back({"not reachable", theme::unreachable});
-  if (picture.scores.empty() && !picture.candidates.empty()) views.swatches.push_back({"candidate", theme::object});
+  if (picture.scores.empty() && picture.hidden.size() < picture.candidates.size())
+    views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
   if (scores.any) {
     result.push_back({picture.score_name,
@@ -128,7 +129,7 @@ ViewsLayer::ViewsLayer(vtkRenderer& renderer)
       frustums_(make_part(1.0, 1.0)),
       outlines_(make_part(1.0, 1.0)),
       path_(make_part(2.0, 1.0)),
-      chosen_faces_(make_part(1.0, 0.10)),
+      chosen_faces_(make_part(1.0, 0.06)),
       chosen_outline_(make_part(2.0, 1.0)) {}
 
 ViewsLayer::Part ViewsLayer::make_part(double line_width, double opacity) {
@@ -151,7 +152,10 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   const auto at_eye = [&](const Pose& view) {
     return picture.eye && stands_at(*picture.eye, view.translation(), picture.size);
   };
+  std::vector<bool> hidden(picture.candidates.size(), false);
+  for (const std::size_t i : picture.hidden) hidden.at(i) = true;
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
+    if (hidden[i]) continue;
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);
     if (!at_eye(picture.candidates[i])) {
@@ -174,7 +178,7 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   if (full) points.push_back(full->translation());
   if (full && !at_eye(*full)) {
     show_full_frustum(picture, *full);
-    const std::string name = picture.custom_view ? "custom view" : fmt::format("view {}", *picture.chosen);
+    const std::string name = picture.custom_view ? "custom view" : fmt::format("candidate {}", *picture.chosen);
     labels.push_back({{full->translation()}, name, theme::chosen, true});
   } else {
     for (Part* part : {&chosen_faces_, &chosen_outline_})

@@ -17,6 +17,7 @@ struct ViewsPicture {
   std::span<const double> scores;                 ///< one per candidate, or none
   std::span<const std::size_t> taken;             ///< candidates
   std::span<const std::size_t> unreachable = {};  ///< candidates
+  std::span<const std::size_t> hidden = {};       ///< candidates that are not drawn, but count for the colours
   std::optional<std::size_t> chosen;              ///< a candidate
   std::optional<Pose> custom_view =
       {};                           ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place

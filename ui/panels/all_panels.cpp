@@ -6,6 +6,7 @@
 #include "ui/commands/scanner_commands.hpp"
 #include "ui/commands/window_commands.hpp"
 #include "ui/panels/control_bar.hpp"
+#include "ui/panels/guide.hpp"
 #include "ui/panels/menu_bar.hpp"
 #include "ui/panels/question.hpp"
 #include "ui/panels/shortcut_sheet.hpp"
@@ -50,39 +51,63 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   const Rectangle beneath_menu{0, layout.menu.height, layout.menu.width, layout.height - layout.menu.height};
   const Rectangle& front = layout.scene.width < context.style.px(420) ? beneath_menu : layout.scene;
   notifications_.draw(context, front, log_count, seconds);
+  if (!layout.scene.empty()) draw_guide(context, layout.scene);
   draw_question(context, front);
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});
   palette_.draw(context, front);
+  file_dialog_.draw(context, beneath_menu);
 }
 
 namespace {
 
+bool pressed(Key which, bool repeats = false) { return ImGui::IsKeyPressed(static_cast<int>(which), repeats); }
+
+/// Keys that move among the controls, and press the one that has the focus.
+bool moves_focus(Key which) {
+  return which == Key::space || which == Key::enter || (which >= Key::left && which <= Key::down);
+}
+
+/// What several commands share (play and pause) is done by the one that can be; if none can, the first says why.
 void obey_shortcuts(const PanelContext& context) {
   const bool control = ImGui::GetIO().KeyCtrl;
+  const bool focus_is_shown = ImGui::GetIO().NavVisible;
+  const Command* refused = nullptr;
   for (const Command& command : commands()) {
-    if (!command.available(context.state())) continue;
     for (const Shortcut& shortcut : command.shortcuts()) {
-      if (shortcut.control != control || !ImGui::IsKeyPressed(static_cast<int>(shortcut.key), false)) continue;
-      if (shortcut.values.empty()) {
-        context.invoke(command);
+      const bool repeats = command.adds_up && !shortcut.values.empty();
+      if (shortcut.control != control || !pressed(shortcut.key, repeats)) continue;
+      if (focus_is_shown && !control && moves_focus(shortcut.key)) continue;
+      if (!command.available(context.state())) {
+        if (!refused) refused = &command;
+      } else if (shortcut.values.empty()) {
+        return context.invoke(command);
       } else {
-        context.post(command.read(shortcut.values));
+        return context.post(command.read(shortcut.values));
       }
-      return;  // play and pause share a key
     }
   }
+  if (refused) context.invoke(*refused);
+}
+
+/// The first answer is the one that stands out, the last one the cautious one.
+void obey_answers(const PanelContext& context) {
+  const std::vector<std::string>& answers = context.progress.answers;
+  if (pressed(Key::escape)) context.post(command::answer(answers.back()));
+  if (pressed(Key::enter)) context.post(command::answer(answers.front()));
 }
 
 }  // namespace
 
 void obey_keys(const PanelContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
-  const auto pressed = [](Key which) { return ImGui::IsKeyPressed(static_cast<int>(which), false); };
+  const bool is_typing = io.WantTextInput || context.window.palette_open || !context.window.file_for.empty();
   const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;  // menus and lists
   if (open > 0) {
     if (pressed(Key::escape)) ImGui::ClosePopupToLevel(open - 1, true);
-  } else if (!context.progress.question.empty() && pressed(Key::escape)) {
-    context.post(command::answer(context.progress.answers.back()));
+  } else if (!context.progress.question.empty() && (pressed(Key::escape) || (pressed(Key::enter) && !is_typing))) {
+    obey_answers(context);
+  } else if (!context.window.file_for.empty()) {
+    if (pressed(Key::escape)) context.post(command::file_dialog());
   } else if (context.window.palette_open) {
     if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.post(command::palette());
   } else if (context.window.shortcuts_open) {

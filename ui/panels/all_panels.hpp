@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/panels/file_dialog.hpp"
 #include "ui/panels/notifications.hpp"
 #include "ui/panels/palette.hpp"
 #include "ui/panels/panel_table.hpp"
@@ -25,6 +26,7 @@ class AllPanels {
 
   std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
+  FileDialog file_dialog_;
   Notifications notifications_;
 };
 

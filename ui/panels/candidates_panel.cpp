@@ -125,10 +125,11 @@ void draw_degenerate(const PanelContext& context, const std::string& reason) {
 std::string next_text(const SessionSnapshot& s) {
   if (!s.finished.empty()) return "The scan is finished.";
   if (s.records.empty()) return "The first view is the start view; the candidates are ranked after it.";
-  if (s.custom_next_view) return fmt::format("Next is a custom view; proposed was view {}.", s.proposal().value_or(0));
+  if (s.custom_next_view)
+    return fmt::format("Next is a custom view; proposed was candidate {}.", s.proposal().value_or(0));
   if (!s.next_candidate) return "No candidate is left.";
-  if (s.next_candidate == s.proposal()) return fmt::format("Next is the proposal, view {}.", *s.next_candidate);
-  return fmt::format("Next is your choice, view {}; proposed was view {}.", *s.next_candidate, *s.proposal());
+  if (s.next_candidate == s.proposal()) return fmt::format("Next is the proposal, candidate {}.", *s.next_candidate);
+  return fmt::format("Next is your choice, candidate {}; proposed was candidate {}.", *s.next_candidate, *s.proposal());
 }
 
 /// "0.3 " before what it weighs; nothing for 1.
@@ -170,11 +171,11 @@ void draw_table(const PanelContext& context, float height) {
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("candidates", 4, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(46));
+  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(64));
   for (const auto& [name, weight] : {std::pair{"gain", 1.2f}, {"cost", 1.0f}, {"utility", 1.05f}})
     ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  draw_header(context, CandidateColumn::view, "view");
+  draw_header(context, CandidateColumn::view, "candidate");
   draw_header(context, CandidateColumn::gain, s.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", s.gain_unit));
   draw_header(context, CandidateColumn::cost, "cost [m]");
   draw_header(context, CandidateColumn::utility, "utility");
@@ -192,8 +193,10 @@ void draw_take_buttons(const PanelContext& context) {
   const Style& style = context.style;
   const auto selected = context.window.selection.candidate();
   const float width = (ImGui::GetContentRegionAvail().x - style.px(6)) / 2;
-  const std::string take = selected ? fmt::format("Take view {} next", *selected) : "Take the selected";
+  const std::string take = selected ? fmt::format("Take {} next", *selected) : "Take the selected";
+  ImGui::BeginDisabled(!selected);
   command_button(context, command::take_view, Icon::none, take.c_str(), false, width);
+  ImGui::EndDisabled();
   ImGui::SameLine(0, style.px(6));
   command_button(context, command::take_proposal, Icon::none, "Take the proposal", false, width);
 }

@@ -51,10 +51,10 @@ void draw_speed(const PanelContext& context, float x, float y) {
 
 std::string readiness(const SessionSnapshot& s) {
   if (s.scanner_lost) return "The scanner is lost";
-  if (!s.loaded()) return "No object yet: choose one, or drop a file here";
+  if (!s.loaded()) return "Nothing is open: choose an object, or drop a file here";
   if (s.records.empty()) return "Ready to take the start view";
   if (s.custom_next_view) return "Ready to take your custom view";
-  return s.next_candidate ? fmt::format("Ready to take view {}", *s.next_candidate) : "No candidate is left";
+  return s.next_candidate ? fmt::format("Ready to take candidate {}", *s.next_candidate) : "No candidate is left";
 }
 
 /// "scoring the candidate views, 2 more to do, about 12 s left"

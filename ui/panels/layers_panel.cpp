@@ -126,9 +126,11 @@ void draw_layers_panel(const PanelContext& context, const Rectangle& rectangle) 
   toggle(context, command::toggle_octree, "Octree");
   nested([&] { draw_octree(context); });
   toggle(context, command::toggle_views, "Candidate views");
+  nested([&] { toggle(context, command::toggle_candidates, "all of them"); });
   toggle(context, command::toggle_rays, "Rays");
   toggle(context, command::toggle_region, "Region of interest");
   ImGui::Separator();
+  toggle(context, command::toggle_legends, "Legends");
   toggle(context, command::lock_ranges, "Lock colour ranges");
 }
 

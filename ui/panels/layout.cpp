@@ -49,6 +49,12 @@ Layout::Layout(int w, int h, double scale, Side open) : width(w), height(h), ope
   fold({end_x + gap, top, column, middle}, px(tabs_height));
 }
 
+void Layout::hide_panels() {
+  control_bar = left = right = bottom = status = {};
+  const double top = menu.height + gap;
+  scene = {0, top, width, std::max(height - top, 0.0)};
+}
+
 /// Those that are folded and the right place, one above the other; all but one are a row of tabs.
 void Layout::fold(const Rectangle& column, double tabs) {
   if (!is_in_column(open_)) open_ = Side::right;

@@ -25,6 +25,9 @@ struct Layout {
   /// Of a window of any size [px]; `scale` is the display's. `open` is the place that is open where they are folded.
   Layout(int width, int height, double scale, Side open = Side::right);
 
+  /// Gives the scene all but the menu.
+  void hide_panels();
+
   static constexpr double tabs_height = 32;  ///< [px] on a display that does not scale
 
   const Rectangle& of(Side side) const { return side == Side::left ? left : side == Side::right ? right : bottom; }

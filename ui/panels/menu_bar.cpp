@@ -1,17 +1,65 @@
 #include "ui/panels/menu_bar.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/session/recent_files.hpp"
+#include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/file_commands.hpp"
 
 namespace nextview {
 namespace {
 
+/// What was opened last.
+void draw_recent(const PanelContext& context) {
+  if (!ImGui::BeginMenu("Open recent")) return;
+  const std::vector<std::filesystem::path> recent = recent_files(state_folder());
+  for (const std::filesystem::path& file : recent) {
+    const bool can = command::open.available(context.state());
+    if (ImGui::MenuItem(fmt::format("{}##{}", file.filename().string(), file.string()).c_str(), nullptr, false, can))
+      context.post(command::open(file.string()));
+    tooltip(file.string());
+  }
+  if (recent.empty()) ImGui::TextDisabled("Nothing was opened yet.");
+  ImGui::EndMenu();
+}
+
+/// Commands that begin a group of their menu.
+constexpr std::array group_begins = {"set",
+                                     "connect",
+                                     "export",
+                                     "save-picture",
+                                     "quit",
+                                     "pause",
+                                     "take-view",
+                                     "answer",
+                                     "undo",
+                                     "branch",
+                                     "compare",
+                                     "inspect-voxel",
+                                     "clear-selection",
+                                     "toggle-object",
+                                     "object-style",
+                                     "toggle-occupied",
+                                     "slice",
+                                     "lock-ranges",
+                                     "text-size",
+                                     "palette"};
+
 void draw_menu(const PanelContext& context, const std::string& menu) {
+  bool any = false;
   for (const Command& command : commands()) {
     if (command.menu != menu) continue;
+    if (any && std::ranges::find(group_begins, command.name) != group_begins.end()) ImGui::Separator();
+    any = true;
     const bool on = command.on && command.on(context.window);
     if (ImGui::MenuItem(command.text.c_str(), command.keys().c_str(), on, command.available(context.state())))
       context.invoke(command);
     tooltip(help_of(context, command));
+    if (&command == &command::open) draw_recent(context);
   }
 }
 

@@ -26,6 +26,7 @@ void Notifications::draw(const PanelContext& context, const Rectangle& scene, st
   for (std::size_t back = std::min(count - std::min(seen_, count), log.size()); back > 0; --back) {
     const LogEntry& entry = log[log.size() - back];
     if (entry.level == LogEntry::Level::note) continue;
+    std::erase_if(notes_, [&](const Note& note) { return note.entry.text == entry.text; });  // it is said again
     notes_.push_back({entry, entry.level == LogEntry::Level::warning ? warning_seconds : shown_seconds});
   }
   seen_ = count;

@@ -85,7 +85,7 @@ void Palette::run(const PanelContext& context) {
   try {
     CommandCall call = parse_call(text_);
     const Command& command = *call.command;
-    const std::string reason = command.why_not ? command.why_not(context.state()) : "";
+    const std::string reason = command.why_not_now(context.state());
     if (!reason.empty()) throw std::invalid_argument(reason);
     context.post(std::move(call));
     if (&command != &command::palette) context.post(command::palette());

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -27,21 +28,27 @@ Panel::Panel(const char* name, const Rectangle& r, ImGuiWindowFlags flags, float
   ImGui::SetNextWindowSize({float(r.width), float(r.height)});
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
 }
 
 Panel::~Panel() { ImGui::End(); }
 
 void PanelContext::invoke(const Command& command) const {
-  if (!command.available(state())) return;
+  if (const std::string reason = command.why_not_now(state()); !reason.empty()) {
+    const auto refuse = [&command, reason](CommandTarget&) {
+      throw std::invalid_argument(fmt::format("{}: {}", command.name, reason));
+    };
+    return post({&command, refuse, [] { return std::vector<std::string>(); }});
+  }
+  if (command.takes_file()) return post(command::file_dialog(command.name));
   post(command.needs_no_value() ? command.read({}) : command::palette(command.name + " "));
 }
 
 std::string help_of(const PanelContext& context, const Command& command) {
   std::string text = command.help;
   if (const std::string keys = command.keys(); !keys.empty()) text += " [" + keys + "]";
-  const std::string reason = command.why_not ? command.why_not(context.state()) : "";
+  const std::string reason = command.why_not_now(context.state());
   return reason.empty() ? text : text + "\nNot now: " + reason + ".";
 }
 
@@ -70,7 +77,13 @@ std::string shortened(const std::string& text, float width) {
   return result + ellipsis;
 }
 
-bool tooltip_is_due(const ImGuiContext& imgui) { return imgui.HoveredId != 0 && imgui.HoveredIdTimer >= tooltip_delay; }
+bool tooltip_is_due(const ImGuiContext& imgui) {
+  // Who has clicked knows what it does: until the pointer was elsewhere, nothing is to be said of it.
+  static ImGuiID clicked = 0;
+  if (imgui.HoveredId != clicked) clicked = 0;
+  if (imgui.IO.MouseDown[ImGuiMouseButton_Left]) clicked = imgui.HoveredId;
+  return imgui.HoveredId != 0 && imgui.HoveredId != clicked && imgui.HoveredIdTimer >= tooltip_delay;
+}
 
 double seconds_to_tooltip(const ImGuiContext& imgui) {
   if (imgui.HoveredId == 0 || tooltip_is_due(imgui)) return std::numeric_limits<double>::infinity();

@@ -29,7 +29,8 @@ struct PanelContext {
 
   /// post(command::speed(0.5)): it is done after the frame.
   void post(CommandCall call) const { calls.push_back(std::move(call)); }
-  /// Posts a command without values if it can be done now; asks for those that it needs in the palette.
+  /// Posts a command without values; asks for a file in the dialog, for other values in the palette. If it cannot be
+  /// done now, the log says why.
   void invoke(const Command& command) const;
 };
 

@@ -53,8 +53,9 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
   const std::vector<std::string>& answers = context.progress.answers;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (i > 0) ImGui::SameLine();
-    const Icon icon = i + 1 == answers.size() ? Icon::cancel : Icon::play;
+    const Icon icon = i + 1 == answers.size() ? Icon::cancel : i == 0 ? Icon::play : Icon::none;
     if (icon_button(style, icon, answers[i].c_str(), i == 0)) context.post(command::answer(answers[i]));
+    tooltip(i == 0 ? "Enter" : i + 1 == answers.size() ? "Esc" : "");
   }
   ImGui::End();
   ImGui::PopStyleVar(3);

@@ -7,9 +7,9 @@
 #include <array>
 
 #include "core/config/known_objects.hpp"
+#include "core/config/object_lengths.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/scene_commands.hpp"
-#include "ui/panels/setting_control.hpp"
 
 namespace nextview {
 namespace {
@@ -76,10 +76,11 @@ void SessionPanel::draw_setting(const PanelContext& context, Setting& setting, c
     draw_object(context, setting);
   } else if (setting.key == "sensor.preset") {
     draw_sensor(context, setting);
-  } else if (setting_control(setting)) {
-    context.post(command::set_as_in(edited_, setting.key));
+  } else if (const auto wanted = setting_control(setting, typed_)) {
+    context.post(command::set(setting.key, *wanted));
   }
-  if (context.snapshot.loaded()) draw_way_back(context, setting, default_of(setting.key));
+  if (context.snapshot.loaded() && setting.key != "object.file")
+    draw_way_back(context, setting, default_of(setting.key));
 }
 
 /// What a length is by default follows from the object's size.
@@ -93,9 +94,16 @@ void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
   const float arrow = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-arrow - context.style.px(24));
   const std::string& object = context.snapshot.object_name;
-  ImGui::InputTextWithHint("##object.file", object.empty() ? "a mesh file, or choose one" : object.c_str(), &file);
-  const bool typed = ImGui::IsItemDeactivatedAfterEdit();
-  tooltip(setting_help(setting) + ". Or drop a file on the window.");
+  // The path is long, and its end matters: until somebody writes the name alone is shown.
+  std::string text = typed_.key == setting.key ? typed_.text : object;
+  ImGui::InputTextWithHint("##object.file", "a mesh file, or choose one", &text);
+  if (ImGui::IsItemActive()) typed_ = {setting.key, text};
+  if (ImGui::IsItemDeactivated()) typed_ = {};
+  const bool changed = text != object;
+  if (changed) file = text;
+  const bool typed = changed && ImGui::IsItemDeactivatedAfterEdit();
+  tooltip(setting_help(setting) + ". Or drop a file on the window." +
+          (setting.text().empty() ? "" : "\n" + setting.text()));
   ImGui::SameLine(0, context.style.px(2));
   bool chosen = false;
   if (ImGui::BeginCombo("##known objects", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
@@ -104,6 +112,8 @@ void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
       file = name;
       chosen = true;
     }
+    ImGui::Separator();
+    if (ImGui::Selectable("A file…")) context.invoke(command::open);
     ImGui::EndCombo();
   }
   if ((typed || chosen) && !file.empty()) context.post(command::open(file));
@@ -122,7 +132,8 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
   ImGui::PushFont(context.style.small);
   for (Setting& setting : settings) {
     if (!setting.key.starts_with(group + ".")) continue;
-    const std::string unit = setting.unit.empty() ? "" : " [" + setting.unit + "]";
+    const bool shows_unit = setting.unit == "m" && std::holds_alternative<double*>(setting.value);
+    const std::string unit = setting.unit.empty() || shows_unit ? "" : " [" + setting.unit + "]";
     const bool narrow = setting.label().size() + unit.size() > 14;
     if (narrow) {  // the name has a line of its own
       ImGui::TextUnformatted((setting.label() + unit).c_str());
@@ -146,15 +157,16 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   }
   std::vector<Setting> settings = nextview::settings(edited_);
   draw_setting(context, find_setting(settings, "object.file"), "Object");  // also when there is none yet
+  if (const auto& mesh = context.snapshot.mesh) small_text(context.style, size_text(*mesh));
   ImGui::BeginDisabled(!context.snapshot.loaded());
   for (const auto& [text, key] : {std::pair{"Gain", "planner.gain"},
                                   {"Semantics", "planner.semantics"},
                                   {"Sensor", "sensor.preset"},
-                                  {"Voxel [m]", "map.resolution"},
+                                  {"Voxel", "map.resolution"},
                                   {"Views", "termination.views"},
                                   {"Seed", "seed"}})
     draw_setting(context, find_setting(settings, key), text);
-  small_text(context.style, "Gain, Semantics and Views keep the scan, all else starts it over.");
+  small_text(context.style, "Gain, Semantics, Views keep the scan.");
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));

@@ -4,6 +4,7 @@
 
 #include "ui/panels/panel.hpp"
 #include "ui/panels/panel_table.hpp"
+#include "ui/panels/setting_control.hpp"
 
 namespace nextview {
 
@@ -21,6 +22,7 @@ class SessionPanel : public PanelContent {
   void draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group);
 
   Configuration edited_;
+  TypedSetting typed_;
   const SessionSnapshot* seen_ = nullptr;        ///< that `edited_` was taken from
   std::map<std::string, std::string> defaults_;  ///< of each setting by its key, as text
 };

@@ -1,55 +1,73 @@
 #include "ui/panels/setting_control.hpp"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/setting/quantity.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
 namespace {
 
-/// A control for each type that a setting can have. A number that is typed comes to the nearest that is allowed.
-struct Control {
-  const char* id;
-  const std::optional<Bounds>& bounds;
+using Wanted = std::optional<std::string>;
 
-  bool operator()(bool* value) const { return ImGui::Checkbox(id, value); }
-  bool operator()(int* value) const {
-    ImGui::InputInt(id, value, 1, 10);
-    if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
-    if (bounds) *value = static_cast<int>(bounds->nearest(*value));
-    return true;
+/// As the field shows it while nobody writes.
+std::string shown_text(const Setting& setting) {
+  if (const auto* number = std::get_if<double*>(&setting.value)) {
+    if (setting.unit == "m") return quantity_text(**number);
+    return fmt::format("{:.9g}", **number);
   }
-  bool operator()(double* value) const {
-    ImGui::InputDouble(id, value, 0, 0, "%.6g");
-    if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
-    if (bounds) *value = bounds->nearest(*value);
-    return true;
+  return setting.text();
+}
+
+/// What was written, in the unit that the field showed if it has none of its own.
+std::string with_unit(const Setting& setting, const std::string& text) {
+  double number = 0.0;
+  if (!std::holds_alternative<double*>(setting.value) || !read_quantity(text, setting.unit, number)) return text;
+  const std::string shown = shown_text(setting);
+  const bool has_unit = text.find_first_not_of("0123456789.,+-eE ") != text.npos;
+  const bool in_millimetres = setting.unit == "m" && shown.ends_with(" mm") && !has_unit;
+  Setting wanted = setting;
+  double value = 0.0;
+  wanted.value = &value;
+  wanted.set(in_millimetres ? text + " mm" : text);
+  return wanted.text();
+}
+
+/// A control for each type that a setting can have.
+struct Control {
+  const Setting& setting;
+  TypedSetting& typed;
+  const char* id;
+
+  Wanted operator()(const bool* value) const {
+    bool wanted = *value;
+    return ImGui::Checkbox(id, &wanted) ? Wanted(wanted ? "true" : "false") : std::nullopt;
   }
-  bool operator()(std::uint64_t* value) const {
-    ImGui::InputScalar(id, ImGuiDataType_U64, value);
-    return ImGui::IsItemDeactivatedAfterEdit();
-  }
-  bool operator()(std::string* value) const {
-    ImGui::InputText(id, value);
-    return ImGui::IsItemDeactivatedAfterEdit();
-  }
-  bool operator()(const Setting::Choice& choice) const {
+  Wanted operator()(const Setting::Choice& choice) const {
     const std::size_t current = choice.get();
-    bool changed = false;
+    Wanted wanted;
     if (!ImGui::BeginCombo(id, current < choice.names.size() ? choice.names[current].c_str() : "",
                            ImGuiComboFlags_HeightLarge)) {
-      return false;
+      return wanted;
     }
     for (std::size_t i = 0; i < choice.names.size(); ++i) {
-      if (ImGui::Selectable(choice.names[i].c_str(), i == current) && i != current) {
-        choice.set(i);
-        changed = true;
-      }
+      if (ImGui::Selectable(choice.names[i].c_str(), i == current) && i != current) wanted = choice.names[i];
       if (i == current) ImGui::SetItemDefaultFocus();
     }
     ImGui::EndCombo();
-    return changed;
+    return wanted;
+  }
+  /// Everything else is written.
+  Wanted operator()(const auto*) const {
+    const std::string shown = shown_text(setting);
+    std::string text = typed.key == setting.key ? typed.text : shown;
+    ImGui::InputText(id, &text);
+    if (ImGui::IsItemActive()) typed = {setting.key, text};
+    if (!ImGui::IsItemDeactivated()) return std::nullopt;
+    typed = {};
+    return text == shown ? std::nullopt : Wanted(with_unit(setting, text));
   }
 };
 
@@ -59,11 +77,11 @@ std::string setting_help(const Setting& setting) {
   return setting.explanation() + (setting.bounds ? "; " + setting.bounds->text() : "");
 }
 
-bool setting_control(Setting& setting) {
+std::optional<std::string> setting_control(const Setting& setting, TypedSetting& typed) {
   const std::string id = "##" + setting.key;
-  const bool changed = std::visit(Control{id.c_str(), setting.bounds}, setting.value);
+  const Wanted wanted = std::visit(Control{setting, typed, id.c_str()}, setting.value);
   tooltip(setting_help(setting));
-  return changed;
+  return wanted;
 }
 
 }  // namespace nextview

@@ -13,7 +13,10 @@ namespace {
 constexpr std::array mouse = {
     std::pair{"Left drag", "turn the scene"},
     std::pair{"Middle or Shift + left drag", "move it"},
-    std::pair{"Wheel", "nearer, farther"},
+    std::pair{"Wheel", "nearer, farther: to what is under the pointer"},
+    std::pair{"Double click", "turn around this point"},
+    std::pair{"Arrows, =, −", "turn, nearer, farther"},
+    std::pair{"Tab, arrows, Space", "go through the controls, press one"},
     std::pair{"Click a frustum", "look at this view"},
     std::pair{"Click a voxel", "inspect it"},
     std::pair{"Click a ray", "inspect it"},
@@ -81,7 +84,7 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
     for (int c = 0; c < columns; ++c)
       ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, style.px(widths[std::size_t(c)]));
     ImGui::TableNextColumn();
-    draw_menus(context, {"File", "Scan", "Gibbs", "Window"});
+    draw_menus(context, {"File", "Scan", "Timeline", "Gibbs", "Window"});
     ImGui::TableNextColumn();
     draw_menus(context, {"Select", "Scene"});
     ImGui::TableNextColumn();

@@ -56,6 +56,7 @@ void set_colours(ImGuiStyle& style) {
       {ImGuiCol_TableHeaderBg, theme::sky},
       {ImGuiCol_TableBorderStrong, theme::hairline},
       {ImGuiCol_TableBorderLight, theme::hairline},
+      {ImGuiCol_NavHighlight, accent},
       {ImGuiCol_TextSelectedBg, mix(accent, theme::paper, 0.7)},
       {ImGuiCol_TitleBg, theme::sky},
       {ImGuiCol_TitleBgActive, theme::sky},

@@ -136,12 +136,13 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
   const std::string from = r.view < 0 ? (r.overridden ? "your custom view" : "the start view")
                                       : fmt::format("candidate {}{}", r.view, r.overridden ? ", your choice" : "");
   table_row("taken from", from);
-  table_row("predicted gain", r.view < 0 && !r.overridden ? "none" : fmt::format("{} {}", readable(r.gain), unit),
-            "What the planner expected of this view, on the map before it");
-  table_row("realised gain", fmt::format("{} nats", readable(r.realised_gain)),
+  const bool in_surface = unit == "cm²";
+  const auto predicted = r.view < 0 && !r.overridden ? "none" : fmt::format("{} {}", readable(r.gain), unit);
+  table_row("predicted", predicted, "What the planner expected of this view, on the map before it");
+  table_row(in_surface ? "realised" : "new surface", fmt::format("{} cm²", readable(r.new_surface)),
+            "Surface that its points show for the first time, at the registration distance");
+  table_row(in_surface ? "entropy lost" : "realised", fmt::format("{} nats", readable(r.realised_gain)),
             "Entropy that the map lost by this view (Eq. 12)");
-  table_row("new surface", fmt::format("{} cm²", readable(r.new_surface)),
-            "That its points show for the first time, at the registration distance");
   table_row("new voxels", fmt::format("{}", r.new_voxels), "Measured for the first time");
   table_row("points", fmt::format("{} of {} hits", r.points, r.hits), "Left after the cleaning of the cloud");
   table_row("beyond range", fmt::format("{} rays", r.misses));

@@ -158,10 +158,14 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
                              std::min(std::max(44.0, covered_below_) / height, 0.45),
                              share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
-  if (overlay.legends.empty()) return middle;
+  if (overlay.legends.empty() && !(overlay.backed && legends_)) return middle;
   FrameMargins beside = centred, beneath = centred;
-  beside.right = std::min((usual_legend_width + 36) / width, 0.5);
-  beneath.top = std::clamp(overlay.legends_height() / height, centred.top, 0.5);
+  constexpr double widest_in_window = 212.0;  // "measured but undecided, p ≥ 0.5", which comes with the first view
+  const double legends_width = overlay.backed ? widest_in_window : usual_legend_width;
+  beside.right = std::min((legends_width + 36) / width, 0.5);
+  // In a window more legends come as the scan goes on.
+  const double legends_height = std::max(overlay.legends_height(), overlay.backed ? 260.0 : 0.0);
+  beneath.top = std::clamp(legends_height / height, centred.top, 0.5);
   if (clears_upper_right(R_world_camera, middle, radians(vertical_angle), width / height,
                          {1 - beside.right, 1 - beneath.top}, points)) {
     return middle;

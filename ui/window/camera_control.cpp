@@ -17,42 +17,61 @@ constexpr double zoom_per_step = 1.12;
 constexpr double steepest = 89.0 * std::numbers::pi / 180;  // straight from above, the z axis would be no direction
 constexpr double nearest = 1e-3, farthest = 1000.0;         // [m]
 
-}  // namespace
+Vector3 forward_of(vtkCamera& camera) { return Vector3(camera.GetDirectionOfProjection()).normalized(); }
 
-void orbit(vtkRenderer& renderer, double x, double y) {
+void stand(vtkRenderer& renderer, const Vector3& position, const Vector3& focus) {
   vtkCamera& camera = *renderer.GetActiveCamera();
-  const Vector3 focus(camera.GetFocalPoint());
-  const Vector3 from_focus = Vector3(camera.GetPosition()) - focus;
-  const double distance = from_focus.norm();
-  const double azimuth = std::atan2(from_focus.y(), from_focus.x()) - x * turn_per_pixel;
-  const double now = std::asin(std::clamp(from_focus.z() / distance, -1.0, 1.0));
-  const double elevation = std::clamp(now + y * turn_per_pixel, -steepest, steepest);
-  const Vector3 position = focus + distance * Vector3(std::cos(elevation) * std::cos(azimuth),
-                                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  camera.SetPosition(position.data());
-  camera.SetViewUp(0, 0, 1);
-  renderer.ResetCameraClippingRange();
-}
-
-void pan(vtkRenderer& renderer, double x, double y) {
-  vtkCamera& camera = *renderer.GetActiveCamera();
-  const Vector3 forward(camera.GetDirectionOfProjection());
-  const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
-  const double height = 2 * camera.GetDistance() * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
-  const double metres_per_pixel = height / std::max(renderer.GetSize()[1], 1);
-  const Vector3 shift = (right.cross(forward) * y - right * x) * metres_per_pixel;
-  const Vector3 position = Vector3(camera.GetPosition()) + shift, focus = Vector3(camera.GetFocalPoint()) + shift;
   camera.SetPosition(position.data());
   camera.SetFocalPoint(focus.data());
   renderer.ResetCameraClippingRange();
 }
 
-void zoom(vtkRenderer& renderer, double steps) {
+void shift(vtkRenderer& renderer, const Vector3& by) {
   vtkCamera& camera = *renderer.GetActiveCamera();
-  const double distance = std::clamp(camera.GetDistance() / std::pow(zoom_per_step, steps), nearest, farthest);
-  const Vector3 position = Vector3(camera.GetFocalPoint()) - Vector3(camera.GetDirectionOfProjection()) * distance;
-  camera.SetPosition(position.data());
-  renderer.ResetCameraClippingRange();
+  stand(renderer, Vector3(camera.GetPosition()) + by, Vector3(camera.GetFocalPoint()) + by);
+}
+
+}  // namespace
+
+void orbit(vtkRenderer& renderer, const Vector3& pivot, double x, double y) {
+  turn(renderer, pivot, -x * turn_per_pixel, y * turn_per_pixel);
+}
+
+void turn(vtkRenderer& renderer, const Vector3& pivot, double by_azimuth, double by_elevation) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 forward = forward_of(camera);
+  const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
+  const double now = std::asin(std::clamp(-forward.z(), -1.0, 1.0));
+  const double elevation = std::clamp(now + by_elevation, -steepest, steepest);
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(by_azimuth, Vector3::UnitZ()) * Eigen::AngleAxisd(now - elevation, right)).toRotationMatrix();
+  const auto turned = [&](const Vector3& point) -> Vector3 { return pivot + R * (point - pivot); };
+  camera.SetViewUp(0, 0, 1);
+  stand(renderer, turned(Vector3(camera.GetPosition())), turned(Vector3(camera.GetFocalPoint())));
+}
+
+void pan(vtkRenderer& renderer, const Vector3& pivot, double x, double y) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 forward = forward_of(camera);
+  const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
+  const double depth = std::max((pivot - Vector3(camera.GetPosition())).dot(forward), nearest);
+  const double height = 2 * depth * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
+  const double metres_per_pixel = height / std::max(renderer.GetSize()[1], 1);
+  shift(renderer, (right.cross(forward) * y - right * x) * metres_per_pixel);
+}
+
+void zoom(vtkRenderer& renderer, const Vector3& pivot, double steps) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 position(camera.GetPosition()), focus(camera.GetFocalPoint());
+  const double distance = (position - pivot).norm();
+  const double scale = std::clamp(distance / std::pow(zoom_per_step, steps), nearest, farthest) / distance;
+  stand(renderer, pivot + scale * (position - pivot), pivot + scale * (focus - pivot));
+}
+
+void centre(vtkRenderer& renderer, const Vector3& point) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Vector3 forward = forward_of(camera), to_point = point - Vector3(camera.GetPosition());
+  shift(renderer, to_point - to_point.dot(forward) * forward);
 }
 
 Pose camera_pose(vtkRenderer& renderer) {

@@ -7,12 +7,16 @@ namespace nextview {
 
 /// How a pointer moves the camera of a scene in which z is up. Lengths in pixels, x to the right, y downwards.
 
-/// Turns around the focal point, as if the scene were grasped.
-void orbit(vtkRenderer& renderer, double x, double y);
-/// Moves sideways; what lies at the focal point's depth stays under the pointer.
-void pan(vtkRenderer& renderer, double x, double y);
-/// Nearer for positive steps.
-void zoom(vtkRenderer& renderer, double steps);
+/// Turns around a point, which stays where it is in the picture, as if the scene were grasped there.
+void orbit(vtkRenderer& renderer, const Vector3& pivot, double x, double y);
+/// The same by angles [rad]: the camera goes to the right and up.
+void turn(vtkRenderer& renderer, const Vector3& pivot, double azimuth, double elevation);
+/// Moves sideways; what lies as deep as a point stays under the pointer.
+void pan(vtkRenderer& renderer, const Vector3& pivot, double x, double y);
+/// Nearer to a point, which stays where it is in the picture, for positive steps.
+void zoom(vtkRenderer& renderer, const Vector3& pivot, double steps);
+/// Moves sideways until a point is in the middle.
+void centre(vtkRenderer& renderer, const Vector3& point);
 
 /// Where the scene is looked at from: T_world_camera.
 Pose camera_pose(vtkRenderer& renderer);

@@ -1,8 +1,10 @@
 #include "ui/window/compared_scene.hpp"
 
 #include <fmt/format.h>
+#include <vtkCamera.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/file/counted.hpp"
@@ -46,6 +48,20 @@ bool ComparedScene::show(const SessionSnapshot& session, const LayerChoice& laye
   if (!beside_ || !session.compared) return false;
   window_.layers = layers;
   return beside_->show(session.compared->snapshot, window_, nothing_);
+}
+
+void ComparedScene::set_scale(double scale) {
+  scale_ = scale;
+  if (beside_) beside_->set_scale(scale);
+}
+
+void ComparedScene::share_depth(SceneView& view) {
+  if (!beside_) return;
+  vtkCamera& camera = *view.renderer().GetActiveCamera();
+  view.renderer().ResetCameraClippingRange();
+  const double near = camera.GetClippingRange()[0], far = camera.GetClippingRange()[1];
+  beside_->renderer().ResetCameraClippingRange();
+  camera.SetClippingRange(std::min(near, camera.GetClippingRange()[0]), std::max(far, camera.GetClippingRange()[1]));
 }
 
 void ComparedScene::set_in_motion(bool in_motion) {

@@ -15,6 +15,9 @@ class ComparedScene {
   /// Returns whether its picture changed.
   bool show(const SessionSnapshot& session, const LayerChoice& layers);
   void set_in_motion(bool in_motion);
+  void set_scale(double scale);
+  /// The camera that both share shows what lies in either.
+  void share_depth(SceneView& view);
   /// Null unless there is one.
   const Rectangle* rectangle() const { return beside_ ? &beside_->rectangle() : nullptr; }
 

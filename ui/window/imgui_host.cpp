@@ -27,8 +27,14 @@ ImguiHost::ImguiHost(double scale) : context_(ImGui::CreateContext()) {
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
   io.ConfigInputTextCursorBlink = false;  // a blinking cursor would be the only reason to draw while nothing happens
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
   for (const auto& [imgui_key, own] : keys) io.KeyMap[imgui_key] = static_cast<int>(own);
+  style_ = apply_style(float(scale));
+}
+
+void ImguiHost::set_scale(double scale) {
+  ImGui::GetIO().Fonts->Clear();
   style_ = apply_style(float(scale));
 }
 

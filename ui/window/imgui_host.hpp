@@ -16,6 +16,8 @@ class ImguiHost {
   ImguiHost(const ImguiHost&) = delete;
   ImguiHost& operator=(const ImguiHost&) = delete;
 
+  /// Makes text and controls of another size. @pre the context is current; the fonts' texture has to be made again
+  void set_scale(double scale);
   void make_current() const;
   const Style& style() const { return style_; }
   const ImGuiContext& context() const { return *context_; }

@@ -30,7 +30,8 @@ struct Text {
   unsigned int character;  ///< Unicode
 };
 struct Drop {
-  std::filesystem::path file;
+  std::filesystem::path file;  ///< the first
+  std::size_t count = 1;       ///< of all that were dropped together
 };
 struct Expose {};  ///< the display needs the picture again
 

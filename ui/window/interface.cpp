@@ -65,6 +65,8 @@ bool Interface::wants_to_quit() const {
   const auto& picture = parts_->state.picture;  // that is asked for is still drawn, but for a turntable's many
   return parts_->state.quit && (!picture || picture->of == PictureRequest::Of::turntable);
 }
+void Interface::set_text_scale(double scale) { parts_->state.text_scale = scale; }
+void Interface::show_guide(bool show) { parts_->state.guide_open = show; }
 const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
 SceneView& Interface::scene() { return parts_->view; }
@@ -98,6 +100,7 @@ bool Interface::draw(double seconds) {
   p.take_news();
   p.follow_session();
   p.take_input();
+  p.follow_scale();
   p.follow_size();
   p.share_scene();
   const std::size_t pictures = p.pictures.uploads();

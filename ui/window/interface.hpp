@@ -51,6 +51,9 @@ class Interface {
   /// That waits for an answer; empty if none does.
   std::string question() const;
   bool wants_to_quit() const;
+  /// Of text and controls, beside the display's.
+  void set_text_scale(double scale);
+  void show_guide(bool show);
   /// "Nextview - gearbox - view 3 of 20"
   std::string title() const;
   /// What is shown; tests look here for where things are.

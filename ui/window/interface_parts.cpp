@@ -39,12 +39,30 @@ void Interface::Parts::take_input() {
   host.take(events);
   for (const InputEvent& event : events) {
     if (std::holds_alternative<input::Expose>(event)) composer.forget();
-    if (const auto* drop = std::get_if<input::Drop>(&event)) do_for_people(command::open(drop->file.string()));
+    if (const auto* drop = std::get_if<input::Drop>(&event)) {
+      if (drop->count > 1)
+        worker.log().add(LogEntry::Level::warning, fmt::format("{} files were dropped: one is opened, {}", drop->count,
+                                                               drop->file.filename().string()));
+      do_for_people(command::open(drop->file.string()));
+    }
   }
 }
 
+void Interface::Parts::follow_scale() {
+  const double scale = display_scale * state.text_scale;
+  if (float(scale) == host.style().scale) return;
+  host.set_scale(scale);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  view.set_scale(scale);
+  compared.set_scale(scale);
+  layout.width = 0;  // it is old
+  scene_is_old = true;
+}
+
 bool Interface::Parts::layout_is_old() const {
-  return layout.width != target.width() || layout.height != target.height() || layout_open != state.open;
+  return float(display_scale * state.text_scale) != host.style().scale || layout_hidden != state.panels_hidden ||
+         layout.width != target.width() || layout.height != target.height() || layout_open != state.open;
 }
 
 void Interface::Parts::follow_size() {
@@ -52,7 +70,9 @@ void Interface::Parts::follow_size() {
   const Rectangle scene = layout.scene;
   const bool resized = layout.width != target.width() || layout.height != target.height();
   layout_open = state.open;
+  layout_hidden = state.panels_hidden;
   layout = Layout(target.width(), target.height(), host.style().scale, state.open);
+  if (layout_hidden) layout.hide_panels();
   settling = frames_to_settle;
   if (resized || layout.scene != scene) view.place({});  // share_scene() gives it its place
 }
@@ -182,6 +202,7 @@ bool Interface::Parts::draw_scene() {
   scene_is_old |= view.show(news.snapshot, state, news.inspection, news.progress.doubtful);
   scene_is_old |= compared.show(*news.snapshot, state.layers);
   if (!scene_is_old) return false;
+  compared.share_depth(view);
   target.render();
   ++scene_drawings;
   scene_is_old = false;

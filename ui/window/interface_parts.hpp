@@ -31,6 +31,7 @@ struct Interface::Parts {
       : target(s),
         worker(w),
         inspector(i),
+        display_scale(scale),
         host(scale),
         view(s, scale),
         compared(s, scale),
@@ -41,6 +42,7 @@ struct Interface::Parts {
   RenderTarget& target;
   SessionWorker& worker;
   InspectionWorker& inspector;
+  double display_scale;
   ImguiHost host;
   InputQueue queue;
   SceneView view;
@@ -50,7 +52,8 @@ struct Interface::Parts {
   FrameComposer composer;
   AllPanels panels;
   Layout layout;
-  Side layout_open = Side::right;  ///< that the layout was made for
+  Side layout_open = Side::right;  ///< that the layout was made for, as the next
+  bool layout_hidden = false;
   WindowState state;
   News news;
   AskedCall asked_call;
@@ -72,6 +75,7 @@ struct Interface::Parts {
   void take_news();
   void take_input();
   bool layout_is_old() const;
+  void follow_scale();
   void follow_size();
   void share_scene();
   void follow_session();

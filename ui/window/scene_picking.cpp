@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "ui/window/scene_view.hpp"
@@ -13,7 +14,7 @@
 namespace nextview {
 namespace {
 
-constexpr double frustum_reach = 14.0, ray_reach = 5.0;  // [px]
+constexpr double frustum_reach = 14.0, ray_reach = 3.0;  // [px]
 
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -41,6 +42,71 @@ Sight SceneView::sight(double x, double y) {
   return {pose.translation(), pose.linear() * Vector3(u * right, v * up, 1)};
 }
 
+/// What was measured there, whether its voxels are shown or not: the object, or the points, lie where they do.
+std::optional<std::uint32_t> SceneView::occupied_voxel(double x, double y) {
+  const auto [origin, direction] = sight(x, y);
+  return voxel_on_ray(origin, direction, shown_->grid, chosen_voxels(*shown_, choice_.map), VoxelFilter{});
+}
+
+bool SceneView::set_pivot(double x, double y) {
+  if (!shown_ || doubtful_) return false;
+  const auto voxel = occupied_voxel(x, y);
+  if (voxel) pivot_ = shown_->grid.centre(*voxel);
+  return voxel.has_value();
+}
+
+namespace {
+
+constexpr double point_reach = 6.0;  // [px]
+
+/// The first of a mesh's triangles along a ray, by Möller and Trumbore 1997. `direction` of any length but 0.
+std::optional<Vector3> first_hit(const TriangleMesh& mesh, const Vector3& origin, const Vector3& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles) {
+    const Vector3 a = mesh.vertices[t[0]].cast<double>();
+    const Vector3 u = mesh.vertices[t[1]].cast<double>() - a, v = mesh.vertices[t[2]].cast<double>() - a;
+    const Vector3 across = direction.cross(v);
+    const double volume = u.dot(across);
+    if (volume == 0.0) continue;
+    const Vector3 from = origin - a, around = from.cross(u);
+    const double p = from.dot(across) / volume, q = direction.dot(around) / volume, way = v.dot(around) / volume;
+    if (p >= 0 && q >= 0 && p + q <= 1 && way > 0) nearest = std::min(nearest, way);
+  }
+  if (!std::isfinite(nearest)) return std::nullopt;
+  return origin + nearest * direction;
+}
+
+}  // namespace
+
+std::optional<Vector3> SceneView::surface_point(double x, double y) {
+  if (!shown_ || doubtful_) return std::nullopt;
+  const auto [origin, direction] = sight(x, y);
+  if (choice_.object && shown_->mesh)
+    if (const auto hit = first_hit(*shown_->mesh, origin, direction)) return hit;
+  if (choice_.cloud) {
+    std::optional<Vector3> best;
+    double least = point_reach;
+    const Vector3 unit = direction.normalized();
+    const double pixels =
+        0.5 * rectangle_.height / std::tan(renderer().GetActiveCamera()->GetViewAngle() * std::numbers::pi / 360);
+    const auto voxel = occupied_voxel(x, y);  // what lies behind that is not seen
+    const double farthest = voxel ? (shown_->grid.centre(*voxel) - origin).dot(unit) + 2 * shown_->grid.resolution
+                                  : std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3f& point : shown_->cloud->points) {
+      const Vector3 from = point.cast<double>() - origin;
+      const double depth = from.dot(unit);
+      if (depth <= 0 || depth > farthest) continue;
+      const double off = (from - depth * unit).norm() * pixels / depth;
+      if (off >= least) continue;
+      least = off;
+      best = point.cast<double>();
+    }
+    if (best) return best;
+  }
+  if (const auto voxel = occupied_voxel(x, y)) return shown_->grid.centre(*voxel);
+  return std::nullopt;
+}
+
 Picked SceneView::pick(double x, double y) {
   Picked picked;
   if (!shown_ || doubtful_) return picked;
@@ -49,6 +115,7 @@ Picked SceneView::pick(double x, double y) {
   const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
   double least = frustum_reach;
   for (std::size_t i = 0; choice_.views && i < s.candidates.size(); ++i) {
+    if (i < hidden_.size() && hidden_[i]) continue;
     const auto pixel = project(s.candidates[i] * Vector3(0, 0, 0.5 * depth));
     const double distance = pixel ? (*pixel - pointer).norm() : least;
     if (distance >= least) continue;
@@ -70,6 +137,7 @@ Picked SceneView::pick(double x, double y) {
     least = distance;
     picked.ray = ray.index;
   }
+  if (!picked.ray && (choice_.object || choice_.cloud || choice_.missed)) picked.voxel = occupied_voxel(x, y);
   return picked;
 }
 

@@ -1,5 +1,6 @@
 #include "ui/window/scene_pointer.hpp"
 
+#include "ui/commands/measure_commands.hpp"
 #include "ui/commands/selection_commands.hpp"
 #include "ui/window/camera_control.hpp"
 
@@ -15,12 +16,17 @@ constexpr float click_reach = 4.0f;
 bool ScenePointer::drag_camera(SceneView& view) {
   const ImVec2 by = ImGui::GetIO().MouseDelta;
   if (by.x == 0 && by.y == 0) return false;
-  drag_ == Drag::orbit ? orbit(view.renderer(), by.x, by.y) : pan(view.renderer(), by.x, by.y);
+  (drag_ == Drag::orbit ? orbit : pan)(view.renderer(), view.pivot(), by.x, by.y);
   return true;
 }
 
 void ScenePointer::pick(SceneView& view, const PanelContext& context) const {
   const ImGuiIO& io = ImGui::GetIO();
+  if (context.window.measurement) {
+    const auto point = view.surface_point(io.MousePos.x, io.MousePos.y);
+    if (point) context.post(command::measure_point(point->x(), point->y(), point->z()));
+    return;
+  }
   const Picked picked = view.pick(io.MousePos.x, io.MousePos.y);
   if (picked.candidate) {
     context.post(command::select_view(*picked.candidate));
@@ -44,10 +50,16 @@ bool ScenePointer::follow(SceneView& view, const Rectangle* beside, const PanelC
   bool moved = false;
   const bool at_handle = drag_ == Drag::none && region_.follow(view, context);
   if (over_camera && drag_ == Drag::none && !at_handle) {
-    if (left || middle)
+    const ImVec2 at = io.MousePos;
+    if (over_scene && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && view.set_pivot(at.x, at.y)) {
+      centre(view.renderer(), view.pivot());
+      moved = true;
+    } else if (left || middle) {
+      if (over_scene) view.set_pivot(at.x, at.y);
       drag_ = left && !io.KeyShift ? Drag::orbit : Drag::pan;
-    else if (over_scene)
-      context.hovered = view.pick(io.MousePos.x, io.MousePos.y).candidate;
+    } else if (over_scene) {
+      context.hovered = view.pick(at.x, at.y).candidate;
+    }
   }
   if (drag_ != Drag::none) {
     moved = drag_camera(view);
@@ -59,7 +71,8 @@ bool ScenePointer::follow(SceneView& view, const Rectangle* beside, const PanelC
     }
   }
   if (over_camera && io.MouseWheel != 0) {
-    zoom(view.renderer(), io.MouseWheel);
+    if (over_scene) view.set_pivot(io.MousePos.x, io.MousePos.y);
+    zoom(view.renderer(), view.pivot(), io.MouseWheel);
     moved = true;
   }
   return moved;

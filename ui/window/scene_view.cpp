@@ -21,11 +21,30 @@ namespace {
 constexpr std::size_t max_points = 60'000;
 /// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
 constexpr std::size_t rays_shown = 60;
+/// Candidates that may be taken next, for all that anybody needs to see of them.
+constexpr std::size_t best_shown = 5;
+
+/// Of each candidate: it is neither taken, nor looked at, nor among the best.
+std::vector<bool> hidden_candidates(const SessionSnapshot& s, const Selection& selection) {
+  std::vector<bool> hidden(s.candidates.size(), true);
+  const std::vector<Candidate> ranked = s.records.empty() ? std::vector<Candidate>() : s.records.back().candidates;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    hidden[i] = !s.state.known.has_taken(s.state.candidates[i]);
+    if (ranked[i].available) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return ranked[i].utility; });
+  if (!s.finished.empty()) order.clear();
+  for (std::size_t k = 0; k < std::min(order.size(), best_shown); ++k) hidden[order[k]] = false;
+  for (const auto& looked_at : {s.next_candidate, selection.candidate()})
+    if (looked_at && *looked_at < hidden.size()) hidden[*looked_at] = false;
+  return hidden;
+}
 
 bool same(const LayerChoice& a, const LayerChoice& b) {
   const auto shown = [](const LayerChoice& c) {
-    return std::tuple(c.object, c.cloud, c.octree, c.views, c.rays, c.region, c.missed, c.object_style,
-                      c.cloud_colouring, c.map, c.colouring, c.ranges_locked);
+    return std::tuple(c.object, c.cloud, c.octree, c.views, c.rays, c.region, c.missed, c.all_candidates, c.legends,
+                      c.object_style, c.cloud_colouring, c.map, c.colouring, c.ranges_locked);
   };
   return shown(a) == shown(b) && a.voxels == b.voxels;
 }
@@ -46,6 +65,8 @@ SceneView::SceneView(RenderTarget& target, double scale) : target_(target), scal
   scene_.set_scale(scale);
   scene_.set_backed(true);
 }
+
+void SceneView::set_scale(double scale) { scene_.set_scale(scale_ = scale); }
 
 void SceneView::place(const Rectangle& rectangle) {
   rectangle_ = rectangle;
@@ -69,7 +90,9 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const bool new_doubt = doubtful != doubtful_;
   if (new_doubt && doubtful_) leave_doubtful();
   const auto eye = eye_of_a_view(*snapshot, window);
-  if (!new_snapshot && !new_choice && !new_rays && !new_custom_view && !new_doubt && eye == eye_) return false;
+  const bool new_selection = selection_.candidate() != window.selection.candidate();
+  if (!new_selection && !new_snapshot && !new_choice && !new_rays && !new_custom_view && !new_doubt && eye == eye_)
+    return false;
 
   const SessionSnapshot& s = *snapshot;
   const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
@@ -116,9 +139,11 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
   for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
     thin.points.push_back(cloud.points[i]);
     thin.views.push_back(cloud.views[i]);
+    if (!cloud.normals.empty()) thin.normals.push_back(cloud.normals[i]);
     if (!cloud.distances.empty()) thin.distances.push_back(cloud.distances[i]);
   }
   CloudPicture picture{thin.points, thin.views, thin.distances, choice.cloud_colouring};
+  picture.normals = thin.normals;
   picture.farthest = s.configuration.evaluation.d_reg;
   if (thin.distances.empty() && choice.cloud_colouring == CloudColouring::by_distance)
     picture.colouring = CloudColouring::single;  // there is no truth
@@ -135,10 +160,13 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
 
 void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice, bool new_voxels) {
   const auto values = chosen_values(s, choice);
+  const bool needs_values =
+      choice.colouring == VoxelColouring::by_difference || choice.colouring == VoxelColouring::by_error;
+  const auto colouring = needs_values && values.empty() ? VoxelColouring::by_class : choice.colouring;
   if (new_voxels) {
-    scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.voxels, choice.colouring, values);
+    scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.voxels, colouring, values);
   } else {
-    scene_.octree().set_colouring(choice.colouring, values);
+    scene_.octree().set_colouring(colouring, values);
   }
 }
 
@@ -161,6 +189,12 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
   }
   const bool keep = keep_ranges_ && shown_ && shown_->session == s.session && utilities_.first < utilities_.second;
   if (!keep) utilities_ = range;
+  hidden_ = hidden_candidates(s, window.selection);
+  if (choice_.all_candidates) hidden_.assign(s.candidates.size(), false);
+  std::vector<std::size_t> hidden;
+  for (std::size_t i = 0; i < hidden_.size(); ++i)
+    if (hidden_[i]) hidden.push_back(i);
+  picture.hidden = hidden;
   picture.camera = s.camera;
   picture.candidates = s.candidates;
   picture.scores = utilities;
@@ -214,19 +248,40 @@ void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice)
   scene_.rays().set_visible(usual && choice.rays);
   scene_.region().set_visible(usual && choice.region);
   scene_.fit().set_visible(!usual);
+  scene_.set_legends(choice.legends);
   scene_.annotate();
 }
 
+std::vector<Vector3> SceneView::object_corners() const {
+  if (!shown_) return scene_.outline();
+  const SessionSnapshot& s = *shown_;
+  if (s.mesh) return corners(s.mesh->bounding_box());
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& point : s.cloud->points) box.extend(point.cast<double>());
+  const Eigen::AlignedBox3d region(s.grid.lower(), s.grid.upper());
+  return corners(box.isEmpty() ? region : box.intersection(region).isEmpty() ? box : box.intersection(region));
+}
+
 void SceneView::move(const CameraMotion& motion) {
-  if (std::holds_alternative<camera_motion::Frame>(motion)) scene_.frame();
-  if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion))
-    scene_.frame(ViewDirection{from->azimuth, from->elevation});
-  if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion); through && shown_) {
-    const Vector3 centre = 0.5 * (shown_->grid.lower() + shown_->grid.upper());
-    const double angle = 2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy);  // all that the camera sees
-    look_through(renderer(), through->T_world_camera, centre, angle * 180 / std::numbers::pi);
+  const bool relative =
+      std::holds_alternative<camera_motion::Zoom>(motion) || std::holds_alternative<camera_motion::Turn>(motion);
+  if (!relative && shown_) pivot_ = 0.5 * (shown_->grid.lower() + shown_->grid.upper());
+  if (const auto* frame = std::get_if<camera_motion::Frame>(&motion)) {
+    if (frame->what == Framed::all)
+      scene_.frame();
+    else
+      scene_.frame(frame->what == Framed::object || !shown_ ? object_corners()
+                                                            : corners({shown_->grid.lower(), shown_->grid.upper()}));
   }
-  if (const auto* step = std::get_if<camera_motion::Zoom>(&motion)) zoom(renderer(), step->steps);
+  if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion))
+    scene_.frame(object_corners(), ViewDirection{from->azimuth, from->elevation});
+  if (const auto* by = std::get_if<camera_motion::Turn>(&motion))
+    turn(renderer(), pivot_, by->azimuth * std::numbers::pi / 180, by->elevation * std::numbers::pi / 180);
+  if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion); through && shown_) {
+    const double angle = 2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy);  // all that the camera sees
+    look_through(renderer(), through->T_world_camera, pivot_, angle * 180 / std::numbers::pi);
+  }
+  if (const auto* step = std::get_if<camera_motion::Zoom>(&motion)) zoom(renderer(), pivot_, step->steps);
   renderer().ResetCameraClippingRange();
 }
 

@@ -23,6 +23,7 @@ class SceneView {
 
   /// In the target as it is now; call it again when its size changed.
   void place(const Rectangle& rectangle);
+  void set_scale(double scale);
   /// Returns whether the picture changed. While a scan is doubtful, it is shown with those before it, and nothing else.
   bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
             std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful = nullptr);
@@ -36,8 +37,14 @@ class SceneView {
   std::optional<Eigen::Vector2d> project(const Vector3& point);
   /// The line of sight through a point of the window [px from the upper left corner].
   Sight sight(double x, double y);
+  /// The camera turns and zooms around this, which frame and look-through put into the middle of the region [m, world].
+  const Vector3& pivot() const { return pivot_; }
+  /// Takes for it what is measured at a point of the window, if anything is; false if nothing is.
+  bool set_pivot(double x, double y);
   /// What is at a point of the window [px from the upper left corner].
   Picked pick(double x, double y);
+  /// The point of what is shown at a point of the window: measured, or of the object, or the middle of a voxel.
+  std::optional<Vector3> surface_point(double x, double y);
   std::size_t voxel_faces() { return scene_.octree().face_count(); }
   /// What is shown; tests look here for what its colours mean.
   Scene& layers() { return scene_; }
@@ -52,23 +59,28 @@ class SceneView {
   void show_cloud(const SessionSnapshot& snapshot, const LayerChoice& choice);
   void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_voxels);
   void show_views(const SessionSnapshot& snapshot, const WindowState& window);
+  /// What is scanned, as far as it is known: corners of a box around it.
+  std::vector<Vector3> object_corners() const;
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
   /// Where the scene's camera is, if a view that is drawn is from there.
   std::optional<Vector3> eye_of_a_view(const SessionSnapshot& snapshot, const WindowState& window);
   void show_doubtful(const SessionSnapshot& snapshot);
   void leave_doubtful();
+  std::optional<std::uint32_t> occupied_voxel(double x, double y);
   void set_visible(const SessionSnapshot& snapshot, const LayerChoice& choice);
 
   RenderTarget& target_;
   Rectangle rectangle_;
   double scale_;  ///< of the display
   Scene scene_;
+  Vector3 pivot_ = Vector3::Zero();
   std::shared_ptr<const SessionSnapshot> shown_;
   LayerChoice choice_;
   Selection selection_;
   std::optional<Vector3> eye_;  ///< what is from there is not drawn
   std::shared_ptr<const ScoreExplanation> explanation_;
   std::vector<RaySegment> rays_;
+  std::vector<bool> hidden_;  ///< of each candidate: it is not drawn
   std::shared_ptr<const DoubtfulScan> doubtful_;
   Scene::Stand stand_before_;  ///< of the camera, before it was shown
 

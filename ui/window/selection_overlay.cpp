@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/layers/views_layer.hpp"
@@ -95,6 +97,33 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
     draw_label(context.style, at(*place), fmt::format("ray {}", index), theme::chosen);
 }
 
+/// The points that were picked, what lies between them, and what to click next.
+void draw_measurement(SceneView& view, const PanelContext& context, const Measurement& measurement) {
+  const Style& style = context.style;
+  const auto& cloud = context.snapshot.cloud->points;
+  const ImU32 colour = to_imgui_u32(theme::chosen);
+  for (std::size_t i = 1; i < measurement.points.size(); ++i)
+    draw_segment(view, measurement.points[i - 1], measurement.points[i], colour, style.px(2));
+  if (measurement.kind == MeasureKind::bore && measurement.complete()) {
+    if (const auto through = circle_through(measurement.points[0], measurement.points[1], measurement.points[2])) {
+      const FittedCircle circle = fitted(*through, cloud);
+      const Vector3 u = circle.radius * circle.normal.unitOrthogonal(), v = circle.normal.cross(u);
+      constexpr int sides = 72;
+      const auto on = [&](int k) -> Vector3 {
+        const double angle = 2 * std::numbers::pi * k / sides;
+        return circle.centre + std::cos(angle) * u + std::sin(angle) * v;
+      };
+      for (int k = 0; k < sides; ++k) draw_segment(view, on(k), on(k + 1), colour, style.px(2));
+    }
+  }
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const Vector3& point : measurement.points)
+    if (const auto place = view.project(point)) list.AddCircleFilled(at(*place), style.px(4), colour);
+  const Rectangle& r = view.rectangle();
+  const std::string text = measurement.complete() ? measured_text(measurement, cloud) : measure_hint(measurement);
+  draw_label(style, {float(r.x) + style.px(14), float(r.y + r.height) - style.px(92)}, text, theme::chosen);
+}
+
 }  // namespace
 
 void draw_selection_overlay(SceneView& view, const PanelContext& context) {
@@ -106,7 +135,7 @@ void draw_selection_overlay(SceneView& view, const PanelContext& context) {
   if (s.finished.empty() && s.records.empty()) draw_frustum(view, context, s.next_view, "start view", theme::chosen);
   const auto draw = [&](std::size_t candidate) {
     if (candidate >= s.candidates.size() || (candidate == s.next_candidate && s.finished.empty())) return;
-    draw_frustum(view, context, s.candidates[candidate], fmt::format("view {}", candidate),
+    draw_frustum(view, context, s.candidates[candidate], fmt::format("candidate {}", candidate),
                  s.available(candidate) || s.records.empty() ? theme::series[0] : theme::muted);
   };
   if (const auto candidate = selection.candidate()) draw(*candidate);
@@ -118,6 +147,7 @@ void draw_selection_overlay(SceneView& view, const PanelContext& context) {
                  fmt::format("view {} as taken", selection.view.index + 1), theme::muted);
   if (selection.voxel && *selection.voxel < s.grid.voxel_count()) draw_voxel(view, context, *selection.voxel);
   if (selection.ray) draw_ray(view, context, *selection.ray);
+  if (context.window.measurement) draw_measurement(view, context, *context.window.measurement);
   ImGui::GetBackgroundDrawList()->PopClipRect();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "core/session/untitled_sessions.hpp"
 #include "ui/render_target/window_target.hpp"
 #include "ui/window/interface.hpp"
+#include "ui/window/window_preferences.hpp"
 
 namespace nextview {
 namespace {
@@ -91,7 +93,8 @@ void on_wheel(GLFWwindow* window, double, double steps) { interface_of(window).p
 
 void on_key(GLFWwindow* window, int glfw_key, int, int action, int) {
   const auto key = key_of(glfw_key);
-  if (key && action != GLFW_REPEAT) interface_of(window).push(input::KeyChange{*key, action == GLFW_PRESS});
+  // Of a key that is held, too: what repeats it draws only when something comes.
+  if (key) interface_of(window).push(input::KeyChange{*key, action != GLFW_RELEASE});
 }
 
 void on_text(GLFWwindow* window, unsigned int character) { interface_of(window).push(input::Text{character}); }
@@ -100,7 +103,7 @@ void on_text(GLFWwindow* window, unsigned int character) { interface_of(window).
 void on_refresh(GLFWwindow* window) { interface_of(window).push(input::Expose{}); }
 
 void on_drop(GLFWwindow* window, int count, const char** files) {
-  if (count > 0) interface_of(window).push(input::Drop{files[0]});
+  if (count > 0) interface_of(window).push(input::Drop{files[0], std::size_t(count)});
 }
 
 void listen(GLFWwindow* window, Interface& interface) {
@@ -128,6 +131,40 @@ std::array<int, 2> first_size() {
   return {within(width, wide), within(height, high)};
 }
 
+/// On a display with small pixels that does not say so itself: how much larger its text should be.
+double text_scale_of_display(float content_scale) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  int wide = 0, high = 0;
+  if (monitor) glfwGetMonitorPhysicalSize(monitor, &wide, &high);
+  if (content_scale > 1.0f || !mode || wide <= 0) return 1.0;
+  const double per_inch = mode->width / (wide / 25.4);
+  constexpr double usual = 96.0, fine = 130.0;  // pixels an inch
+  return per_inch < fine ? 1.0 : std::clamp(std::round(4 * per_inch / usual) / 4, 1.0, 3.0);
+}
+
+/// The window on the whole screen, or where it was before.
+class FullScreen {
+ public:
+  explicit FullScreen(GLFWwindow* window) : window_(window) {}
+  void set(bool wanted) {
+    if (wanted == is_) return;
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (wanted && !mode) return;
+    is_ = wanted;
+    if (!wanted) return glfwSetWindowMonitor(window_, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
+    glfwGetWindowPos(window_, &x_, &y_);
+    glfwGetWindowSize(window_, &width_, &height_);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+
+ private:
+  GLFWwindow* window_;
+  bool is_ = false;
+  int x_ = 0, y_ = 0, width_ = 0, height_ = 0;
+};
+
 /// Counts the calls of a script that were not done, and tells each.
 class ScriptErrors {
  public:
@@ -147,6 +184,7 @@ class ScriptErrors {
 void run(WindowTarget& target, Interface& interface, const std::function<bool()>& has_to_end) {
   GLFWwindow* window = target.handle();
   std::string title;
+  FullScreen full_screen(window);
   double last = glfwGetTime();
   const auto seconds_left = [&] { return interface.seconds_to_next_frame() - (glfwGetTime() - last); };
   while (!interface.wants_to_quit() && !has_to_end()) {
@@ -159,6 +197,7 @@ void run(WindowTarget& target, Interface& interface, const std::function<bool()>
       glfwSetWindowShouldClose(window, GLFW_FALSE);
       interface.ask_to_quit();
     }
+    full_screen.set(interface.state().full_screen);
     target.follow_size();
     if (seconds_left() > 0) continue;
     const double now = glfwGetTime();
@@ -194,7 +233,13 @@ int run_window(const Configuration& configuration, const Script& script, const W
     interface.offer(*unfinished);
   interface.run_script(script.calls);
   listen(window, interface);
+  const WindowPreferences before = read_preferences(state_folder(), {.text_scale = text_scale_of_display(scale)});
+  interface.set_text_scale(before.text_scale);
+  interface.show_guide(before.guide && script.calls.empty());
   run(target, interface, [&] { return script.stop_on_error && errors.any(); });
+  const WindowPreferences after{interface.state().text_scale,
+                                script.calls.empty() ? interface.state().guide_open : before.guide};
+  if (after != before) keep_preferences(state_folder(), after);
   if (!script.stop_on_error || !errors.any()) interface.script().give_up("not done: the program ended before");
   return errors.any() ? exit_not_done : 0;
 }

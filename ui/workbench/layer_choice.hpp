@@ -8,7 +8,11 @@ enum class MapChoice { conventional, gibbs };
 
 /// What of a session the scene shows, and how.
 struct LayerChoice {
-  bool object = true, cloud = true, octree = true, views = true, rays = true, region = true, missed = false;
+  bool object = true, octree = true, views = true, rays = true;
+  bool cloud = false;  ///< within the voxels it would be specks
+  bool region = false, missed = false;
+  bool all_candidates = false;  ///< not only the best ones
+  bool legends = true;
   MeshStyle object_style = MeshStyle::ghost;
   CloudColouring cloud_colouring = CloudColouring::single;
   MapChoice map = MapChoice::conventional;

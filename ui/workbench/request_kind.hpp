@@ -13,4 +13,7 @@ inline bool starts_anew(const SessionRequest& r) {
          is<request::Disconnect>(r);
 }
 
+/// Another session takes the place of this one, or may.
+inline bool opens_another(const SessionRequest& r) { return starts_anew(r) || is<request::OfferSession>(r); }
+
 }  // namespace nextview

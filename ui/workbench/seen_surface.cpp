@@ -2,6 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
+#include "ui/workbench/viewed_normals.hpp"
+
 namespace nextview {
 namespace {
 
@@ -26,6 +30,7 @@ void SeenSurface::follow(const Session& session) {
     if (missed_) missed_->add(hits);
     const std::size_t stride = hits.size() / points_per_view + 1;
     for (std::size_t i = 0; i < hits.size(); i += stride) cloud->points.push_back(hits[i]);
+    std::ranges::copy(viewed_normals(*session.scans()[scans_], stride), std::back_inserter(cloud->normals));
     cloud->views.resize(cloud->points.size(), static_cast<std::uint16_t>(scans_));
   }
   const std::size_t known = cloud->distances.size();

@@ -19,9 +19,10 @@ namespace nextview {
 
 /// Some points of all views so far, to be looked at; the whole clouds are in SessionSnapshot::scans.
 struct SeenCloud {
-  std::vector<Eigen::Vector3f> points;  ///< [m, world]
-  std::vector<std::uint16_t> views;     ///< of each point, from 0
-  std::vector<float> distances;         ///< of each point to the true surface [m]; empty if that is not known
+  std::vector<Eigen::Vector3f> points;   ///< [m, world]
+  std::vector<std::uint16_t> views;      ///< of each point, from 0
+  std::vector<Eigen::Vector3f> normals;  ///< of each point, out of the surface (viewed_normals)
+  std::vector<float> distances;          ///< of each point to the true surface [m]; empty if that is not known
 };
 
 /// What refining changed, over the voxels.
@@ -138,6 +139,7 @@ struct WorkerProgress {
   bool playing = false;
   bool refining = false;
   bool paused = false;    ///< refining is paused
+  bool opening = false;   ///< another session is on its way: nothing can be done to this one
   double fraction = 0.0;  ///< of the job, 0 to 1
   std::string what;
   std::string question;                               ///< that the job waits for an answer to; empty: it does not

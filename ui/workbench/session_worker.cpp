@@ -33,6 +33,7 @@ void SessionWorker::news() const {
 }
 
 void SessionWorker::keep_sessions(std::filesystem::path state) {
+  state_folder_ = state;
   runner_.keep_sessions(std::move(state),
                         [this](const std::string& line) { log_.add(LogEntry::Level::warning, line); });
 }
@@ -47,6 +48,8 @@ WorkerProgress SessionWorker::progress() const {
   WorkerProgress progress = progress_;
   progress.busy = running_ || progress_.playing || !queue_.empty();
   progress.waiting = queue_.size();
+  const auto opens = [](const auto& waiting) { return opens_another(waiting.second); };
+  progress.opening = (running_ && opening_) || std::ranges::any_of(queue_, opens);
   const double elapsed = std::chrono::duration<double>(Clock::now() - job_start_).count();
   if (running_ && !progress.paused && progress.fraction > 0.02 && elapsed > min_to_estimate)
     progress.seconds_left = std::ceil(elapsed * (1 - progress.fraction) / progress.fraction);
@@ -127,6 +130,7 @@ std::optional<std::pair<std::uint64_t, SessionRequest>> SessionWorker::next_requ
   job_ = std::stop_source();
   job_start_ = Clock::now();
   running_ = true;
+  opening_ = !queue_.empty() && opens_another(queue_.front().second);
   if (queue_.empty()) return std::pair<std::uint64_t, SessionRequest>(0, request::Step{});
   auto request = std::move(queue_.front());
   queue_.pop_front();

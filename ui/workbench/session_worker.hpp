@@ -80,7 +80,9 @@ class SessionWorker {
   std::vector<std::uint64_t> failed_;
   std::stop_source job_;
   Clock::time_point job_start_, next_play_;
-  bool running_ = false;  ///< a request is being executed
+  bool running_ = false;                ///< a request is being executed
+  std::filesystem::path state_folder_;  ///< empty: nothing outlives this
+  bool opening_ = false;                ///< it opens another session
   std::optional<std::string> answer_;
   WorkerProgress progress_;  ///< but for what progress() works out
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();

@@ -5,6 +5,8 @@
 
 #include "core/config/object_lengths.hpp"
 #include "core/file/counted.hpp"
+#include "core/file/read_file.hpp"
+#include "core/session/recent_files.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/workbench/request_kind.hpp"
@@ -83,6 +85,8 @@ void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
 
 void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
   const SessionSnapshot& s = *runner_.snapshot();
+  const auto* opened = std::get_if<request::OpenFile>(&request);
+  if (opened && is_there(opened->file)) add_recent_file(state_folder_, opened->file);
   if (s.session != before.session) {
     log_start(request, before, s, log_);
   } else if (s.records.size() > before.records.size()) {

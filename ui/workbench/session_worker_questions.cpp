@@ -39,17 +39,16 @@ std::string SessionWorker::ask(std::string question, std::vector<std::string> an
 }
 
 const std::vector<std::string>& SessionWorker::offer_answers() {
-  static const std::vector<std::string> answers = {"Go on", "Begin anew"};
+  static const std::vector<std::string> answers = {"Go on", "Begin anew", "Ask later"};
   return answers;
 }
 
 void SessionWorker::offer(const UnfinishedSession& session) {
   const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
                                            counted(session.views, "view"));
-  if (ask(question, offer_answers()) == offer_answers().front())
-    runner_.open(session.folder, job_control());
-  else
-    close_session(session.folder);
+  const std::string answer = ask(question, offer_answers());
+  if (answer == "Go on") runner_.open(session.folder, job_control());
+  if (answer == "Begin anew") close_session(session.folder);
 }
 
 Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {

@@ -10,11 +10,11 @@
 namespace nextview {
 namespace {
 
-/// The command that calls stand for: itself, or the one that the palette asks values for.
+/// The command that calls stand for: itself, or the one that the palette or the file dialog asks values for.
 void note(const std::vector<CommandCall>& calls, std::set<std::string>& reached) {
   for (const CommandCall& call : calls) {
     const auto values = call.values();
-    const bool asks = call.command->name == "palette" && !values.empty();
+    const bool asks = (call.command->name == "palette" || call.command->name == "file-dialog") && !values.empty();
     reached.insert(asks ? values.front().substr(0, values.front().find(' ')) : call.command->name);
   }
 }

@@ -34,7 +34,7 @@ TEST_F(SessionPanelTest, ShowsTheSettingsOfTheScan) {
   scan_->configuration.termination.views = 13;
   scan_->configuration.map.resolution = 0.0275;
   EXPECT_THAT(panel(), HasSubstr("Gain occlusion-aware"));
-  EXPECT_THAT(panel(), HasSubstr("Voxel [m] 0.0275"));
+  EXPECT_THAT(panel(), HasSubstr("Voxel 27.5 mm"));
   EXPECT_THAT(panel(), HasSubstr("Views 13"));
   EXPECT_THAT(panel(), HasSubstr("Seed 77"));
 }
@@ -43,16 +43,28 @@ TEST_F(SessionPanelTest, WhatIsWrittenIsSet) {
   scan_->configuration.seed = 77;
   scan_->configuration.map.resolution = 0.0275;
   desk_.frames();
-  EXPECT_EQ(write_into("0.0275", "0.05"), "set map.resolution 0.05");
+  EXPECT_EQ(write_into("27.5 mm", "0.05 m"), "set map.resolution 0.05");
   EXPECT_EQ(write_into("77", "12"), "set seed 12");
 }
 
-TEST_F(SessionPanelTest, ANumberOutOfItsBoundsComesToTheNearestWithin) {
+/// A bare number is in the unit that the field shows, also where it shows metres.
+TEST_F(SessionPanelTest, LengthsAreWrittenInAnyUnit) {
+  scan_->configuration.map.resolution = 0.0275;
+  desk_.frames();
+  EXPECT_EQ(write_into("27.5 mm", "5"), "set map.resolution 0.005");
+  EXPECT_EQ(write_into("27.5 mm", "5 mm"), "set map.resolution 0.005");
+  EXPECT_EQ(write_into("27.5 mm", "1.2cm"), "set map.resolution 0.012");
+  EXPECT_EQ(write_into("27.5 mm", "27.5"), "set map.resolution 0.0275");
+}
+
+/// The command says what is wrong; the field does not guess.
+TEST_F(SessionPanelTest, WhatIsNotAllowedIsLeftToTheCommand) {
   scan_->configuration.map.resolution = 0.0275;
   scan_->configuration.termination.views = 13;
   desk_.frames();
-  EXPECT_EQ(write_into("0.0275", "99"), "set map.resolution 1");
-  EXPECT_EQ(write_into("13", "-5"), "set termination.views 1");
+  EXPECT_EQ(write_into("27.5 mm", "99 m"), "set map.resolution 99");
+  EXPECT_EQ(write_into("27.5 mm", "five"), "set map.resolution five");
+  EXPECT_EQ(write_into("13", "-5"), "set termination.views -5");
 }
 
 TEST_F(SessionPanelTest, AChoiceIsSetToo) {

@@ -216,7 +216,7 @@ TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->name, "box");
   EXPECT_EQ(found->views, 2u);
-  for (const char* answer : {"Begin anew", "Go on"}) {
+  for (const char* answer : {"Ask later", "Begin anew", "Go on"}) {
     std::mutex mutex;
     std::condition_variable news;
     SessionWorker worker([&] { news.notify_all(); });
@@ -228,6 +228,7 @@ TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
     worker.answer(answer);
     while (worker.progress().busy) news.wait_for(lock, std::chrono::milliseconds(20));
     EXPECT_EQ(worker.snapshot()->records.size(), std::string(answer) == "Go on" ? 2u : 0u);
+    EXPECT_EQ(unfinished_session(state()).has_value(), std::string(answer) == "Ask later");
   }
   EXPECT_FALSE(unfinished_session(state()));
 }

@@ -1,0 +1,65 @@
+// The normals that points are shaded by, against a ball's and a plate's.
+#include "ui/workbench/viewed_normals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace nextview {
+namespace {
+
+/// What a camera at x = 1 sees of a ball of 0.2 m around the origin, with noise.
+Scan scan_of_ball(double noise) {
+  Scan scan;
+  scan.origin = {1, 0, 0};
+  std::mt19937 random(3);
+  std::normal_distribution<double> error(0, noise);
+  for (int row = -60; row <= 60; ++row)
+    for (int column = -80; column <= 80; ++column) {
+      const Vector3 direction = Vector3(-1, 0.003 * column, 0.003 * row).normalized();
+      const double middle = -direction.dot(scan.origin), off = scan.origin.squaredNorm() - middle * middle;
+      if (off > 0.04) continue;
+      scan.hits.push_back((scan.origin + (middle - std::sqrt(0.04 - off) + error(random)) * direction).cast<float>());
+    }
+  return scan;
+}
+
+TEST(ViewedNormals, OfABallPointOutOfIt) {
+  const Scan scan = scan_of_ball(0.0005);
+  const auto normals = viewed_normals(scan, 1);
+  ASSERT_EQ(normals.size(), scan.hits.size());
+  double sum = 0;
+  std::size_t good = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    EXPECT_NEAR(normals[i].norm(), 1.0f, 1e-4f);
+    const float cosine = normals[i].dot(scan.hits[i].normalized());
+    sum += cosine;
+    good += cosine > 0.94f;  // 20 degrees
+  }
+  EXPECT_GT(good, normals.size() * 9 / 10);
+  EXPECT_GT(sum / double(normals.size()), 0.96);
+}
+
+TEST(ViewedNormals, AreOneForEachPointThatIsAskedFor) {
+  const Scan scan = scan_of_ball(0);
+  EXPECT_EQ(viewed_normals(scan, 7).size(), (scan.hits.size() + 6) / 7);
+  EXPECT_TRUE(viewed_normals(Scan{}, 3).empty());
+  Scan one;
+  one.origin = {1, 0, 0};
+  one.hits = {{0, 0, 0}};
+  EXPECT_EQ(viewed_normals(one, 1).at(0), Eigen::Vector3f(1, 0, 0)) << "towards the camera";
+}
+
+TEST(ViewedNormals, OfTwoPlatesAreNotMixedAtTheStep) {
+  Scan scan;
+  scan.origin = {0, 0, 1};
+  for (int row = -50; row < 50; ++row)
+    for (int column = -50; column < 50; ++column)
+      scan.hits.emplace_back(0.004f * float(column), 0.004f * float(row), column < 0 ? 0.0f : 0.1f);
+  std::size_t tilted = 0;
+  for (const auto& normal : viewed_normals(scan, 1)) tilted += normal.z() < 0.9f;
+  EXPECT_LT(tilted, scan.hits.size() / 50);
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,242 @@
+#include "ui/panels/file_dialog.hpp"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "core/file/read_file.hpp"
+#include "core/session/recent_files.hpp"
+#include "core/session/saved_session.hpp"
+#include "core/session/untitled_sessions.hpp"
+#include "ui/commands/command_list.hpp"
+#include "ui/commands/file_commands.hpp"
+#include "ui/commands/window_commands.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool names_folder(const Command& command) { return command.arguments().front().name == "folder"; }
+
+bool pressed(Key key, bool repeats = false) { return ImGui::IsKeyPressed(static_cast<int>(key), repeats); }
+
+/// After the field's text was changed by us, its cursor goes to the end.
+int to_end(ImGuiInputTextCallbackData* data) {
+  bool& wanted = *static_cast<bool*>(data->UserData);
+  if (wanted) data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+  wanted = false;
+  return 0;
+}
+
+}  // namespace
+
+void FileDialog::write(std::string text) {
+  written_ = std::move(text);
+  to_end_ = true;
+  replaced_.clear();
+}
+
+void FileDialog::begin(const PanelContext& context, const Command& command) {
+  command_ = command.name;
+  to_read_ = &command == &command::open;
+  recent_ = recent_files(state_folder());
+  chosen_ = 0;
+  write("");
+  const fs::path last = to_read_ ? last_read_ : last_written_;
+  browser_.go_to(last.empty() ? fs::current_path() : last);
+  const auto& suggested = command.arguments().front().choices;
+  if (!to_read_ && suggested) write(suggested(context.snapshot).front());
+}
+
+void FileDialog::accept(const PanelContext& context, const Command& command, const fs::path& file) {
+  std::error_code ignored;
+  const bool is_folder = fs::is_directory(file, ignored);
+  const bool looked_into = is_folder && (to_read_ ? !is_session(file) : !names_folder(command));
+  if (looked_into) {
+    browser_.go_to(file);
+    chosen_ = 0;
+    return write("");
+  }
+  if (!to_read_ && !is_folder && is_there(file) && replaced_ != file.string()) {
+    replaced_ = file.string();
+    return;
+  }
+  (to_read_ ? last_read_ : last_written_) = file.parent_path();
+  context.post(command::file_dialog());
+  context.post(command.read({file.string()}));
+}
+
+void FileDialog::draw_path() {
+  fs::path whole;
+  fs::path wanted;
+  for (const fs::path& part : browser_.folder()) {
+    whole /= part;
+    if (whole != whole.root_path()) ImGui::SameLine(0, 2);
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(part.c_str()).x + 24) ImGui::NewLine();
+    if (ImGui::SmallButton(fmt::format("{}##{}", part.string(), whole.string()).c_str())) wanted = whole;
+  }
+  if (!wanted.empty()) {
+    browser_.go_to(wanted);
+    chosen_ = 0;
+  }
+}
+
+void FileDialog::draw_place(const std::string& name, const fs::path& folder) {
+  if (!ImGui::Selectable(name.c_str(), browser_.folder() == folder)) return;
+  browser_.go_to(folder);
+  chosen_ = 0;
+}
+
+void FileDialog::draw_places(const PanelContext& context, const Command& command) {
+  const Style& style = context.style;
+  ImGui::PushFont(style.small);
+  ImGui::TextDisabled("Places");
+  if (const char* home = std::getenv("HOME")) draw_place("Home", home);
+  draw_place("Started in", fs::current_path());
+  std::error_code ignored;
+  if (fs::is_directory(state_folder(), ignored)) draw_place("Kept sessions", state_folder());
+  draw_place("Whole disk", "/");
+  if (to_read_) {
+    ImGui::Spacing();
+    ImGui::TextDisabled("Objects");
+    for (const std::string& object : command.arguments().front().choices(context.snapshot))
+      if (ImGui::Selectable(object.c_str())) {
+        context.post(command::file_dialog());
+        context.post(command.read({object}));
+      }
+    if (!recent_.empty()) {
+      ImGui::Spacing();
+      ImGui::TextDisabled("Recent");
+    }
+    for (const fs::path& file : recent_) {
+      const float width = ImGui::GetContentRegionAvail().x;
+      const std::string shown = shortened(file.filename().string(), width);
+      if (ImGui::Selectable(fmt::format("{}##{}", shown, file.string()).c_str())) accept(context, command, file);
+      tooltip(file.string());
+    }
+  }
+  ImGui::PopFont();
+}
+
+void FileDialog::draw_entries(const PanelContext& context, const Command& command) {
+  if (!browser_.problem().empty()) small_text(context.style, browser_.problem(), theme::chosen);
+  if (!ImGui::BeginTable("entries", 2)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(72));
+  const std::vector<std::size_t> found = shown();
+  chosen_ = std::min(chosen_, std::max<std::size_t>(found.size(), 1) - 1);
+  fs::path accepted;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const FolderEntry& entry = browser_.entries()[found[i]];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const std::string name = entry.name + (entry.is_folder && !entry.is_session ? "/" : "");
+    if (ImGui::Selectable(name.c_str(), i == chosen_,
+                          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
+      chosen_ = i;
+      if (!to_read_ && !entry.is_folder) write(entry.name);
+      if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accepted = browser_.folder() / entry.name;
+    }
+    if (i == chosen_ && scroll_) ImGui::SetScrollHereY();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", entry.is_session  ? "session"
+                              : entry.is_folder ? "folder"
+                                                : size_in_words(entry.bytes).c_str());
+  }
+  ImGui::EndTable();
+  scroll_ = false;
+  if (found.empty() && browser_.problem().empty())
+    ImGui::TextDisabled("%s", browser_.matching("").empty() ? "An empty folder." : "No name here holds that.");
+  if (!accepted.empty()) accept(context, command, accepted);
+}
+
+void FileDialog::obey_keys(const PanelContext& context, const Command& command) {
+  const int by = int(pressed(Key::down, true)) - int(pressed(Key::up, true));
+  if (by > 0 || (by < 0 && chosen_ > 0)) {  // that there are so many is seen to where they are drawn
+    chosen_ += std::size_t(by);
+    scroll_ = true;
+  }
+  if (pressed(Key::tab)) write(browser_.completed(written_));
+  if (pressed(Key::enter)) accept_written(context, command);
+}
+
+/// Names are parts of what is there while a file is looked for.
+std::vector<std::size_t> FileDialog::shown() const {
+  return browser_.matching(to_read_ && written_.find('/') == written_.npos ? written_ : "");
+}
+
+void FileDialog::accept_written(const PanelContext& context, const Command& command) {
+  const std::vector<std::size_t> found = shown();
+  const bool by_name = !written_.empty() && (!to_read_ || found.empty() || is_there(browser_.meant(written_)));
+  if (by_name)
+    accept(context, command, browser_.meant(written_));
+  else if (!found.empty())
+    accept(context, command, browser_.folder() / browser_.entries()[found[std::min(chosen_, found.size() - 1)]].name);
+}
+
+void FileDialog::draw_field(const PanelContext& context, const Command& command) {
+  const Style& style = context.style;
+  if (!replaced_.empty())
+    small_text(style, fmt::format("{} is there already.", fs::path(replaced_).filename().string()), theme::chosen);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::IsWindowAppearing() || to_end_) ImGui::SetKeyboardFocusHere();
+  const std::string hint =
+      to_read_ ? "A part of a name, or a path; Tab completes it" : command.arguments().front().help;
+  if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_, ImGuiInputTextFlags_CallbackAlways, to_end,
+                               &to_end_)) {
+    chosen_ = 0;
+    replaced_.clear();
+  }
+  const char* const does = !replaced_.empty() ? "Replace it" : to_read_ ? "Open" : "Write";
+  if (icon_button(style, Icon::none, does, true)) accept_written(context, command);
+  if (to_read_) {
+    ImGui::SameLine();
+    if (icon_button(style, Icon::none, "Open this folder")) {
+      context.post(command::file_dialog());
+      context.post(command.read({browser_.folder().string()}));
+    }
+    tooltip("Goes through the recorded scans that lie in it, or goes on with the session that it is.");
+  }
+  ImGui::SameLine();
+  if (icon_button(style, Icon::none, "Cancel")) context.post(command::file_dialog());
+}
+
+void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
+  const std::string& wanted = context.window.file_for;
+  if (wanted.empty()) return command_.clear();
+  const Command& command = find_command(wanted);
+  if (command_ != wanted) begin(context, command);
+  const Style& style = context.style;
+  const float margin = style.px(8);
+  const ImVec2 size(std::min(style.px(680), float(place.width) - 2 * margin),
+                    std::min(style.px(460), float(place.height) - 2 * margin));
+  ImGui::SetNextWindowPos({float(place.x + place.width / 2), float(place.y + place.height / 2)}, ImGuiCond_Always,
+                          {0.5f, 0.5f});
+  ImGui::SetNextWindowSize(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
+  ImGui::Begin("File", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  std::string title = command.text;
+  if (title.ends_with("…")) title.resize(title.size() - std::string("…").size());
+  heading(style, title.c_str());
+  draw_path();
+  const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) +
+                     (replaced_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
+  const float height = std::max(ImGui::GetContentRegionAvail().y - rest, style.px(40));
+  ImGui::BeginChild("places", {std::min(style.px(150), 0.3f * size.x), height});
+  draw_places(context, command);
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("entries", {0, height}, true);
+  draw_entries(context, command);
+  ImGui::EndChild();
+  obey_keys(context, command);
+  draw_field(context, command);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace nextview

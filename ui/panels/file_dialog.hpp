@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "ui/panels/file_browser.hpp"
+#include "ui/panels/panel.hpp"
+
+namespace nextview {
+
+/// Asks for the file that a command begins with (WindowState::file_for): places and recent files at the left, the
+/// folder at the right, and a field below that filters, completes and takes paths. Nothing is replaced unasked.
+class FileDialog {
+ public:
+  void draw(const PanelContext& context, const Rectangle& place);
+
+ private:
+  void begin(const PanelContext& context, const Command& command);
+  void draw_path();
+  void draw_places(const PanelContext& context, const Command& command);
+  void draw_place(const std::string& name, const std::filesystem::path& folder);
+  void draw_entries(const PanelContext& context, const Command& command);
+  void draw_field(const PanelContext& context, const Command& command);
+  void obey_keys(const PanelContext& context, const Command& command);
+  /// Enter, or a double click: looks into a folder, does the command with a file.
+  void accept(const PanelContext& context, const Command& command, const std::filesystem::path& file);
+  /// With what is written, or else what is chosen.
+  void accept_written(const PanelContext& context, const Command& command);
+  std::vector<std::size_t> shown() const;  ///< places in the browser's entries
+  void write(std::string text);
+
+  std::string command_;  ///< that it was begun for; empty: it is closed
+  FileBrowser browser_;
+  std::vector<std::filesystem::path> recent_;
+  std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
+  std::size_t chosen_ = 0;          ///< among those that match
+  bool to_read_ = true, to_end_ = false, scroll_ = false;
+  std::filesystem::path last_read_, last_written_;  ///< folders that were used last
+};
+
+}  // namespace nextview

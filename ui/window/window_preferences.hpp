@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+
+namespace nextview {
+
+/// What of a window is kept for the next one.
+struct WindowPreferences {
+  double text_scale = 1.0;  ///< of text and controls, beside the display's
+  bool guide = true;        ///< what to do first is shown
+
+  bool operator==(const WindowPreferences&) const = default;
+};
+
+/// Those in `state` (state_folder()); `otherwise` where none are, or they make no sense.
+WindowPreferences read_preferences(const std::filesystem::path& state, const WindowPreferences& otherwise);
+/// Never throws: what cannot be kept is not.
+void keep_preferences(const std::filesystem::path& state, const WindowPreferences& preferences);
+
+}  // namespace nextview
