@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/csv_cell.hpp"
 #include "core/study/summary_rows.hpp"
 
 namespace nextview {

@@ -15,6 +15,15 @@ double difference_for_the_better(StudyPart part, double difference) {
   return more_is_better(part) ? difference : -difference;
 }
 
+SummaryRow row_of(SummaryRow head, const SummaryRows::Place& place, const MeanSpread& values) {
+  head.measure = place.first;
+  head.at = place.second;
+  head.runs = values.count();
+  head.mean = values.mean();
+  head.spread = values.spread();
+  return head;
+}
+
 SummaryRow gap_row(SummaryRow head, double closed) {
   head.measure = "gap_closed";
   head.runs = 1;
@@ -76,12 +85,7 @@ SummaryRows::OverObjects& SummaryRows::over_objects(const SummaryRow& row) {
 
 void SummaryRows::take(const Group& group, const Place& place, const MeanSpread& values,
                        std::optional<std::size_t> better) {
-  SummaryRow row = group.head;
-  row.measure = place.first;
-  row.at = place.second;
-  row.runs = values.count();
-  row.mean = values.mean();
-  row.spread = values.spread();
+  SummaryRow row = row_of(group.head, place, values);
   row.better = better;
   take_(row);
   OverObjects& over = over_objects(row);
@@ -168,12 +172,7 @@ void SummaryRows::finish_gaps() {
 void SummaryRows::finish() {
   for (const OverObjects& over : over_objects_)
     for (const auto& [place, values] : over.means) {
-      SummaryRow row = over.head;
-      row.measure = place.first;
-      row.at = place.second;
-      row.runs = values.count();
-      row.mean = values.mean();
-      row.spread = values.spread();
+      SummaryRow row = row_of(over.head, place, values);
       const auto better = over.better.find(place);
       if (place.first.find(" - ") != std::string::npos) row.better = better == over.better.end() ? 0 : better->second;
       take_(row);
