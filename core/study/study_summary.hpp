@@ -18,7 +18,9 @@ namespace nextview {
 /// spread, and how many pairs are better. "gap_closed" is where a plan stands between random views (0) and the oracle
 /// (1). "failure" counts runs that came to nothing; `note` has the first reason.
 struct SummaryRow {
-  std::string part, object, sensor;
+  std::string part;
+  std::size_t block = 1;  ///< of the study, from 1: blocks may compare the same methods over other objects
+  std::string object, sensor;
   int views = 0;
   std::string method, measure;
   double at = 0.0;

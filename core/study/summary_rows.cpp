@@ -48,6 +48,7 @@ std::vector<SummaryRows::Group> SummaryRows::groups_of(const std::vector<Finishe
     if (groups.empty() || groups.back().head.method != run.run.method) {
       Group group;
       group.head.part = name(run.run.part);
+      group.head.block = run.run.block + 1;
       group.head.object = object_label(run.run.object);
       group.head.sensor = run.run.sensor;
       group.head.views = run.run.views;
@@ -72,6 +73,7 @@ SummaryRows::OverObjects& SummaryRows::over_objects(const SummaryRow& row) {
   if (found == over_objects_.end()) {
     SummaryRow head;
     head.part = row.part;
+    head.block = row.block;
     head.object = mean_object;
     head.sensor = row.sensor;
     head.views = row.views;
