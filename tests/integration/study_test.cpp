@@ -64,10 +64,10 @@ TEST_F(StudyCommand, ABrokenObjectIsReportedAndTheOthersGoOn) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("4 of 14 runs came to nothing"));
   const std::string csv = read_file(file("out") / "summary.csv");
-  EXPECT_THAT(csv, HasSubstr("planning,broken,paper,3,random,failure,0,2,,,,7-8,"));
+  EXPECT_THAT(csv, HasSubstr("planning,1,broken,paper,3,random,failure,0,2,,,,7-8,"));
   EXPECT_THAT(csv, HasSubstr("broken.ply"));
-  EXPECT_THAT(csv, HasSubstr("planning,box,paper,3,random,mean_coverage[%],0,2,"));
-  EXPECT_THAT(csv, HasSubstr("planning,(mean),paper,3,random,mean_coverage[%],0,2,"));  // of two objects
+  EXPECT_THAT(csv, HasSubstr("planning,1,box,paper,3,random,mean_coverage[%],0,2,"));
+  EXPECT_THAT(csv, HasSubstr("planning,1,(mean),paper,3,random,mean_coverage[%],0,2,"));  // of two objects
 }
 
 TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
@@ -158,31 +158,41 @@ TEST(Study, TheSmokeStudyRuns) {
   EXPECT_EQ(run.err, "");
   const std::string csv = read_file(folder.path() / "out" / "summary.csv");
   for (const char* row :
-       {"planning,(mean),clean,6,new-surface,gap_closed", "planning,(mean),clean,6,paper,coverage[%],6",
-        "maps,(mean),noisy,4,gibbs,log_loss_near_surface[nats] - octomap",
-        "maps,slotted_plate,clean,4,octomap,rows_open_by_width[%],10",
-        "maps,sphere,noisy,4,calibrated,reliability_true,0.05"})
+       {"planning,1,(mean),clean,6,new-surface,gap_closed", "planning,1,(mean),clean,6,paper,coverage[%],6",
+        "maps,2,(mean),noisy,4,gibbs,log_loss_near_surface[nats] - octomap",
+        "maps,2,slotted_plate,clean,4,octomap,rows_open_by_width[%],10",
+        "maps,2,sphere,noisy,4,calibrated,reliability_true,0.05"})
     EXPECT_THAT(csv, HasSubstr(row));
   const Result list = nextview("figure --list");
   const std::string from =
       fmt::format("--study '{}' --out '{}'", (folder.path() / "out").string(), (folder.path() / "figures").string());
-  const Result drawn = nextview("figure all --dpi 96 " + from);
+  const std::string session = fmt::format("'{}'", (folder.path() / "scan").string());
+  ASSERT_EQ(nextview("scan slotted_plate --sensor.width 80 --sensor.height 60 --resolution 0.04 --views.count 8 "
+                     "--termination.views 3 --no-pictures --no-surfaces --out " +
+                     session)
+                .exit_code,
+            0);
+  const Result drawn = nextview(fmt::format("figure all {} --dpi 96 {}", session, from));
   EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
   std::istringstream names(list.out);
   int figures = 0;
   for (std::string line; std::getline(names, line); ++figures) {
     const std::string name = line.substr(0, line.find(' '));
     if (name == "table_1") continue;
-    for (const char* ending : {".png", ".svg", ".json"})
+    for (const char* ending : {".png", ".json"})
       EXPECT_TRUE(fs::exists(folder.path() / "figures" / (name + ending))) << name << ending;
   }
-  EXPECT_EQ(figures, 15);
+  EXPECT_EQ(figures, 22);
+  for (const char* chart : {"coverage_by_view.svg", "data_flow.svg", "gain_agreement.svg"})
+    EXPECT_TRUE(fs::exists(folder.path() / "figures" / chart)) << chart;
+  EXPECT_FALSE(fs::exists(folder.path() / "figures" / "strategy.svg"));  // it is of pixels
   EXPECT_TRUE(fs::exists(folder.path() / "figures" / "table_1.tex"));
   const Result refused =
       nextview(fmt::format("figure all --study '{0}' --out '{0}'", (folder.path() / "out").string()));
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("something else than figures"));
   EXPECT_EQ(nextview("figure gap_close " + from).exit_code, 2);
+  EXPECT_THAT(nextview("figure strategy /no/such " + from).err, HasSubstr("/no/such"));
 }
 
 }  // namespace

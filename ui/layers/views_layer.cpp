@@ -174,7 +174,9 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   if (full) points.push_back(full->translation());
   if (full && !at_eye(*full)) {
     show_full_frustum(picture, *full);
-    const std::string name = picture.custom_view ? "custom view" : fmt::format("view {}", *picture.chosen);
+    const std::string name = !picture.chosen_name.empty() ? picture.chosen_name
+                             : picture.custom_view        ? "custom view"
+                                                          : fmt::format("view {}", *picture.chosen);
     labels.push_back({{full->translation()}, name, theme::chosen, true});
   } else {
     for (Part* part : {&chosen_faces_, &chosen_outline_})
