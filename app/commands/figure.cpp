@@ -14,13 +14,14 @@
 #include "core/results/output_folder.hpp"
 #include "ui/report/scan_figures.hpp"
 #include "ui/report/study_charts.hpp"
+#include "ui/report/study_report.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* time_table_name = "table_1";
+constexpr const char *time_table_name = "table_1", *report_name = "report";
 constexpr double design_dpi = 96.0;  // at which a pixel of a drawing is one of its picture
 
 struct FigureArguments {
@@ -38,6 +39,7 @@ std::vector<std::string> known_figures() {
   for (const StudyFigure& figure : study_figures()) names.push_back(figure.name);
   for (const ScanFigure& figure : scan_figures()) names.push_back(figure.name);
   names.emplace_back(time_table_name);
+  names.emplace_back(report_name);
   return names;
 }
 
@@ -45,6 +47,8 @@ void print_list() {
   for (const StudyFigure& figure : study_figures()) fmt::print("{:<22} {}\n", figure.name, figure.caption);
   for (const ScanFigure& figure : scan_figures()) fmt::print("{:<22} {}\n", figure.name, figure.caption);
   fmt::print("{:<22} {}\n", time_table_name, "Table 1: seconds a view and stage, as CSV, Markdown and LaTeX.");
+  fmt::print("{:<22} {}\n", report_name,
+             "All of a study as one HTML file: its charts, tables of means and comparisons, and what they are of.");
 }
 
 Look look_of(const FigureArguments& a) { return a.dark ? Look::dark() : Look::light(); }
@@ -94,6 +98,9 @@ void write_study_figures(const FigureArguments& a, const SummaryTable& table, co
     if (is_wanted(a, figure.name)) write_figure(a, figure, table, study);
   }
   if (is_wanted(a, time_table_name)) write_time_table(study, a.out);
+  if (!is_wanted(a, report_name)) return;
+  write_file(fs::path(a.out) / "report.html", study_report(study, table));
+  fmt::print("report.html\n");
 }
 
 /// Scenes are drawn for a scale, which follows from the drawing's size, if a picture's is given.
@@ -134,7 +141,8 @@ void require_folder_of_figures(const fs::path& out) {
 /// Of sessions alone come scenes alone, unless a study's figure or a study is asked for.
 bool draws_study(const FigureArguments& a) {
   const auto wanted = [&](const auto& figure) { return is_wanted(a, figure.name); };
-  const bool is_of_study = std::ranges::any_of(study_figures(), wanted) || is_wanted(a, time_table_name);
+  const bool is_of_study =
+      std::ranges::any_of(study_figures(), wanted) || is_wanted(a, time_table_name) || is_wanted(a, report_name);
   return is_of_study && (a.sessions.empty() || !a.study.empty() || a.name != "all");
 }
 
