@@ -46,6 +46,14 @@ class StudyCommand : public testing::Test {
   }
   fs::path file(const std::string& name) const { return folder_.path() / name; }
   std::string quoted(const std::string& name) const { return "'" + file(name).string() + "'"; }
+  /// A shard as a task of a Slurm job array does it.
+  Result array_task(int shard, int shards) const {
+    const std::string task = fmt::format(
+        "env SLURM_ARRAY_TASK_ID={} SLURM_CPUS_PER_TASK=2 sh -c "
+        "'PATH=$(dirname \"$0\"):$PATH exec bash {}/assets/studies/slurm_array.sh \"$@\"'",
+        shard, NEXTVIEW_SOURCE_DIR);
+    return nextview_behind(task, fmt::format("{} {} {}", quoted("study.toml"), quoted("array"), shards));
+  }
   Result study(const std::string& out, const std::string& more = "") const {
     return nextview(fmt::format("study {} --out {} {}", quoted("study.toml"), quoted(out), more));
   }
@@ -75,15 +83,16 @@ TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
   ASSERT_EQ(study("whole", "--threads 1").exit_code, 0);
   std::string folders;
   for (const int i : {2, 3, 1}) {
-    const std::string out = fmt::format("shard{}", i);
-    ASSERT_EQ(study(out, fmt::format("--threads 2 --resume --shard {}/3", i)).exit_code, 0);
-    folders += quoted(out) + " ";
+    const Result task = array_task(i, 3);
+    ASSERT_EQ(task.exit_code, 0) << task.err;
+    folders += quoted(fmt::format("array/shard-{}", i)) + " ";
   }
   const Result merged = nextview(fmt::format("study --merge {} --out {}", folders, quoted("merged")));
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
   for (const char* name : {"summary.csv", "summary.json", "runs.csv", "study.toml", "keys"})
     EXPECT_EQ(read_file(file("merged") / name), read_file(file("whole") / name)) << name;
-  const Result incomplete = nextview(fmt::format("study --merge {} --out {}", quoted("shard1"), quoted("incomplete")));
+  const Result incomplete =
+      nextview(fmt::format("study --merge {} --out {}", quoted("array/shard-1"), quoted("incomplete")));
   EXPECT_EQ(incomplete.exit_code, 2);
   EXPECT_THAT(incomplete.err, HasSubstr("run 2 of 14 is not done yet"));
   EXPECT_FALSE(fs::exists(file("incomplete") / "summary.csv"));
