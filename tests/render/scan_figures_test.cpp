@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/render/render_test.hpp"
+#include "ui/report/scene_panel.hpp"
 
 namespace nextview {
 namespace {
@@ -51,6 +52,16 @@ TEST(Figures, OfScans) {
   for (const ScanFigure& figure : scan_figures())
     if (figure.name == "data_flow" || figure.name == "strategy" || figure.name == "sensor")
       expect_screenshot("figure_" + figure.name + "_dark", figure.draw(all, dark).image());
+}
+
+TEST(ScenePanels, AreFramedByTheCloudWhereTheObjectIsNotKnown) {
+  StepPicture picture;
+  picture.grid = region_of_interest(Vector3::Zero(), 1.28, 0.01);
+  EXPECT_EQ(points_around(picture, true), corners({picture.grid.lower(), picture.grid.upper()}));
+  picture.cloud = {{0.1f, 0.2f, 0.3f}, {0.4f, -0.2f, 0.0f}};
+  const Eigen::AlignedBox3d box(Eigen::Vector3f(0.1f, -0.2f, 0.0f).cast<double>(),
+                                Eigen::Vector3f(0.4f, 0.2f, 0.3f).cast<double>());
+  EXPECT_EQ(points_around(picture, false), corners(box));
 }
 
 /// "gain cloud map": the rooms of core/CMakeLists.txt.

@@ -97,6 +97,9 @@ VectorDrawing strategy_figure(std::span<ReportScan> scans, const FigurePaper& pa
                              height};
       if (row == 0) draw_heading(drawing, area, fmt::format("iteration {}", columns[column]));
       draw_scene_panel(drawing, area, picture, layers[row], paper, {}, points_around(picture, row == 0));
+      if (row == 0 && !picture.chosen)
+        drawing.text(area.left + 0.5 * width, area.top + 20, "no view is left", theme::small_text, theme::soft_ink,
+                     TextAlign::centre);
     }
   }
   return drawing;

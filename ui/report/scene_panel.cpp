@@ -9,8 +9,10 @@ namespace nextview {
 void draw_scene_panel(VectorDrawing& drawing, const DrawingArea& area, const StepPicture& picture,
                       const SceneLayers& layers, const FigurePaper& paper, const ViewDirection& direction,
                       std::span<const Vector3> points) {
+  SceneLayers shown = layers;
+  shown.cloud |= layers.object && !picture.object;
   const auto pixels = [&](double length) { return int(std::lround(length * paper.scale)); };
-  SceneFigure figure(picture, layers, {pixels(area.width), pixels(area.height)}, paper.scale);
+  SceneFigure figure(picture, shown, {pixels(area.width), pixels(area.height)}, paper.scale);
   drawing.picture(area.left, area.top, points.empty() ? figure.draw(direction, false) : figure.draw(direction, points));
 }
 
@@ -20,8 +22,11 @@ StepPicture picture_after(ReportScan& scan, std::size_t views) {
 }
 
 std::vector<Vector3> points_around(const StepPicture& picture, bool view) {
-  const Eigen::AlignedBox3d region(picture.grid.lower(), picture.grid.upper());
-  std::vector<Vector3> points = corners(picture.object ? picture.object->bounding_box() : region);
+  Eigen::AlignedBox3d box;
+  if (picture.object) box = picture.object->bounding_box();
+  for (const Eigen::Vector3f& point : picture.object ? PointCloud() : picture.cloud) box.extend(point.cast<double>());
+  if (box.isEmpty()) box = {picture.grid.lower(), picture.grid.upper()};
+  std::vector<Vector3> points = corners(box);
   if (!view || !picture.chosen) return points;
   const Pose& T_world_camera = picture.candidates.at(*picture.chosen);
   const double reach = views_of(picture).reach;  // [m]
