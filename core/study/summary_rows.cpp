@@ -24,6 +24,14 @@ SummaryRow row_of(SummaryRow head, const SummaryRows::Place& place, const MeanSp
   return head;
 }
 
+/// Courses of chains and bins of reliability diagrams are told of the means over objects alone: with each object's they
+/// would be two fifths of all rows. A run's own are in its file.
+bool is_told_of_means_alone(const std::string& measure) {
+  static constexpr std::string_view courses[] = {"log_posterior_below_last[nats]", "changed_voxels[%]",
+                                                 "d_kl_of_mean[nats]"};
+  return measure.starts_with("reliability_") || std::ranges::find(courses, measure) != std::end(courses);
+}
+
 SummaryRow gap_row(SummaryRow head, double closed) {
   head.measure = "gap_closed";
   head.runs = 1;
@@ -89,7 +97,7 @@ void SummaryRows::take(const Group& group, const Place& place, const MeanSpread&
                        std::optional<std::size_t> better) {
   SummaryRow row = row_of(group.head, place, values);
   row.better = better;
-  take_(row);
+  if (!is_told_of_means_alone(place.first)) take_(row);
   OverObjects& over = over_objects(row);
   over.means[place].add(row.mean);
   if (better && difference_for_the_better(block_.part, row.mean) > 0.0) ++over.better[place];

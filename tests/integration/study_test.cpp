@@ -177,7 +177,7 @@ TEST(Study, TheSmokeStudyRuns) {
        {"planning,1,(mean),clean,6,new-surface,gap_closed", "planning,1,(mean),clean,6,paper,coverage[%],6",
         "maps,2,(mean),noisy,4,gibbs,log_loss_near_surface[nats] - octomap",
         "maps,2,slotted_plate,clean,4,octomap,rows_open_by_width[%],10",
-        "maps,2,sphere,noisy,4,calibrated,reliability_true,0.05"})
+        "maps,2,(mean),noisy,4,calibrated,reliability_true,0.05"})
     EXPECT_THAT(csv, HasSubstr(row));
   const Result list = nextview("figure --list");
   const std::string from =

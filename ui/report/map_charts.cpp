@@ -117,11 +117,12 @@ StudyChart openings_by_width(const SummaryTable& table, const Look& look) {
 }
 
 StudyChart reliability(const SummaryTable& table, const Look& look) {
-  const auto setting = maps_setting(table, "reliability_true");
-  if (!setting) return std::nullopt;
+  // Bins are told of the mean over objects alone; the main measure has the objects.
+  const auto setting = maps_setting(table, main_measure(StudyPart::maps));
+  if (!setting || table.methods(*setting, "reliability_true").empty()) return std::nullopt;
   Plot plot;
-  plot.title = fmt::format("Reliability near the surface: {}, {} views", scope(table, *setting, "reliability_true"),
-                           setting->views);
+  plot.title = fmt::format("Reliability near the surface: {}, {} views",
+                           scope(table, *setting, main_measure(StudyPart::maps)), setting->views);
   plot.x_label = "probability that the map says [%]";
   plot.y_label = "voxels that the surface touches [%]";
   plot.diagonal = true;
