@@ -1,6 +1,5 @@
 #include "ui/figures/scene_figure.hpp"
 
-#include <fmt/format.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -29,11 +28,12 @@ std::vector<Vector3> swept(const std::vector<Vector3>& points, const Vector3& ce
   return all;
 }
 
-void show_chosen_alone(ViewsPicture& views) {
-  if (views.chosen) views.chosen_name = fmt::format("view {}", *views.chosen);
-  views.candidates = views.chosen ? views.candidates.subspan(*views.chosen, 1) : std::span<const Pose>();
-  views.scores = {}, views.taken = {}, views.path = {};
-  if (views.chosen) views.chosen = 0;
+/// All candidates but the chosen one.
+std::vector<std::size_t> others(const StepPicture& picture) {
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < picture.candidates.size(); ++i)
+    if (i != picture.chosen) others.push_back(i);
+  return others;
 }
 
 }  // namespace
@@ -64,7 +64,9 @@ SceneFigure::SceneFigure(const StepPicture& picture, const SceneLayers& layers, 
   scene.rays().show(picture.rays, picture.ray_values);
   ViewsPicture views = views_of(picture);
   views.numbered_path = true;
-  if (!layers.candidates) show_chosen_alone(views);
+  const std::vector<std::size_t> hidden = layers.candidates ? std::vector<std::size_t>{} : others(picture);
+  views.hidden = hidden;
+  if (!layers.candidates) views.path = {};
   scene.views().show(views);
   scene.region().show({picture.grid.lower(), picture.grid.upper()});
   scene.mesh().set_visible(layers.object);

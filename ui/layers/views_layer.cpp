@@ -151,7 +151,10 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   const auto at_eye = [&](const Pose& view) {
     return picture.eye && stands_at(*picture.eye, view.translation(), picture.size);
   };
+  std::vector<bool> hidden(picture.candidates.size(), false);
+  for (const std::size_t i : picture.hidden) hidden.at(i) = true;
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
+    if (hidden[i]) continue;
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);
     if (!at_eye(picture.candidates[i])) {
@@ -174,9 +177,7 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   if (full) points.push_back(full->translation());
   if (full && !at_eye(*full)) {
     show_full_frustum(picture, *full);
-    const std::string name = !picture.chosen_name.empty() ? picture.chosen_name
-                             : picture.custom_view        ? "custom view"
-                                                          : fmt::format("view {}", *picture.chosen);
+    const std::string name = picture.custom_view ? "custom view" : fmt::format("view {}", *picture.chosen);
     labels.push_back({{full->translation()}, name, theme::chosen, true});
   } else {
     for (Part* part : {&chosen_faces_, &chosen_outline_})
