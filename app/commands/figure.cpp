@@ -7,22 +7,27 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/report_scans.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/output_folder.hpp"
+#include "ui/report/scan_figures.hpp"
 #include "ui/report/study_charts.hpp"
+#include "ui/report/study_report.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* time_table_name = "table_1";
+constexpr const char *time_table_name = "table_1", *report_name = "report";
 constexpr double design_dpi = 96.0;  // at which a pixel of a drawing is one of its picture
 
 struct FigureArguments {
-  std::string name, study, out;
+  std::string name, study, out, size;
+  std::vector<std::string> sessions;
+  std::vector<int> views = {1, 2, 3, 4, 5, 6, 7, 8};
   double dpi = 2 * design_dpi;
   bool list = false, dark = false;
 };
@@ -32,23 +37,34 @@ bool is_wanted(const FigureArguments& a, const std::string& name) { return a.nam
 std::vector<std::string> known_figures() {
   std::vector<std::string> names = {"all"};
   for (const StudyFigure& figure : study_figures()) names.push_back(figure.name);
+  for (const ScanFigure& figure : scan_figures()) names.push_back(figure.name);
   names.emplace_back(time_table_name);
+  names.emplace_back(report_name);
   return names;
 }
 
 void print_list() {
   for (const StudyFigure& figure : study_figures()) fmt::print("{:<22} {}\n", figure.name, figure.caption);
+  for (const ScanFigure& figure : scan_figures()) fmt::print("{:<22} {}\n", figure.name, figure.caption);
   fmt::print("{:<22} {}\n", time_table_name, "Table 1: seconds a view and stage, as CSV, Markdown and LaTeX.");
+  fmt::print("{:<22} {}\n", report_name,
+             "All of a study as one HTML file: its charts, tables of means and comparisons, and what they are of.");
 }
 
-/// What a figure shows and what it was made from, beside it.
-void write_caption(const std::string& name, const std::string& caption, const fs::path& study, const fs::path& out) {
-  const nlohmann::ordered_json json = {{"figure", name},
-                                       {"caption", caption},
-                                       {"study", study.filename().string()},
-                                       {"summary_crc32", file_hash(study / "summary.csv").crc32},
-                                       {"configuration", read_file(study / study_file_name)}};
-  write_file(out / (name + ".json"), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+Look look_of(const FigureArguments& a) { return a.dark ? Look::dark() : Look::light(); }
+
+/// A drawing, and beside it what it shows and what it was made from.
+void write_drawing(const FigureArguments& a, const std::string& name, const VectorDrawing& drawing,
+                   nlohmann::ordered_json about, const std::string& configuration) {
+  const fs::path out = a.out;
+  const Image image =
+      a.size.empty() ? drawing.image(a.dpi / design_dpi) : drawing.image(picture_size(a.size, "--size"));
+  write_png(image, out / (name + ".png"), configuration);
+  if (drawing.is_vector()) write_file(out / (name + ".svg"), drawing.svg());
+  about["configuration"] = configuration;
+  write_file(out / (name + ".json"), about.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  fmt::print("{}.png,{} .json\n", name, drawing.is_vector() ? " .svg," : "");
+  std::fflush(stdout);
 }
 
 void write_time_table(const fs::path& study, const fs::path& out) {
@@ -63,16 +79,53 @@ void write_time_table(const fs::path& study, const fs::path& out) {
 /// A figure that the study has nothing of is passed over, or, if it was asked for by name, an error.
 void write_figure(const FigureArguments& a, const StudyFigure& figure, const SummaryTable& table,
                   const fs::path& study) {
-  const auto drawing = figure.draw(table, a.dark ? Look::dark() : Look::light());
+  const auto drawing = figure.draw(table, look_of(a));
   if (!drawing && a.name != "all")
     throw std::invalid_argument(fmt::format("{}: the study has nothing that {} shows", study.string(), figure.name));
   if (!drawing) return;
-  const fs::path out = a.out;
-  write_file(out / (figure.name + ".svg"), drawing->svg());
-  write_png(drawing->image(a.dpi / design_dpi), out / (figure.name + ".png"));
-  write_caption(figure.name, figure.caption, study, out);
-  fmt::print("{}.png, .svg, .json\n", figure.name);
-  std::fflush(stdout);
+  write_drawing(a, figure.name, *drawing,
+                {{"figure", figure.name},
+                 {"caption", figure.caption},
+                 {"study", study.filename().string()},
+                 {"summary_crc32", file_hash(study / "summary.csv").crc32}},
+                read_file(study / study_file_name));
+}
+
+void write_study_figures(const FigureArguments& a, const SummaryTable& table, const fs::path& study,
+                         const std::stop_token& stop) {
+  for (const StudyFigure& figure : study_figures()) {
+    throw_if_stopped(stop);
+    if (is_wanted(a, figure.name)) write_figure(a, figure, table, study);
+  }
+  if (is_wanted(a, time_table_name)) write_time_table(study, a.out);
+  if (!is_wanted(a, report_name)) return;
+  write_file(fs::path(a.out) / "report.html", study_report(study, table));
+  fmt::print("report.html\n");
+}
+
+/// Scenes are drawn for a scale, which follows from the drawing's size, if a picture's is given.
+VectorDrawing drawn(const FigureArguments& a, const ScanFigure& figure, std::span<ReportScan> scans) {
+  FigurePaper paper{look_of(a), a.dpi / design_dpi, a.views};
+  if (a.size.empty()) return figure.draw(scans, paper);
+  constexpr double coarse = 0.2;
+  paper.scale = coarse;
+  paper.scale = figure.draw(scans, paper).scale_within(picture_size(a.size, "--size"));
+  return figure.draw(scans, paper);
+}
+
+void write_scan_figures(const FigureArguments& a, const std::stop_token& stop) {
+  if (std::ranges::none_of(scan_figures(), [&](const ScanFigure& figure) { return is_wanted(a, figure.name); })) return;
+  const ProgressLine progress;
+  auto scans = a.sessions.empty() ? made_scans(progress, stop) : report_scans(a.sessions, progress, stop);
+  std::vector<std::string> names;
+  for (const ReportScan& scan : scans) names.push_back(scan.name);
+  for (const ScanFigure& figure : scan_figures()) {
+    throw_if_stopped(stop);
+    if (is_wanted(a, figure.name))
+      write_drawing(a, figure.name, drawn(a, figure, scans),
+                    {{"figure", figure.name}, {"caption", figure.caption}, {"scans", names}},
+                    to_toml(scans.front().session->configuration(), a.out));
+  }
 }
 
 /// A folder that holds anything but figures by these names is not written to.
@@ -85,26 +138,38 @@ void require_folder_of_figures(const fs::path& out) {
                                               out.string(), printable(entry->path().filename().string())));
 }
 
-int run(const FigureArguments& a) {
-  if (a.list) return print_list(), 0;
+/// Of sessions alone come scenes alone, unless a study's figure or a study is asked for.
+bool draws_study(const FigureArguments& a) {
+  const auto wanted = [&](const auto& figure) { return is_wanted(a, figure.name); };
+  const bool is_of_study =
+      std::ranges::any_of(study_figures(), wanted) || is_wanted(a, time_table_name) || is_wanted(a, report_name);
+  return is_of_study && (a.sessions.empty() || !a.study.empty() || a.name != "all");
+}
+
+/// @throws std::invalid_argument
+void check(const FigureArguments& a) {
   if (a.name.empty() || a.out.empty())
     throw std::invalid_argument("figure: give a NAME, or all, and --out DIR; or --list");
   const auto names = known_figures();
   if (std::ranges::find(names, a.name) == names.end())
     throw std::invalid_argument(
         fmt::format("there is no figure '{}'; did you mean '{}'?", a.name, nearest(a.name, names)));
+  if (!a.size.empty()) picture_size(a.size, "--size");
+}
+
+int run(const FigureArguments& a) {
+  if (a.list) return print_list(), 0;
+  check(a);
   const fs::path study = a.study.empty() ? assets_folder() / "studies" / "nextview" : fs::path(a.study);
-  const SummaryTable table(study);
+  std::optional<SummaryTable> table;
+  if (draws_study(a)) table.emplace(study);
   require_folder_of_figures(a.out);
   std::error_code error;
   fs::create_directories(a.out, error);
   require_writable_folder(a.out);
   const StopOnInterrupt stop;
-  for (const StudyFigure& figure : study_figures()) {
-    throw_if_stopped(stop.token());
-    if (is_wanted(a, figure.name)) write_figure(a, figure, table, study);
-  }
-  if (is_wanted(a, time_table_name)) write_time_table(study, a.out);
+  if (table) write_study_figures(a, *table, study, stop.token());
+  write_scan_figures(a, stop.token());
   return 0;
 }
 
@@ -112,18 +177,25 @@ int run(const FigureArguments& a) {
 
 void add_figure_command(CLI::App& program) {
   auto a = std::make_shared<FigureArguments>();
-  CLI::App* app = program.add_subcommand("figure", "Draw figures and tables of a study");
+  CLI::App* app = program.add_subcommand("figure", "Draw figures and tables of a study, and of scans");
   app->add_option("NAME", a->name, "of a figure, or all");
+  app->add_option("SESSION", a->sessions, "folders of sessions that scenes are drawn of; else scans made for it")
+      ->type_name("DIR");
   app->add_option("--study", a->study, "folder of a study; else the one that comes with the program")->type_name("DIR");
   app->add_option("--out", a->out, "folder for them: new, empty, or of figures")->type_name("DIR");
   app->add_option("--dpi", a->dpi, "of the pictures; 96 draws a pixel a pixel")
       ->check(CLI::Range(48.0, 600.0))
       ->capture_default_str();
+  app->add_option("--size", a->size, "of the pictures in pixels, whatever the dpi")->type_name("WxH");
+  app->add_option("--views", a->views, "that `strategy` has as columns, from 1 (default 1 to 8)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("LIST");
   app->add_flag("--dark,!--light", a->dark, "on dark paper");
   app->add_flag("--list", a->list, "prints all figures and ends");
   app->footer(
       "Examples:\n  nextview figure all --out figures\n  nextview figure gap_closed --study mine --out figures --dpi "
-      "300");
+      "300\n  nextview figure strategy my-scan --views 1,2,4,8 --out figures");
   app->callback([a] { throw CLI::RuntimeError(run(*a)); });
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/config/settings_file.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/csv_cell.hpp"
 
 namespace nextview {
 namespace {
@@ -23,14 +24,6 @@ std::string descent_csv(const Calibration& fit) {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-/// In quotes if it holds what would end a cell.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string scores_csv(const MapCalibration& calibration) {
   std::string csv =
       "object,views,held_out,map,voxels,cross_entropy[nats],log_loss_touch_near_surface[nats],brier_touch_near_surface,"
@@ -39,8 +32,8 @@ std::string scores_csv(const MapCalibration& calibration) {
   for (const ExampleScores& e : calibration.examples) {
     const auto row = [&](const char* map, const std::optional<double>& cross_entropy,
                          const std::optional<MapScores>& s) {
-      csv +=
-          fmt::format("{},{},{},{},{},{}", cell(e.name), e.views, int(e.held_out), map, e.voxels, cell(cross_entropy));
+      csv += fmt::format("{},{},{},{},{},{}", csv_cell(e.name), e.views, int(e.held_out), map, e.voxels,
+                         cell(cross_entropy));
       csv += !s ? ",,,,,,,,,\n"
                 : fmt::format(",{},{},{},{},{},{},{},{},{}\n", s->touch_band.log_loss, s->touch_band.brier,
                               s->centre_band.log_loss, s->touch_visited.log_loss, s->touch_visited.divergence,

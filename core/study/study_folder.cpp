@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/csv_cell.hpp"
 #include "core/file/temporary_file.hpp"
 #include "core/results/output_folder.hpp"
 

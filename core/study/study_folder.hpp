@@ -35,8 +35,6 @@ StudyKeys keys_of(const Study& study);
 
 /// 16 hexadecimal digits (FNV-1a): two of a million texts are the same by chance in one of 40 million studies.
 std::string text_hash(std::string_view text);
-/// Puts a cell of a CSV file into quotes if it needs them.
-std::string csv_cell(const std::string& text);
 
 /// What makes a study the one it is, as its folder has it.
 struct StudyTexts {

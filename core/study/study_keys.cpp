@@ -55,13 +55,6 @@ std::string settings_text(Configuration c) {
 
 std::string text_hash(std::string_view text) { return fmt::format("{:016x}", hash_of_text(text)); }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string StudyKeys::text() const {
   std::string text;
   text.reserve(17 * keys.size());

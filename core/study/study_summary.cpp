@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/csv_cell.hpp"
 #include "core/study/summary_rows.hpp"
 
 namespace nextview {
@@ -18,15 +19,16 @@ using Json = nlohmann::ordered_json;
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string csv_row(const SummaryRow& r) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}-{},{},{}\n", r.part, csv_cell(r.object), csv_cell(r.sensor),
-                     r.views, csv_cell(r.method), csv_cell(r.measure), number(r.at), r.runs,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}-{},{},{}\n", r.part, r.block, csv_cell(r.object),
+                     csv_cell(r.sensor), r.views, csv_cell(r.method), csv_cell(r.measure), number(r.at), r.runs,
                      r.measure == "failure" ? "" : number(r.mean), r.measure == "failure" ? "" : number(r.spread),
                      r.better ? std::to_string(*r.better) : "", r.first_run, r.last_run, r.hash, csv_cell(r.note));
 }
 
 Json json_row(const SummaryRow& r) {
-  Json json = {{"part", r.part},     {"object", r.object},   {"sensor", r.sensor}, {"views", r.views},
-               {"method", r.method}, {"measure", r.measure}, {"at", r.at},         {"runs", r.runs}};
+  Json json = {{"part", r.part},       {"block", r.block}, {"object", r.object},
+               {"sensor", r.sensor},   {"views", r.views}, {"method", r.method},
+               {"measure", r.measure}, {"at", r.at},       {"runs", r.runs}};
   if (r.measure != "failure") json["mean"] = std::stod(number(r.mean)), json["spread"] = std::stod(number(r.spread));
   if (r.better) json["better"] = *r.better;
   json["of_runs"] = {r.first_run, r.last_run};
@@ -40,7 +42,7 @@ class SummaryFiles {
  public:
   SummaryFiles(const Study& study, const fs::path& out)
       : csv_(out / "summary.csv"), json_(out / "summary.json"), runs_(out / "runs.csv") {
-    csv_.stream() << "part,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
+    csv_.stream() << "part,block,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
     json_.stream() << "{\"program\": \"nextview " NEXTVIEW_VERSION "\", \"study\": "
                    << Json(study.name).dump(-1, ' ', false, Json::error_handler_t::replace) << ", \"rows\": [";
     runs_.stream() << "run,key,part,object,sensor,views,method,start,seed,measure,value,failure\n";

@@ -16,9 +16,12 @@ namespace nextview {
 /// 0 of a single run). With object "(mean)" it is over the objects, of whose means it is the mean and the spread.
 /// "MEASURE - REFERENCE" compares pairs of runs that differ in their method alone: the mean of the differences, their
 /// spread, and how many pairs are better. "gap_closed" is where a plan stands between random views (0) and the oracle
-/// (1). "failure" counts runs that came to nothing; `note` has the first reason.
+/// (1). "failure" counts runs that came to nothing; `note` has the first reason. Courses of chains and bins of
+/// reliability diagrams stand with "(mean)" alone.
 struct SummaryRow {
-  std::string part, object, sensor;
+  std::string part;
+  std::size_t block = 1;  ///< of the study, from 1: blocks may compare the same methods over other objects
+  std::string object, sensor;
   int views = 0;
   std::string method, measure;
   double at = 0.0;

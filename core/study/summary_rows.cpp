@@ -15,6 +15,23 @@ double difference_for_the_better(StudyPart part, double difference) {
   return more_is_better(part) ? difference : -difference;
 }
 
+SummaryRow row_of(SummaryRow head, const SummaryRows::Place& place, const MeanSpread& values) {
+  head.measure = place.first;
+  head.at = place.second;
+  head.runs = values.count();
+  head.mean = values.mean();
+  head.spread = values.spread();
+  return head;
+}
+
+/// Courses of chains and bins of reliability diagrams are told of the means over objects alone: with each object's they
+/// would be two fifths of all rows. A run's own are in its file.
+bool is_told_of_means_alone(const std::string& measure) {
+  static constexpr std::string_view courses[] = {"log_posterior_below_last[nats]", "changed_voxels[%]",
+                                                 "d_kl_of_mean[nats]"};
+  return measure.starts_with("reliability_") || std::ranges::find(courses, measure) != std::end(courses);
+}
+
 SummaryRow gap_row(SummaryRow head, double closed) {
   head.measure = "gap_closed";
   head.runs = 1;
@@ -39,6 +56,7 @@ std::vector<SummaryRows::Group> SummaryRows::groups_of(const std::vector<Finishe
     if (groups.empty() || groups.back().head.method != run.run.method) {
       Group group;
       group.head.part = name(run.run.part);
+      group.head.block = run.run.block + 1;
       group.head.object = object_label(run.run.object);
       group.head.sensor = run.run.sensor;
       group.head.views = run.run.views;
@@ -63,6 +81,7 @@ SummaryRows::OverObjects& SummaryRows::over_objects(const SummaryRow& row) {
   if (found == over_objects_.end()) {
     SummaryRow head;
     head.part = row.part;
+    head.block = row.block;
     head.object = mean_object;
     head.sensor = row.sensor;
     head.views = row.views;
@@ -76,14 +95,9 @@ SummaryRows::OverObjects& SummaryRows::over_objects(const SummaryRow& row) {
 
 void SummaryRows::take(const Group& group, const Place& place, const MeanSpread& values,
                        std::optional<std::size_t> better) {
-  SummaryRow row = group.head;
-  row.measure = place.first;
-  row.at = place.second;
-  row.runs = values.count();
-  row.mean = values.mean();
-  row.spread = values.spread();
+  SummaryRow row = row_of(group.head, place, values);
   row.better = better;
-  take_(row);
+  if (!is_told_of_means_alone(place.first)) take_(row);
   OverObjects& over = over_objects(row);
   over.means[place].add(row.mean);
   if (better && difference_for_the_better(block_.part, row.mean) > 0.0) ++over.better[place];
@@ -168,12 +182,7 @@ void SummaryRows::finish_gaps() {
 void SummaryRows::finish() {
   for (const OverObjects& over : over_objects_)
     for (const auto& [place, values] : over.means) {
-      SummaryRow row = over.head;
-      row.measure = place.first;
-      row.at = place.second;
-      row.runs = values.count();
-      row.mean = values.mean();
-      row.spread = values.spread();
+      SummaryRow row = row_of(over.head, place, values);
       const auto better = over.better.find(place);
       if (place.first.find(" - ") != std::string::npos) row.better = better == over.better.end() ? 0 : better->second;
       take_(row);

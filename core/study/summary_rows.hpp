@@ -34,6 +34,7 @@ struct FinishedRun {
 class SummaryRows {
  public:
   using Take = std::function<void(const SummaryRow&)>;
+  using Place = std::pair<std::string, double>;  ///< measure, at
   SummaryRows(const StudyBlock& block, Take take) : block_(block), take_(std::move(take)) {}
 
   /// All runs of one object, sensor and number of views, in their order.
@@ -41,7 +42,6 @@ class SummaryRows {
   void finish();
 
  private:
-  using Place = std::pair<std::string, double>;  ///< measure, at
   using Means = std::map<Place, MeanSpread>;
   struct Group {
     SummaryRow head;

@@ -40,23 +40,25 @@ Number number(const std::string& text) {
 
 SummaryRow row_of(const std::string& line) {
   const std::vector<std::string> c = cells_of(line);
-  if (c.size() != 14) throw std::invalid_argument("no row");
+  if (c.size() != 15) throw std::invalid_argument("no row");
   SummaryRow row;
-  row.part = c[0], row.object = c[1], row.sensor = c[2], row.method = c[4], row.measure = c[5];
-  row.views = number<int>(c[3]);
-  row.at = number<double>(c[6]);
-  row.runs = number<std::size_t>(c[7]);
-  if (!c[8].empty()) row.mean = number<double>(c[8]), row.spread = number<double>(c[9]);
-  if (!c[10].empty()) row.better = number<std::size_t>(c[10]);
-  const std::size_t dash = c[11].find('-');
-  row.first_run = number<std::size_t>(c[11].substr(0, dash));
-  row.last_run = number<std::size_t>(c[11].substr(dash + 1));
-  row.hash = c[12], row.note = c[13];
+  row.part = c[0], row.object = c[2], row.sensor = c[3], row.method = c[5], row.measure = c[6];
+  row.block = number<std::size_t>(c[1]);
+  row.views = number<int>(c[4]);
+  row.at = number<double>(c[7]);
+  row.runs = number<std::size_t>(c[8]);
+  if (!c[9].empty()) row.mean = number<double>(c[9]), row.spread = number<double>(c[10]);
+  if (!c[11].empty()) row.better = number<std::size_t>(c[11]);
+  const std::size_t dash = c[12].find('-');
+  row.first_run = number<std::size_t>(c[12].substr(0, dash));
+  row.last_run = number<std::size_t>(c[12].substr(dash + 1));
+  row.hash = c[13], row.note = c[14];
   return row;
 }
 
 bool is_of(const SummaryRow& row, const StudySetting& setting) {
-  return row.part == name(setting.part) && row.sensor == setting.sensor && row.views == setting.views;
+  return row.part == name(setting.part) && row.block == setting.block && row.sensor == setting.sensor &&
+         row.views == setting.views;
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ SummaryTable::SummaryTable(const fs::path& folder) {
   std::istringstream in(read_file(file));
   std::string line;
   std::getline(in, line);
-  if (!line.starts_with("part,object,sensor,views,method,measure,at,"))
+  if (!line.starts_with("part,block,object,sensor,views,method,measure,at,"))
     throw std::runtime_error(fmt::format("{}: is no summary of a study", file.string()));
   for (int number = 2; std::getline(in, line); ++number) try {
       rows_.push_back(row_of(line));
@@ -80,7 +82,6 @@ std::vector<SummaryTable::Point> SummaryTable::course(const StudySetting& settin
   std::vector<Point> points;
   for (const SummaryRow& row : rows_) {
     if (!is_of(row, setting) || row.object != object || row.method != method || row.measure != measure) continue;
-    if (!points.empty() && row.at <= points.back().at) break;  // of another block
     points.push_back({row.at, row.mean, row.spread});
   }
   return points;
@@ -114,7 +115,7 @@ std::vector<std::string> SummaryTable::objects(const StudySetting& setting, cons
 std::vector<StudySetting> SummaryTable::settings(StudyPart part, const std::string& measure) const {
   std::vector<StudySetting> all;
   for (const SummaryRow& row : rows_) {
-    const StudySetting setting{part, row.sensor, row.views};
+    const StudySetting setting{part, row.block, row.sensor, row.views};
     if (row.part == name(part) && row.measure == measure && std::ranges::find(all, setting) == all.end())
       all.push_back(setting);
   }

@@ -8,9 +8,10 @@
 
 namespace nextview {
 
-/// What methods were compared under: a sensor, and a number of views.
+/// What methods were compared under: in one block of a study, a sensor and a number of views.
 struct StudySetting {
   StudyPart part = StudyPart::planning;
+  std::size_t block = 1;  ///< from 1
   std::string sensor;
   int views = 0;
   bool operator==(const StudySetting&) const = default;

@@ -28,6 +28,14 @@ std::vector<Vector3> swept(const std::vector<Vector3>& points, const Vector3& ce
   return all;
 }
 
+/// All candidates but the chosen one.
+std::vector<std::size_t> others(const StepPicture& picture) {
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < picture.candidates.size(); ++i)
+    if (i != picture.chosen) others.push_back(i);
+  return others;
+}
+
 }  // namespace
 
 struct SceneFigure::Parts {
@@ -41,16 +49,24 @@ struct SceneFigure::Parts {
 };
 
 SceneFigure::SceneFigure(const Session& session, const SceneLayers& layers, const PictureSize& size)
+    : SceneFigure(step_picture(session), layers, size, picture_scale(size)) {}
+
+SceneFigure::SceneFigure(const StepPicture& picture, const SceneLayers& layers, const PictureSize& size, double scale)
     : parts_(std::make_unique<Parts>(size)) {
-  const StepPicture picture = step_picture(session);
   Scene& scene = parts_->scene;
-  scene.set_scale(picture_scale(size));
+  scene.set_scale(scale);
+  scene.set_legends(layers.annotated);
+  scene.set_axes(layers.annotated, layers.annotated);
+  scene.set_tight(!layers.annotated);
   if (picture.object) scene.mesh().show(*picture.object, picture.object_style);
   scene.cloud().show(picture.cloud, picture.point_size);
   scene.octree().show(picture.grid, picture.voxels);
   scene.rays().show(picture.rays, picture.ray_values);
   ViewsPicture views = views_of(picture);
   views.numbered_path = true;
+  const std::vector<std::size_t> hidden = layers.candidates ? std::vector<std::size_t>{} : others(picture);
+  views.hidden = hidden;
+  if (!layers.candidates) views.path = {};
   scene.views().show(views);
   scene.region().show({picture.grid.lower(), picture.grid.upper()});
   scene.mesh().set_visible(layers.object);
@@ -69,6 +85,11 @@ Image SceneFigure::draw(const ViewDirection& direction, bool transparent) {
   parts_->scene.set_backed(!transparent);
   parts_->scene.frame(direction);
   return parts_->apart.draw(transparent);
+}
+
+Image SceneFigure::draw(const ViewDirection& direction, std::span<const Vector3> points) {
+  parts_->scene.frame(points, direction);
+  return parts_->apart.draw(false);
 }
 
 Image SceneFigure::draw_turned(const ViewDirection& start, int frame, int count, bool transparent) {

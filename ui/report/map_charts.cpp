@@ -23,13 +23,15 @@ std::optional<StudySetting> maps_setting(const SummaryTable& table, const std::s
 
 /// A row a map, a column a sensor, each the mean over the objects.
 StudyChart by_sensor(const SummaryTable& table, const Look& look, const std::string& measure, MatrixPlot plot) {
-  // Those of one number of views, under which most sensors were tried.
-  std::map<int, std::vector<StudySetting>> by_views;
+  // Those of one block and number of views, under which most sensors and maps were tried.
+  std::map<std::pair<std::size_t, int>, std::vector<StudySetting>> together;
   for (const StudySetting& setting : table.settings(StudyPart::maps, measure))
-    by_views[setting.views].push_back(setting);
-  if (by_views.empty()) return std::nullopt;
-  const auto most = std::ranges::max_element(by_views, {}, [](const auto& entry) { return entry.second.size(); });
-  plot.title += fmt::format(", {} views", most->first);
+    together[{setting.block, setting.views}].push_back(setting);
+  if (together.empty()) return std::nullopt;
+  const auto most = std::ranges::max_element(together, {}, [&](const auto& entry) {
+    return entry.second.size() * table.methods(entry.second.front(), measure).size();
+  });
+  plot.title += fmt::format(", {} views", most->first.second);
   for (const StudySetting& setting : most->second) {
     plot.columns.push_back(in_words(setting.sensor));
     for (const std::string& method : table.methods(setting, measure))
@@ -115,11 +117,12 @@ StudyChart openings_by_width(const SummaryTable& table, const Look& look) {
 }
 
 StudyChart reliability(const SummaryTable& table, const Look& look) {
-  const auto setting = maps_setting(table, "reliability_true");
-  if (!setting) return std::nullopt;
+  // Bins are told of the mean over objects alone; the main measure has the objects.
+  const auto setting = maps_setting(table, main_measure(StudyPart::maps));
+  if (!setting || table.methods(*setting, "reliability_true").empty()) return std::nullopt;
   Plot plot;
-  plot.title = fmt::format("Reliability near the surface: {}, {} views", scope(table, *setting, "reliability_true"),
-                           setting->views);
+  plot.title = fmt::format("Reliability near the surface: {}, {} views",
+                           scope(table, *setting, main_measure(StudyPart::maps)), setting->views);
   plot.x_label = "probability that the map says [%]";
   plot.y_label = "voxels that the surface touches [%]";
   plot.diagonal = true;
@@ -133,6 +136,17 @@ StudyChart reliability(const SummaryTable& table, const Look& look) {
   return one_plot(plot, look, 520);
 }
 
+/// Each chain in a colour of its own, the default one strong.
+void tell_apart(Plot& plot) {
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    PlotSeries& series = plot.series[i];
+    series.spread.clear();
+    series.colour = i < theme::series.size() ? theme::series[i] : theme::ink;
+    series.thickness = i == 0 ? 2.5 : 1.75;
+    series.dashed = i >= 3;
+  }
+}
+
 /// Under which the most chains were tried.
 StudyChart stationarity(const SummaryTable& table, const Look& look) {
   const std::string trace = "log_posterior_below_last[nats]", divergence = "d_kl_of_mean[nats]";
@@ -143,16 +157,19 @@ StudyChart stationarity(const SummaryTable& table, const Look& look) {
   constexpr double height = 420;
   VectorDrawing drawing(760, 2 * height, look);
   Plot way = courses(table, setting, trace, 1e3);
-  way.title = "The chain's way to its log-posterior at the end: mean over objects, " + in_words(setting.sensor);
+  for (PlotSeries& series : way.series)
+    for (double& y : series.y) y = std::abs(y);
+  way.title = "How far a chain's log-posterior is from where it ends: mean over objects, " + in_words(setting.sensor);
   way.x_label = "sweeps";
-  way.y_label = "log-posterior still to be gained [knats]";
+  way.y_label = "difference of log-posteriors [knats]";
+  way.logarithmic_y = true;
+  way.y_low = 0.1;
   Plot change = courses(table, setting, divergence);
   change.title = "What a sweep changes of the running mean: mean over objects, " + in_words(setting.sensor);
   change.x_label = "sweeps";
   change.y_label = "D_KL between successive means [nats]";
   change.logarithmic_y = true;
-  for (Plot* plot : {&way, &change})
-    for (PlotSeries& series : plot->series) series.spread.clear();
+  tell_apart(way), tell_apart(change);
   draw_plot(drawing, {0, 0, 760, height}, way);
   draw_plot(drawing, {0, height, 760, height}, change);
   return drawing;

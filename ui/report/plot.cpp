@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ui/appearance/colour_map.hpp"
 #include "ui/charts/chart.hpp"
 
 namespace nextview {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double left_room = 58, top_room = 62, bottom_room = 50;  // [px]
 constexpr double name_distance = 17;                               // of lines [px]
+constexpr double leaders_room = 40;                                // between curves and their names [px]
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -107,20 +109,23 @@ void draw_names(VectorDrawing& d, const DrawingArea& inner, const Plot& plot, co
     names[i].y = std::min(names[i].y, lowest);
   for (const Name& name : names) {
     const Colour colour = d.look().on_paper(name.series->colour);
-    d.line(
-        {{axes.x(name.series->x.back()) + 3, name.wanted}, {inner.right() + 12, name.y}, {inner.right() + 22, name.y}},
-        colour, 1.0);
-    d.text(inner.right() + 27, name.y + 4, name.series->name, theme::small_text, colour, TextAlign::left,
-           name.series->thickness > 2.0);
+    d.line({{axes.x(name.series->x.back()) + 3, name.wanted},
+            {inner.right() + leaders_room - 6, name.y},
+            {inner.right() + leaders_room, name.y}},
+           mix(d.look().paper, colour, 0.4), 1.0);
+    d.dot(axes.x(name.series->x.back()), name.wanted, 2.5, colour);
+    const bool is_background = name.series->colour == theme::muted;  // its line may be faint, its name may not
+    d.text(inner.right() + leaders_room + 5, name.y + 4, name.series->name, theme::small_text,
+           is_background ? d.look().soft_ink : colour, TextAlign::left, name.series->thickness > 2.0);
   }
 }
 
 }  // namespace
 
 void draw_plot(VectorDrawing& d, const DrawingArea& area, const Plot& plot) {
-  double names = 12;
+  double names = 28;  // of the last tick's half
   for (const PlotSeries& s : plot.series)
-    if (!s.name.empty()) names = std::max(names, 40 + text_width(s.name, theme::small_text));
+    if (!s.name.empty()) names = std::max(names, leaders_room + 18 + text_width(s.name, theme::small_text));
   const DrawingArea inner{area.left + left_room, area.top + top_room, area.width - left_room - names,
                           area.height - top_room - bottom_room};
   const Axes axes(plot, inner);

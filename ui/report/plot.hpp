@@ -56,6 +56,7 @@ struct MatrixPlot {
   std::vector<std::vector<std::optional<double>>> values;  ///< [row][column]; none: an empty cell
   int digits = 1;
   bool dark_is_high = true;
+  bool diverging = false;           ///< from blue over grey to red, instead of from light to dark
   std::optional<double> low, high;  ///< of the shades; else the values'
 };
 void draw_matrix(VectorDrawing& drawing, const DrawingArea& area, const MatrixPlot& plot);

@@ -28,7 +28,9 @@ constexpr Style styles[] = {{"new-surface", 0, true},
 }  // namespace
 
 std::string in_words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
+  const auto is_digit = [&](std::size_t i) { return i < name.size() && name[i] >= '0' && name[i] <= '9'; };
+  for (std::size_t i = 1; i < name.size(); ++i)
+    if (name[i] == '_') name[i] = is_digit(i - 1) && is_digit(i + 1) ? '.' : ' ';
   return name;
 }
 
@@ -69,7 +71,7 @@ Plot courses(const SummaryTable& table, const StudySetting& setting, const std::
 }
 
 std::string scope(const SummaryTable& table, const StudySetting& setting, const std::string& measure) {
-  return fmt::format("mean of {} objects, {}", table.objects(setting, measure).size(), setting.sensor);
+  return fmt::format("mean of {} objects, {}", table.objects(setting, measure).size(), in_words(setting.sensor));
 }
 
 StudyChart one_plot(const Plot& plot, const Look& look, double height) {

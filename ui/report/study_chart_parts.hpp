@@ -24,7 +24,7 @@ StudyChart one_plot(const Plot& plot, const Look& look, double height = 460);
 /// A row a method, a column an object, and the mean.
 StudyChart by_object(const SummaryTable& table, const Look& look, const StudySetting& setting,
                      const std::string& measure, MatrixPlot plot, double unit = 1.0);
-/// "average_entropy_eq13" as it is read: "average entropy eq13"
+/// "average_entropy_eq13" as it is read: "average entropy eq13"; "prior_0_5": "prior 0.5"
 std::string in_words(std::string name);
 
 // Charts of plans.

@@ -19,6 +19,12 @@ double widest(const std::vector<std::string>& names) {
   return width;
 }
 
+/// Without a sign where nothing is left of the number.
+std::string cell_text(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  return text.find_first_of("123456789") == std::string::npos ? fmt::format("{:.{}f}", 0.0, digits) : text;
+}
+
 /// Dark letters on light cells, light ones on dark cells.
 Colour letters_on(const Colour& cell) { return lightness(cell) > 0.66 ? theme::ink : theme::paper; }
 
@@ -85,10 +91,11 @@ void draw_matrix(VectorDrawing& d, const DrawingArea& area, const MatrixPlot& pl
       const auto& value = plot.values.at(r).at(c);
       if (!value) continue;
       const double share = high > low ? std::clamp((*value - low) / (high - low), 0.0, 1.0) : 0.5;
-      const Colour cell = ColourMap::score().at(plot.dark_is_high ? share : 1.0 - share);
+      const Colour cell =
+          (plot.diverging ? ColourMap::deviation() : ColourMap::score()).at(plot.dark_is_high ? share : 1.0 - share);
       d.box(left + double(c) * width + 1, y + 1, width - 2, height - 2, cell);
-      d.text(left + (double(c) + 0.5) * width, y + 0.5 * height + 4, fmt::format("{:.{}f}", *value, plot.digits),
-             theme::small_text, letters_on(cell), TextAlign::centre);
+      d.text(left + (double(c) + 0.5) * width, y + 0.5 * height + 4, cell_text(*value, plot.digits), theme::small_text,
+             letters_on(cell), TextAlign::centre);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <vtkContext2D.h>
 #include <vtkPen.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,7 +36,12 @@ Look Look::dark() {
 
 Colour Look::series(std::size_t i) const { return on_paper(theme::series[i % theme::series.size()]); }
 
-Colour Look::on_paper(const Colour& colour) const { return is_dark() ? mix(colour, ink, 0.45) : colour; }
+Colour Look::on_paper(const Colour& colour) const {
+  if (!is_dark()) return colour;
+  if (colour == theme::ink) return ink;
+  // What stays in the background does so on dark paper too.
+  return colour == theme::muted ? colour : mix(colour, ink, 0.35);
+}
 
 void VectorDrawing::line(std::vector<Eigen::Vector2d> points, const Colour& colour, double thickness, bool dashed) {
   shapes_.emplace_back(Line{std::move(points), colour, thickness, dashed});
@@ -57,6 +63,14 @@ void VectorDrawing::dot(double x, double y, double radius, const Colour& colour)
     corners.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle));
   }
   area(std::move(corners), colour);
+}
+
+void VectorDrawing::picture(double x, double y, Image picture) {
+  shapes_.emplace_back(Picture{x, y, std::move(picture)});
+}
+
+bool VectorDrawing::is_vector() const {
+  return std::ranges::none_of(shapes_, [](const auto& shape) { return std::holds_alternative<Picture>(shape); });
 }
 
 void VectorDrawing::text(double x, double y, const std::string& words, int size, const Colour& colour, TextAlign align,
@@ -82,6 +96,7 @@ class VectorDrawing::SvgWriter {
                        text.x, text.y, text.size, hex(text.colour), anchors[int(text.align)],
                        text.bold ? " font-weight=\"600\"" : "", escaped(text.words));
   }
+  std::string operator()(const Picture&) const { return {}; }
 
  private:
   static std::string list(const std::vector<Eigen::Vector2d>& points) {
@@ -103,8 +118,9 @@ std::string VectorDrawing::svg() const {
 
 class VectorDrawing::PixelPainter {
  public:
-  PixelPainter(vtkContext2D& context, double height, double scale)
-      : context_(context), painter_(context, scale), height_(height), scale_(scale) {}
+  /// The drawing's left end, and its upper end as seen from below [px of the drawing].
+  PixelPainter(vtkContext2D& context, double left, double height, double scale)
+      : context_(context), painter_(context, scale), left_(left), height_(height), scale_(scale) {}
 
   void operator()(const Line& line) {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
@@ -117,7 +133,7 @@ class VectorDrawing::PixelPainter {
   void operator()(const Area& area) {
     std::vector<float> corners;
     for (const Eigen::Vector2d& p : area.corners) {
-      corners.push_back(float(p.x() * scale_));
+      corners.push_back(float((left_ + p.x()) * scale_));
       corners.push_back(float((height_ - p.y()) * scale_));
     }
     const auto channel = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
@@ -126,15 +142,19 @@ class VectorDrawing::PixelPainter {
                                   channel(area.opacity));
     context_.DrawPolygon(corners.data(), int(area.corners.size()));
   }
+  void operator()(const Picture& picture) {
+    paint_image(context_, std::round((left_ + picture.x) * scale_),
+                std::round((height_ - picture.y) * scale_) - picture.image.height, picture.image);
+  }
   void operator()(const Text& text) {
     // Letters stand on their baseline; VTK places them by their box.
-    painter_.text(text.x, height_ - text.y - 0.22 * text.size, text.words, text.size, text.colour,
+    painter_.text(left_ + text.x, height_ - text.y - 0.22 * text.size, text.words, text.size, text.colour,
                   text.bold ? TextWeight::semi_bold : TextWeight::regular, text.align);
   }
 
  private:
   void piece(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Line& line) {
-    painter_.line(a.x(), height_ - a.y(), b.x(), height_ - b.y(), line.thickness, line.colour);
+    painter_.line(left_ + a.x(), height_ - a.y(), left_ + b.x(), height_ - b.y(), line.thickness, line.colour);
   }
   void dashes(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Line& line) {
     constexpr double on = 5.0, period = 9.0;  // [px]
@@ -145,17 +165,32 @@ class VectorDrawing::PixelPainter {
 
   vtkContext2D& context_;
   Painter painter_;
-  double height_, scale_;
+  double left_, height_, scale_;
 };
 
-Image VectorDrawing::image(double scale) const {
-  const auto pixels = [&](double length) { return int(std::lround(length * scale)); };
-  return draw_page(pixels(width_), pixels(height_), [&](vtkContext2D& context) {
-    PixelPainter painter(context, height_, scale);
-    painter(Area{{{0, 0}, {width_, 0}, {width_, height_}, {0, height_}}, look_.paper, 1.0});
+Image VectorDrawing::drawn(const PictureSize& size, double scale) const {
+  const double left = 0.5 * (size.width / scale - width_), top = 0.5 * (size.height / scale - height_);
+  return draw_page(size.width, size.height, [&](vtkContext2D& context) {
+    const auto width = float(size.width), height = float(size.height);
+    context.GetPen()->SetLineType(vtkPen::NO_PEN);
+    const auto channel = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
+    context.GetBrush()->SetColor(channel(look_.paper[0]), channel(look_.paper[1]), channel(look_.paper[2]));
+    context.DrawRect(0.0f, 0.0f, width, height);
+    PixelPainter painter(context, left, height_ + top, scale);
     for (const auto& shape : shapes_) std::visit(painter, shape);
   });
 }
+
+Image VectorDrawing::image(double scale) const {
+  const auto pixels = [&](double length) { return int(std::lround(length * scale)); };
+  return drawn({pixels(width_), pixels(height_)}, scale);
+}
+
+double VectorDrawing::scale_within(const PictureSize& size) const {
+  return std::min(size.width / width_, size.height / height_);
+}
+
+Image VectorDrawing::image(const PictureSize& size) const { return drawn(size, scale_within(size)); }
 
 double text_width(const std::string& words, int size) {
   std::size_t letters = 0;

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "ui/appearance/picture_size.hpp"
 #include "ui/appearance/theme.hpp"
 #include "ui/drawing/painter.hpp"
 #include "ui/render_target/image.hpp"
@@ -41,13 +42,21 @@ class VectorDrawing {
   void area(std::vector<Eigen::Vector2d> corners, const Colour& colour, double opacity = 1.0);
   void box(double x, double y, double width, double height, const Colour& colour, double opacity = 1.0);
   void dot(double x, double y, double radius, const Colour& colour);
+  /// A picture with its upper left corner at (x, y), pixel by pixel: made for the scale that the drawing is drawn at.
+  void picture(double x, double y, Image picture);
   /// (x, y): where the baseline begins, is centred or ends.
   void text(double x, double y, const std::string& words, int size, const Colour& colour,
             TextAlign align = TextAlign::left, bool bold = false);
 
-  std::string svg() const;
+  /// Whether it is lines and letters alone, which svg() can draw.
+  bool is_vector() const;
+  std::string svg() const;  ///< @pre is_vector()
   /// Drawn headless (ensure_headless). `scale`: pixels a pixel of the drawing.
   Image image(double scale = 1.0) const;
+  /// In the middle of a page of this size, as large as it fits.
+  Image image(const PictureSize& size) const;
+  /// At which it fits there.
+  double scale_within(const PictureSize& size) const;
 
  private:
   struct Line {
@@ -69,12 +78,17 @@ class VectorDrawing {
     TextAlign align;
     bool bold;
   };
+  struct Picture {
+    double x, y;
+    Image image;
+  };
   class SvgWriter;
   class PixelPainter;
+  Image drawn(const PictureSize& size, double scale) const;
 
   double width_, height_;
   Look look_;
-  std::vector<std::variant<Line, Area, Text>> shapes_;
+  std::vector<std::variant<Line, Area, Text, Picture>> shapes_;
 };
 
 /// About so wide is a text: fonts differ from reader to reader.

@@ -154,8 +154,9 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
     return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
   };
   const auto share = [](double margin, double whole) { return std::min(margin / whole, 0.25); };  // some is left
+  const double foot = tight_ ? 20.0 : 44.0;  // [px] for axes and scale bar
   const FrameMargins centred{share(20, width), share(20, width),
-                             std::min(std::max(44.0, covered_below_) / height, 0.45),
+                             std::min(std::max(foot, covered_below_) / height, 0.45),
                              share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
   if (overlay.legends.empty() && !(overlay.backed && legends_)) return middle;

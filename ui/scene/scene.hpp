@@ -57,6 +57,9 @@ class Scene {
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }
 
+  /// Whether framing leaves no room for axes and scale bar; it does unless told otherwise.
+  void set_tight(bool tight) { tight_ = tight; }
+
   /// Frames all visible layers so that nothing is cut off or lies beneath a legend. Needs a target, for its
   /// proportions.
   void frame(const ViewDirection& direction = {});
@@ -88,7 +91,7 @@ class Scene {
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
-  bool legends_ = true, moving_ = false;
+  bool legends_ = true, moving_ = false, tight_ = false;
   double covered_below_ = 0;  ///< [px] of the design
   int samples_at_rest_ = 0;   ///< of a pixel, while moving
   vtkSmartPointer<vtkRenderer> renderer_;

@@ -4,6 +4,7 @@
 #include "core/session/session.hpp"
 #include "core/study/run_result.hpp"
 #include "core/view/candidate_views.hpp"
+#include "tests/integration/small_scan.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -42,18 +43,9 @@ class StudyRuns : public testing::Test {
 
 TEST_F(StudyRuns, APlanIsAScan) {
   const RunResult result = run(0);
-  Configuration c;
-  c.object.file = "sphere";
+  Configuration c = small_scan();
   c.object.longest_side = 0.5;
-  c.sensor.width = 160;
-  c.sensor.height = 120;
-  c.map.resolution = 0.02;
-  c.views.count = 12;
-  c.planner.ray_columns = 16;
-  c.planner.ray_rows = 12;
-  c.evaluation.surface_samples = 2000;
   c.termination.views = 4;
-  c.termination.surface_left = 0.0;
   Session session(c);
   double path = 0.0, sum = 0.0;
   while (session.finished().empty()) session.step();

@@ -153,11 +153,27 @@ TEST_F(Summary, LessIsBetterOfAMap) {
   EXPECT_EQ(row["better"], gibbs < octomap ? "1" : "0");
 }
 
+TEST_F(Summary, BinsAndChainsAreToldOfTheMeanAlone) {
+  for (std::size_t i = 0; i < study_.size(); ++i)
+    if (results_[i].failure.empty()) results_[i].add("reliability_true", 0.05, double(i));
+  const auto rows = summary();
+  const auto count = [&](const std::string& object) {
+    return std::ranges::count_if(
+        rows, [&](const Row& row) { return row.at("object") == object && row.at("measure") == "reliability_true"; });
+  };
+  EXPECT_EQ(count("box"), 0);
+  EXPECT_EQ(count("(mean)"), 5);  // a method of either part
+  double octomap = 0.0;
+  for (std::size_t i = 0; i < study_.size(); ++i)
+    if (study_.run(i).method == "octomap") octomap = double(i);
+  EXPECT_EQ(std::stod(row_of(rows, "(mean)", "octomap", "reliability_true")["mean"]), octomap);
+}
+
 TEST_F(Summary, ARunThatCameToNothingIsSaid) {
   const StudyFolder all = shard(0, 1);
   EXPECT_EQ(summarise(study_, keys_.keys, {&all, 1}, {1, study_.size()}, all.path()).failed, 2u);
   const std::string csv = read_file(all.path() / "summary.csv");
-  EXPECT_THAT(csv, testing::HasSubstr("planning,box,paper,3,farthest,failure,0,2,,,,"));
+  EXPECT_THAT(csv, testing::HasSubstr("planning,1,box,paper,3,farthest,failure,0,2,,,,"));
   EXPECT_THAT(csv, testing::HasSubstr("\"it broke \"\"badly\"\"\""));
 }
 
