@@ -158,7 +158,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
   EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
   EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
   walk(user,
-       "turn 30 -10\ntoggle-candidates\ntoggle-candidates\ntoggle-legends\ntoggle-legends\nmeasure\n"
+       "standard-view top\nturn 30 -10\ntoggle-candidates\ntoggle-candidates\ntoggle-legends\ntoggle-legends\nmeasure\n"
        "measure-point 0 0 0.1\nmeasure-point 0.1 0 0.1\nmeasure bore\nmeasure\n");
   walk(user,
        "text-size bigger\nhide-panels\nhide-panels\ntext-size usual\nfull-screen\nfull-screen\n"

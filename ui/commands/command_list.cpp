@@ -34,9 +34,9 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       select_view, select_taken, select_next, custom_view, look_through, inspect_voxel, inspect_ray, measure,
       measure_point, clear_selection,
       // Scene
-      frame, look_from, turn, zoom, toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays,
-      toggle_region, edit_region, toggle_missed, toggle_candidates, toggle_legends, object_style, cloud_colour,
-      voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
+      frame, look_from, standard_view, turn, zoom, toggle_object, toggle_cloud, toggle_octree, toggle_views,
+      toggle_rays, toggle_region, edit_region, toggle_missed, toggle_candidates, toggle_legends, object_style,
+      cloud_colour, voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
       uncertain_from, slice_axis, slice_at, lock_ranges,
       // Window
       panel, curves, forget_runs, sort, text_size, hide_panels, full_screen, palette, file_dialog,

@@ -1,6 +1,8 @@
 #include "ui/commands/scene_commands.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/session/start_map.hpp"
 #include "ui/commands/command_target.hpp"
@@ -85,6 +87,29 @@ const CommandOf<double, double> command::look_from{
     argument::number("azimuth", "from x towards y [deg]", -360, 360),
     argument::number("elevation", "above the horizon [deg]", -89, 89),
     [](CommandTarget& t, double azimuth, double elevation) {
+      t.window.camera_motions.push_back(camera_motion::LookFrom{azimuth, elevation});
+    }};
+
+const CommandOf<StandardView> command::standard_view{
+    {"standard-view",
+     "Scene",
+     "Look from a side…",
+     "Frames the object, seen along an axis, or from above at an angle as at first.",
+     {{key('1'), true, {"front"}},
+      {key('2'), true, {"right"}},
+      {key('3'), true, {"back"}},
+      {key('4'), true, {"left"}},
+      {key('5'), true, {"top"}},
+      {key('6'), true, {"bottom"}},
+      {key('7'), true, {"usual"}}}},
+    argument::choice<StandardView>("side", "front is where y is negative",
+                                   {"front", "right", "back", "left", "top", "bottom", "usual"}),
+    [](CommandTarget& t, StandardView side) {
+      if (side == StandardView::usual) return t.window.camera_motions.push_back(camera_motion::Frame{});
+      // Straight from above or below there would be no upright.
+      constexpr std::array<std::pair<double, double>, 6> directions{
+          {{-90, 0}, {0, 0}, {90, 0}, {180, 0}, {-90, 89.9}, {-90, -89.9}}};
+      const auto [azimuth, elevation] = directions[static_cast<std::size_t>(side)];
       t.window.camera_motions.push_back(camera_motion::LookFrom{azimuth, elevation});
     }};
 

@@ -4,11 +4,13 @@
 namespace nextview {
 
 enum class SliceAxis { none, x, y, z };
+enum class StandardView { front, right, back, left, top, bottom, usual };
 
 namespace command {
 
 extern const CommandOf<> lock_ranges;
 extern const CommandOf<std::optional<Framed>> frame;
+extern const CommandOf<StandardView> standard_view;
 extern const CommandOf<double, double> look_from, turn;  ///< azimuth, elevation [deg]
 extern const CommandOf<double> zoom;                     ///< steps
 

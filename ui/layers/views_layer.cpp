@@ -176,7 +176,7 @@ void ViewsLayer::show(const ViewsPicture& picture) {
                      : picture.chosen    ? &picture.candidates[*picture.chosen]
                                          : nullptr;
   if (full) points.push_back(full->translation());
-  if (full && !at_eye(*full)) {
+  if (full && !picture.eye) {  // who looks through a view looks at what it sees
     show_full_frustum(picture, *full);
     const std::string name = picture.custom_view ? "custom view" : fmt::format("candidate {}", *picture.chosen);
     labels.push_back({{full->translation()}, name, theme::chosen, true});

@@ -56,6 +56,7 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});
   palette_.draw(context, front);
   file_dialog_.draw(context, beneath_menu);
+  popups_ = ImGui::GetCurrentContext()->OpenPopupStack.Size;
 }
 
 namespace {
@@ -98,12 +99,12 @@ void obey_answers(const PanelContext& context) {
 
 }  // namespace
 
-void obey_keys(const PanelContext& context) {
+void AllPanels::obey_keys(const PanelContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_typing = io.WantTextInput || context.window.palette_open || !context.window.file_for.empty();
-  const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;  // menus and lists
-  if (open > 0) {
-    if (pressed(Key::escape)) ImGui::ClosePopupToLevel(open - 1, true);
+  if (popups_ > 0) {
+    const bool is_open = ImGui::GetCurrentContext()->OpenPopupStack.Size == popups_;
+    if (is_open && pressed(Key::escape)) ImGui::ClosePopupToLevel(popups_ - 1, true);
   } else if (!context.progress.question.empty() && (pressed(Key::escape) || (pressed(Key::enter) && !is_typing))) {
     obey_answers(context);
   } else if (!context.window.file_for.empty()) {

@@ -18,6 +18,10 @@ class AllPanels {
   explicit AllPanels(const std::vector<PanelEntry>& panels = standard_panels());
   /// `log_count`: of all entries ever; `seconds`: since the last frame.
   void draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds);
+  /// Emits the commands whose keys are pressed, before draw(). Whatever is in front has the keyboard: a menu or a list,
+  /// then a question, the file dialog, the palette, the sheet of keys, a text that is written; Escape closes it, and no
+  /// other key does anything else.
+  void obey_keys(const PanelContext& context);
   /// How long the picture stays as it is if nothing happens [s].
   double seconds_left() const { return notifications_.seconds_left(); }
 
@@ -28,10 +32,7 @@ class AllPanels {
   Palette palette_;
   FileDialog file_dialog_;
   Notifications notifications_;
+  int popups_ = 0;  ///< menus and lists that were open in the last frame; Escape has closed one since, maybe
 };
-
-/// Emits the commands whose keys are pressed. Whatever is in front has the keyboard: a menu or a list, then the
-/// palette, the sheet of keys, a text that is written; Escape closes it, and no other key does anything else.
-void obey_keys(const PanelContext& context);
 
 }  // namespace nextview

@@ -1,6 +1,7 @@
 #include "ui/panels/file_dialog.hpp"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -19,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool names_folder(const Command& command) { return command.arguments().front().name == "folder"; }
+
+int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 
 bool pressed(Key key, bool repeats = false) { return ImGui::IsKeyPressed(static_cast<int>(key), repeats); }
 
@@ -181,7 +184,7 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
   if (!replaced_.empty())
     small_text(style, fmt::format("{} is there already.", fs::path(replaced_).filename().string()), theme::chosen);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::IsWindowAppearing() || to_end_) ImGui::SetKeyboardFocusHere();
+  if (!ImGui::IsAnyItemActive() && open_popups() == 0) ImGui::SetKeyboardFocusHere();  // letters always go there
   const std::string hint =
       to_read_ ? "A part of a name, or a path; Tab completes it" : command.arguments().front().help;
   if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_, ImGuiInputTextFlags_CallbackAlways, to_end,
@@ -218,7 +221,8 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
   ImGui::Begin("File", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoNav);
   std::string title = command.text;
   if (title.ends_with("…")) title.resize(title.size() - std::string("…").size());
   heading(style, title.c_str());

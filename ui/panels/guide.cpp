@@ -39,7 +39,8 @@ void draw_guide(const PanelContext& context, const Rectangle& scene) {
   if (!context.window.guide_open || !s.records.empty() || is_asked || (is_opening && !s.loaded())) return;
   const Style& style = context.style;
   const float margin = style.px(12), width = std::min(style.px(430), float(scene.width) - 2 * margin);
-  if (width < style.px(200) || float(scene.height) < style.px(260)) return;  // the scene needs what room there is
+  if (float(scene.width) < style.px(420) || float(scene.height) < style.px(260))
+    return;  // the scene needs what room there is
   ImGui::SetNextWindowPos({float(scene.x + scene.width) - margin, float(scene.y + scene.height) - margin},
                           ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowSize({width, 0});

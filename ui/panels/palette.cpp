@@ -168,7 +168,7 @@ void Palette::draw(const PanelContext& context, const Rectangle& scene) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
   ImGui::Begin("Commands", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
   if (opened) ImGui::SetWindowFocus();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (opened || put_) ImGui::SetKeyboardFocusHere();

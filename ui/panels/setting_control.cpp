@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/planner/policy.hpp"
 #include "core/setting/quantity.hpp"
 #include "ui/panels/panel.hpp"
 
@@ -54,6 +55,7 @@ struct Control {
     }
     for (std::size_t i = 0; i < choice.names.size(); ++i) {
       if (ImGui::Selectable(choice.names[i].c_str(), i == current) && i != current) wanted = choice.names[i];
+      if (setting.key == "planner.gain") tooltip(policy_entry(choice.names[i]).summary);
       if (i == current) ImGui::SetItemDefaultFocus();
     }
     ImGui::EndCombo();

@@ -106,7 +106,7 @@ void Interface::Parts::draw_interface(double seconds) {
   const PanelContext context{*news.snapshot, shown,    state, *news.inspection, *news.log,
                              host.style(),   pictures, calls, hovered};
   state.scene_camera = view.camera_pose();
-  obey_keys(context);
+  panels.obey_keys(context);
   follow_pointer(context, seconds);
   panels.draw(context, layout, worker.log().count(), seconds);
   if (!news.progress.doubtful) {

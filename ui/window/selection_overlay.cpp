@@ -14,24 +14,52 @@
 namespace nextview {
 namespace {
 
+using Corners = std::array<std::optional<Eigen::Vector2d>, 4>;
+
+/// Where the corners of a camera's image are in the window, as far from it as the region's middle.
+Corners image_corners(SceneView& view, const SessionSnapshot& s, const Pose& T_world_camera) {
+  const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
+  const double depth = (T_world_camera.translation() - target).norm();
+  const PinholeCamera& c = s.camera;
+  const double right = c.width - 0.5, bottom = c.height - 0.5;
+  const std::array<Eigen::Vector2d, 4> pixels{{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
+  Corners corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3 direction = c.direction(pixels[i].x(), pixels[i].y());
+    corners[i] = view.project(T_world_camera * Vector3(direction * (depth / direction.z())));
+  }
+  return corners;
+}
+
+/// Who looks through a view sees where its image ends, and how to get away.
+void draw_image_border(SceneView& view, const PanelContext& context) {
+  const SessionSnapshot& s = context.snapshot;
+  const Pose seen = selected_view_pose(s, context.window.selection).value_or(s.next_view);
+  const Pose& camera = context.window.scene_camera;
+  const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
+  if ((camera.translation() - seen.translation()).norm() > 1e-3 * depth ||
+      !camera.linear().isApprox(seen.linear(), 1e-3))
+    return;
+  const Corners corners = image_corners(view, s, seen);
+  const Style& style = context.style;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (std::size_t i = 0; i < 4; ++i)
+    if (corners[i] && corners[(i + 1) % 4])
+      list.AddLine(at(*corners[i]), at(*corners[(i + 1) % 4]), to_imgui_u32(theme::chosen), style.px(2));
+  const Rectangle& r = view.rectangle();
+  draw_label(style, {float(r.x) + style.px(8), float(r.y + r.height) - style.px(84)},
+             "What this view sees. A drag, or F, leaves it.", theme::chosen);
+}
+
 void draw_frustum(SceneView& view, const PanelContext& context, const Pose& T_world_camera, const std::string& label,
                   const Colour& colour) {
   const SessionSnapshot& s = context.snapshot;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
   const Vector3 eye = context.window.scene_camera.translation();
   if (stands_at(eye, T_world_camera.translation(), frustum_depth(s.candidates, target))) return;
-  const double depth = (T_world_camera.translation() - target).norm();
-  const PinholeCamera& c = s.camera;
   const auto apex = view.project(T_world_camera.translation());
-  std::array<std::optional<Eigen::Vector2d>, 4> base;
-  const double right = c.width - 0.5, bottom = c.height - 0.5;
-  const std::array<Eigen::Vector2d, 4> pixels{{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector3 direction = c.direction(pixels[i].x(), pixels[i].y());
-    base[i] = view.project(T_world_camera * Vector3(direction * (depth / direction.z())));
-    if (!base[i]) return;
-  }
-  if (!apex) return;
+  const Corners base = image_corners(view, s, T_world_camera);
+  if (!apex || !std::ranges::all_of(base, [](const auto& corner) { return corner.has_value(); })) return;
   const Style& style = context.style;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImU32 line = to_imgui_u32(colour);
@@ -147,6 +175,7 @@ void draw_selection_overlay(SceneView& view, const PanelContext& context) {
                  fmt::format("view {} as taken", selection.view.index + 1), theme::muted);
   if (selection.voxel && *selection.voxel < s.grid.voxel_count()) draw_voxel(view, context, *selection.voxel);
   if (selection.ray) draw_ray(view, context, *selection.ray);
+  draw_image_border(view, context);
   if (context.window.measurement) draw_measurement(view, context, *context.window.measurement);
   ImGui::GetBackgroundDrawList()->PopClipRect();
 }

@@ -63,7 +63,11 @@ TEST_F(CommandEffects, EachLayerIsSwitchedByItsOwn) {
     expect_effect("toggle-views", [](WindowState& w) { w.layers.views ^= true; });
     expect_effect("toggle-rays", [](WindowState& w) { w.layers.rays ^= true; });
     expect_effect("toggle-region", [](WindowState& w) { w.layers.region ^= true; });
-    expect_effect("toggle-missed", [](WindowState& w) { w.layers.missed ^= true; });
+    expect_effect("toggle-missed", [](WindowState& w) {
+      w.layers.missed ^= true;
+      w.layers.octree = !w.layers.missed;  // which would be in front of it, as the points would
+      if (w.layers.missed) w.layers.cloud = false;
+    });
     expect_effect("toggle-occupied", [](WindowState& w) { w.layers.voxels.occupied ^= true; });
     expect_effect("toggle-unknown", [](WindowState& w) { w.layers.voxels.unknown ^= true; });
     expect_effect("toggle-free", [](WindowState& w) { w.layers.voxels.free ^= true; });

@@ -48,7 +48,7 @@ TEST_F(Bars, TheFiguresAreThoseOfTheLastView) {
 }
 
 TEST_F(Bars, SaysWhatItIsReadyFor) {
-  EXPECT_THAT(control_bar(), HasSubstr("Ready to take view 6"));
+  EXPECT_THAT(control_bar(), HasSubstr("Ready to take candidate 6"));
   scan_->next_candidate.reset();
   EXPECT_THAT(control_bar(), HasSubstr("No candidate is left"));
   scan_->custom_next_view = true;
@@ -58,7 +58,7 @@ TEST_F(Bars, SaysWhatItIsReadyFor) {
   desk_.snapshot = scanned(small_scan(), 0);
   EXPECT_THAT(control_bar(), HasSubstr("Ready to take the start view"));
   desk_.snapshot = std::make_shared<SessionSnapshot>();
-  EXPECT_THAT(control_bar(), HasSubstr("No object yet"));
+  EXPECT_THAT(control_bar(), HasSubstr("Nothing is open"));
 }
 
 TEST_F(Bars, SaysWhatRunsWhatWaitsAndForHowLong) {

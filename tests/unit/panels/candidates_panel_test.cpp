@@ -43,10 +43,10 @@ class CandidatesPanel : public testing::Test {
 TEST_F(CandidatesPanel, EachNumberStandsInItsColumnWithItsUnit) {
   EXPECT_THAT(rows(), ElementsAre("6 160 0.75 0.2000", "1 40 0.25 0.0500", "3 20 2.00 0.0200", "0 10 0.50 0.0100",
                                   "7 5 1.50 -0.0300", "4 80 1.00 -0.1000", "5 taken, view 2", "2 not reachable"));
-  EXPECT_THAT(panel(), HasSubstr("view gain [nats] cost [m] utility"));
+  EXPECT_THAT(panel(), HasSubstr("candidate gain [nats] cost [m] utility"));
   EXPECT_THAT(panel(), HasSubstr("ranked by occlusion-aware"));
   scan_->gain_unit = "";
-  EXPECT_THAT(panel(), HasSubstr("view gain cost [m] utility"));
+  EXPECT_THAT(panel(), HasSubstr("candidate gain cost [m] utility"));
 }
 
 TEST_F(CandidatesPanel, TheFormulaHasTheWeightsOfThePlanner) {
@@ -66,7 +66,7 @@ TEST_F(CandidatesPanel, AClickOnAHeaderSortsAndAnotherTurnsItRound) {
   EXPECT_THAT(order(), ElementsAre(6, 4, 1, 3, 0, 7, 2, 5));
   EXPECT_EQ(text_of(click_on(desk_, "gain [nats]", "Candidates")), "sort gain ascending");
   EXPECT_THAT(order(), ElementsAre(7, 0, 3, 1, 4, 6, 5, 2));
-  EXPECT_EQ(text_of(click_on(desk_, "view", "Candidates")), "sort view ascending");
+  EXPECT_EQ(text_of(click_on(desk_, "candidate", "Candidates")), "sort view ascending");
   EXPECT_THAT(order(), ElementsAre(0, 1, 3, 4, 6, 7, 2, 5));
   EXPECT_EQ(text_of(click_on(desk_, "utility", "Candidates")), "sort utility descending");
   EXPECT_THAT(order(), ElementsAre(6, 1, 3, 0, 7, 4, 5, 2));
@@ -100,13 +100,13 @@ TEST_F(CandidatesPanel, BarsAreSharesOfTheLargestThatIsLeft) {
 }
 
 TEST_F(CandidatesPanel, SaysWhatIsNext) {
-  EXPECT_THAT(panel(), HasSubstr("Next is the proposal, view 6."));
+  EXPECT_THAT(panel(), HasSubstr("Next is the proposal, candidate 6."));
   scan_->next_candidate = 1;
-  EXPECT_THAT(panel(), HasSubstr("Next is your choice, view 1; proposed was view 6."));
+  EXPECT_THAT(panel(), HasSubstr("Next is your choice, candidate 1; proposed was candidate 6."));
   scan_->next_candidate.reset();
   EXPECT_THAT(panel(), HasSubstr("No candidate is left."));
   scan_->custom_next_view = true;
-  EXPECT_THAT(panel(), HasSubstr("Next is a custom view; proposed was view 6."));
+  EXPECT_THAT(panel(), HasSubstr("Next is a custom view; proposed was candidate 6."));
   scan_->records[1].ranking.degenerate = "all are alike";
   EXPECT_THAT(panel(), HasSubstr("The ranking says little: all are alike."));
   scan_->finished = "enough";
@@ -134,8 +134,8 @@ TEST_F(CandidatesPanel, AClickOnARowLooksAtTheCandidateAndAnotherAtTheNextView) 
   desk_.window.selection.view = {ViewSelection::Kind::candidate, 3};
   for (int i = 0; i < 60; ++i) desk_.frame();  // so that the next click is no double click
   EXPECT_EQ(text_of(click_on(desk_, "0.0200", "Candidates")), "select-next");
-  EXPECT_THAT(panel(), HasSubstr("Take view 3 next"));
-  EXPECT_EQ(text_of(click_on(desk_, "Take view 3 next", "Candidates")), "take-view");
+  EXPECT_THAT(panel(), HasSubstr("Take 3 next"));
+  EXPECT_EQ(text_of(click_on(desk_, "Take 3 next", "Candidates")), "take-view");
 }
 
 }  // namespace

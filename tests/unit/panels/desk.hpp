@@ -31,7 +31,7 @@ class Desk {
     std::vector<CommandCall> calls;
     std::optional<std::size_t> hovered;
     const PanelContext context{*snapshot, progress, window, inspection, log, host_.style(), pictures_, calls, hovered};
-    obey_keys(context);
+    panels_.obey_keys(context);
     panels_.draw(context, layout_, log.size(), 1.0 / 60);
     ImGui::Render();
     for (const CommandCall& call : calls) {
@@ -113,6 +113,7 @@ inline void open_all_ways(Desk& desk) {
   desk.snapshot = s;
   desk.window.selection.view = {ViewSelection::Kind::candidate, *s->proposal()};
   desk.window.selection.custom_view = Pose::Identity();
+  desk.window.measurement = Measurement{};
   desk.window.layers.voxels.slice = Slice{0, -0.1, 0.1};
 }
 

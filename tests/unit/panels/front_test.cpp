@@ -49,6 +49,41 @@ TEST(Front, NoShortcutFiresWhileAMenuIsOpen) {
     }
 }
 
+/// Nothing that acts on the session is done behind a question; Enter gives the first answer, Escape the last.
+TEST(Front, AQuestionIsAnsweredFirst) {
+  Desk desk;
+  open_all_ways(desk);
+  desk.progress.question = "Start over?";
+  desk.progress.answers = {"Start over", "Cancel"};
+  desk.type(Key::space);
+  for (const CommandCall& call : desk.frames()) {
+    CommandTarget target{desk.worker(), desk.window, *desk.snapshot, desk.progress};
+    EXPECT_THROW(call.run(target), std::invalid_argument) << "what is refused says so";
+  }
+  for (const Command& command : commands()) {
+    if (command.menu != "Scan" || command.name == "answer" || command.name == "cancel") continue;
+    EXPECT_FALSE(command.available(desk.state())) << command.name;
+  }
+  desk.type(Key::enter);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer \"Start over\""});
+  desk.type(Key::escape);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
+}
+
+/// Letters that were meant for something else must not act on a session that is about to be replaced.
+TEST(Front, WhileAnotherSessionIsOpenedNothingIsDoneToThisOne) {
+  Desk desk;
+  open_all_ways(desk);
+  desk.progress.busy = desk.progress.opening = true;
+  for (const char name : {'S', 'P', 'R', 'T', 'B', 'G'}) {
+    desk.type(key(name));
+    for (const CommandCall& call : desk.frames()) {
+      CommandTarget target{desk.worker(), desk.window, *desk.snapshot, desk.progress};
+      EXPECT_THROW(execute(call, target), std::invalid_argument) << name << ": " << call.text();
+    }
+  }
+}
+
 TEST(Front, EscapeClosesAListOfAPanel) {
   Desk desk;
   open_all_ways(desk);

@@ -60,8 +60,8 @@ std::vector<const ImGuiWindow*> placed_windows() {
   std::vector<const ImGuiWindow*> result;
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
     const int above = ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip;
-    const bool over_scene =
-        std::string(w->Name).find("otif") != std::string::npos || std::string(w->Name) == "Question";
+    const std::string name = w->Name;
+    const bool over_scene = name.find("otif") != name.npos || name == "Question" || name == "First steps";
     if (w->WasActive && !w->Hidden && !(w->Flags & above) && !over_scene && !w->IsFallbackWindow) result.push_back(w);
   }
   return result;
@@ -156,11 +156,12 @@ TEST_P(Panels, SheetAndPaletteStayInTheWindow) {
   desk.snapshot = states()[2].snapshot;
   desk.window.shortcuts_open = true;
   desk.frames();
-  for (const char* name : {"Keys and mouse", "Commands"}) {
-    desk.window.shortcuts_open = std::string(name) != "Commands";
-    desk.window.palette_open = !desk.window.shortcuts_open;
+  for (const std::string name : {"Keys and mouse", "Commands", "File"}) {
+    desk.window.shortcuts_open = name == "Keys and mouse";
+    desk.window.palette_open = name == "Commands";
+    desk.window.file_for = name == "File" ? "open" : "";
     desk.frames();
-    const ImGuiWindow* w = ImGui::FindWindowByName(name);
+    const ImGuiWindow* w = ImGui::FindWindowByName(name.c_str());
     ASSERT_NE(w, nullptr) << name;
     EXPECT_TRUE(is_within(w->Rect(), {0, 0, double(width), double(height)}))
         << name << ": " << w->Pos.x << ", " << w->Pos.y << ", " << w->Size.x << " x " << w->Size.y;
@@ -170,6 +171,26 @@ TEST_P(Panels, SheetAndPaletteStayInTheWindow) {
 INSTANTIATE_TEST_SUITE_P(Sizes, Panels,
                          testing::Values(std::tuple(1280, 800, 1.0), std::tuple(2560, 1600, 2.0),
                                          std::tuple(1200, 720, 1.0)));
+
+TEST(FirstSteps, AreInTheSceneUntilAViewIsTaken) {
+  for (const auto& [width, height, scale] : {std::tuple(1280, 800, 1.0), {640, 480, 1.0}, {3840, 2160, 2.0}}) {
+    Desk desk(width, height, scale);
+    for (const std::size_t state : {0u, 1u, 2u}) {  // nothing is open, nothing is measured, some views
+      desk.snapshot = states()[state].snapshot;
+      desk.frames();
+      const ImGuiWindow* w = ImGui::FindWindowByName("First steps");
+      const bool shown = w && w->WasActive && !w->Hidden;
+      const bool is_wanted = desk.snapshot->records.empty() && width > 640;
+      EXPECT_EQ(shown, is_wanted) << width << ", state " << state;
+      EXPECT_TRUE(!shown || is_within(w->Rect(), desk.layout().scene));
+    }
+    desk.snapshot = states()[1].snapshot;
+    desk.window.guide_open = false;
+    desk.frames();
+    const ImGuiWindow* w = ImGui::FindWindowByName("First steps");
+    EXPECT_TRUE(!w || !w->WasActive);
+  }
+}
 
 /// To clear a text in the session panel once threw out of the frame.
 TEST(SessionPanel, ATextCanBeCleared) {

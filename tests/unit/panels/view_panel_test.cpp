@@ -77,15 +77,16 @@ TEST_F(ViewPanel, ATakenViewsNumbersAreThoseOfItsRecord) {
   EXPECT_THAT(panel(), HasSubstr("View 2 as taken"));
   EXPECT_THAT(
       panel(),
-      HasSubstr(
-          "taken from candidate 5 predicted gain 12.5 nats realised gain 321 nats new surface 214 cm² new voxels 77 "
-          "points 500 of 600 hits beyond range 40 rays way there 1.25 m, 90°"));
+      HasSubstr("taken from candidate 5 predicted 12.5 nats new surface 214 cm² realised 321 nats new voxels 77 "
+                "points 500 of 600 hits beyond range 40 rays way there 1.25 m, 90°"));
   scan_->records[1].overridden = true;
   EXPECT_THAT(panel(), HasSubstr("taken from candidate 5, your choice"));
   scan_->records[1].view = -1;
-  EXPECT_THAT(panel(), HasSubstr("taken from your custom view predicted gain 12.5 nats"));
+  EXPECT_THAT(panel(), HasSubstr("taken from your custom view predicted 12.5 nats"));
   scan_->records[1].overridden = false;
-  EXPECT_THAT(panel(), HasSubstr("taken from the start view predicted gain none realised gain 321 nats"));
+  EXPECT_THAT(panel(), HasSubstr("taken from the start view predicted none new surface 214 cm² realised 321 nats"));
+  scan_->gain_unit = "cm²";  // then both are surface
+  EXPECT_THAT(panel(), HasSubstr("predicted none realised 214 cm² entropy lost 321 nats"));
 }
 
 TEST_F(ViewPanel, DepthsAreInMillimetres) {

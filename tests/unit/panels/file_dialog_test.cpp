@@ -1,0 +1,105 @@
+// The file dialog by keyboard and mouse, on folders that are made for it.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/unit/mesh/temporary_folder.hpp"
+#include "tests/unit/panels/desk.hpp"
+#include "tests/unit/panels/seen.hpp"
+#include "ui/commands/script.hpp"
+
+namespace nextview {
+namespace {
+
+class FileDialogTest : public testing::Test {
+ protected:
+  FileDialogTest() {
+    for (const char* name : {"parts/bracket.stl", "parts/my own part.ply", "parts/older/arm.obj"}) {
+      std::filesystem::create_directories((folder_ / name).parent_path());
+      std::ofstream(folder_ / name) << "12345";
+    }
+    open_all_ways(desk_);
+  }
+  void begin(const std::string& command) {
+    desk_.window.file_for = command;
+    desk_.frames();
+    desk_.write((folder_ / "parts").string() + "/");
+    desk_.frames();
+  }
+  /// What comes of it, but for the dialog's closing.
+  std::string done() {
+    for (const CommandCall& call : desk_.frames())
+      if (call.command->name != "file-dialog") return call.text();
+    return "";
+  }
+  bool is_open() const { return !desk_.window.file_for.empty(); }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  TemporaryFolder folder_;
+  Desk desk_;
+};
+
+TEST_F(FileDialogTest, APartOfANameAndEnterOpenAFile) {
+  begin("open");
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "");
+  EXPECT_TRUE(is_open()) << "a folder is looked into";
+  desk_.write("OWN");
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/my own part.ply")));
+  EXPECT_FALSE(is_open());
+}
+
+TEST_F(FileDialogTest, ArrowsChooseAndTabCompletes) {
+  begin("open");
+  desk_.type(Key::enter);
+  desk_.frames();
+  desk_.type(Key::down);  // older/, bracket.stl
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/bracket.stl")));
+  begin("open");
+  desk_.write("ol");
+  desk_.frames();
+  desk_.type(Key::tab);
+  desk_.frames();
+  desk_.write("arm");
+  desk_.frames();
+  desk_.type(Key::tab);
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/older/arm.obj")));
+}
+
+TEST_F(FileDialogTest, EscapeClosesItAndNothingElse) {
+  begin("open");
+  const Selection selected = desk_.window.selection;
+  desk_.type(Key::escape);
+  EXPECT_EQ(done(), "");
+  EXPECT_FALSE(is_open());
+  EXPECT_EQ(desk_.window.selection, selected);
+}
+
+TEST_F(FileDialogTest, NothingIsReplacedUnasked) {
+  begin("export-cloud");
+  desk_.type_with(key('A'), true);
+  desk_.write(path("parts/bracket.stl"));
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "") << "it is there already";
+  EXPECT_TRUE(is_open());
+  EXPECT_THAT(read("File"), testing::HasSubstr("bracket.stl is there already."));
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "export-cloud " + quoted(path("parts/bracket.stl")));
+}
+
+TEST_F(FileDialogTest, KeysOfCommandsDoNothingBehindIt) {
+  begin("open");
+  desk_.type(key('S'));
+  desk_.type(Key::space);
+  EXPECT_EQ(done(), "");
+}
+
+}  // namespace
+}  // namespace nextview
