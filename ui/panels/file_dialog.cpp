@@ -25,20 +25,18 @@ int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 
 bool pressed(Key key, bool repeats = false) { return ImGui::IsKeyPressed(static_cast<int>(key), repeats); }
 
-/// After the field's text was changed by us, its cursor goes to the end.
-int to_end(ImGuiInputTextCallbackData* data) {
-  bool& wanted = *static_cast<bool*>(data->UserData);
-  if (wanted) data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
-  wanted = false;
-  return 0;
-}
-
 }  // namespace
 
 void FileDialog::write(std::string text) {
   written_ = std::move(text);
-  to_end_ = true;
   replaced_.clear();
+}
+
+/// Tab; the field has its own copy of what is written while it has the keyboard.
+void FileDialog::complete(ImGuiInputTextCallbackData& field) const {
+  const std::string completed = browser_.completed({field.Buf, std::size_t(field.BufTextLen)});
+  field.DeleteChars(0, field.BufTextLen);
+  field.InsertChars(0, completed.c_str());
 }
 
 void FileDialog::begin(const PanelContext& context, const Command& command) {
@@ -161,7 +159,6 @@ void FileDialog::obey_keys(const PanelContext& context, const Command& command) 
     chosen_ += std::size_t(by);
     scroll_ = true;
   }
-  if (pressed(Key::tab)) write(browser_.completed(written_));
   if (pressed(Key::enter)) accept_written(context, command);
 }
 
@@ -187,8 +184,12 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
   if (!ImGui::IsAnyItemActive() && open_popups() == 0) ImGui::SetKeyboardFocusHere();  // letters always go there
   const std::string hint =
       to_read_ ? "A part of a name, or a path; Tab completes it" : command.arguments().front().help;
-  if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_, ImGuiInputTextFlags_CallbackAlways, to_end,
-                               &to_end_)) {
+  const auto on_tab = [](ImGuiInputTextCallbackData* field) {
+    static_cast<FileDialog*>(field->UserData)->complete(*field);
+    return 0;
+  };
+  if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_, ImGuiInputTextFlags_CallbackCompletion, on_tab,
+                               this)) {
     chosen_ = 0;
     replaced_.clear();
   }
@@ -237,8 +238,8 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   ImGui::BeginChild("entries", {0, height}, true);
   draw_entries(context, command);
   ImGui::EndChild();
-  obey_keys(context, command);
   draw_field(context, command);
+  obey_keys(context, command);
   ImGui::End();
   ImGui::PopStyleVar(2);
 }

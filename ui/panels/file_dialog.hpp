@@ -28,13 +28,14 @@ class FileDialog {
   void accept_written(const PanelContext& context, const Command& command);
   std::vector<std::size_t> shown() const;  ///< places in the browser's entries
   void write(std::string text);
+  void complete(ImGuiInputTextCallbackData& field) const;
 
   std::string command_;  ///< that it was begun for; empty: it is closed
   FileBrowser browser_;
   std::vector<std::filesystem::path> recent_;
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
   std::size_t chosen_ = 0;          ///< among those that match
-  bool to_read_ = true, to_end_ = false, scroll_ = false;
+  bool to_read_ = true, scroll_ = false;
   std::filesystem::path last_read_, last_written_;  ///< folders that were used last
 };
 

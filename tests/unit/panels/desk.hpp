@@ -36,7 +36,8 @@ class Desk {
     ImGui::Render();
     for (const CommandCall& call : calls) {
       CommandTarget target{worker_, window, *snapshot, progress};
-      if (call.command->menu == "Window" && call.command->name != "forget-runs") execute(call, target);
+      const bool is_window = call.command->menu == "Window" || call.command->menu == "Help";
+      if (is_window && call.command->name != "forget-runs") execute(call, target);
     }
     return calls;
   }
