@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 #include "core/file/atomic_file.hpp"
@@ -221,12 +222,15 @@ TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
   EXPECT_TRUE(first.window().scene().camera_pose().isApprox(second.window().scene().camera_pose(), 1e-9)) << saved;
 }
 
-TEST_F(Commands, FiveHundredAtRandomLeaveAValidSession) {
+/// NEXTVIEW_RANDOM_COMMANDS sets how many; five hundred were run (CHANGELOG).
+TEST_F(Commands, AtRandomLeaveAValidSession) {
+  const char* const wanted = std::getenv("NEXTVIEW_RANDOM_COMMANDS");
+  const std::size_t count = wanted ? std::stoul(wanted) : 200;
   User user(tiny_scan(), width, height, scale);
   // Other commands: --gtest_random_seed.
   RandomCalls random(20240229 + std::uint64_t(GTEST_FLAG_GET(random_seed)), folder_, file("tiny scan.toml"));
   std::size_t done = 0, refused = 0, views = 0;
-  while (done + refused < 500) {
+  while (done + refused < count) {
     for (std::size_t batch = 1 + random.below(12); batch-- > 0;) {
       const auto [command, values] = random.next(user.session());
       const bool key = random.below(5) == 0 && !command->shortcuts().empty();
@@ -259,8 +263,8 @@ TEST_F(Commands, FiveHundredAtRandomLeaveAValidSession) {
     if (is_large(s.configuration)) user.run("open \"" + file("tiny scan.toml").string() + "\"\n");
     if (HasFailure()) break;
   }
-  EXPECT_GT(refused, 10u);
-  EXPECT_GT(views, 25u) << "there was hardly ever anything to work on";
+  EXPECT_GT(refused, count / 50);
+  EXPECT_GT(views, count / 20) << "there was hardly ever anything to work on";
   expect_words_for_people(*user.worker().log().entries());
   user.run("open \"" + file("tiny scan.toml").string() + "\"\nstep\n");
   EXPECT_EQ(user.session().records.size(), 1u);

@@ -120,12 +120,15 @@ void Scene::set_moving(bool moving) {
 
 void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
 
+/// In a narrower window they would cover most of the scene.
+bool Scene::has_room_for_legends() const {
+  return renderer_->GetSize()[0] / overlay_->item->scale >= 2 * (usual_legend_width + 36);
+}
+
 void Scene::annotate() {
   overlay_->item->legends.clear();
   overlay_->item->labels.clear();
-  // In a window as narrow as this they would cover most of the scene.
-  const double width = renderer_->GetSize()[0] / overlay_->item->scale;
-  const bool legends = legends_ && !(overlay_->item->backed && width < 2 * (usual_legend_width + 36));
+  const bool legends = legends_ && (!overlay_->item->backed || has_room_for_legends());
   for (const Layer* layer : layers()) {
     if (!layer->visible()) continue;
     overlay_->item->labels.insert(overlay_->item->labels.end(), layer->labels().begin(), layer->labels().end());
@@ -159,7 +162,8 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
                              std::min(std::max(foot, covered_below_) / height, 0.45),
                              share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
-  if (overlay.legends.empty() && !(overlay.backed && legends_)) return middle;
+  const bool to_come = overlay.backed && legends_ && has_room_for_legends();
+  if (overlay.legends.empty() && !to_come) return middle;
   FrameMargins beside = centred, beneath = centred;
   constexpr double widest_in_window = 212.0;  // "measured but undecided, p ≥ 0.5", which comes with the first view
   const double legends_width = overlay.backed ? widest_in_window : usual_legend_width;

@@ -88,6 +88,7 @@ class Scene {
 
  private:
   std::array<Layer*, 7> layers() const;  ///< in the order of their legends
+  bool has_room_for_legends() const;
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;

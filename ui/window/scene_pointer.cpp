@@ -48,6 +48,7 @@ bool ScenePointer::follow(SceneView& view, const Rectangle* beside, const PanelC
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
              middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   bool moved = false;
+  const bool was_dragging = drag_ != Drag::none;
   const bool at_handle = drag_ == Drag::none && region_.follow(view, context);
   if (over_camera && drag_ == Drag::none && !at_handle) {
     const ImVec2 at = io.MousePos;
@@ -62,7 +63,7 @@ bool ScenePointer::follow(SceneView& view, const Rectangle* beside, const PanelC
     }
   }
   if (drag_ != Drag::none) {
-    moved = drag_camera(view);
+    if (was_dragging) moved = drag_camera(view);  // the way to where it was pressed is none of the drag
     if (!io.MouseDown[ImGuiMouseButton_Left] && !io.MouseDown[ImGuiMouseButton_Middle]) {
       const bool click = ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
                          io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < click_reach * click_reach;

@@ -233,6 +233,24 @@ TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
   EXPECT_FALSE(unfinished_session(state()));
 }
 
+/// A session that was opened gives the next object no lengths that were only its own object's.
+TEST_F(KeptSessionTest, WhatIsOpenedAfterItHasLengthsOfItsOwn) {
+  Configuration c = small_scan();
+  c.evaluation.enabled = false;
+  auto first = runner();
+  first->load(c, job_control());
+  steps(*first, 1);
+  const fs::path folder = kept().front();
+  first->open(assets_folder() / "objects" / "slotted_plate.ply", job_control());
+  const std::string expected = to_toml(first->snapshot()->configuration);
+  first.reset();
+  const auto second = runner();
+  second->open(folder, job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 1u);
+  second->open(assets_folder() / "objects" / "slotted_plate.ply", job_control());
+  EXPECT_EQ(to_toml(second->snapshot()->configuration), expected);
+}
+
 /// Against the plain meaning of each command: a list of what was done that led here.
 TEST_F(KeptSessionTest, CommandsAtRandomAreAllThereWhenItIsOpenedAgain) {
   std::mt19937 random(3);
