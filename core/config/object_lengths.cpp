@@ -64,6 +64,18 @@ void fit_lengths(Configuration& configuration, double longest_side) {
     fit("planner.ray_length", distance + 1.2 * longest);
 }
 
+std::map<std::string, std::string> lengths_as_fitted(const Configuration& configuration, double longest_side) {
+  Configuration fitted, copy = configuration;  // in which nothing was given but what lengths follow from
+  fitted.map.start = configuration.map.start;
+  fitted.sensor.working_distance = configuration.sensor.working_distance;
+  fit_lengths(fitted, longest_side);
+  auto all = settings(copy);
+  std::map<std::string, std::string> same;
+  for (const auto& [key, text] : fitted.fitted)
+    if (find_setting(all, key).text() == text) same[key] = text;
+  return same;
+}
+
 bool is_given(const Configuration& configuration, const std::string& key) {
   Configuration copy = configuration, defaults;
   auto all = settings(copy), unset = settings(defaults);

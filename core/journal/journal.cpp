@@ -102,10 +102,9 @@ JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::m
         fmt::format("{}: cannot be made a folder: {}", (folder_ / scans_name).string(), error.message()));
 }
 
-JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input, const std::string& settings,
-                                   const std::map<std::string, std::string>& fitted) {
+JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input, const std::string& settings) {
   JournalWriter writer(folder, JournalFile::begin(folder / journal_name));
-  writer.file_.append(beginning_record(input, settings, fitted));
+  writer.file_.append(beginning_record(input, settings));
   return writer;
 }
 

@@ -46,7 +46,6 @@ struct JournalInput {
 struct Journal {
   std::string program;  ///< that began it
   JournalInput input;
-  std::map<std::string, std::string> fitted;         ///< Configuration::fitted of when it began; none in older ones
   std::vector<std::string> settings;                 ///< texts of config.toml, the last one of now
   std::map<std::uint32_t, JournalStep> steps;        ///< by number
   std::map<std::uint32_t, std::size_t> settings_at;  ///< how many texts there were when it last stood at a step
@@ -80,7 +79,7 @@ class JournalWriter {
  public:
   /// @throws std::runtime_error naming the file and the reason
   static JournalWriter begin(const std::filesystem::path& folder, const JournalInput& input,
-                             const std::string& settings, const std::map<std::string, std::string>& fitted = {});
+                             const std::string& settings);
   /// Goes on with what is there, which `journal` then says. @throws as read_journal; JournalInUse
   static JournalWriter go_on(const std::filesystem::path& folder, Journal& journal);
 

@@ -132,12 +132,10 @@ Branches branches_of(const Json& json, std::uint32_t last_number) {
 
 }  // namespace
 
-std::string beginning_record(const JournalInput& input, const std::string& settings,
-                             const std::map<std::string, std::string>& fitted) {
+std::string beginning_record(const JournalInput& input, const std::string& settings) {
   Json json = {
       {"record", "session"}, {"version", version}, {"program", "nextview " NEXTVIEW_VERSION}, {"input", input.path}};
   if (input.hash) json.update(to_json(*input.hash));
-  if (!fitted.empty()) json["fitted"] = fitted;
   json["toml"] = settings;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -197,7 +195,6 @@ bool read_record(const std::string& record, Journal& journal) {
     json.at("program").get_to(journal.program);
     json.at("input").get_to(journal.input.path);
     if (json.contains("crc32")) journal.input.hash = hash_in(json);
-    if (json.contains("fitted")) json["fitted"].get_to(journal.fitted);
     journal.settings.push_back(json.at("toml").get<std::string>());
     return true;
   }

@@ -10,9 +10,8 @@ struct NewerJournal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// With the settings: there is no journal without. `fitted`: Configuration::fitted.
-std::string beginning_record(const JournalInput& input, const std::string& settings,
-                             const std::map<std::string, std::string>& fitted = {});
+/// With the settings: there is no journal without.
+std::string beginning_record(const JournalInput& input, const std::string& settings);
 std::string settings_record(const std::string& text);
 std::string step_record(const JournalStep& step);
 std::string position_record(std::uint32_t number);

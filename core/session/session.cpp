@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/config/known_objects.hpp"
+#include "core/config/object_lengths.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/planner/look_ahead_planner.hpp"
 #include "core/progress/stopped.hpp"
@@ -112,6 +113,12 @@ void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, c
   setup_.sight = {setup_.truth, &setup_.truth->sight()};
   if (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive)
     setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
+}
+
+void Session::recognise_fitted() {
+  if (object_ && !recording_)
+    setup_.configuration.fitted =
+        lengths_as_fitted(setup_.configuration, object_->mesh.bounding_box().sizes().maxCoeff());
 }
 
 std::shared_ptr<const TriangleMesh> Session::mesh() const {

@@ -93,8 +93,9 @@ class Session {
   /// Why the scan is done; empty while it is not.
   const std::string& finished() const { return state_.finished; }
 
-  /// Which lengths follow the object (Configuration::fitted), known of a saved session only from its journal.
-  void set_fitted(std::map<std::string, std::string> fitted) { setup_.configuration.fitted = std::move(fitted); }
+  /// Takes lengths for fitted (Configuration::fitted) that are what the object's size would give, though they were read
+  /// from a file: what is opened next has its own. Without an object nothing is.
+  void recognise_fitted();
 
   const ScanSetup& setup() const { return setup_; }
   const Configuration& configuration() const { return setup_.configuration; }

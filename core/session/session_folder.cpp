@@ -62,7 +62,7 @@ void remove_journal(const fs::path& folder) {
 
 SessionFolder SessionFolder::begun(OutputFolder out, const JournalInput& input, const Session& session) {
   const std::string text = to_toml(session.configuration(), out.path());
-  JournalWriter writer = JournalWriter::begin(out.path(), input, text, session.configuration().fitted);
+  JournalWriter writer = JournalWriter::begin(out.path(), input, text);
   write_file(out.claim("config.toml"), text);
   SessionFolder result(std::move(out), std::move(writer), input);
   result.settings_ = {text};
@@ -212,7 +212,7 @@ void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
   JournalInput input = input_of(session, copy.path());
   input.hash = input_.hash;  // of the file that was scanned
   copy.claim(journal_name);
-  JournalWriter writer = JournalWriter::begin(copy.path(), input, settings_.front(), session.configuration().fitted);
+  JournalWriter writer = JournalWriter::begin(copy.path(), input, settings_.front());
   std::size_t settings = 1;
   for (const std::uint32_t number : steps_of_branches()) {
     JournalStep step = steps_.at(number);

@@ -144,20 +144,21 @@ int count_lines(const std::string& script, const std::string& word) {
   return count;
 }
 
-/// A pixel in the midst of the blue of occupied voxels: at their rim there are points alone.
-std::optional<Eigen::Vector2d> blue_pixel(const Image& image, const Rectangle& r) {
-  std::vector<Eigen::Vector2d> blue;
+/// A pixel in the midst of the voxels: at their rim there may be others.
+std::optional<Eigen::Vector2d> voxel_pixel(const Image& image, const Rectangle& r) {
+  std::vector<Eigen::Vector2d> found;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (int y = int(r.y); y < int(r.y + r.height); ++y)
     for (int x = int(r.x); x < int(r.x + r.width); ++x) {
       const std::uint8_t* p = &image.rgba[(std::size_t(y) * image.width + x) * 4];
-      if (p[2] <= p[0] + 40 || p[2] <= p[1] + 15) continue;
-      blue.emplace_back(x, y);
-      sum += blue.back();
+      const bool occupied = p[2] > p[0] + 40 && p[2] > p[1] + 15, undecided = p[0] > p[2] + 70 && p[1] > p[2] + 35;
+      if (!occupied && !undecided) continue;
+      found.emplace_back(x, y);
+      sum += found.back();
     }
-  if (blue.size() < 100) return std::nullopt;
-  const Eigen::Vector2d middle = sum / double(blue.size());
-  return *std::min_element(blue.begin(), blue.end(), [&](const auto& a, const auto& b) {
+  if (found.size() < 100) return std::nullopt;
+  const Eigen::Vector2d middle = sum / double(found.size());
+  return *std::min_element(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
   });
 }
@@ -232,8 +233,8 @@ TEST_F(Display, AVoxelAndARayAreInspectedAndAViewIsOverridden) {
   pause();
   const Rectangle inner{l.scene.x + l.scene.width / 4, l.scene.y + l.scene.height / 4, l.scene.width / 2,
                         l.scene.height / 2};  // without the legend
-  const auto voxel = blue_pixel(read_screen(folder_ / "Xvfb_screen0"), inner);
-  ASSERT_TRUE(voxel) << "no occupied voxels are shown";
+  const auto voxel = voxel_pixel(read_screen(folder_ / "Xvfb_screen0"), inner);
+  ASSERT_TRUE(voxel) << "no voxels are shown";
   ASSERT_TRUE(click(voxel->x(), voxel->y()));
   pause();
   ASSERT_TRUE(key("F5"));  // the View panel

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "core/session/saved_session.hpp"
+#include "core/journal/journal.hpp"
 
 namespace nextview {
 namespace {
@@ -29,7 +29,7 @@ std::vector<FolderEntry> entries_of(const fs::path& folder, std::error_code& err
     std::error_code ignored;
     FolderEntry entry{at->path().filename().string(), at->is_directory(ignored)};
     if (entry.is_folder)
-      entry.is_session = is_session(at->path());
+      entry.is_session = has_journal(at->path());
     else if (const auto bytes = at->file_size(ignored); !ignored)
       entry.bytes = bytes;
     entries.push_back(std::move(entry));

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "core/file/read_file.hpp"
+#include "core/journal/journal.hpp"
 #include "core/session/recent_files.hpp"
-#include "core/session/saved_session.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/file_commands.hpp"
@@ -54,7 +54,7 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
 void FileDialog::accept(const PanelContext& context, const Command& command, const fs::path& file) {
   std::error_code ignored;
   const bool is_folder = fs::is_directory(file, ignored);
-  const bool looked_into = is_folder && (to_read_ ? !is_session(file) : !names_folder(command));
+  const bool looked_into = is_folder && (to_read_ ? !has_journal(file) : !names_folder(command));
   if (looked_into) {
     browser_.go_to(file);
     chosen_ = 0;

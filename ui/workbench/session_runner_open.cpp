@@ -37,7 +37,7 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
   SessionParts parts = c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
   const auto session =
       std::make_shared<Session>(began_with(saved), std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
-  if (saved.journal) session->set_fitted(saved.journal->fitted);  // what is opened next has lengths of its own
+  session->recognise_fitted();
   const std::shared_ptr<KeptSession> kept = kept_of(saved, *session);
   SeenSurface seen(*session);
   const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());
