@@ -24,7 +24,8 @@ fs::path demos() { return shared_folder("assets") / "demos"; }
 
 fs::path file_of(const std::string& file_or_name) {
   std::error_code error;
-  const bool is_name = file_or_name.find_first_of("/.") == std::string::npos && !fs::exists(file_or_name, error);
+  const bool is_name =
+      file_or_name.find_first_of("/.") == std::string::npos && !fs::is_regular_file(file_or_name, error);
   if (!is_name) return file_or_name;
   const auto names = demo_names();
   if (std::ranges::find(names, file_or_name) == names.end())
