@@ -22,16 +22,28 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A small scan, with everything that moves.
+/// With everything that moves.
 constexpr const char* short_demo =
-    "hide-panels\ntitle \"A sphere\" 0.5\nopen sphere\nset sensor.width 80\nset sensor.height 60\n"
-    "set map.resolution 0.04\nset views.count 8\nset evaluation.surface_samples 500\ncaption \"Two views\"\n"
-    "orbit 90 1 10\nwait until done\nstep\nwait 0.3\nfly-to 20 40 0.7 1.5\nhide-panels\nstep\ncaption \"{reason}\" 1\n"
-    "highlight view 0.9\nwait until done\nassert views 2\nassert coverage > 0\n";
+    "hide-panels\ntitle \"A sphere\" 0.5\nopen tiny.toml\ncaption \"Two views\"\norbit 90 1 10\nwait until done\n"
+    "step\nwait 0.3\nfly-to 20 40 0.7 1.5\nhide-panels\nstep\ncaption \"{reason}\" 1\nhighlight view 0.9\n"
+    "wait until done\nassert views 2\nassert coverage > 0\n";
+
+Configuration tiny_scan() {
+  Configuration c;
+  c.object.file = "sphere";
+  c.sensor.width = 80;
+  c.sensor.height = 60;
+  c.map.resolution = 0.04;
+  c.views.count = 8;
+  c.evaluation.surface_samples = 500;
+  return c;
+}
 
 class Demos : public InTemporaryFolder {
  protected:
-  Demo demo(const std::string& text, const fs::path& out = {}) const {
+  Demos() { write_file(folder_ / "tiny.toml", to_toml(tiny_scan())); }
+  Demo demo(std::string text, const fs::path& out = {}) const {
+    if (const auto at = text.find("tiny.toml"); at != text.npos) text.insert(at, folder_.string() + "/");
     write_file(folder_ / "demo.nextview", text);
     return read_demo((folder_ / "demo.nextview").string(), out);
   }
@@ -91,7 +103,7 @@ Image contact_sheet(const std::vector<Image>& pictures, int columns) {
 
 /// It is the README's picture of demos, too.
 TEST_F(Demos, TheTourPlaysToItsEndAndLooksAsItsPicture) {
-  constexpr DemoPictures played{{400, 225}, 4};
+  constexpr DemoPictures played{{320, 180}, 4};
   const std::vector<int> seconds = {2, 10, 14, 19, 30, 37, 43, 48, 57, 66, 76, 88};
   std::vector<Image> shown;
   int count = 0;
