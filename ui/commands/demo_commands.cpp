@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "ui/commands/command_target.hpp"
-#include "ui/commands/needs.hpp"
 
 namespace nextview {
 namespace {
@@ -46,12 +45,12 @@ Values with_relation(Values values) {
 double value_of(const SessionSnapshot& s, Quantity quantity) {
   if (quantity == Quantity::views) return double(s.records.size());
   if (quantity == Quantity::gibbs_views) return s.gibbs ? double(s.gibbs->views) : 0.0;
-  if (s.records.empty()) throw std::invalid_argument("assert: no view was taken");
+  if (s.records.empty()) throw std::invalid_argument("no view was taken");
   const StepRecord& last = s.records.back();
   if (quantity == Quantity::entropy) return last.entropy;
   if (quantity == Quantity::coverage && s.is_evaluated()) return last.coverage_visible;
   if (quantity == Quantity::surface_left && last.surface_left) return *last.surface_left;
-  throw std::invalid_argument(fmt::format("assert: {} is not known here", quantities[std::size_t(quantity)]));
+  throw std::invalid_argument(fmt::format("{} is not known here", quantities[std::size_t(quantity)]));
 }
 
 /// With the first sentence that the planner says of the next view in place of {reason}.
@@ -161,7 +160,6 @@ const CommandOf<Quantity, Relation, double> command::assert_that{
      .menu = "Window",
      .text = "Demo: assert…",
      .help = "Fails unless a number of the scan is as a script expects it; = may be left out.",
-     .why_not = needs_session,
      .respell = with_relation},
     argument::choice<Quantity>("quantity", "of the last view", quantities),
     argument::choice<Relation>("relation", "=, <, <=, > or >=", relations),
@@ -169,8 +167,8 @@ const CommandOf<Quantity, Relation, double> command::assert_that{
     [](CommandTarget& t, Quantity quantity, Relation relation, double wanted) {
       const double value = value_of(t.session, quantity);
       if (!holds(value, relation, wanted))
-        throw std::invalid_argument(fmt::format("assert: {} is {:.6g}, not {} {:g}", quantities[std::size_t(quantity)],
-                                                value, relations[std::size_t(relation)], wanted));
+        throw std::invalid_argument(fmt::format("{} is {:.6g}, not {} {:g}", quantities[std::size_t(quantity)], value,
+                                                relations[std::size_t(relation)], wanted));
     }};
 
 }  // namespace nextview

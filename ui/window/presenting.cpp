@@ -21,7 +21,7 @@ void Interface::Parts::pass_time(double seconds) {
 
 void Interface::Parts::fly(double seconds) {
   auto& flights = state.presentation.flights;
-  while (!flights.empty() && seconds > 0) {
+  while (!flights.empty() && (seconds > 0 || flights.front().seconds <= 0)) {
     CameraFlight& flight = flights.front();
     if (!course) course.emplace(view, flight);
     const double now = std::min(seconds, flight.seconds - flight.elapsed);
