@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "ui/commands/command_target.hpp"
+#include "ui/commands/needs.hpp"
 
 namespace nextview {
 namespace {
@@ -160,6 +161,7 @@ const CommandOf<Quantity, Relation, double> command::assert_that{
      .menu = "Window",
      .text = "Demo: assert…",
      .help = "Fails unless a number of the scan is as a script expects it; = may be left out.",
+     .why_not = needs_session,
      .respell = with_relation},
     argument::choice<Quantity>("quantity", "of the last view", quantities),
     argument::choice<Relation>("relation", "=, <, <=, > or >=", relations),
