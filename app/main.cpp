@@ -96,6 +96,7 @@ int run(int argc, char** argv) {
   add_study_command(program);
   add_figure_command(program);
   add_driver_command(program);
+  add_demo_command(program);
   CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
   options.add_to(*window);
   std::string script;

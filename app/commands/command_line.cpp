@@ -16,7 +16,7 @@ namespace nextview {
 namespace {
 
 constexpr std::array subcommands = {"scan",   "score", "refine", "posterior", "calibrate", "info",
-                                    "export", "study", "figure", "driver",    "window"};
+                                    "export", "study", "figure", "driver",    "demo",      "window"};
 constexpr std::array drawing = {"scan", "refine", "calibrate", "figure"};
 
 template <class List>
@@ -58,6 +58,11 @@ void require_file_or_object(const std::string& word) {
                   word, nearest(word, known)));
 }
 
+bool gives(const std::vector<std::string_view>& words, std::string_view option) {
+  return std::ranges::any_of(
+      words, [&](std::string_view word) { return word == option || word.starts_with(std::string(option) + "="); });
+}
+
 /// Options may stand before what they are of, so any of the words may be the one.
 bool exports_pixels(const std::vector<std::string_view>& words) {
   return has(words, "picture") || has(words, "turntable") ||
@@ -74,8 +79,10 @@ CommandLine command_line(std::vector<char*> arguments) {
   const auto begin = line.arguments.begin() + static_cast<std::ptrdiff_t>(first);
   if (has(subcommands, word)) {
     const std::vector<std::string_view> others(begin, line.arguments.end());
-    line.draws_headless = (word == "export" ? exports_pixels(others) : has(drawing, word)) &&
-                          !has(others, "--no-pictures") && !has(others, "--list") && !has(others, "--help") &&
+    const bool draws = word == "export" ? exports_pixels(others)
+                       : word == "demo" ? gives(others, "--out") && !has(others, "--check")
+                                        : has(drawing, word);
+    line.draws_headless = draws && !has(others, "--no-pictures") && !has(others, "--list") && !has(others, "--help") &&
                           !has(others, "-h");
   } else if (word != "--help" && word != "-h" && word != "--version") {
     if (!word.starts_with('-')) require_file_or_object(word);

@@ -113,6 +113,9 @@ bool is_numbered(std::string_view name, std::string_view begin, std::size_t digi
 /// step_01.png, step_100.png: as they are numbered, not step_1.png.
 bool is_step_picture(std::string_view name) { return is_numbered(name, "step_", 2, ".png"); }
 
+/// frame_00001.png, of a demo.
+bool is_frame(std::string_view name) { return is_numbered(name, "frame_", 5, ".png"); }
+
 bool is_capture(std::string_view name) {
   return is_numbered(name, "scans/", 4, ".npy") || is_numbered(name, "scans/", 4, ".ply");
 }
@@ -152,7 +155,8 @@ bool is_plain_file(const fs::path& path) {
 std::span<const std::string_view> fixed_result_names() { return names; }
 
 bool is_result_name(std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end() || is_step_picture(name) || is_capture(name);
+  return std::find(names.begin(), names.end(), name) != names.end() || is_step_picture(name) || is_frame(name) ||
+         is_capture(name);
 }
 
 std::optional<Manifest> read_manifest(const fs::path& folder) {

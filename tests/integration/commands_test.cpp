@@ -164,6 +164,9 @@ TEST_F(Commands, EachIsDoneByAScript) {
   walk(user,
        "text-size bigger\nhide-panels\nhide-panels\ntext-size usual\nfull-screen\nfull-screen\n"
        "file-dialog export\nfile-dialog\nguide\nguide\n");
+  walk(user,
+       "caption \"Why? {reason}\" 1\ntitle Title Subtitle 1\nhighlight view 1\norbit 10 0.2 5\nfly-to 20 30 0.2 1.2\n"
+       "wait 0.1\nwait until done\nassert views >= 1\ncaption \"\"\n");
   walk(user, "reset\nspeed 0\nplay\npause\n");
   walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
   walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +

@@ -39,6 +39,7 @@ std::string RandomCalls::number(const Command& command, const Argument& argument
   using Kind = Argument::Kind;
   double low = argument.low, high = argument.high;
   if (command.name == "speed") high = 0.02;  // nobody waits for a minute here
+  if (argument.name == "seconds") high = 0.1;
   if (command.name == "export-turntable") high = 4;
   if (command.name == "refine") high = argument.name == "chains" ? 2 : 60;
   if (argument.kind == Kind::whole) return std::to_string(std::lround(low) + long(below(std::size_t(high - low) + 1)));

@@ -19,7 +19,8 @@ class User {
     wait();
   }
 
-  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is paused.
+  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is paused. A script that waits
+  /// (command::wait) has its time.
   void wait() {
     constexpr auto pause = std::chrono::milliseconds(2);
     constexpr double frame = 1.0 / 60;  // [s]
@@ -28,7 +29,7 @@ class User {
       return (progress.busy && !progress.paused) || inspector_.busy();
     };
     while (interface_.seconds_to_next_frame() == 0.0 || works() || !interface_.script_is_done()) {
-      if (interface_.seconds_to_next_frame() > 0.0) {
+      if (interface_.seconds_to_next_frame() > 0.0 && works()) {
         std::this_thread::sleep_for(pause);
       } else {
         interface_.draw(frame);

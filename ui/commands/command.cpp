@@ -64,6 +64,7 @@ std::string Command::usage() const {
 }
 
 CommandCall Command::read(std::vector<std::string> values) const {
+  if (respell) values = respell(std::move(values));
   if (values.size() > arguments_.size() || (values.size() < arguments_.size() && !arguments_[values.size()].optional))
     throw std::invalid_argument(
         fmt::format("{} takes {}: {}", name, arguments_.empty() ? "no value" : "other values", usage()));

@@ -74,6 +74,8 @@ struct CommandDeclaration {
   bool adds_up = false;                                          ///< doing it twice is more than doing the last alone
   /// Asked with the values that it has, as a script has them; scripts are not asked.
   std::function<CommandQuestion(const CommandState&, const std::vector<std::string>&)> question = {};
+  /// Other ways in which a script may write its values, turned into those that are declared.
+  std::function<std::vector<std::string>(std::vector<std::string>)> respell = {};
 };
 
 /// Something that the user can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's

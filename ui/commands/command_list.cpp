@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "ui/commands/branch_commands.hpp"
+#include "ui/commands/demo_commands.hpp"
 #include "ui/commands/export_commands.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/gibbs_commands.hpp"
@@ -39,7 +40,8 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       cloud_colour, voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
       uncertain_from, slice_axis, slice_at, lock_ranges,
       // Window
-      panel, curves, forget_runs, sort, text_size, hide_panels, full_screen, palette, file_dialog,
+      panel, curves, forget_runs, sort, text_size, hide_panels, full_screen, palette, file_dialog, caption, title,
+      highlight, orbit, fly_to, wait, assert_that,
       // Help
       guide, shortcuts};
   return all;

@@ -36,6 +36,12 @@ void ScriptPlayer::refused(const CommandCall& call, const std::string& reason) {
   if (playing_ && call.command->name == last_) fail(reason.starts_with(last_ + ": ") ? reason : last_ + ": " + reason);
 }
 
+void ScriptPlayer::stop() {
+  calls_.clear();
+  last_.clear();
+  playing_ = false;
+}
+
 void ScriptPlayer::give_up(const std::string& reason) {
   if (!last_.empty() && last_ != "quit") fail(fmt::format("{}: {}", last_, reason));
   if (!calls_.empty()) {

@@ -31,6 +31,8 @@ class ScriptPlayer {
 
   /// A call cannot be done; ignored unless it is the one that was taken last.
   void refused(const CommandCall& call, const std::string& reason);
+  /// What is left is not done, and nothing has failed.
+  void stop();
   /// No more is done: what is under way or left has failed.
   void give_up(const std::string& reason);
 

@@ -8,6 +8,7 @@
 #include "core/view/pose.hpp"
 #include "ui/appearance/picture_size.hpp"
 #include "ui/commands/panel_list.hpp"
+#include "ui/commands/presentation.hpp"
 #include "ui/workbench/candidate_order.hpp"
 #include "ui/workbench/layer_choice.hpp"
 #include "ui/workbench/measurement.hpp"
@@ -73,6 +74,7 @@ struct WindowState {
   bool panels_hidden = false, full_screen = false;
   double text_scale = 1.0;  ///< of text and controls, beside the display's own
   bool quit = false;
+  Presentation presentation;  ///< what a demo shows
 
   Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene
   std::vector<CameraMotion> camera_motions;  ///< to be made

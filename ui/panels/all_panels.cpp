@@ -42,7 +42,7 @@ void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangl
 }
 
 void AllPanels::draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds) {
-  draw_menu_bar(context, layout.menu);
+  if (!layout.menu.empty()) draw_menu_bar(context, layout.menu);
   if (!layout.control_bar.empty()) draw_control_bar(context, layout.control_bar);
   for (const Side side : {Side::left, Side::right, Side::bottom})
     draw_side(context, side, layout.of(side), layout.is_open(side));
@@ -50,7 +50,7 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   draw_hairlines(layout);
   const Rectangle beneath_menu{0, layout.menu.height, layout.menu.width, layout.height - layout.menu.height};
   const Rectangle& front = layout.scene.width < context.style.px(420) ? beneath_menu : layout.scene;
-  notifications_.draw(context, front, log_count, seconds);
+  if (!context.window.presentation.demo) notifications_.draw(context, front, log_count, seconds);
   if (!layout.scene.empty()) draw_guide(context, layout.scene);
   draw_question(context, front);
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});

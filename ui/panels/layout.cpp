@@ -49,10 +49,19 @@ Layout::Layout(int w, int h, double scale, Side open) : width(w), height(h), ope
   fold({end_x + gap, top, column, middle}, px(tabs_height));
 }
 
-void Layout::hide_panels() {
+Layout Layout::with_captions(int w, int h, double scale, Side open) {
+  const int strip = std::min(int(std::round(caption_height * scale)), h);
+  Layout layout(w, h - strip, scale, open);
+  layout.height = h;
+  layout.captions = {0, double(h - strip), layout.width, double(strip)};
+  return layout;
+}
+
+void Layout::hide_panels(bool menu_too) {
   control_bar = left = right = bottom = status = {};
-  const double top = menu.height + gap;
-  scene = {0, top, width, std::max(height - top, 0.0)};
+  if (menu_too) menu.height = 0;
+  const double top = menu.height > 0 ? menu.height + gap : 0.0;
+  scene = {0, top, width, std::max(height - captions.height - top, 0.0)};
 }
 
 /// Those that are folded and the right place, one above the other; all but one are a row of tabs.

@@ -19,16 +19,20 @@ struct Rectangle {
 /// tabs in the right one's column, of which one place is open; then the control bar and the status line go (empty).
 struct Layout {
   Rectangle menu, control_bar, left, right, bottom, scene, status;
+  Rectangle captions;                               ///< of a demo, beneath all else; empty without one
   double width = 0, height = 0;                     ///< of the window
   bool left_folded = false, bottom_folded = false;  ///< into the column at the right
 
   /// Of a window of any size [px]; `scale` is the display's. `open` is the place that is open where they are folded.
   Layout(int width, int height, double scale, Side open = Side::right);
 
-  /// Gives the scene all but the menu.
-  void hide_panels();
+  /// With a strip for captions beneath all else, as wide as the window.
+  static Layout with_captions(int width, int height, double scale, Side open);
 
-  static constexpr double tabs_height = 32;  ///< [px] on a display that does not scale
+  /// Gives the scene all but the menu, or also the menu's place.
+  void hide_panels(bool menu_too = false);
+
+  static constexpr double tabs_height = 32, caption_height = 68;  ///< [px] on a display that does not scale
 
   const Rectangle& of(Side side) const { return side == Side::left ? left : side == Side::right ? right : bottom; }
 

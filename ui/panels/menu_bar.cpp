@@ -47,7 +47,8 @@ constexpr std::array group_begins = {"set",
                                      "slice",
                                      "lock-ranges",
                                      "text-size",
-                                     "palette"};
+                                     "palette",
+                                     "caption"};
 
 void draw_menu(const PanelContext& context, const std::string& menu) {
   bool any = false;

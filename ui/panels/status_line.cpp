@@ -5,13 +5,15 @@
 namespace nextview {
 namespace {
 
-std::string last_step(const SessionSnapshot& s) {
+/// Without what was measured by a clock if it is to look the same every time.
+std::string last_step(const SessionSnapshot& s, bool with_seconds) {
   if (!s.loaded()) return "";
   if (s.records.empty()) return "Nothing measured yet";
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
-  return fmt::format("View {}: {} points, {:.0f} cm² of new surface, {:.2f} s", r.step, r.points, r.new_surface,
-                     seconds + r.seconds.refine);
+  const std::string text =
+      fmt::format("View {}: {} points, {:.0f} cm² of new surface", r.step, r.points, r.new_surface);
+  return with_seconds ? fmt::format("{}, {:.2f} s", text, seconds + r.seconds.refine) : text;
 }
 
 std::string scanned(const SessionSnapshot& s) {
@@ -35,7 +37,7 @@ void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   const float right_x = float(rectangle.width) - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
   ImGui::SetCursorPos({style.px(14), y});
   if (s.message.empty()) {
-    const std::string left = last_step(s);
+    const std::string left = last_step(s, !context.window.presentation.demo);
     const bool room_for_both = style.px(14 + 24) + ImGui::CalcTextSize(left.c_str()).x < right_x;
     ImGui::TextDisabled("%s", shortened(left, float(rectangle.width) - style.px(28)).c_str());
     if (room_for_both) {

@@ -9,11 +9,18 @@ namespace nextview {
 namespace {
 
 /// Line heights [px]: ImGui's measure of a font. Inter's letters are of size 14 and 12.5 then.
-constexpr float text_size = 17.0f, small_size = 15.0f;
+constexpr float text_size = 17.0f, small_size = 15.0f, caption_size = 38.0f, title_size = 72.0f;
 
 /// Latin, Greek, punctuation, superscripts, arrows, mathematical signs: what people and file names write.
 constexpr ImWchar characters[] = {0x20,   0x24F,  0x370,  0x3FF,  0x2010, 0x2044, 0x2070,
                                   0x208E, 0x2190, 0x21FF, 0x2200, 0x22FF, 0};
+
+/// Of what is large, fewer: an atlas of all would be large, too.
+constexpr ImWchar large_characters[] = {0x20, 0xFF, 0x2010, 0x2026, 0x2190, 0x2193, 0x2248, 0x2265, 0};
+
+ImFont* add_large_font(TextWeight weight, float size) {
+  return ImGui::GetIO().Fonts->AddFontFromFileTTF(font_file(weight).c_str(), size, nullptr, large_characters);
+}
 
 ImFont* add_font(TextWeight weight, float size) {
   ImFontConfig config;
@@ -92,6 +99,8 @@ Style apply_style(float scale) {
   result.regular = add_font(TextWeight::regular, text_size * scale);
   result.semi_bold = add_font(TextWeight::semi_bold, text_size * scale);
   result.small = add_font(TextWeight::regular, small_size * scale);
+  result.caption = add_large_font(TextWeight::semi_bold, caption_size * scale);
+  result.title = add_large_font(TextWeight::semi_bold, title_size * scale);
   return result;
 }
 

@@ -10,6 +10,8 @@ struct Style {
   ImFont* regular = nullptr;
   ImFont* semi_bold = nullptr;
   ImFont* small = nullptr;
+  ImFont* caption = nullptr;  ///< of demos, as the next: read from far away; Latin letters only
+  ImFont* title = nullptr;
   float scale = 1.0f;
 
   float px(float length) const { return length * scale; }

@@ -14,6 +14,8 @@ namespace {
 
 /// The remaining time of a job is told in whole seconds.
 constexpr double longest_wait_while_busy = 1.0;
+/// Of what moves by itself [s].
+constexpr double frame_time = 1.0 / 60;
 
 }  // namespace
 
@@ -49,6 +51,11 @@ void Interface::offer(const UnfinishedSession& session) {
   parts_->worker.post(request::OfferSession{session});
 }
 void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
+void Interface::play_demo(std::vector<CommandCall> calls) {
+  parts_->state.guide_open = false;
+  parts_->state.presentation.demo = true;
+  run_script(std::move(calls));
+}
 bool Interface::script_is_done() const { return parts_->script.done() || parts_->state.quit; }
 ScriptPlayer& Interface::script() { return parts_->script; }
 void Interface::ask_to_quit() {
@@ -78,7 +85,11 @@ double Interface::seconds_to_next_frame() const {
   if (p.settling > 0 || p.state.picture || !p.queue.empty() || p.layout_is_old() || p.script_may_go_on() ||
       !(p.news == p.latest()))
     return 0.0;
+  const Presentation& shown = p.state.presentation;
+  const bool time_passes = shown.is_moving() && !shown.paused && p.at_rest();
+  if (time_passes && (!p.rested || (shown.due > 0 && shown.holds()))) return 0.0;
   double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
+  if (time_passes) wait = std::min(wait, frame_time);
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
 }
@@ -103,6 +114,7 @@ bool Interface::draw(double seconds) {
   p.follow_scale();
   p.follow_size();
   p.share_scene();
+  p.pass_time(seconds);
   const std::size_t pictures = p.pictures.uploads();
   p.draw_interface(seconds);
   p.move_camera();

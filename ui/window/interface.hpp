@@ -36,6 +36,8 @@ class Interface {
   void offer(const UnfinishedSession& session);
   /// Does these calls one after the other, each when the one before has had its effect.
   void run_script(std::vector<CommandCall> calls);
+  /// The same as a demo: with its own time, and the keyboard to pause, to skip and to take over.
+  void play_demo(std::vector<CommandCall> calls);
   bool script_is_done() const;  ///< or the window is about to close: what is left of it is not done
   ScriptPlayer& script();
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.

@@ -7,6 +7,7 @@
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/scanner_commands.hpp"
+#include "ui/window/presentation_drawing.hpp"
 #include "ui/window/selection_overlay.hpp"
 
 namespace nextview {
@@ -19,9 +20,8 @@ constexpr double rest = 0.15;
 
 /// A script waits until nothing runs and the news of that are here.
 bool Interface::Parts::script_may_go_on() const {
-  const bool at_rest = (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy() &&
-                       !state.picture && !state.quit;
-  return script.may_go_on({*news.snapshot, progress(), state}, at_rest);
+  if (state.presentation.holds() || state.presentation.paused) return false;
+  return script.may_go_on({*news.snapshot, progress(), state}, at_rest());
 }
 
 void Interface::Parts::take_news() {
@@ -34,7 +34,7 @@ void Interface::Parts::take_news() {
 }
 
 void Interface::Parts::take_input() {
-  const std::vector<InputEvent> events = queue.take_frame();
+  const std::vector<InputEvent> events = input_beside_demo(queue.take_frame());
   if (!events.empty()) settling = frames_to_settle;
   host.take(events);
   for (const InputEvent& event : events) {
@@ -62,7 +62,8 @@ void Interface::Parts::follow_scale() {
 
 bool Interface::Parts::layout_is_old() const {
   return float(display_scale * state.text_scale) != host.style().scale || layout_hidden != state.panels_hidden ||
-         layout.width != target.width() || layout.height != target.height() || layout_open != state.open;
+         layout.captions.empty() == shows_captions() || layout.width != target.width() ||
+         layout.height != target.height() || layout_open != state.open;
 }
 
 void Interface::Parts::follow_size() {
@@ -71,8 +72,9 @@ void Interface::Parts::follow_size() {
   const bool resized = layout.width != target.width() || layout.height != target.height();
   layout_open = state.open;
   layout_hidden = state.panels_hidden;
-  layout = Layout(target.width(), target.height(), host.style().scale, state.open);
-  if (layout_hidden) layout.hide_panels();
+  layout = shows_captions() ? Layout::with_captions(target.width(), target.height(), host.style().scale, state.open)
+                            : Layout(target.width(), target.height(), host.style().scale, state.open);
+  if (layout_hidden) layout.hide_panels(state.presentation.demo);
   settling = frames_to_settle;
   if (resized || layout.scene != scene) view.place({});  // share_scene() gives it its place
 }
@@ -116,6 +118,7 @@ void Interface::Parts::draw_interface(double seconds) {
       ImGui::GetBackgroundDrawList()->AddLine({float(r->x), float(r->y)}, {float(r->x), float(r->y + r->height)},
                                               to_imgui_u32(theme::hairline), host.style().px(2));
   }
+  draw_presentation(host.style(), state.presentation, layout);
   ImGui::Render();
   follow_tooltip();
   if (calls.empty() && script_may_go_on()) calls = script.go_on(*news.snapshot);

@@ -5,6 +5,7 @@
 #include "ui/commands/script_recorder.hpp"
 #include "ui/panels/all_panels.hpp"
 #include "ui/window/asked_call.hpp"
+#include "ui/window/camera_course.hpp"
 #include "ui/window/compared_scene.hpp"
 #include "ui/window/frame_composer.hpp"
 #include "ui/window/imgui_host.hpp"
@@ -63,15 +64,23 @@ struct Interface::Parts {
   Selection asked;
   ScriptPlayer script;
   ScriptRecorder recorder{state.script};
-  bool tooltip_is_due = false;  ///< in the last frame
-  bool camera_moved = false;    ///< by the user, since it was framed
-  double motion_left = 0;       ///< until the camera is at rest [s]; 0: it is
+  bool tooltip_is_due = false;         ///< in the last frame
+  bool camera_moved = false;           ///< by the user, since it was framed
+  double motion_left = 0;              ///< until the camera is at rest [s]; 0: it is
+  std::optional<CameraCourse> course;  ///< of the flight that is under way
+  bool rested = false;                 ///< nothing ran at the begin of the last frame
   bool scene_is_old = true;
   std::size_t scene_drawings = 0;
   int settling = frames_to_settle;
 
   News latest() const { return {worker.snapshot(), worker.progress(), inspector.answer(), worker.log().entries()}; }
+  bool at_rest() const;
+  bool shows_captions() const { return state.presentation.demo || state.presentation.caption; }
   bool script_may_go_on() const;
+  void pass_time(double seconds);
+  void fly(double seconds);
+  std::vector<InputEvent> input_beside_demo(const std::vector<InputEvent>& events);
+  void take_over();
   void take_news();
   void take_input();
   bool layout_is_old() const;

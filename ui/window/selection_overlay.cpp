@@ -160,7 +160,8 @@ void draw_selection_overlay(SceneView& view, const PanelContext& context) {
   const Selection& selection = context.window.selection;
   const Rectangle& r = view.rectangle();
   ImGui::GetBackgroundDrawList()->PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
-  if (s.finished.empty() && s.records.empty()) draw_frustum(view, context, s.next_view, "start view", theme::chosen);
+  if (s.finished.empty() && s.records.empty() && context.window.layers.views)
+    draw_frustum(view, context, s.next_view, "start view", theme::chosen);
   const auto draw = [&](std::size_t candidate) {
     if (candidate >= s.candidates.size() || (candidate == s.next_candidate && s.finished.empty())) return;
     draw_frustum(view, context, s.candidates[candidate], fmt::format("candidate {}", candidate),

@@ -218,7 +218,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);
   SessionWorker worker([] { glfwPostEmptyEvent(); });
-  worker.keep_sessions(state_folder());
+  if (!script.demo) worker.keep_sessions(state_folder());
   InspectionWorker inspector([] { glfwPostEmptyEvent(); });
   Interface interface(target, worker, inspector, scale);
   ScriptErrors errors(script.file);
@@ -227,11 +227,11 @@ int run_window(const Configuration& configuration, const Script& script, const W
     interface.connect(*start.scanner);
   else if (!start.session.empty())
     interface.open_session(start.session);
-  else
+  else if (!script.demo)
     interface.open(configuration);
   if (const auto unfinished = start.offer ? unfinished_session(state_folder()) : std::nullopt)
     interface.offer(*unfinished);
-  interface.run_script(script.calls);
+  script.demo ? interface.play_demo(script.calls) : interface.run_script(script.calls);
   listen(window, interface);
   const WindowPreferences before = read_preferences(state_folder(), {.text_scale = text_scale_of_display(scale)});
   interface.set_text_scale(before.text_scale);

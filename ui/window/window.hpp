@@ -10,6 +10,7 @@ struct Script {
   std::string file;  ///< for messages
   std::vector<CommandCall> calls;
   bool stop_on_error = false;  ///< the first call that fails ends the program
+  bool demo = false;           ///< played as one, from nothing: no object is opened, and no session is kept
 };
 
 /// What the window begins with, in place of the object that is configured.

@@ -115,6 +115,42 @@ TEST_F(CommandEffects, EachChoiceIsTheOneOfItsName) {
   expect_effect("quit", [](WindowState& w) { w.quit = true; });
 }
 
+TEST_F(CommandEffects, DemosShowWhatIsSaidByTheirOwnTime) {
+  Presentation& p = window_.presentation;
+  run("caption \"one\"");
+  run("title Title Subtitle 2");
+  EXPECT_EQ(p.title.value().subtitle, "Subtitle") << "it may stand before the seconds, or after";
+  run("title Title 2 \"a subtitle\"");
+  EXPECT_EQ(p.title.value().subtitle, "a subtitle");
+  run("highlight gibbs 1");
+  EXPECT_EQ(window_.in_front(Side::right), panel_name::gibbs);
+  run("orbit 90 3 10");
+  run("fly-to 10 20 1.5 2");
+  ASSERT_EQ(p.flights.size(), 2u);
+  EXPECT_NEAR(p.left(), 4.5, 1e-12) << "motions follow one another";
+  run("wait until done");
+  EXPECT_NEAR(p.hold, 4.5, 1e-12);
+  EXPECT_NEAR(p.pass(5.0, true), 4.5, 1e-12) << "no more than the script waits for";
+  EXPECT_FALSE(p.holds());
+  EXPECT_FALSE(p.title || p.highlight);
+  EXPECT_EQ(p.caption.value().text, "one") << "it has no end";
+  EXPECT_EQ(p.pass(3.0, true), 0) << "lines that do not wait take no time";
+  run("wait 1");
+  EXPECT_NEAR(p.pass(0, true), 0.5, 1e-12) << "the rest of the five seconds";
+  run("caption two");
+  EXPECT_EQ(p.leaving_caption.value().text, "one");
+  EXPECT_EQ(p.caption.value().opacity(), 0) << "two at a time cannot be read";
+}
+
+TEST_F(CommandEffects, AssertionsCompareTheLastView) {
+  for (const char* holds : {"assert views 2", "assert views = 2", "assert views >= 2", "assert views < 3",
+                            "assert coverage > 0", "assert gibbs-views 0"})
+    EXPECT_EQ(error_of(holds), "no error") << holds;
+  EXPECT_EQ(error_of("assert views 3"), "views is 2, not = 3");
+  EXPECT_EQ(error_of("assert views > 2"), "views is 2, not > 2");
+  EXPECT_EQ(error_of("assert coverage <= 0.0001").substr(0, 11), "coverage is");
+}
+
 TEST_F(CommandEffects, ASliceStandsWhereItIsSaid) {
   const auto expect_slice = [&](int axis, double low, double high) {
     ASSERT_TRUE(window_.layers.voxels.slice);

@@ -1,0 +1,279 @@
+// Demos: those that come with the program to their end, the same frames however they are played, and broken ones.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "core/file/atomic_file.hpp"
+#include "core/file/installation.hpp"
+#include "core/file/read_file.hpp"
+#include "tests/integration/user.hpp"
+#include "tests/render/render_test.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
+#include "ui/demo/demo_frames.hpp"
+#include "ui/demo/demo_video.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// With everything that moves.
+constexpr const char* short_demo =
+    "hide-panels\ntitle \"A sphere\" 0.5\nopen tiny.toml\ncaption \"Two views\"\norbit 90 1 10\nwait until done\n"
+    "step\nwait 0.3\nfly-to 20 40 0.7 1.5\nhide-panels\nstep\ncaption \"{reason}\" 1\nhighlight view 0.9\n"
+    "wait until done\nassert views 2\nassert coverage > 0\n";
+
+Configuration tiny_scan() {
+  Configuration c;
+  c.object.file = "sphere";
+  c.sensor.width = 80;
+  c.sensor.height = 60;
+  c.map.resolution = 0.04;
+  c.views.count = 8;
+  c.evaluation.surface_samples = 500;
+  return c;
+}
+
+class Demos : public InTemporaryFolder {
+ protected:
+  Demos() { write_file(folder_ / "tiny.toml", to_toml(tiny_scan())); }
+  Demo demo(std::string text, const fs::path& out = {}) const {
+    if (const auto at = text.find("tiny.toml"); at != text.npos) text.insert(at, folder_.string() + "/");
+    write_file(folder_ / "demo.nextview", text);
+    return read_demo((folder_ / "demo.nextview").string(), out);
+  }
+  /// As a demo of this text says its mistake; empty if it has none, and plays.
+  std::string error_of(const std::string& text, bool plays = false) const {
+    try {
+      const Demo read = demo(text);
+      if (plays) play_demo(read, small, [](const Image&, int) {});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static std::vector<Image> frames(const Demo& demo, const DemoPictures& pictures) {
+    std::vector<Image> all;
+    play_demo(demo, pictures, [&](const Image& frame, int number) {
+      EXPECT_EQ(number, int(all.size()) + 1);
+      all.push_back(frame);
+    });
+    return all;
+  }
+
+  static constexpr DemoPictures small{{320, 180}, 4};
+};
+
+/// Says the name of the first that differs, not megabytes of pixels.
+void expect_same(const std::vector<Image>& a, const std::vector<Image>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i] == b[i]) << "frame " << i + 1;
+}
+
+TEST_F(Demos, FramesAreTheSameEveryTimeOnAnyNumberOfThreadsAndHoweverManyThereAre) {
+  const Demo played = demo(short_demo);
+  const auto first = frames(played, small);
+  EXPECT_EQ(first.size(), 11u) << "of 2.65 s: 1 of motion, 0.3, and a caption of 1 that comes once the last has gone";
+  std::set<std::vector<std::uint8_t>> different;
+  for (const Image& frame : first) different.insert(frame.rgba);
+  EXPECT_GT(different.size(), 7u) << "nothing moves";
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  expect_same(first, frames(played, small));
+  const auto half = frames(played, {small.size, 2});
+  for (std::size_t i = 0; i < half.size(); ++i) EXPECT_TRUE(half[i] == first.at(2 * i)) << "at " << 0.5 * i << " s";
+}
+
+/// Pictures of one size side by side, row by row.
+Image contact_sheet(const std::vector<Image>& pictures, int columns) {
+  const Image& first = pictures.front();
+  const int rows = (int(pictures.size()) + columns - 1) / columns;
+  Image sheet{columns * first.width, rows * first.height, {}};
+  sheet.rgba.assign(std::size_t(sheet.width) * sheet.height * 4, 255);
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    for (int y = 0; y < first.height; ++y)
+      std::copy_n(&pictures[i].rgba[std::size_t(y) * first.width * 4], first.width * 4,
+                  &sheet.rgba[((i / columns * first.height + y) * sheet.width + i % columns * first.width) * 4]);
+  return sheet;
+}
+
+/// It is the README's picture of demos, too.
+TEST_F(Demos, TheTourPlaysToItsEndAndLooksAsItsPicture) {
+  constexpr DemoPictures played{{320, 180}, 4};
+  const std::vector<int> seconds = {2, 10, 14, 19, 30, 37, 43, 48, 57, 66, 76, 88};
+  std::vector<Image> shown;
+  int count = 0;
+  play_demo(read_demo("tour"), played, [&](const Image& frame, int number) {
+    count = number;
+    if (shown.size() < seconds.size() && number == 4 * seconds[shown.size()] + 1) shown.push_back(frame);
+  });
+  EXPECT_GT(count, 4 * 90);
+  EXPECT_LT(count, 4 * 130) << "it is to take about two minutes at most";
+  ASSERT_EQ(shown.size(), seconds.size());
+  expect_screenshot("demo_tour", contact_sheet(shown, 3));
+}
+
+TEST_F(Demos, AllOthersThatComeWithTheProgramPlayToTheirEnd) {
+  auto names = demo_names();
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"compare", "gibbs", "tour"}));
+  std::erase(names, "tour");
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    const Demo played = read_demo(name);
+    EXPECT_THAT(missing_data(played), ::testing::IsEmpty());
+    int count = 0;
+    EXPECT_NO_THROW(play_demo(played, {{160, 90}, 4}, [&](const Image&, int number) { count = number; }));
+    EXPECT_GT(count, 4 * 20);
+  }
+}
+
+TEST_F(Demos, AWindowShowsTheSameFrames) {
+  const Demo played = demo(short_demo);
+  const auto expected = frames(played, small);
+  OffscreenTarget target(320, 180);
+  SessionWorker worker;
+  InspectionWorker inspector;
+  Interface window(target, worker, inspector, 0.25);
+  window.play_demo(played.calls);
+  // As a display does: frames of uneven length, and some while the session works.
+  std::size_t next = 0;
+  for (double time = 0, wanted = 0; next < expected.size();) {
+    const bool waits = window.seconds_to_next_frame() > 0 && !worker.progress().busy && !inspector.busy();
+    if (!waits) {
+      window.draw(0);
+      continue;
+    }
+    if (time >= wanted - 1e-9) {
+      EXPECT_TRUE(target.read_back() == expected[next]) << "frame " << next + 1;
+      wanted = 0.25 * double(++next);
+    }
+    const double step = std::min(wanted - time, next % 2 ? 0.1 : 0.07);
+    window.draw(step);
+    time += step;
+    if (window.script_is_done()) break;
+  }
+  EXPECT_GE(next, expected.size() - 1);
+}
+
+TEST_F(Demos, TheOperatorPausesSkipsAndTakesOver) {
+  OffscreenTarget target(320, 180);
+  SessionWorker worker;
+  InspectionWorker inspector;
+  Interface window(target, worker, inspector, 0.25);
+  window.play_demo(demo("hide-panels\ncaption \"one\"\nwait 100\ncaption \"two\"\nwait 100\n").calls);
+  const auto frames = [&](int count) {
+    for (int i = 0; i < count; ++i) window.draw(0.1);
+  };
+  const auto type = [&](Key key) {
+    window.push(input::KeyChange{key, true});
+    window.push(input::KeyChange{key, false});
+    frames(8);
+  };
+  frames(8);
+  const Presentation& shown = window.state().presentation;
+  ASSERT_TRUE(shown.caption);
+  EXPECT_EQ(shown.caption->text, "one");
+  type(Key::space);
+  const double time = shown.time;
+  frames(5);
+  EXPECT_TRUE(shown.paused);
+  EXPECT_EQ(shown.time, time);
+  type(Key::space);
+  EXPECT_GT(shown.time, time);
+  type(Key::right);
+  EXPECT_EQ(shown.caption->text, "two");
+  EXPECT_FALSE(window.script_is_done());
+  type(Key::escape);
+  EXPECT_TRUE(window.script_is_done());
+  EXPECT_FALSE(shown.demo);
+  EXPECT_FALSE(window.state().panels_hidden) << "there is nothing to go on with";
+}
+
+TEST_F(Demos, MistakesNameTheirLine) {
+  const std::string file = (folder_ / "demo.nextview").string();
+  EXPECT_EQ(error_of("wait 1\nwiat 1\n"), file + ":2: there is no command 'wiat'; did you mean 'wait'?");
+  EXPECT_THAT(error_of("\n\nwait soon\n"), HasSubstr(":3: wait: SECONDS must be a number from 0 to 600, not 'soon'"));
+  EXPECT_THAT(error_of("export-cloud cloud.ply\n"), HasSubstr(":1: export-cloud: a demo writes below --out only"));
+  EXPECT_THROW(demo("save-picture ../a.png\n", folder_), std::runtime_error);
+  EXPECT_THROW(demo("save-picture /tmp/a.png\n", folder_), std::runtime_error);
+  EXPECT_EQ(demo("save-picture a.png\n", folder_).calls.front().values().front(), (folder_ / "a.png").string());
+  EXPECT_THAT(error_of("# nothing\n"), HasSubstr("has no commands"));
+  EXPECT_THAT(error_of("wait 0.1\nstep\n", true), HasSubstr(":2: step: there is no object yet"));
+  EXPECT_THAT(error_of("open sphere\nassert views 3\n", true), HasSubstr(":2: assert: views is 0, not = 3"));
+  EXPECT_THAT(error_of("assert views many\n"), HasSubstr(":1: assert"));
+  EXPECT_THROW(read_demo("tuor"), std::runtime_error);
+  EXPECT_EQ(missing_data(demo("open nowhere.ply\n")).size(), 1u);
+}
+
+TEST_F(Demos, FramesAndTheirListAreReplacedByThoseOfTheNextRun) {
+  const auto write = [&](const std::string& text) {
+    OutputFolder out(folder_ / "out", {});
+    out.begin("demo");
+    return write_demo(demo(text), small, out, [](int) {}, {});
+  };
+  EXPECT_EQ(write("title \"A\" 1\nwait 1\n"), 4);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "frame_00004.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "config.toml"));
+  EXPECT_EQ(write("title \"A\" 1\nwait 0.5\nwait 0.25\n"), 4) << "and what the title still takes";
+  EXPECT_EQ(write("wait 0.5\n"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "frame_00003.png"));
+  EXPECT_EQ(read_manifest(folder_ / "out")->files.size(), 3u);
+}
+
+TEST_F(Demos, AVideoNeedsItsProgramAndAnEndingThatItKnows) {
+  EXPECT_THROW(require_video("a.avi"), std::invalid_argument);
+}
+
+/// A demo that is cut, has its lines swapped, words of other lines, huge numbers or unknown commands.
+std::string mutated(std::string text, std::mt19937& random) {
+  const auto below = [&](std::size_t end) { return std::size_t(random() % std::max<std::size_t>(end, 1)); };
+  static const std::vector<std::string> words = {"1e308",          "-1",          "nan",    "wait",    "\"",
+                                                 "until",          "orbit 1e9 1", "assert", "{}{}{",   "%n",
+                                                 "99999999999999", "#",           "open",   "\x01\xff"};
+  for (std::size_t changes = 1 + below(3); changes-- > 0;) {
+    const std::size_t at = below(text.size());
+    switch (below(5)) {
+      case 0:
+        text.resize(at);
+        break;
+      case 1:
+        text.insert(at, words[below(words.size())]);
+        break;
+      case 2:
+        text.replace(at, std::min<std::size_t>(below(9), text.size() - at), words[below(words.size())]);
+        break;
+      case 3:
+        text += text.substr(at, below(200));
+        break;
+      default:
+        text.erase(at, below(12));
+    }
+  }
+  return text;
+}
+
+TEST_F(Demos, TwoHundredMutatedOnesPlayOrSayWhatIsWrong) {
+  std::mt19937 random(20240229 + GTEST_FLAG_GET(random_seed));
+  const std::string file = (folder_ / "demo.nextview").string();
+  int wrong = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::string text = mutated(short_demo, random);
+    SCOPED_TRACE(text);
+    std::string error = error_of(text);
+    // Played only every tenth, and not what would take long: settings and waits may have become anything.
+    if (error.empty() && i % 10 == 0 && text.find("e9") == text.npos && text.size() < 1000)
+      error = error_of(text, true);
+    wrong += !error.empty();
+    EXPECT_TRUE(error.empty() || error.starts_with(file + ":")) << error;
+    EXPECT_EQ(error.find('\n'), error.npos) << error;
+  }
+  EXPECT_GT(wrong, 60);
+  EXPECT_LT(wrong, 200);
+}
+
+}  // namespace
+}  // namespace nextview

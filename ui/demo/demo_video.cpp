@@ -1,0 +1,59 @@
+#include "ui/demo/demo_video.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/driver/started_process.hpp"
+
+namespace nextview {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && ::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+/// All that a program says on its standard error stream, until it ends.
+std::string words_of(const Descriptor& errors) {
+  std::string text;
+  char part[4096];
+  for (ssize_t read; (read = ::read(errors.get(), part, sizeof part)) > 0;) text.append(part, std::size_t(read));
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+}  // namespace
+
+void require_video(const fs::path& video) {
+  if (video.extension() != ".mp4" && video.extension() != ".webm")
+    throw std::invalid_argument(fmt::format("--video: {} must end in .mp4 or .webm", video.string()));
+  if (!is_on_path("ffmpeg"))
+    throw std::runtime_error("--video: there is no program ffmpeg; install it, or leave --video out");
+}
+
+void write_video(const fs::path& frames, int frames_per_second, const fs::path& video) {
+  // yuv420p wants even sides, and is what players know.
+  const StartedProcess ffmpeg =
+      start_process({"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(frames_per_second),
+                     "-i", (frames / "frame_%05d.png").string(), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt",
+                     "yuv420p", fs::absolute(video).string()});
+  const std::string words = words_of(ffmpeg.errors);
+  int status = 0;
+  ::waitpid(ffmpeg.process, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error(fmt::format("{}: ffmpeg cannot write it: {}", video.string(), words));
+}
+
+}  // namespace nextview
