@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <tuple>
 
 #include "core/journal/journal.hpp"
+#include "ui/panels/lower_case.hpp"
 
 namespace nextview {
 namespace {
@@ -15,12 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most = 5000;  // of names that anybody would look through
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
-  return result;
-}
 
 std::vector<FolderEntry> entries_of(const fs::path& folder, std::error_code& error) {
   std::vector<FolderEntry> entries;

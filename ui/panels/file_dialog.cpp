@@ -51,13 +51,23 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   if (!to_read_ && suggested) write(suggested(context.snapshot).front());
 }
 
+void FileDialog::look_into(const fs::path& folder) {
+  browser_.go_to(folder);
+  chosen_ = 0;
+}
+
+/// With it the dialog closes.
+void FileDialog::call(const PanelContext& context, const Command& command, const std::string& file) {
+  context.post(command::file_dialog());
+  context.post(command.read({file}));
+}
+
 void FileDialog::accept(const PanelContext& context, const Command& command, const fs::path& file) {
   std::error_code ignored;
   const bool is_folder = fs::is_directory(file, ignored);
   const bool looked_into = is_folder && (to_read_ ? !has_journal(file) : !names_folder(command));
   if (looked_into) {
-    browser_.go_to(file);
-    chosen_ = 0;
+    look_into(file);
     return write("");
   }
   if (!to_read_ && !is_folder && is_there(file) && replaced_ != file.string()) {
@@ -65,8 +75,7 @@ void FileDialog::accept(const PanelContext& context, const Command& command, con
     return;
   }
   (to_read_ ? last_read_ : last_written_) = file.parent_path();
-  context.post(command::file_dialog());
-  context.post(command.read({file.string()}));
+  call(context, command, file.string());
 }
 
 void FileDialog::draw_path() {
@@ -78,16 +87,11 @@ void FileDialog::draw_path() {
     if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(part.c_str()).x + 24) ImGui::NewLine();
     if (ImGui::SmallButton(fmt::format("{}##{}", part.string(), whole.string()).c_str())) wanted = whole;
   }
-  if (!wanted.empty()) {
-    browser_.go_to(wanted);
-    chosen_ = 0;
-  }
+  if (!wanted.empty()) look_into(wanted);
 }
 
 void FileDialog::draw_place(const std::string& name, const fs::path& folder) {
-  if (!ImGui::Selectable(name.c_str(), browser_.folder() == folder)) return;
-  browser_.go_to(folder);
-  chosen_ = 0;
+  if (ImGui::Selectable(name.c_str(), browser_.folder() == folder)) look_into(folder);
 }
 
 void FileDialog::draw_places(const PanelContext& context, const Command& command) {
@@ -103,10 +107,7 @@ void FileDialog::draw_places(const PanelContext& context, const Command& command
     ImGui::Spacing();
     ImGui::TextDisabled("Objects");
     for (const std::string& object : command.arguments().front().choices(context.snapshot))
-      if (ImGui::Selectable(object.c_str())) {
-        context.post(command::file_dialog());
-        context.post(command.read({object}));
-      }
+      if (ImGui::Selectable(object.c_str())) call(context, command, object);
     if (!recent_.empty()) {
       ImGui::Spacing();
       ImGui::TextDisabled("Recent");
@@ -197,10 +198,7 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
   if (icon_button(style, Icon::none, does, true)) accept_written(context, command);
   if (to_read_) {
     ImGui::SameLine();
-    if (icon_button(style, Icon::none, "Open this folder")) {
-      context.post(command::file_dialog());
-      context.post(command.read({browser_.folder().string()}));
-    }
+    if (icon_button(style, Icon::none, "Open this folder")) call(context, command, browser_.folder().string());
     tooltip("Goes through the recorded scans that lie in it, or goes on with the session that it is.");
   }
   ImGui::SameLine();

@@ -16,6 +16,8 @@ class FileDialog {
 
  private:
   void begin(const PanelContext& context, const Command& command);
+  void look_into(const std::filesystem::path& folder);
+  void call(const PanelContext& context, const Command& command, const std::string& file);
   void draw_path();
   void draw_places(const PanelContext& context, const Command& command);
   void draw_place(const std::string& name, const std::filesystem::path& folder);

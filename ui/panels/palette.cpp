@@ -4,21 +4,15 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/commands/window_commands.hpp"
+#include "ui/panels/lower_case.hpp"
 
 namespace nextview {
 namespace {
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
-  return result;
-}
 
 /// The command that a text begins with, if it goes on after its name.
 const Command* named_by(const std::string& text) {
