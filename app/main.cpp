@@ -15,36 +15,17 @@
 #include <system_error>
 #include <vector>
 
+#include "app/all_commands.hpp"
 #include "app/commands/command_line.hpp"
 #include "app/commands/commands.hpp"
-#include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
-#include "app/commands/scanner.hpp"
 #include "app/commands/scarcity.hpp"
-#include "core/file/atomic_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/session/session_folder.hpp"
-#include "ui/commands/command_list.hpp"
-#include "ui/commands/script.hpp"
 #include "ui/panels/panel_table.hpp"
 #include "ui/render_target/headless.hpp"
-#include "ui/window/window.hpp"
 
 namespace {
-
-constexpr std::uintmax_t longest_script = std::uintmax_t{1} << 20;  // [bytes]
-
-/// None without a file. @throws std::runtime_error naming the file, the line and the reason.
-std::vector<nextview::CommandCall> read_script(const std::string& file) {
-  if (file.empty()) return {};
-  const std::string text = nextview::read_file(file, longest_script);
-  try {
-    return nextview::parse_script(text);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
-  }
-}
 
 /// A descriptor that the caller has closed would be given to the next file that is opened, and what is printed would
 /// go there. /dev/null, opened the wrong way round, fails as a closed one does.
@@ -72,12 +53,8 @@ int end(int exit_code) {
 
 int run(int argc, char** argv) {
   using namespace nextview;
-  CLI::App program("Nextview: where should the scanner look next? Without a subcommand it opens the window.");
-  program.set_version_flag("--version", "nextview " NEXTVIEW_VERSION);
-  program.require_subcommand(0, 1);
-  program.fallthrough();
-  program.footer("Examples:\n  nextview bunny.ply\n  nextview scan --out out\n  nextview SUBCOMMAND --help");
-
+  CLI::App program;
+  add_commands(program);
   std::unique_ptr<tbb::global_control> limit;
   const auto limit_threads = [&](int threads) {
     if (threads > 0)
@@ -85,34 +62,7 @@ int run(int argc, char** argv) {
   };
   program.add_option_function<int>("--threads", limit_threads, "threads to use; 0: all. Results never depend on it")
       ->check(CLI::Range(0, 1024));
-  ConfigurationOptions options;
-  add_scan_command(program);
-  add_score_command(program);
-  add_refine_command(program);
-  add_posterior_command(program);
-  add_calibrate_command(program);
-  add_info_command(program);
-  add_export_command(program);
-  add_study_command(program);
-  add_figure_command(program);
-  add_driver_command(program);
-  add_demo_command(program);
-  CLI::App* window = program.add_subcommand("window", "Open the window: the same as no subcommand");
-  options.add_to(*window);
-  std::string script;
-  CLI::Option* script_option =
-      window->add_option("--script", script,
-                         "does what this file says: a command a line, as in the palette (Ctrl+P); a line that fails is "
-                         "reported as FILE:LINE, the others are done, and the exit code is 2");
-  ScannerOptions scanner;
-  scanner.add_to(*window);
-  bool stop_on_error = false;
-  window->add_flag("--stop-on-error", stop_on_error, "ends the program at the first line of the script that fails")
-      ->needs(script_option);
-  bool list_commands = false;
-  window->add_flag("--list-commands", list_commands, "prints all commands and ends");
-  window->footer("Examples:\n  nextview window bunny.ply --gain area-factor\n  nextview bunny.ply");
-
+  announce_panels(standard_panels());  // before there is a window: scripts and demos name them
   try {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& end) {  // a subcommand ran
@@ -121,22 +71,7 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
     return fail(fmt::format("{}; see nextview --help", error.what()));
   }
-  announce_panels(standard_panels());  // before there is a window: scripts name them
-  if (list_commands) {
-    fmt::print("{}", command_table());
-    return 0;
-  }
-  WindowStart start;
-  if (is_session(options.object())) {
-    if (scanner.wanted() || options.gives_settings())
-      throw std::invalid_argument(options.object() + ": a session goes on with its own settings; give none beside it");
-    start.session = options.object();
-    return run_window({}, {script, read_script(script), stop_on_error}, start);
-  }
-  const Configuration configuration = options.configuration();
-  if (scanner.wanted()) start.scanner = {scanner.command, scanner.confirm == "always", configuration};
-  start.offer = !scanner.wanted() && script.empty() && options.object().empty() && !options.gives_settings();
-  return run_window(configuration, {script, read_script(script), stop_on_error}, start);
+  return 0;
 }
 
 }  // namespace

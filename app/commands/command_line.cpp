@@ -15,8 +15,8 @@
 namespace nextview {
 namespace {
 
-constexpr std::array subcommands = {"scan",   "score", "refine", "posterior", "calibrate", "info",
-                                    "export", "study", "figure", "driver",    "demo",      "window"};
+constexpr std::array subcommands = {"scan",  "score",  "refine", "posterior", "calibrate", "info",  "export",
+                                    "study", "figure", "driver", "demo",      "help",      "window"};
 constexpr std::array drawing = {"scan", "refine", "calibrate", "figure"};
 
 template <class List>

@@ -16,6 +16,7 @@ void add_study_command(CLI::App& program);
 void add_figure_command(CLI::App& program);
 void add_driver_command(CLI::App& program);
 void add_demo_command(CLI::App& program);
+void add_help_command(CLI::App& program);
 
 /// Exit codes: 0 done, 2 bad input or settings, 130 stopped by the user.
 inline constexpr int exit_bad_input = 2;

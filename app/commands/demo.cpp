@@ -16,7 +16,7 @@ namespace {
 
 struct DemoArguments {
   std::string demo = "tour", out, size, video;
-  int frames_per_second = DemoPictures().frames_per_second;
+  std::optional<int> frames_per_second;
   bool check = false, list_commands = false;
 };
 
@@ -31,9 +31,10 @@ int check(const DemoArguments& a) {
 
 int draw(const DemoArguments& a) {
   const DemoPictures pictures{a.size.empty() ? DemoPictures().size : picture_size(a.size, "--size"),
-                              a.frames_per_second};
+                              a.frames_per_second.value_or(DemoPictures().frames_per_second)};
   if (!a.video.empty()) require_video(a.video);
   const Demo demo = read_demo(a.demo, a.out);
+  require_data(demo);
   const std::vector<InputFile> inputs = {{demo.file, "the demo"}};
   OutputFolder folder(a.out, inputs);
   folder.begin("demo");
@@ -44,17 +45,20 @@ int draw(const DemoArguments& a) {
   progress.clear();
   fmt::print("{}: frame_00001.png to frame_{:05}.png\n", printable(a.out), frames);
   if (a.video.empty()) return 0;
-  write_video(a.out, a.frames_per_second, a.video);
+  write_video(a.out, pictures.frames_per_second, a.video);
   fmt::print("{}\n", printable(a.video));
   return 0;
 }
 
 int run(const DemoArguments& a) {
-  if (a.list_commands) return print_demo_commands(), 0;
+  if (a.list_commands) return fmt::print("{}", demo_commands()), 0;
   if (a.check) return check(a);
   if (!a.out.empty()) return draw(a);
-  if (!a.size.empty() || !a.video.empty()) throw std::invalid_argument("--size, --fps and --video need --out DIR");
-  return show_demo(read_demo(a.demo));
+  if (!a.size.empty() || !a.video.empty() || a.frames_per_second)
+    throw std::invalid_argument("--size, --fps and --video need --out DIR");
+  const Demo demo = read_demo(a.demo);
+  require_data(demo);
+  return show_demo(demo);
 }
 
 /// "compare, gibbs, tour"
@@ -69,9 +73,8 @@ void add_demo_command(CLI::App& program) {
   app->add_option("--out", a->out, "no window: writes frame_00001.png, … here, the same ones every time")
       ->type_name("DIR");
   app->add_option("--size", a->size, "of the frames in pixels (default 1280x720)")->type_name("WxH");
-  app->add_option("--fps", a->frames_per_second, "frames a second, of the demo's own time")
-      ->check(CLI::Range(1, 120))
-      ->capture_default_str();
+  app->add_option("--fps", a->frames_per_second, "frames a second, of the demo's own time (default 30)")
+      ->check(CLI::Range(1, 120));
   app->add_option("--video", a->video, "also makes a video of them, by the program ffmpeg")
       ->type_name("FILE.mp4|FILE.webm");
   app->add_flag("--check", a->check, "only tells whether every line is right, and what it opens is there");

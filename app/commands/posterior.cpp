@@ -69,7 +69,7 @@ Answers answer(const TestProblem& problem, const PosteriorSamplerConfig& config)
   Answers answers{exact_posterior(problem.grid, measurements, config.model, config.prior),
                   sample_posterior(problem.grid, measurements, config, {}, {}, report, stop.token()),
                   map.voxels().dense()};
-  throw_if_stopped(stop.token());
+  if (stop.asked()) throw Stopped();
   progress.clear();
   return answers;
 }

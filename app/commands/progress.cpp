@@ -57,6 +57,8 @@ StopOnInterrupt::StopOnInterrupt() {
   });
 }
 
+bool StopOnInterrupt::asked() const { return interrupted; }
+
 StopOnInterrupt::~StopOnInterrupt() {
   for (std::size_t i = 0; i < stop_signals.size(); ++i) ::sigaction(stop_signals[i], &previous_[i], nullptr);
 }

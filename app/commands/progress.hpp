@@ -21,6 +21,8 @@ class StopOnInterrupt {
   StopOnInterrupt();
   ~StopOnInterrupt();
   std::stop_token token() const { return source_.get_token(); }
+  /// Whether a signal came: the token knows of it up to a twentieth of a second later.
+  bool asked() const;
 
  private:
   std::array<struct sigaction, stop_signals.size()> previous_;

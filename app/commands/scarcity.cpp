@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -31,6 +32,7 @@ constexpr const char* advice =
 constexpr const char* last_words =
     "nextview: out of memory while drawing or computing: raise the limit (ulimit -v), use coarser voxels "
     "(--map.resolution) or fewer pixels (--sensor.width), or --no-pictures\n";
+constexpr const char* ended_by_library = "nextview: a library has ended the program, and says why above\n";
 constexpr const char* no_threads =
     "nextview: no thread can be started: raise the limits (ulimit -u, ulimit -v), or use --threads 1\n";
 
@@ -55,6 +57,20 @@ bool memory_is_short() {
   ::_exit(exit_bad_input);
 }
 
+/// Whether `new` has ever been refused: where an exception leaves a parallel region of OpenMP, there is nothing else
+/// left of it than that the program is to end.
+std::atomic<bool> was_refused = false;
+
+void on_refusal() {
+  was_refused = true;
+  throw std::bad_alloc();
+}
+
+/// OpenMP's runtime, and Xlib's where a display goes away, end the program with 1, which is no end of ours.
+void on_end(int exit_code, void*) {
+  if (exit_code == EXIT_FAILURE && ::getpid() == own_process) end_with(ended_by_library);
+}
+
 /// A library used what it had not been given. Any other fault stays what it is.
 void on_fault(int signal) {
   if (memory_is_short()) end_with(last_words);
@@ -66,7 +82,10 @@ void on_fault(int signal) {
 void on_terminate() {
   if (::getpid() != own_process) std::abort();
   try {
-    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+    if (const auto error = std::current_exception())
+      std::rethrow_exception(error);
+    else if (was_refused)
+      end_with(last_words);
   } catch (const std::bad_alloc&) {
     end_with(last_words);
   } catch (const OutOfMemory&) {
@@ -89,7 +108,9 @@ void watch_for_faults() {
   action.sa_flags = SA_ONSTACK;
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGILL}) ::sigaction(signal, &action, nullptr);
 #endif
+  std::set_new_handler(on_refusal);
   std::set_terminate(on_terminate);
+  ::on_exit(on_end, nullptr);
 }
 
 bool address_space_is_limited() {

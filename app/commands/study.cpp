@@ -62,8 +62,9 @@ void print_summary(const StudySummary& summary, const fs::path& out) {
                counted(summary.runs, "run"));
   fmt::print(
       "{}/\n  summary.csv, .json   means, spreads and comparisons: {}\n  runs.csv             each of {}\n"
-      "  timings.csv          seconds, which differ from one time to the next\n",
-      printable(out.string()), counted(summary.rows, "row"), counted(summary.runs, "run"));
+      "  timings.csv          seconds, which differ from one time to the next\n"
+      "All of it as one HTML file: nextview figure report --study {} --out report\n",
+      printable(out.string()), counted(summary.rows, "row"), counted(summary.runs, "run"), shell_text(out));
 }
 
 int run_file(const StudyArguments& a) {

@@ -1,0 +1,76 @@
+#include "app/commands/shell_completion.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "app/commands/declared_options.hpp"
+
+namespace nextview {
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr std::string_view script = R"(# Made by `nextview help --completion` from what the program declares.
+_nextview() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} option=${{COMP_WORDS[COMP_CWORD - 1]}} command='' words='' i
+  # --option=value is three words to bash
+  if [ "$word" = = ]; then word=''; elif [ "$option" = = ]; then option=${{COMP_WORDS[COMP_CWORD - 2]}}; fi
+  for ((i = 1; i < COMP_CWORD; ++i)); do
+    case ${{COMP_WORDS[i]}} in {}) command=${{COMP_WORDS[i]}}; break ;; esac
+  done
+  case $option in
+{}  esac
+  if [ -z "$words" ] && [[ $word == -* || $command == help ]]; then
+    case $command in
+{}    esac
+  elif [ -z "$words$command" ]; then
+    words='{}'
+  fi
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
+}}
+complete -o default -F _nextview nextview
+)";
+
+Words long_options(const CLI::App& command) {
+  Words names;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// A line of a `case`.
+std::string when(const Words& patterns, const Words& words) {
+  return fmt::format("    {}) words='{}' ;;\n", fmt::join(patterns, " | "), fmt::join(words, " "));
+}
+
+/// By the values that they may have: the options whose values have names.
+std::map<Words, Words> options_by_choices(const CLI::App& program) {
+  std::map<Words, Words> options;
+  std::map<std::string, Words> known;
+  for (const CLI::App* command : program.get_subcommands({}))
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames())
+        if (const Words values = choices(*option); !values.empty() && known.emplace(name, values).second)
+          options[values].push_back("--" + name);
+  return options;
+}
+
+}  // namespace
+
+std::string bash_completion(const CLI::App& program, const Words& topics) {
+  Words commands;
+  std::string of_commands, values;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    const std::string& name = command->get_name();
+    commands.push_back(name);
+    Words words = long_options(*command);
+    if (name == "help") words.insert(words.end(), topics.begin(), topics.end());
+    of_commands += "  " + when({name == "window" ? "window | ''" : name}, words);  // which is also no command
+  }
+  for (const auto& [words, options] : options_by_choices(program)) values += when(options, words);
+  return fmt::format(script, fmt::join(commands, " | "), values, of_commands, fmt::join(commands, " "));
+}
+
+}  // namespace nextview

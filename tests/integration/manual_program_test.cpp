@@ -1,0 +1,92 @@
+// The manual in a terminal, and its examples run.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "core/file/atomic_file.hpp"
+#include "tests/integration/manual_pages.hpp"
+#include "tests/integration/program.hpp"
+#include "ui/manual/manual.hpp"
+#include "ui/manual/markdown.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Manual, CheapExamplesRun) {
+  for (const auto& file : manual_pages()) {
+    const TemporaryFolder folder;
+    for (const std::string& line : shell_lines(file, true)) {
+      const Result result = nextview_behind(fmt::format("env -C '{}'", folder.path().string()),
+                                            line.substr(std::min(line.find(' ') + 1, line.size())));
+      EXPECT_EQ(result.exit_code, 0) << file.filename() << ": " << line << "\n" << result.err;
+      EXPECT_FALSE(result.out.empty()) << line;
+    }
+  }
+}
+
+/// `surface_map.*` stands for all that begin so, `step_01.png` for the pictures of all steps.
+bool is_named(const std::string& file, const std::string& page) {
+  if (page.find('`' + file + '`') != page.npos || file.starts_with("step_")) return true;
+  const std::string begin = file.substr(0, file.find_first_of("._", file.find('_') + 1));
+  return page.find('`' + begin + ".*`") != page.npos;
+}
+
+TEST(Manual, EveryFileThatAScanLeavesIsAmongTheFormats) {
+  const TemporaryFolder folder;
+  const Result scan = nextview(fmt::format(
+      "scan sphere --views 2 --sensor.width 80 --sensor.height 60 --map.resolution 0.04 --no-pictures --out '{}'",
+      (folder.path() / "out").string()));
+  ASSERT_EQ(scan.exit_code, 0) << scan.err;
+  const std::string page = read_manual_page("formats").text;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out")) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(entry.is_directory() ? page.find('`' + name + "/`") != page.npos : is_named(name, page)) << name;
+  }
+  EXPECT_FALSE(is_named("other.csv", page));
+}
+
+TEST(Manual, ExamplesOfSettingsAreRead) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "example.toml";
+  int read = 0;
+  for (const auto& page : manual_pages())
+    for (const MarkdownBlock& block : parse_markdown(read_file(page))) {
+      if (block.language != "toml") continue;
+      write_file(file, block.text);
+      const Result result = nextview("info '" + file.string() + "'");
+      EXPECT_EQ(result.exit_code, 0) << page << ": " << result.err;
+      ++read;
+    }
+  EXPECT_GT(read, 0);
+}
+
+TEST(Manual, IsPrintedByTopicAndKnowsTheNearest) {
+  const Result topics = nextview("help");
+  EXPECT_EQ(topics.exit_code, 0) << topics.err;
+  for (const std::string& topic : manual_topics()) {
+    EXPECT_THAT(topics.out, HasSubstr("  " + topic + " "));
+    auto blocks = parse_markdown(read_manual_page(topic).text);
+    EXPECT_FALSE(plain_text(blocks, 100).empty());
+    std::erase_if(blocks, [](const MarkdownBlock& block) { return block.kind == MarkdownBlock::Kind::code; });
+    const std::string text = plain_text(blocks, 100);
+    EXPECT_EQ(text.find("]("), text.npos) << topic << " has a link left";
+    EXPECT_EQ(text.find("**"), text.npos) << topic << " has emphasis left";
+  }
+  EXPECT_THAT(nextview("help planning").out, HasSubstr("How the next view is chosen\n==="));
+  EXPECT_THAT(nextview("help scan").out, HasSubstr("--resume"));
+  const Result wrong = nextview("help planing");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no topic 'planing'; did you mean 'planning'?"));
+}
+
+TEST(Manual, AnOptionThatWouldDoNothingIsRefused) {
+  const Result result = nextview("demo tour --fps 4");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--size, --fps and --video need --out DIR"));
+}
+
+}  // namespace
+}  // namespace nextview

@@ -1,0 +1,145 @@
+#include "ui/manual/markdown.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+
+namespace nextview {
+namespace {
+
+using Block = MarkdownBlock;
+using Kind = MarkdownBlock::Kind;
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+/// Without emphasis, and of links what they say. What stands in backquotes stays as it is.
+std::string unmarked(std::string_view marked) {
+  static const std::regex link(R"(!?\[([^\]]*)\]\([^)]*\))"), bold(R"(\*\*([^*]+)\*\*)"),
+      italic(R"((^|[^A-Za-z0-9*])\*([^* ][^*]*)\*)");
+  std::string result;
+  for (bool code = false; !marked.empty(); code = !code) {
+    const std::size_t end = std::min(marked.find('`'), marked.size());
+    std::string part(marked.substr(0, end));
+    if (!code) {
+      part = std::regex_replace(part, link, "$1");
+      part = std::regex_replace(part, bold, "$1");
+      part = std::regex_replace(part, italic, "$1$2");
+    }
+    result += part;
+    marked.remove_prefix(std::min(end + 1, marked.size()));
+  }
+  return result;
+}
+
+/// The cells of "| a | b |".
+std::vector<std::string> cells(std::string_view line) {
+  line = trimmed(line);
+  if (line.starts_with('|')) line.remove_prefix(1);
+  if (line.ends_with('|')) line.remove_suffix(1);
+  std::vector<std::string> result;
+  for (bool more = true; more;) {
+    const std::size_t end = line.find('|');
+    more = end != line.npos;
+    result.push_back(unmarked(trimmed(line.substr(0, end))));
+    line.remove_prefix(more ? end + 1 : line.size());
+  }
+  return result;
+}
+
+bool is_rule(std::string_view line) { return !line.empty() && line.find_first_not_of("|-: ") == line.npos; }
+
+/// "- " or "12. ": how long it is; 0: the line begins no item.
+std::size_t item_mark(std::string_view line) {
+  if (line.starts_with("- ")) return 2;
+  const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
+  return digits > 0 && line.substr(digits).starts_with(". ") ? digits + 2 : 0;
+}
+
+/// Line by line; what belongs together is gathered until something else begins.
+class Reader {
+ public:
+  std::vector<Block> read(std::string_view text) {
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      take(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    finish();
+    return std::move(blocks_);
+  }
+
+ private:
+  void take(std::string_view raw) {
+    const std::string_view line = trimmed(raw);
+    if (in_code_) return take_code(raw, line);
+    if (in_comment_ || line.starts_with("<!--")) {
+      in_comment_ = line.find("-->") == line.npos;
+      return finish();
+    }
+    if (line.empty() || line == "<br>") return finish();
+    if (line.starts_with("```")) {
+      finish();
+      in_code_ = true;
+      blocks_.push_back({.kind = Kind::code, .language = std::string(line.substr(3))});
+    } else if (line.starts_with('#')) {
+      take_heading(line);
+    } else if (line.starts_with('|')) {
+      take_row(line);
+    } else if (line.starts_with("![")) {
+      finish();
+      blocks_.push_back({.kind = Kind::picture, .text = unmarked(line)});
+    } else {
+      take_text(line);
+    }
+  }
+
+  void take_code(std::string_view raw, std::string_view line) {
+    if (line.starts_with("```"))
+      in_code_ = false;
+    else
+      blocks_.back().text += std::string(raw) + '\n';
+  }
+
+  void take_heading(std::string_view line) {
+    finish();
+    const std::size_t level = line.find_first_not_of('#');
+    if (level == line.npos) return;
+    blocks_.push_back({.kind = Kind::heading, .text = unmarked(trimmed(line.substr(level))), .level = int(level)});
+  }
+
+  void take_row(std::string_view line) {
+    if (open_.kind != Kind::table) finish();
+    open_.kind = Kind::table;
+    if (is_rule(line)) return;
+    open_.rows.push_back(cells(line));
+    open_.rows.back().resize(open_.rows.front().size());
+  }
+
+  void take_text(std::string_view line) {
+    const std::size_t mark = item_mark(line);
+    if (mark > 0 || open_.kind == Kind::table) finish();
+    if (mark > 0) open_.kind = Kind::item;
+    if (mark > 2 || (mark == 2 && line.front() != '-')) open_.number = std::string(line.substr(0, mark - 1));
+    open_.text += (open_.text.empty() ? "" : " ") + std::string(line.substr(mark));
+  }
+
+  void finish() {
+    open_.text = unmarked(open_.text);
+    if (!open_.text.empty() || !open_.rows.empty()) blocks_.push_back(std::move(open_));
+    open_ = {};
+  }
+
+  std::vector<Block> blocks_;
+  Block open_;
+  bool in_code_ = false, in_comment_ = false;
+};
+
+}  // namespace
+
+std::vector<Block> parse_markdown(std::string_view text) { return Reader().read(text); }
+
+}  // namespace nextview
