@@ -10,11 +10,13 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/installation.hpp"
 #include "core/file/read_file.hpp"
+#include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/render/render_test.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
 #include "ui/demo/demo_frames.hpp"
 #include "ui/demo/demo_video.hpp"
+#include "ui/panels/panel_table.hpp"
 
 namespace nextview {
 namespace {
@@ -28,20 +30,12 @@ constexpr const char* short_demo =
     "step\nwait 0.3\nfly-to 20 40 0.7 1.5\nhide-panels\nstep\ncaption \"{reason}\" 1\nhighlight view 0.9\n"
     "wait until done\nassert views 2\nassert coverage > 0\n";
 
-Configuration tiny_scan() {
-  Configuration c;
-  c.object.file = "sphere";
-  c.sensor.width = 80;
-  c.sensor.height = 60;
-  c.map.resolution = 0.04;
-  c.views.count = 8;
-  c.evaluation.surface_samples = 500;
-  return c;
-}
-
 class Demos : public InTemporaryFolder {
  protected:
-  Demos() { write_file(folder_ / "tiny.toml", to_toml(tiny_scan())); }
+  Demos() {
+    announce_panels(standard_panels());  // demos name them
+    write_file(folder_ / "tiny.toml", to_toml(tiny_scan()));
+  }
   Demo demo(std::string text, const fs::path& out = {}) const {
     if (const auto at = text.find("tiny.toml"); at != text.npos) text.insert(at, folder_.string() + "/");
     write_file(folder_ / "demo.nextview", text);
@@ -119,11 +113,16 @@ TEST_F(Demos, TheTourPlaysToItsEndAndLooksAsItsPicture) {
 
 TEST_F(Demos, AllOthersThatComeWithTheProgramPlayToTheirEnd) {
   auto names = demo_names();
-  EXPECT_THAT(names, ::testing::IsSupersetOf({"compare", "gibbs", "tour"}));
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"compare", "gibbs", "recorded", "tour"}));
   std::erase(names, "tour");
   for (const std::string& name : names) {
     SCOPED_TRACE(name);
     const Demo played = read_demo(name);
+    if (!played.needs.empty() && !missing_data(played).empty()) {
+      EXPECT_THAT(missing_data(played).front(), HasSubstr("; it needs Debian's package "));
+      EXPECT_THROW(require_data(played), std::runtime_error);
+      continue;
+    }
     EXPECT_THAT(missing_data(played), ::testing::IsEmpty());
     int count = 0;
     EXPECT_NO_THROW(play_demo(played, {{160, 90}, 4}, [&](const Image&, int number) { count = number; }));
@@ -142,8 +141,7 @@ TEST_F(Demos, AWindowShowsTheSameFrames) {
   // As a display does: frames of uneven length, and some while the session works.
   std::size_t next = 0;
   for (double time = 0, wanted = 0; next < expected.size();) {
-    const bool waits = window.seconds_to_next_frame() > 0 && !worker.progress().busy && !inspector.busy();
-    if (!waits) {
+    if (!window.is_still()) {
       window.draw(0);
       continue;
     }
@@ -198,6 +196,7 @@ TEST_F(Demos, MistakesNameTheirLine) {
   EXPECT_EQ(error_of("wait 1\nwiat 1\n"), file + ":2: there is no command 'wiat'; did you mean 'wait'?");
   EXPECT_THAT(error_of("\n\nwait soon\n"), HasSubstr(":3: wait: SECONDS must be a number from 0 to 600, not 'soon'"));
   EXPECT_THAT(error_of("export-cloud cloud.ply\n"), HasSubstr(":1: export-cloud: a demo writes below --out only"));
+  EXPECT_THAT(error_of("connect \"python3 mine.py\"\n"), HasSubstr(":1: connect: a demo starts no program"));
   EXPECT_THROW(demo("save-picture ../a.png\n", folder_), std::runtime_error);
   EXPECT_THROW(demo("save-picture /tmp/a.png\n", folder_), std::runtime_error);
   EXPECT_EQ(demo("save-picture a.png\n", folder_).calls.front().values().front(), (folder_ / "a.png").string());

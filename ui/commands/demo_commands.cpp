@@ -5,6 +5,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "ui/commands/branch_commands.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 
@@ -12,6 +13,7 @@ namespace nextview {
 namespace {
 
 using Values = std::vector<std::string>;
+using Number = std::optional<double>;
 
 constexpr double longest = 600;  // [s]
 
@@ -82,7 +84,7 @@ bool holds(double value, Relation relation, double wanted) {
 }  // namespace
 
 const CommandOf<std::string, std::optional<double>> command::caption{
-    {"caption", "Window", "Demo: caption…",
+    {"caption", "Demo", "Show a caption…",
      "Shows a line of text beneath the scene, until the next one or for some seconds; {reason} in it is why the "
      "next view was chosen."},
     argument::text("text", "what it says; empty: none"),
@@ -93,8 +95,8 @@ const CommandOf<std::string, std::optional<double>> command::caption{
 
 const CommandOf<std::string, double, std::optional<std::string>> command::title{
     {.name = "title",
-     .menu = "Window",
-     .text = "Demo: title…",
+     .menu = "Demo",
+     .text = "Show a title…",
      .help = "Shows a title over the whole window; the subtitle may stand before the seconds.",
      .respell = subtitle_last},
     argument::text("text", "what it says"),
@@ -105,7 +107,7 @@ const CommandOf<std::string, double, std::optional<std::string>> command::title{
     }};
 
 const CommandOf<std::string, double> command::highlight{
-    {"highlight", "Window", "Demo: highlight a panel…", "Brings a panel to the front, with a frame around it."},
+    {"highlight", "Demo", "Highlight a panel…", "Brings a panel to the front, with a frame around it."},
     argument::name("panel", "its name", [](const SessionSnapshot&) { return panel_names(); }),
     seconds("for how long [s]"),
     [](CommandTarget& t, const std::string& panel, double length) {
@@ -115,8 +117,8 @@ const CommandOf<std::string, double> command::highlight{
 
 const CommandOf<double, double, std::optional<double>> command::orbit{
     {"orbit",
-     "Window",
-     "Demo: orbit…",
+     "Demo",
+     "Orbit…",
      "Moves the scene's camera around what it looks at, smoothly; motions follow one another.",
      {},
      {},
@@ -129,27 +131,42 @@ const CommandOf<double, double, std::optional<double>> command::orbit{
       t.window.presentation.flights.push_back({true, azimuth, elevation.value_or(0), 1, length});
     }};
 
-const CommandOf<double, double, double, std::optional<double>> command::fly_to{
-    {"fly-to",
-     "Window",
-     "Demo: fly to…",
-     "Moves the scene's camera, smoothly, to where the object is framed from this direction, or nearer.",
-     {},
-     {},
-     {},
-     true},
+const CommandOf<double, double, double, Number, Number, Number, Number> command::fly_to{
+    {.name = "fly-to",
+     .menu = "Demo",
+     .text = "Fly to…",
+     .help = "Moves the scene's camera, smoothly, to where the object, or a point, is looked at from this direction.",
+     .adds_up = true},
     argument::number("azimuth", "from x towards y [deg]", -360, 360),
     argument::number("elevation", "above the horizon [deg]", -89, 89),
     seconds("that it takes [s]"),
-    argument::optional(argument::number("zoom", "how much nearer than where it is framed", 0.1, 10)),
-    [](CommandTarget& t, double azimuth, double elevation, double length, std::optional<double> zoom) {
-      t.window.presentation.flights.push_back({false, azimuth, elevation, zoom.value_or(1), length});
+    argument::optional(argument::number("zoom", "how much nearer than where the object is framed", 0.01, 100)),
+    argument::optional(argument::number("x", "of the point [m]", -1e4, 1e4)),
+    argument::optional(argument::number("y", "of the point [m]", -1e4, 1e4)),
+    argument::optional(argument::number("z", "of the point [m]", -1e4, 1e4)),
+    [](CommandTarget& t, double azimuth, double elevation, double length, Number zoom, Number x, Number y, Number z) {
+      if (x && !z) throw std::invalid_argument("fly-to: a point has three numbers");
+      CameraFlight flight{false, azimuth, elevation, zoom.value_or(1), length};
+      if (z) flight.focus = Vector3(*x, *y, *z);
+      t.window.presentation.flights.push_back(flight);
+    }};
+
+/// Branches are compared where both have as many views.
+const CommandOf<std::string> command::split{
+    {.name = "split",
+     .menu = "Demo",
+     .text = "Split the scene…",
+     .help = "Shows another branch beside this one, view for view: where it had as many. stop-comparing ends it.",
+     .why_not = needs_other_branch},
+    argument::text("branch", "its name", other_branches),
+    [](CommandTarget& t, const std::string& branch) {
+      t.worker.post(request::Compare{branch, true});
     }};
 
 const CommandOf<std::optional<double>> command::wait{
     {.name = "wait",
-     .menu = "Window",
-     .text = "Demo: wait",
+     .menu = "Demo",
+     .text = "Wait",
      .help = "Lets a script wait for some seconds, or (wait until done) until what it began is done.",
      .adds_up = true,
      .respell = without_until_done},
@@ -158,8 +175,8 @@ const CommandOf<std::optional<double>> command::wait{
 
 const CommandOf<Quantity, Relation, double> command::assert_that{
     {.name = "assert",
-     .menu = "Window",
-     .text = "Demo: assert…",
+     .menu = "Demo",
+     .text = "Assert…",
      .help = "Fails unless a number of the scan is as a script expects it; = may be left out.",
      .why_not = needs_session,
      .respell = with_relation},

@@ -13,8 +13,11 @@ extern const CommandOf<std::string, std::optional<double>> caption;             
 extern const CommandOf<std::string, double, std::optional<std::string>> title;  ///< text, seconds, subtitle
 extern const CommandOf<std::string, double> highlight;                          ///< panel, seconds
 extern const CommandOf<double, double, std::optional<double>> orbit;  ///< azimuth [deg], seconds, elevation [deg]
-extern const CommandOf<double, double, double, std::optional<double>>
-    fly_to;                                          ///< azimuth, elevation [deg], seconds, zoom
+/// azimuth, elevation [deg], seconds, zoom, and what it looks at in the end [m, world]
+extern const CommandOf<double, double, double, std::optional<double>, std::optional<double>, std::optional<double>,
+                       std::optional<double>>
+    fly_to;
+extern const CommandOf<std::string> split;           ///< a branch
 extern const CommandOf<std::optional<double>> wait;  ///< seconds; none: until all is done
 extern const CommandOf<Quantity, Relation, double> assert_that;
 

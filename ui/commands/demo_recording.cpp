@@ -1,0 +1,42 @@
+#include "ui/commands/demo_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/commands/command_list.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr double shortest = 0.05, longest = 600;  // that is waited for [s]; the latter is what `wait` takes
+
+/// Lines that wait so long, in hundredths.
+std::string waits(double seconds) {
+  std::string lines;
+  for (double left = std::round(100 * seconds) / 100; left >= shortest; left -= longest)
+    lines += fmt::format("wait {:.6g}\n", std::min(left, longest));
+  return lines;
+}
+
+/// It is not to be done again: a demo writes below the folder of its frames only.
+bool writes(const std::string& line) { return find_command(line.substr(0, line.find(' '))).writes; }
+
+}  // namespace
+
+std::string recorded_demo(const CommandHistory& history, const DemoRecording& recording) {
+  std::string demo = "# Recorded by nextview; `nextview demo FILE` plays it.\n";
+  double time = recording.since;
+  for (std::size_t i = 0; i < history.lines.size(); ++i) {
+    if (history.lines[i] == "quit") continue;  // who plays it may want to look at the end
+    if (history.times[i] - time >= shortest) {
+      demo += waits(history.times[i] - time);
+      time = history.times[i];
+    }
+    demo += (writes(history.lines[i]) ? "# " : "") + history.lines[i] + '\n';
+  }
+  return demo + waits(history.now - time);
+}
+
+}  // namespace nextview
