@@ -48,6 +48,8 @@ Eigen::AlignedBox3d region_of(const DriverAnswer& answer) {
   return box;
 }
 
+}  // namespace
+
 DriverGreeting greeting_of(const DriverAnswer& answer) {
   if (const int version = answer.whole_number("protocol", 0, 1 << 20); version != driver_protocol_version)
     throw std::invalid_argument(fmt::format("it speaks version {} of the protocol, and this program version {}",
@@ -70,8 +72,6 @@ CapturedFile captured_file_of(const DriverAnswer& answer) {
   if (answer.has("measures")) captured.measures = answer.text("measures");
   return captured;
 }
-
-}  // namespace
 
 bool DriverGreeting::can(const std::string& ability) const {
   return std::find(abilities.begin(), abilities.end(), ability) != abilities.end();

@@ -44,6 +44,10 @@ struct CapturedFile {
   std::string measures;  ///< of a 16-bit PNG: "z" or "range"; empty: not said
 };
 
+/// What the answers to `hello` and `capture` hold. @throws std::invalid_argument with what is wrong
+DriverGreeting greeting_of(const DriverAnswer& answer);
+CapturedFile captured_file_of(const DriverAnswer& answer);
+
 /// Our side of the driver protocol, version 1: one JSON object a line.
 ///
 ///     {"id": 1, "request": "hello", "protocol": 1}

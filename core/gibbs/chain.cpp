@@ -104,7 +104,7 @@ class StateChain final : public Chain {
     const auto& near = sites_.near_voxels;
     const std::vector<std::uint32_t> occupied = occupied_front_voxels();
     draw_looks();
-    constexpr std::uint32_t none = 0xffffffffu;
+    static constexpr std::uint32_t none = 0xffffffffu;
     const auto at = [](const std::vector<std::uint32_t>& list, std::size_t k) {
       return k < list.size() ? list[k] : none;
     };

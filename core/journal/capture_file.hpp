@@ -1,11 +1,18 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "core/source/scan_source.hpp"
 
 namespace nextview {
+
+/// The file of a capture is gone, or is not what was captured: reading it again will not help, as it might where a call
+/// of the operating system has failed.
+struct CaptureLost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// The name of the file that holds a capture: 0001.npy, or 0001.ply of points.
 std::string capture_name(const Capture& capture, std::uint32_t number);

@@ -79,11 +79,16 @@ Journal read_journal(const fs::path& folder) {
 
 Capture read_capture(const JournalStep& step, const fs::path& folder) {
   const fs::path file = folder / scans_name / step.scan;
+  std::error_code error;
+  if (const auto type = fs::status(file, error).type(); type == fs::file_type::not_found)
+    throw CaptureLost(fmt::format("{}: is gone", file.string()));
+  else if (type != fs::file_type::regular && type != fs::file_type::none)
+    throw CaptureLost(fmt::format("{}: is no regular file", file.string()));
   if (!(file_hash(file) == step.hash))
-    throw std::runtime_error(fmt::format("{}: is not what was captured: it is damaged, or was changed", file.string()));
+    throw CaptureLost(fmt::format("{}: is not what was captured: it is damaged, or was changed", file.string()));
   Capture capture{read_captured(file, step.camera), step.T_world_camera, step.max_range};
   if (std::holds_alternative<DepthImage>(capture.measured) && !(step.camera.fx > 0 && step.camera.fy > 0))
-    throw std::runtime_error(fmt::format("{}: the journal does not say by what camera", file.string()));
+    throw CaptureLost(fmt::format("{}: the journal does not say by what camera", file.string()));
   return capture;
 }
 

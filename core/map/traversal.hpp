@@ -82,9 +82,9 @@ void walk_segment(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
   set_axis(origin.z(), direction.z(), lattice.z(), grid.resolution, w.step_z, w.next_z, w.delta_z);
   while (true) {
     w.advance();
-    const bool at_end = (w.x == to.x()) & (w.y == to.y()) & (w.z == to.z());
+    const int at_end = int(w.x == to.x()) & int(w.y == to.y()) & int(w.z == to.z());
     // Rounding may carry the walk past the end's voxel; its length ends it then.
-    if (at_end | (w.exit() > length)) return;
+    if (at_end | int(w.exit() > length)) return;
     if (!visit(w.x, w.y, w.z)) return;
   }
 }

@@ -13,6 +13,11 @@
 
 #include "core/mesh/mesh_types.hpp"
 
+#if defined(__clang__)  // the macros of seccomp.h are C
+#pragma clang diagnostic ignored "-Wc99-extensions"
+#pragma clang diagnostic ignored "-Wmissing-field-initializers"
+#endif
+
 namespace nextview {
 namespace {
 

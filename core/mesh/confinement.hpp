@@ -7,7 +7,12 @@ namespace nextview {
 
 /// Sanitizers map terabytes for their own use, and look at memory through pipes that they open: what is built with them
 /// bounds no memory and filters no calls.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__has_feature)  // Clang's way of saying it
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define NEXTVIEW_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(NEXTVIEW_SANITIZED)
 inline constexpr bool can_confine = false;
 #else
 inline constexpr bool can_confine = true;

@@ -93,14 +93,14 @@ std::vector<std::size_t> chosen(const NewSurfaceForecast& forecast, const std::v
 
 /// What poses are drawn by.
 struct AdaptiveCandidates::Drawing {
-  Drawing(const AdaptiveCandidatesConfig& config, const SurfaceEvidence& around, const NewSurfaceField& chances,
+  Drawing(const AdaptiveCandidatesConfig& config, const SurfaceEvidence& seen, const NewSurfaceField& chances,
           const VoxelGrid& region, std::size_t step)
-      : evidence(around),
+      : evidence(seen),
         field(chances),
         random(config.seed, random_stream::adaptive_views, static_cast<std::uint32_t>(step)),
-        size(around.size() * around.grid().resolution),
+        size(seen.size() * seen.grid().resolution),
         // The box grows towards where was not looked yet: half way to the region's middle, where the object stands.
-        middle(0.5 * (around.object().center() + 0.5 * (region.lower() + region.upper()))),
+        middle(0.5 * (seen.object().center() + 0.5 * (region.lower() + region.upper()))),
         nearest(nearest_share * config.distance),
         farthest(farthest_share * config.distance) {}
 

@@ -80,7 +80,7 @@ LookDirections::Open LookDirections::from(const Vector3& place) const {
     if (most == 0.0 || most < least_other_share * first) break;
     if (first == 0.0) first = most;
     // Between two narrow cones nothing may get out: then rather the open direction that is nearest.
-    const auto nearest = std::ranges::max_element(others, {}, [&](const Vector3& d) { return d.dot(middle); });
+    const auto nearest = std::ranges::max_element(others, {}, [&m = middle](const Vector3& d) { return d.dot(m); });
     const Vector3 axis = gets_out(place, middle) ? middle : *nearest;
     open.axes.push_back(axis);
     std::erase_if(others, [&](const Vector3& d) { return d.dot(axis) > other_cone; });

@@ -39,10 +39,12 @@ std::optional<GuessedDataset> stanford(const fs::path& folder) {
   return guess;
 }
 
-/// ViSP's raw depths begin with height and width.
+/// ViSP's raw depths begin with height and width. Debian's visp-images-data has folders for depths and poses.
 std::optional<GuessedDataset> visp_castle(const fs::path& folder) {
-  const std::vector<FrameFile> frames = find_frame_files(folder, "Depth_*.bin");
-  if (frames.empty() || !has(folder, "Camera_*.txt")) return std::nullopt;
+  const std::string depths = first_there(folder, {"Depth_*.bin", "Depth/Depth_*.bin"});
+  const std::string poses = first_there(folder, {"Camera_*.txt", "CameraPose/Camera_*.txt"});
+  if (depths.empty() || poses.empty()) return std::nullopt;
+  const std::vector<FrameFile> frames = find_frame_files(folder, depths);
   const std::string bytes = read_plain_or_gzip(frames.front().file);
   std::uint32_t size[2] = {0, 0};
   if (bytes.size() >= 8) std::memcpy(size, bytes.data(), 8);
@@ -52,8 +54,8 @@ std::optional<GuessedDataset> visp_castle(const fs::path& folder) {
         "{}: is no raw depth image as ViSP's (height and width as uint32, then uint16)", frames.front().file.string()));
   GuessedDataset guess;
   DatasetDescription& d = guess.description;
-  d.frames = "Depth_*.bin";
-  d.poses = "Camera_*.txt";
+  d.frames = depths;
+  d.poses = poses;
   d.pose_direction = PoseDirection::world_to_sensor;
   d.depth.height = static_cast<int>(size[0]);
   d.depth.width = static_cast<int>(size[1]);

@@ -18,8 +18,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t largest_manifest = std::uintmax_t{1} << 20;  // [bytes]
 
-constexpr std::array<std::string_view, 38> names = {"calibration.json",
+constexpr std::array<std::string_view, 39> names = {"calibration.json",
                                                     "calibration.png",
+                                                    "cameras.json",
                                                     "cloud.ply",
                                                     "config.toml",
                                                     "conventional.ot",

@@ -9,6 +9,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
 #include "core/file/temporary_file.hpp"
+#include "core/journal/capture_file.hpp"
 #include "core/progress/part.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/session_folder.hpp"
@@ -167,7 +168,7 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
     Capture capture;
     try {
       capture = read_capture(line[k], saved.folder);
-    } catch (const std::runtime_error& error) {
+    } catch (const CaptureLost& error) {
       saved.notices.push_back(fmt::format("a view is left out: {}", error.what()));
       continue;
     }

@@ -54,7 +54,7 @@ void each_candidate(Archive& archive, Candidates& candidates) {
   std::uint64_t count = candidates.size();
   archive(count);
   if constexpr (!std::is_const_v<Candidates>) {
-    if (count > (1u << 24)) throw std::runtime_error("too many candidates");
+    if (count > 100'000) throw std::runtime_error("too many candidates");
     candidates.resize(count);
   }
   for (auto& c : candidates) archive(c.available, c.gain, c.cost, c.utility, c.seconds, c.unreachable);

@@ -2,20 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace nextview {
 
 bool Bounds::allow(double value) const {
   if (or_zero && value == 0.0) return true;
   return (low_included ? value >= low : value > low) && (high_included ? value <= high : value < high);
-}
-
-double Bounds::nearest(double value) const {
-  if (allow(value)) return value;
-  if (or_zero && value < 0.5 * low) return 0.0;
-  const double end = std::clamp(value, low, high);
-  return allow(end) ? end : value;
 }
 
 std::string Bounds::text(const std::string& unit) const {

@@ -10,9 +10,6 @@ struct Bounds {
   bool or_zero = false;  ///< 0 as well: off, or chosen by the program
 
   bool allow(double value) const;
-  /// The allowed number that is nearest to one that is not; the number itself where there is none, at an end that is
-  /// not included.
-  double nearest(double value) const;
   /// "from 0.2 to 5 m", "over 0 and below 1"
   std::string text(const std::string& unit = "") const;
 };
