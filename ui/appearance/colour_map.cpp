@@ -29,6 +29,14 @@ Colour from_lab(const Eigen::Vector3d& lab) {
   return {to_srgb(rgb.x()), to_srgb(rgb.y()), to_srgb(rgb.z())};
 }
 
+Eigen::Vector3d to_lab(const Colour& colour) {
+  const Eigen::Vector3d rgb(to_linear(colour[0]), to_linear(colour[1]), to_linear(colour[2]));
+  return lab_from_cones * (cones_from_rgb * rgb).array().pow(1.0 / 3).matrix();
+}
+
+/// White becomes a dark grey, ink nearly white; what lies between keeps its distance from both.
+double turned_lightness(double lightness) { return std::min(1.196 - 0.986 * lightness, 0.97); }
+
 }  // namespace
 
 ColourMap ColourMap::score() { return ColourMap({{{0.93, 0.03, 310}, {0.645, 0.12, 305}, {0.36, 0.15, 300}}}); }
@@ -56,9 +64,18 @@ Colour ColourMap::at(double value, double low, double high) const {
   return at(high > low ? (value - low) / (high - low) : 1.0);
 }
 
-double lightness(const Colour& colour) {
-  const Eigen::Vector3d rgb(to_linear(colour[0]), to_linear(colour[1]), to_linear(colour[2]));
-  return (lab_from_cones * (cones_from_rgb * rgb).array().pow(1.0 / 3).matrix()).x();
+double lightness(const Colour& colour) { return to_lab(colour).x(); }
+
+Colour on_dark(const Colour& colour) {
+  Eigen::Vector3d lab = to_lab(colour);
+  lab.x() = turned_lightness(lab.x());
+  return from_lab(lab);
+}
+
+ColourMap ColourMap::on_dark() const {
+  ColourMap turned = *this;
+  for (Stop& stop : turned.stops_) stop.lightness = turned_lightness(stop.lightness);
+  return turned;
 }
 
 Colour mix(const Colour& a, const Colour& b, double share) {

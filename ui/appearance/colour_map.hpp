@@ -23,6 +23,8 @@ class ColourMap {
   Colour at(double t) const;
   /// Where `value` lies between `low` and `high`. If these are equal, the upper end.
   Colour at(double value, double low, double high) const;
+  /// The same with its lightness turned over: what was dark, and most, is light.
+  ColourMap on_dark() const;
 
  private:
   struct Stop {
@@ -34,6 +36,10 @@ class ColourMap {
 
 /// OKLab lightness of a colour, 0 black to 1 white.
 double lightness(const Colour& colour);
+
+/// The colour on dark paper that says what this one says on white: its lightness turned over, so that paper is nearly
+/// black and ink nearly white; hue and chroma stay.
+Colour on_dark(const Colour& colour);
 
 /// `a` and `b` mixed; 0 gives `a`.
 Colour mix(const Colour& a, const Colour& b, double share);

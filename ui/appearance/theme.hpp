@@ -31,6 +31,9 @@ inline constexpr Colour occupied = from_hex(0x4A7DB3);
 inline constexpr Colour unknown = from_hex(0xE8B04A);
 inline constexpr Colour free = from_hex(0x9CCBD9);
 
+inline constexpr Colour reconstructed = from_hex(0x5FA88C);  ///< surface, where no value paints it
+inline constexpr Colour cut = from_hex(0xD9DEE5);            ///< the object's inside, where a section cuts it
+
 inline constexpr Colour missed = from_hex(0xD9722E);  ///< surface that no view has seen
 
 inline constexpr Colour unreachable = from_hex(0xC4B49A);  ///< views that the robot cannot take

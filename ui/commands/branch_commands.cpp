@@ -15,17 +15,6 @@ std::vector<std::string> branch_names(const SessionSnapshot& s) {
   return names;
 }
 
-std::vector<std::string> other_branches(const SessionSnapshot& s) {
-  std::vector<std::string> names = branch_names(s);
-  if (!names.empty()) std::erase(names, s.timeline->branches.current().name);
-  return names;
-}
-
-std::string needs_other_branch(const CommandState& t) {
-  if (const std::string reason = needs_session(t); !reason.empty()) return reason;
-  return other_branches(t.session).empty() ? "there is no other branch yet: begin one with branch" : "";
-}
-
 std::string previous_why_not(const CommandState& t) {
   if (const std::string reason = needs_session(t); !reason.empty()) return reason;
   return t.session.records.empty() ? "no view has been taken yet" : "";
@@ -54,6 +43,17 @@ void go_by(CommandTarget& t, int by) {
 }
 
 }  // namespace
+
+std::vector<std::string> other_branches(const SessionSnapshot& s) {
+  std::vector<std::string> names = branch_names(s);
+  if (!names.empty()) std::erase(names, s.timeline->branches.current().name);
+  return names;
+}
+
+std::string needs_other_branch(const CommandState& t) {
+  if (const std::string reason = needs_session(t); !reason.empty()) return reason;
+  return other_branches(t.session).empty() ? "there is no other branch yet: begin one with branch" : "";
+}
 
 const CommandOf<std::size_t, std::optional<std::string>> command::go_to_view{
     {"go-to-view",

@@ -10,3 +10,10 @@ extern const CommandOf<std::string> go_to_branch, remove_branch, compare;
 extern const CommandOf<std::string, std::string> rename_branch;
 
 }  // namespace nextview::command
+
+namespace nextview {
+
+std::vector<std::string> other_branches(const SessionSnapshot& session);  ///< than the current one, by name
+std::string needs_other_branch(const CommandState& state);                ///< why_not: as those of needs.hpp
+
+}  // namespace nextview

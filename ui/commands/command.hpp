@@ -76,9 +76,10 @@ struct CommandDeclaration {
   std::function<CommandQuestion(const CommandState&, const std::vector<std::string>&)> question = {};
   /// Other ways in which a script may write its values, turned into those that are declared.
   std::function<std::vector<std::string>(std::vector<std::string>)> respell = {};
+  bool writes = false;  ///< its first value is a file or folder that it writes; a demo does so below --out only
 };
 
-/// Something that the user can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the README's
+/// Something that the user can do, declared once: menus, the palette, the sheet of shortcuts, scripts and the manual's
 /// table are made of these.
 class Command : public CommandDeclaration {
  public:

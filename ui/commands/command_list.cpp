@@ -10,7 +10,9 @@
 #include "ui/commands/export_commands.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/gibbs_commands.hpp"
+#include "ui/commands/layer_commands.hpp"
 #include "ui/commands/measure_commands.hpp"
+#include "ui/commands/recording_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/scanner_commands.hpp"
 #include "ui/commands/scene_commands.hpp"
@@ -35,15 +37,19 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       select_view, select_taken, select_next, custom_view, look_through, inspect_voxel, inspect_ray, measure,
       measure_point, clear_selection,
       // Scene
-      frame, look_from, standard_view, turn, zoom, toggle_object, toggle_cloud, toggle_octree, toggle_views,
-      toggle_rays, toggle_region, edit_region, toggle_missed, toggle_candidates, toggle_legends, object_style,
-      cloud_colour, voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
+      frame, look_from, standard_view, turn, zoom, toggle_orthographic, keep_camera, go_to_camera, remove_camera,
+      section_axis, section_at, flip_section, second_view,
+      // Layers
+      toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays, toggle_region, edit_region, toggle_missed,
+      toggle_surface, toggle_candidates, toggle_legends, object_style, surface_source, surface_colour, cloud_colour,
+      voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
       uncertain_from, slice_axis, slice_at, lock_ranges,
       // Window
-      panel, curves, forget_runs, sort, text_size, hide_panels, full_screen, palette, file_dialog, caption, title,
-      highlight, orbit, fly_to, wait, assert_that,
+      panel, curves, forget_runs, sort, dark, text_size, panel_sizes, hide_panels, full_screen, palette, file_dialog,
+      // Demo
+      play_demo, record, record_stop, caption, title, highlight, orbit, fly_to, split, wait, assert_that,
       // Help
-      guide, shortcuts};
+      guide, shortcuts, manual};
   return all;
 }
 

@@ -16,7 +16,7 @@ std::vector<std::string> menus();
 /// @throws std::invalid_argument naming the nearest one.
 const Command& find_command(std::string_view name);
 
-/// The README's table: a row per command.
+/// The manual's table: a row per command.
 std::string command_table();
 
 }  // namespace nextview

@@ -11,8 +11,12 @@ namespace {
 
 CommandDeclaration declaration(ExportKind kind, std::string text) {
   const ExportEntry& entry = export_entry(kind);
-  return {fmt::format("export-{}", entry.name),  "File", std::move(text),
-          fmt::format("Writes {}.", entry.what), {},     needs_view};
+  return {.name = fmt::format("export-{}", entry.name),
+          .menu = "File",
+          .text = std::move(text),
+          .help = fmt::format("Writes {}.", entry.what),
+          .why_not = needs_view,
+          .writes = true};
 }
 
 ArgumentOf<std::string> where_to(ExportKind kind) {

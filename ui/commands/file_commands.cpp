@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <type_traits>
 
 #include "core/config/known_objects.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/setting/quantity.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 
@@ -82,9 +84,17 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
   Configuration now = t.session.configuration, standard;
   const bool is_known = std::ranges::any_of(settings(now), [&](const Setting& s) { return s.key == key; });
   if (!is_known || keeps_scan(key)) return {};
-  const std::string wanted = values.size() > 1 ? values[1] : setting(standard, key).text();
-  if (wanted == setting(now, key).text()) return {};
-  return restart_question(t, fmt::format("{} = {}", setting(now, key).label(), wanted));
+  const std::string before = setting(now, key).text();
+  try {
+    give(now, key, values.size() > 1 ? values[1] : setting(standard, key).text(), key);
+    now.validate();
+  } catch (const std::exception&) {
+    return {};  // it will be refused, and nothing is lost
+  }
+  const Setting wanted = setting(now, key);
+  if (wanted.text() == before) return {};
+  const auto* length = wanted.unit == "m" ? std::get_if<double*>(&wanted.value) : nullptr;
+  return restart_question(t, fmt::format("{} = {}", wanted.label(), length ? quantity_text(**length) : wanted.text()));
 }
 
 std::string reset_settings_why_not(const CommandState& t) {
@@ -160,28 +170,36 @@ const CommandOf<> command::reset_settings{
     }};
 
 const CommandOf<std::string> command::export_scan{
-    {"export",
-     "File",
-     "Export the scan…",
-     "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
-     {{key('E'), true}},
-     needs_view},
+    {.name = "export",
+     .menu = "File",
+     .text = "Export the scan…",
+     .help = "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
+     .shortcuts = {{key('E'), true}},
+     .why_not = needs_view,
+     .writes = true},
     argument::file("folder", "a folder; it is made if it is not there", argument::fixed({"scan"})),
     [](CommandTarget& t, const std::string& folder) { t.worker.post(request::Export{folder}); }};
 
 const CommandOf<std::string> command::save_picture{
-    {"save-picture", "File", "Save a picture…", "Writes the window as a PNG picture, with the settings that made it."},
+    {.name = "save-picture",
+     .menu = "File",
+     .text = "Save a picture…",
+     .help = "Writes the window as a PNG picture, with the settings that made it.",
+     .writes = true},
     argument::file("file", "a file that ends in .png", argument::fixed({"window.png"})),
     [](CommandTarget& t, const std::string& file) {
       t.window.picture = PictureRequest{PictureRequest::Of::window, file};
     }};
 
 const CommandOf<std::string> command::save_script{
-    {"save-script", "File", "Save the commands so far…",
-     "Writes what was done in this window as a script, to be done again with `nextview window --script`."},
+    {.name = "save-script",
+     .menu = "File",
+     .text = "Save the commands so far…",
+     .help = "Writes what was done in this window as a script, to be done again with `nextview window --script`.",
+     .writes = true},
     argument::file("file", "a text file", argument::fixed({"commands.txt"})),
     [](CommandTarget& t, const std::string& file) {
-      write_file(file, fmt::format("{}\n", fmt::join(t.window.script, "\n")));
+      write_file(file, fmt::format("{}\n", fmt::join(t.window.history.lines, "\n")));
       t.worker.log().add(LogEntry::Level::success, "Script written to " + file);
     }};
 

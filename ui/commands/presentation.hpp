@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "core/view/pose.hpp"
+
 namespace nextview {
 
 /// Something that a demo shows over the window for a while; it fades in and out.
@@ -24,6 +26,7 @@ struct CameraFlight {
   double zoom = 1;                    ///< how much nearer than where the object is framed; of no meaning if relative
   double seconds = 0;                 ///< that it takes
   double elapsed = 0;                 ///< of them [s]
+  std::optional<Vector3> focus = {};  ///< what is looked at in the end [m, world]; none: the middle of the object
 };
 
 /// What a demo shows beside the session, by its own time: that passes only while a line of it waits (command::wait),

@@ -4,68 +4,44 @@
 #include <array>
 #include <utility>
 
-#include "core/session/start_map.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 
 namespace nextview {
 namespace {
 
-using Names = std::vector<std::string>;
+/// The box of what is cut [m, world].
+Eigen::AlignedBox3d solid_box(const SessionSnapshot& s) { return s.mesh ? s.mesh->bounding_box() : s.grid.box(); }
 
-/// A layer that is switched on and off.
-CommandOf<> toggle(const char* layer, const char* text, char key_name, bool LayerChoice::*shown) {
-  return {{std::string("toggle-") + layer,
-           "Scene",
-           std::string("Show ") + text,
-           std::string("Shows or hides ") + text + ".",
-           {{key(key_name)}},
-           {},
-           [shown](const WindowState& w) { return w.layers.*shown; }},
-          [shown](CommandTarget& t) { t.window.layers.*shown = !(t.window.layers.*shown); }};
-}
-
-CommandOf<> toggle_voxels(const char* which, const char* help, bool VoxelFilter::*shown) {
-  return {{std::string("toggle-") + which,
-           "Scene",
-           std::string("Voxels: ") + which,
-           help,
-           {},
-           {},
-           [shown](const WindowState& w) { return w.layers.voxels.*shown; }},
-          [shown](CommandTarget& t) { t.window.layers.voxels.*shown = !(t.window.layers.voxels.*shown); }};
-}
-
-/// Which of an enumeration's ways to show something is taken; `names` are in its order.
-template <class Enum>
-CommandOf<Enum> choose(const char* name, const char* text, const char* help, const char* argument, const Names& names,
-                       Enum LayerChoice::*member) {
-  return {{name, "Scene", text, help},
-          argument::choice<Enum>(argument, help, names),
-          [member](CommandTarget& t, Enum chosen) { t.window.layers.*member = chosen; }};
-}
-
-std::string region_why_not(const CommandState& t) {
-  const Configuration& c = t.session.configuration;
-  const bool map_alone = !t.session.live && c.recorded.folder.empty() && is_map(c.object.file);
-  return map_alone ? "a map alone has its own region" : needs_session(t);
-}
-
-/// Across an axis, in the middle of the region of interest at first, a tenth of it thick.
-void slice_across(CommandTarget& t, SliceAxis chosen) {
-  auto& slice = t.window.layers.voxels.slice;
-  if (chosen == SliceAxis::none) return slice.reset();
+/// Across an axis, through the middle of the object at first; what is nearer to the camera goes.
+void section_across(CommandTarget& t, SliceAxis chosen) {
+  auto& section = t.window.layers.section;
+  if (chosen == SliceAxis::none) return section.reset();
   const int axis = static_cast<int>(chosen) - 1;
-  const double low = t.session.grid.lower()[axis], high = t.session.grid.upper()[axis];
-  const double middle = (low + high) / 2, half = std::max((high - low) / 64, t.session.grid.resolution);
-  slice = Slice{axis, middle - half, middle + half};
+  const double middle = solid_box(t.session).center()[axis];
+  section = Section{axis, middle, t.window.scene_camera.translation()[axis] < middle};
 }
 
-void move_slice(CommandTarget& t, double position, std::optional<double> thickness) {
-  Slice& slice = *t.window.layers.voxels.slice;
-  const double half = 0.5 * thickness.value_or(slice.high - slice.low);
-  slice.low = position - half;
-  slice.high = position + half;
+std::string needs_section(const CommandState& t) {
+  return t.window.layers.section ? "" : "choose an axis first (section-axis)";
+}
+
+std::vector<std::string> camera_names(const SessionSnapshot& s) {
+  std::vector<std::string> names;
+  if (s.cameras)
+    for (const CameraBookmark& camera : *s.cameras) names.push_back(camera.name);
+  return names;
+}
+
+std::string needs_camera(const CommandState& t) {
+  return camera_names(t.session).empty() ? "no camera is kept yet (keep-camera)" : "";
+}
+
+void go_to(CommandTarget& t, const std::string& name) {
+  const auto& cameras = *t.session.cameras;
+  const auto found = std::ranges::find(cameras, name, &CameraBookmark::name);
+  if (found == cameras.end()) throw std::invalid_argument("go-to-camera: there is no camera '" + name + "'");
+  t.window.camera_motions.push_back(camera_motion::GoTo{found->T_world_camera});
 }
 
 }  // namespace
@@ -143,108 +119,66 @@ const CommandOf<double> command::zoom{
     argument::number("steps", "of an eighth of the distance", -100, 100),
     [](CommandTarget& t, double steps) { t.window.camera_motions.push_back(camera_motion::Zoom{steps}); }};
 
-const CommandOf<> command::toggle_object = toggle("object", "the object", '1', &LayerChoice::object);
-const CommandOf<> command::toggle_cloud = toggle("cloud", "the point cloud", '2', &LayerChoice::cloud);
-const CommandOf<> command::toggle_octree = toggle("octree", "the octree", '3', &LayerChoice::octree);
-const CommandOf<> command::toggle_views = toggle("views", "the candidate views and the path", '4', &LayerChoice::views);
-const CommandOf<> command::toggle_rays =
-    toggle("rays", "the rays of the view that is looked at", '5', &LayerChoice::rays);
-const CommandOf<> command::toggle_region = toggle("region", "the region of interest", '6', &LayerChoice::region);
-const CommandOf<> command::edit_region{
-    {"edit-region",
+const CommandOf<SliceAxis> command::section_axis{
+    {"section-axis",
      "Scene",
-     "Drag the region of interest",
-     "Shows or hides handles by which the mouse drags the region of interest (map.region); let go, it starts the scan "
-     "over.",
-     {},
-     region_why_not,
-     [](const WindowState& w) { return w.edit_region; }},
-    [](CommandTarget& t) {
-      t.window.edit_region = !t.window.edit_region;
-      if (!t.window.edit_region) return;
-      t.window.layers.region = true;  // with all of its handles
-      t.window.camera_motions.push_back(camera_motion::Frame{Framed::region});
-    }};
-const CommandOf<> command::toggle_missed{
-    {"toggle-missed",
-     "Scene",
-     "Show the missed surface, painted on the object",
-     "Shows or hides the missed surface, painted on the object, without points and voxels in front of it.",
-     {{key('7')}},
-     {},
-     [](const WindowState& w) { return w.layers.missed; }},
-    [](CommandTarget& t) {
-      LayerChoice& layers = t.window.layers;
-      layers.missed = !layers.missed;
-      layers.octree = !layers.missed;
-      if (layers.missed) layers.cloud = false;
-    }};
-
-const CommandOf<> command::toggle_candidates =
-    toggle("candidates", "all candidate views, not only the best five", '8', &LayerChoice::all_candidates);
-const CommandOf<> command::toggle_legends = toggle("legends", "the legends of the colours", 'K', &LayerChoice::legends);
-
-const CommandOf<MeshStyle> command::object_style =
-    choose("object-style", "Draw the object…", "How the object is drawn.", "style", {"solid", "wire", "ghost"},
-           &LayerChoice::object_style);
-const CommandOf<CloudColouring> command::cloud_colour =
-    choose("cloud-colour", "Colour the points…", "What the points' colours say.", "by",
-           {"single", "view", "height", "distance"}, &LayerChoice::cloud_colouring);
-const CommandOf<MapChoice> command::voxel_map =
-    choose("voxel-map", "Voxels of which map…", "Which map the voxels are of: conventional or Gibbs.", "map",
-           {"conventional", "gibbs"}, &LayerChoice::map);
-const CommandOf<VoxelColouring> command::voxel_colour =
-    choose("voxel-colour", "Colour the voxels…", "What the voxels' colours say.", "by",
-           {"class", "probability", "entropy", "difference", "error"}, &LayerChoice::colouring);
-
-const CommandOf<> command::toggle_occupied =
-    toggle_voxels("occupied", "Shows or hides voxels of class occupied.", &VoxelFilter::occupied);
-const CommandOf<> command::toggle_unknown = toggle_voxels(
-    "unknown", "Shows or hides measured voxels that are neither occupied nor free.", &VoxelFilter::unknown);
-const CommandOf<> command::toggle_free =
-    toggle_voxels("free", "Shows or hides voxels of class free.", &VoxelFilter::free);
-const CommandOf<> command::toggle_uncertain =
-    toggle_voxels("uncertain", "Shows, instead of classes, the voxels of high entropy.", &VoxelFilter::uncertain);
-
-const CommandOf<double> command::threshold{
-    {"threshold", "Scene", "Unknown voxels from…", "Unknown voxels below this probability stay hidden."},
-    argument::number("probability", "from 0 to 1", 0, 1),
-    [](CommandTarget& t, double probability) { t.window.layers.voxels.unknown_from = probability; }};
-
-const CommandOf<double> command::uncertain_from{
-    {"uncertain-from", "Scene", "Uncertain voxels from…", "The entropy from which a voxel counts as uncertain."},
-    argument::number("entropy", "[nats], up to ln 2 = 0.693", 0, 0.6931),
-    [](CommandTarget& t, double entropy) { t.window.layers.voxels.entropy_from = entropy; }};
-
-const CommandOf<SliceAxis> command::slice_axis{
-    {"slice-axis",
-     "Scene",
-     "Slice across…",
-     "Shows only a slice of the voxels, across an axis; none shows all.",
-     {},
+     "Cut across…",
+     "Cuts object, surface, points and voxels open across an axis, the object's inside hatched; none leaves all whole.",
+     {{key('X'), false, {"x"}}},
      needs_session},
     argument::choice<SliceAxis>("axis", "x, y, z or none", {"none", "x", "y", "z"}),
-    slice_across};
+    section_across};
 
-const CommandOf<double, std::optional<double>> command::slice_at{
-    {"slice-at",
-     "Scene",
-     "Move the slice…",
-     "Moves the slice along its axis.",
-     {},
-     [](const CommandState& t) { return t.window.layers.voxels.slice ? "" : "choose an axis first (slice-axis)"; }},
-    argument::number("position", "of its middle [m]", -100, 100),
-    argument::optional(argument::number("thickness", "[m]", 1e-6, 100)),
-    move_slice};
+const CommandOf<double> command::section_at{
+    {"section-at", "Scene", "Move the section…", "Moves the section along its axis.", {}, needs_section},
+    argument::number("position", "[m]", -100, 100),
+    [](CommandTarget& t, double position) { t.window.layers.section->at = position; }};
 
-const CommandOf<> command::lock_ranges{
-    {"lock-ranges",
+const CommandOf<> command::flip_section{
+    {"flip-section", "Scene", "Turn the section over", "Cuts off the other half.", {}, needs_section},
+    [](CommandTarget& t) { t.window.layers.section->keeps_upper = !t.window.layers.section->keeps_upper; }};
+
+const CommandOf<SecondView> command::second_view{
+    {"second-view",
      "Scene",
-     "Lock the colour ranges",
-     "Keeps the range of each colour legend from step to step.",
-     {{key('L')}},
+     "Show beside it…",
+     "Shows one thing of the scan in a second scene, which the same camera looks at; none: no second scene.",
      {},
-     [](const WindowState& w) { return w.layers.ranges_locked; }},
-    [](CommandTarget& t) { t.window.layers.ranges_locked = !t.window.layers.ranges_locked; }};
+     needs_session},
+    argument::choice<SecondView>("what", "gibbs is the Gibbs map's octree",
+                                 {"none", "object", "surface", "cloud", "octree", "gibbs", "missed"}),
+    [](CommandTarget& t, SecondView what) { t.window.layers.second = what; }};
+
+const CommandOf<> command::toggle_orthographic{
+    {"toggle-orthographic",
+     "Scene",
+     "Without vanishing points",
+     "Draws the scene without perspective, or with it again: what is equally long looks so wherever it is.",
+     {{key('O')}},
+     {},
+     [](const WindowState& w) { return w.orthographic; }},
+    [](CommandTarget& t) { t.window.orthographic = !t.window.orthographic; }};
+
+const CommandOf<std::string> command::keep_camera{
+    {"keep-camera",
+     "Scene",
+     "Keep this camera…",
+     "Keeps where the scene is looked at from, with the session, to come back to by go-to-camera.",
+     {},
+     needs_session},
+    argument::text("name", "of it; one that there is takes this place", camera_names),
+    [](CommandTarget& t, const std::string& name) {
+      t.worker.post(request::KeepCamera{{name, t.window.scene_camera}});
+    }};
+
+const CommandOf<std::string> command::go_to_camera{
+    {"go-to-camera", "Scene", "Go to a kept camera…", "Looks at the scene from there again.", {}, needs_camera},
+    argument::text("name", "of a camera that was kept", camera_names),
+    go_to};
+
+const CommandOf<std::string> command::remove_camera{
+    {"remove-camera", "Scene", "Remove a kept camera…", "Keeps that camera no longer.", {}, needs_camera},
+    argument::text("name", "of a camera that was kept", camera_names),
+    [](CommandTarget& t, const std::string& name) { t.worker.post(request::RemoveCamera{name}); }};
 
 }  // namespace nextview

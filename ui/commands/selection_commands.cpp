@@ -92,7 +92,7 @@ void set_up_custom_view(CommandTarget& t, Metres x, Metres y, Metres z, Metres t
   t.window.bring_to_front(panel_name::view);
 }
 
-ArgumentOf<double> metres(const char* name, const char* help) { return argument::number(name, help, -100, 100); }
+ArgumentOf<double> metres(const char* name, const char* help) { return argument::number(name, help, -1e4, 1e4); }
 ArgumentOf<Metres> own(const char* name, const char* help) { return argument::optional(metres(name, help)); }
 
 }  // namespace
@@ -185,5 +185,15 @@ const CommandOf<> command::clear_selection{
       t.window.edit_region = false;
       t.window.measurement.reset();
     }};
+
+CommandCall with_numbers(const CommandCall& call, CommandTarget& target) {
+  const bool is_wanted = call.command == &command::custom_view && call.values().empty();
+  if (!is_wanted || !call.command->available(target.state())) return call;
+  const Pose T_world_camera = view_of_scene(target);
+  const Vector3 from = T_world_camera.translation(), to = from + T_world_camera.linear().col(2);
+  CommandCall result = command::custom_view(from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
+  result.line = call.line;
+  return result;
+}
 
 }  // namespace nextview

@@ -14,3 +14,11 @@ extern const CommandOf<double, double, double> inspect_voxel;  ///< a point in i
 extern const CommandOf<std::size_t> inspect_ray;               ///< of the view that is looked at
 
 }  // namespace nextview::command
+
+namespace nextview {
+
+/// custom-view as the scene is looked at, as the same call with its numbers: a script does the same with them, however
+/// its window is looked at. Any other call as it is.
+CommandCall with_numbers(const CommandCall& call, CommandTarget& target);
+
+}  // namespace nextview

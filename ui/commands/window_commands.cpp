@@ -4,6 +4,7 @@
 
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/command_target.hpp"
+#include "ui/manual/manual.hpp"
 
 namespace nextview {
 namespace {
@@ -101,6 +102,25 @@ const CommandOf<TextSize> command::text_size{
       scale = std::clamp(wanted, 0.64, 3.0517578125);
     }};
 
+const CommandOf<> command::dark{{"dark",
+                                 "Window",
+                                 "Dark",
+                                 "Makes the window dark, or light again; it is kept for the next start.",
+                                 {},
+                                 {},
+                                 [](const WindowState& w) { return w.dark; }},
+                                [](CommandTarget& t) { t.window.dark = !t.window.dark; }};
+
+const CommandOf<double, double, double> command::panel_sizes{
+    {"panel-sizes", "Window", "Sizes of the panels…",
+     "How wide the panels at the left and at the right are, and how high those below. Or drag their borders."},
+    argument::number("left", "[px]", PlaceSizes::smallest, PlaceSizes::largest),
+    argument::number("right", "[px]", PlaceSizes::smallest, PlaceSizes::largest),
+    argument::number("lower", "[px]", PlaceSizes::smallest, PlaceSizes::largest),
+    [](CommandTarget& t, double left, double right, double lower) {
+      t.window.place_sizes = {left, right, lower};
+    }};
+
 const CommandOf<> command::hide_panels{{"hide-panels",
                                         "Window",
                                         "The scene alone",
@@ -136,5 +156,19 @@ const CommandOf<> command::shortcuts{{"shortcuts",
                                       {},
                                       [](const WindowState& w) { return w.shortcuts_open; }},
                                      [](CommandTarget& t) { t.window.shortcuts_open = !t.window.shortcuts_open; }};
+
+const CommandOf<std::optional<std::string>> command::manual{
+    {.name = "manual",
+     .menu = "Help",
+     .text = "Manual",
+     .help = "Opens the manual, at a topic if one is given, or closes it; `nextview help` prints it.",
+     .on = [](const WindowState& w) { return w.manual.has_value(); }},
+    argument::optional(argument::name("topic", "a page", [](const SessionSnapshot&) { return manual_topics(); })),
+    [](CommandTarget& t, const std::optional<std::string>& topic) {
+      if (topic || !t.window.manual)
+        t.window.manual = topic.value_or(manual_topics().front());
+      else
+        t.window.manual.reset();
+    }};
 
 }  // namespace nextview

@@ -7,6 +7,7 @@
 
 #include "core/view/pose.hpp"
 #include "ui/appearance/picture_size.hpp"
+#include "ui/commands/demo_recording.hpp"
 #include "ui/commands/panel_list.hpp"
 #include "ui/commands/presentation.hpp"
 #include "ui/workbench/candidate_order.hpp"
@@ -39,9 +40,12 @@ struct LookThrough {
 struct Zoom {
   double steps;
 };
+struct GoTo {
+  Pose T_world_camera;
+};
 }  // namespace camera_motion
 using CameraMotion = std::variant<camera_motion::Frame, camera_motion::LookFrom, camera_motion::Turn,
-                                  camera_motion::LookThrough, camera_motion::Zoom>;
+                                  camera_motion::LookThrough, camera_motion::Zoom, camera_motion::GoTo>;
 
 /// A picture that is asked for.
 struct PictureRequest {
@@ -53,6 +57,14 @@ struct PictureRequest {
   int frames = 1, drawn = 0;             ///< of a turntable: how many, and how many of them so far
 
   bool operator==(const PictureRequest&) const = default;
+};
+
+/// How much of the window panels take, where there is room for it [px] on a display that does not scale.
+struct PlaceSizes {
+  double left = 272, right = 336, lower = 236;  ///< widths, and the height of those below
+  static constexpr double smallest = 120, largest = 2000;
+
+  bool operator==(const PlaceSizes&) const = default;
 };
 
 /// Everything that is the window's own and not the session's; only commands change it.
@@ -72,14 +84,21 @@ struct WindowState {
   std::string file_for;      ///< the command that the file dialog asks a file for; empty: it is closed
   bool guide_open = true;    ///< what to do first; shown until a view is taken
   bool panels_hidden = false, full_screen = false;
+  bool dark = false;                  ///< light on dark paper
+  bool orthographic = false;          ///< the scene is drawn without vanishing points
+  std::optional<std::string> manual;  ///< the topic of the page that is shown; none: it is closed
+  PlaceSizes place_sizes;
   double text_scale = 1.0;  ///< of text and controls, beside the display's own
   bool quit = false;
   Presentation presentation;  ///< what a demo shows
 
-  Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene
+  Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene, as the next
+  std::optional<Vector3> pointed_at;         ///< the point of what is shown that the pointer is at [m, world]
   std::vector<CameraMotion> camera_motions;  ///< to be made
   std::optional<PictureRequest> picture;     ///< to be drawn into a file
-  std::vector<std::string> script;           ///< the commands so far, a line each
+  std::string wanted_demo;                   ///< to be played in place of all that is shown; empty: none
+  CommandHistory history;                    ///< the commands so far
+  std::optional<DemoRecording> recording;    ///< of them
 
   /// The name of the panel in front; empty if there is none on this side.
   std::string in_front(Side side) const;

@@ -23,14 +23,14 @@ constexpr int longest_demo = 3600;  // [s]
 /// Frames of any size look alike.
 double scale_of(const PictureSize& size) { return std::min(size.width / 1280.0, size.height / 720.0); }
 
-/// The window without a display, and what it works with.
+/// The window, whose time is given to it, and what it works with.
 class DemoWindow {
  public:
-  DemoWindow(const Demo& demo, const PictureSize& size)
-      : target_(size.width, size.height),
+  DemoWindow(const Demo& demo, RenderTarget& target)
+      : target_(target),
         worker_([this] { news_.release(); }),
         inspector_([this] { news_.release(); }),
-        interface_(target_, worker_, inspector_, scale_of(size)) {
+        interface_(target, worker_, inspector_, scale_of({target.width(), target.height()})) {
     interface_.script().set_on_failure([this, file = demo.file](const ScriptFailure& failure) {
       if (!failure_) failure_ = fmt::format("{}:{}: {}", file.string(), failure.line, failure.reason);
     });
@@ -41,11 +41,7 @@ class DemoWindow {
   /// The next frame, `seconds` after the last one: drawn once nothing runs any more and no line is left to do.
   Image frame(double seconds, const std::stop_token& stop) {
     interface_.draw(seconds);
-    const auto works = [&] {
-      const WorkerProgress progress = worker_.progress();
-      return (progress.busy && !progress.paused) || inspector_.busy();
-    };
-    while (interface_.seconds_to_next_frame() == 0.0 || works()) {
+    while (!interface_.is_still()) {
       throw_if_stopped(stop);
       if (interface_.seconds_to_next_frame() > 0.0)
         static_cast<void>(news_.try_acquire_for(std::chrono::milliseconds(5)));
@@ -59,7 +55,7 @@ class DemoWindow {
 
  private:
   std::counting_semaphore<> news_{0};
-  OffscreenTarget target_;
+  RenderTarget& target_;
   SessionWorker worker_;
   InspectionWorker inspector_;
   Interface interface_;
@@ -70,16 +66,22 @@ class DemoWindow {
 
 Configuration play_demo(const Demo& demo, const DemoPictures& pictures,
                         const std::function<void(const Image&, int number)>& take, const std::stop_token& stop) {
+  OffscreenTarget target(pictures.size.width, pictures.size.height);
+  return play_demo(demo, target, pictures.frames_per_second, take, stop);
+}
+
+Configuration play_demo(const Demo& demo, RenderTarget& target, int frames_per_second,
+                        const std::function<void(const Image&, int number)>& take, const std::stop_token& stop) {
   Demo whole = demo;
   whole.calls.push_back(find_command("wait").read({}));  // for what the last line began
   whole.calls.back().line = demo.calls.back().line;
-  DemoWindow window(whole, pictures.size);
+  DemoWindow window(whole, target);
   Image frame = window.frame(0.0, stop);
   for (int number = 1; number == 1 || !window.is_done(); ++number) {
-    if (number > longest_demo * pictures.frames_per_second)
+    if (number > longest_demo * frames_per_second)
       throw std::runtime_error(fmt::format("{}: takes longer than an hour", demo.file.string()));
     take(frame, number);
-    frame = window.frame(1.0 / pictures.frames_per_second, stop);
+    frame = window.frame(1.0 / frames_per_second, stop);
   }
   return window.configuration();
 }

@@ -5,8 +5,8 @@
 #include "core/config/configuration.hpp"
 #include "core/results/output_folder.hpp"
 #include "ui/appearance/picture_size.hpp"
-#include "ui/demo/demo_file.hpp"
-#include "ui/render_target/image.hpp"
+#include "ui/commands/demo_file.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 
@@ -20,6 +20,10 @@ struct DemoPictures {
 /// ended with.
 /// @throws std::runtime_error "FILE:LINE: reason" for the first line that is not done, Stopped.
 Configuration play_demo(const Demo& demo, const DemoPictures& pictures,
+                        const std::function<void(const Image&, int number)>& take, const std::stop_token& stop = {});
+
+/// The same in a target of one's own, such as a window.
+Configuration play_demo(const Demo& demo, RenderTarget& target, int frames_per_second,
                         const std::function<void(const Image&, int number)>& take, const std::stop_token& stop = {});
 
 /// The same into frame_00001.png, … and config.toml. Returns how many frames there are.

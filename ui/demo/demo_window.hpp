@@ -1,5 +1,5 @@
 #pragma once
-#include "ui/demo/demo_file.hpp"
+#include "ui/commands/demo_file.hpp"
 
 namespace nextview {
 
@@ -8,6 +8,6 @@ namespace nextview {
 int show_demo(const Demo& demo);
 
 /// What a line of a demo may be, as a table.
-void print_demo_commands();
+std::string demo_commands();
 
 }  // namespace nextview

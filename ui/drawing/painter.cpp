@@ -33,7 +33,7 @@ std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 void Painter::text(double x, double y, const std::string& text, int size, const Colour& colour, TextWeight weight,
                    TextAlign align) {
   vtkTextProperty& property = *context_.GetTextProp();
-  set_text(property, int(std::lround(size * scale_)), colour, weight);
+  set_text(property, int(std::lround(size * scale_)), tone(colour), weight);
   property.SetJustification(align == TextAlign::left     ? VTK_TEXT_LEFT
                             : align == TextAlign::centre ? VTK_TEXT_CENTERED
                                                          : VTK_TEXT_RIGHT);
@@ -48,7 +48,8 @@ double Painter::text_width(const std::string& text, int size, TextWeight weight)
   return bounds[2] / scale_;
 }
 
-void Painter::line(double x1, double y1, double x2, double y2, double width, const Colour& colour) {
+void Painter::line(double x1, double y1, double x2, double y2, double width, const Colour& meant) {
+  const Colour colour = tone(meant);
   context_.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   context_.GetPen()->SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), 255);
   context_.GetPen()->SetWidth(px(width));
@@ -56,6 +57,10 @@ void Painter::line(double x1, double y1, double x2, double y2, double width, con
 }
 
 void Painter::box(double x, double y, double width, double height, const Colour& colour, double opacity) {
+  fill(x, y, width, height, tone(colour), opacity);
+}
+
+void Painter::fill(double x, double y, double width, double height, const Colour& colour, double opacity) {
   context_.GetPen()->SetLineType(vtkPen::NO_PEN);
   context_.GetBrush()->SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), channel(opacity));
   context_.DrawRect(px(x), px(y), px(width), px(height));
@@ -101,7 +106,7 @@ double Painter::legend(double x, double y, const Legend& legend) {
   }
   for (const Legend::Swatch& swatch : legend.swatches) {
     at -= legend_line;
-    box(x, at + 1, swatch_size, swatch_size, swatch.colour);
+    fill(x, at + 1, swatch_size, swatch_size, swatch.colour, 1.0);
     for (double from = 4; swatch.stripes && from < 2 * swatch_size; from += 5) {
       const double low = std::max(0.0, from - swatch_size), high = std::min(from, swatch_size);
       line(x + low, at + 1 + swatch_size - high, x + high, at + 1 + swatch_size - low, 1, *swatch.stripes);
@@ -112,7 +117,7 @@ double Painter::legend(double x, double y, const Legend& legend) {
   if (legend.range) {
     at -= bar_height + 5;
     for (int i = 0; i < int(usual_legend_width); ++i) {
-      box(x + i, at, 1, bar_height, legend.range->map.at(i / (usual_legend_width - 1)));
+      fill(x + i, at, 1, bar_height, legend.range->map.at(i / (usual_legend_width - 1)), 1.0);
     }
     frame(x, at, usual_legend_width, bar_height, theme::soft_ink);
     at -= legend_line - 2;

@@ -16,7 +16,10 @@ enum class TextAlign { left, centre, right };
 class Painter {
  public:
   /// `scale`: pixels of the display a pixel here; 2 on a HiDPI display.
-  explicit Painter(vtkContext2D& context, double scale = 1.0) : context_(context), scale_(scale) {}
+  /// `dark`: on dark paper, where text, lines, frames and boxes have their colours turned over (on_dark); what
+  /// legends show has the colours that it has in the picture.
+  explicit Painter(vtkContext2D& context, double scale = 1.0, bool dark = false)
+      : context_(context), scale_(scale), dark_(dark) {}
 
   /// The text's baseline starts (or is centred, or ends) at (x, y).
   void text(double x, double y, const std::string& text, int size, const Colour& colour,
@@ -34,9 +37,12 @@ class Painter {
  private:
   float px(double length) const { return static_cast<float>(length * scale_); }
   void lock(double x, double y);
+  Colour tone(const Colour& colour) const { return dark_ ? on_dark(colour) : colour; }
+  void fill(double x, double y, double width, double height, const Colour& colour, double opacity);
 
   vtkContext2D& context_;
   double scale_;
+  bool dark_;
 };
 
 /// Of most legends, and of every colour bar [px].

@@ -19,7 +19,7 @@ namespace {
 /// own.
 constexpr std::array shaders{"voxels_vertex.glsl",     "voxels.glsl",     "ghost.glsl",
                              "mesh_paint_vertex.glsl", "mesh_paint.glsl", "mesh_classes_vertex.glsl",
-                             "mesh_classes.glsl"};
+                             "mesh_classes.glsl",      "hatch.glsl"};
 constexpr int lines_per_file = 10000;
 
 /// Mesa's form: "source:line(column): error: …".

@@ -55,6 +55,7 @@ SceneFigure::SceneFigure(const StepPicture& picture, const SceneLayers& layers, 
     : parts_(std::make_unique<Parts>(size)) {
   Scene& scene = parts_->scene;
   scene.set_scale(scale);
+  scene.set_dark(layers.dark);
   scene.set_legends(layers.annotated);
   scene.set_axes(layers.annotated, layers.annotated);
   scene.set_tight(!layers.annotated);

@@ -14,6 +14,7 @@ struct SceneLayers {
   bool object = true, cloud = true, map = true, views = true, rays = true, region = true;
   bool candidates = true;  ///< of the views; else the chosen one alone
   bool annotated = true;   ///< legends, axes and a scale bar
+  bool dark = false;       ///< on dark paper
 };
 
 /// The scene of a session alone, as the window has it, drawn headless (ensure_headless).

@@ -106,14 +106,6 @@ vtkSmartPointer<vtkUnsignedCharArray> colours_of(const CloudPicture& picture, co
   return colours;
 }
 
-vtkSmartPointer<vtkFloatArray> float_vectors(std::span<const Eigen::Vector3f> vectors) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(vtkIdType(vectors.size()));
-  for (std::size_t i = 0; i < vectors.size(); ++i) array->SetTypedTuple(vtkIdType(i), vectors[i].data());
-  return array;
-}
-
 }  // namespace
 
 CloudLayer::CloudLayer(vtkRenderer& renderer)

@@ -62,6 +62,14 @@ vtkSmartPointer<vtkPolyData> Geometry::polydata() const {
   return result;
 }
 
+vtkSmartPointer<vtkFloatArray> float_vectors(std::span<const Eigen::Vector3f> vectors) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(vtkIdType(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i) array->SetTypedTuple(vtkIdType(i), vectors[i].data());
+  return array;
+}
+
 vtkSmartPointer<vtkPolyData> triangle_polydata(const TriangleMesh& mesh) {
   vtkNew<vtkCellArray> triangles;
   triangles->AllocateEstimate(vtkIdType(mesh.triangles.size()), 3);

@@ -7,6 +7,7 @@
 #include "core/mesh/triangle_mesh.hpp"
 #include "ui/appearance/theme.hpp"
 
+class vtkFloatArray;
 class vtkPolyData;
 
 namespace nextview {
@@ -32,6 +33,7 @@ class Geometry {
   std::vector<Cell> lines_, triangles_;
 };
 
+vtkSmartPointer<vtkFloatArray> float_vectors(std::span<const Eigen::Vector3f> vectors);
 vtkSmartPointer<vtkPolyData> triangle_polydata(const TriangleMesh& mesh);
 vtkSmartPointer<vtkPolyData> point_polydata(std::span<const Eigen::Vector3f> points);
 

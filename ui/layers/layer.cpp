@@ -1,6 +1,9 @@
 #include "ui/layers/layer.hpp"
 
 #include <vtkActor.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkProp.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
@@ -28,6 +31,19 @@ void Layer::set_scale(double scale) {
   }
   scale_ = scale;
   on_scale();
+}
+
+void Layer::set_section(const std::optional<Section>& section) {
+  for (auto& prop : props_) {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    if (!actor || !actor->GetMapper()) continue;
+    actor->GetMapper()->RemoveAllClippingPlanes();
+    if (!section) continue;
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(section->origin().data());
+    plane->SetNormal(section->inward().data());
+    actor->GetMapper()->AddClippingPlane(plane);
+  }
 }
 
 void Layer::add(vtkProp& prop) {

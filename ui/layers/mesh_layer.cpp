@@ -8,7 +8,6 @@
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
@@ -18,13 +17,20 @@
 #include <stdexcept>
 
 #include "ui/drawing/shader_file.hpp"
+#include "ui/layers/coarse_mesh.hpp"
 #include "ui/layers/geometry.hpp"
+#include "ui/layers/shaded_mesh.hpp"
 
 namespace nextview {
 namespace {
 
 /// Smooth over shallow edges, sharp over steep ones.
 constexpr double crease_angle = 35.0;  // [deg]
+
+/// More triangles than a software renderer draws while the camera moves, and the cells along the longest side that
+/// they are gathered in then.
+constexpr vtkIdType many_triangles = 150'000;
+constexpr int coarse_cells = 72;
 
 constexpr double specular = 0.1;
 constexpr int paint_stops = 17;  // of the colours in shaders/mesh_paint.glsl
@@ -119,13 +125,24 @@ Legend legend_of(const MeshPaint& paint) {
   return legend;
 }
 
-vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* polydata) {
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(polydata);
-  normals->SetFeatureAngle(crease_angle);
-  normals->ConsistencyOff();
-  normals->Update();
-  return normals->GetOutput();
+/// With normals, and the vertices' attribute if there is one.
+vtkSmartPointer<vtkPolyData> shaded_polydata(const TriangleMesh& mesh, vtkFloatArray* attribute) {
+  const ShadedMesh shading = shaded(mesh, crease_angle);
+  TriangleMesh points;
+  points.vertices.reserve(shading.vertices.size());
+  for (const std::uint32_t vertex : shading.vertices) points.vertices.push_back(mesh.vertices[vertex]);
+  points.triangles = shading.triangles;
+  auto polydata = triangle_polydata(points);
+  polydata->GetPointData()->SetNormals(float_vectors(shading.normals));
+  if (!attribute) return polydata;
+  vtkNew<vtkFloatArray> of_points;
+  of_points->SetName(attribute->GetName());
+  of_points->SetNumberOfComponents(attribute->GetNumberOfComponents());
+  of_points->SetNumberOfTuples(vtkIdType(shading.vertices.size()));
+  for (std::size_t i = 0; i < shading.vertices.size(); ++i)
+    of_points->SetTuple(vtkIdType(i), vtkIdType(shading.vertices[i]), attribute);
+  polydata->GetPointData()->AddArray(of_points);
+  return polydata;
 }
 
 }  // namespace
@@ -143,17 +160,28 @@ MeshLayer::MeshLayer(vtkRenderer& renderer)
   add(*actor_);
 }
 
+void MeshLayer::take(vtkSmartPointer<vtkPolyData> polydata) {
+  full_ = std::move(polydata);
+  coarse_ = full_->GetNumberOfPolys() > many_triangles ? coarse(*full_, coarse_cells) : nullptr;
+  mapper_->SetInputDataObject(full_);
+  set_coarse(wants_coarse_);
+}
+
+void MeshLayer::set_coarse(bool wants_coarse) {
+  wants_coarse_ = wants_coarse;
+  if (!coarse_) return;
+  mapper_->SetInputDataObject(wants_coarse ? coarse_ : full_);
+}
+
 void MeshLayer::show(const TriangleMesh& mesh, MeshStyle style) {
-  mapper_->SetInputDataObject(with_normals(triangle_polydata(mesh)));
+  take(shaded_polydata(mesh, nullptr));
   set_style(style);
   describe(mesh.vertices.empty() ? std::vector<Vector3>{} : corners(mesh.bounding_box()), {});
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {
   check(mesh, paint);
-  const auto polydata = triangle_polydata(mesh);
-  polydata->GetPointData()->AddArray(paint_attribute(paint));
-  mapper_->SetInputDataObject(with_normals(polydata));
+  take(shaded_polydata(mesh, paint_attribute(paint)));
   paint_with("paint", "mesh_paint_vertex.glsl", "mesh_paint.glsl");
   set_palette(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), paint.map);
   const bool empty = mesh.vertices.empty();
@@ -162,9 +190,7 @@ void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {
 
 void MeshLayer::show(const TriangleMesh& mesh, const MeshClasses& classes) {
   check(mesh, classes);
-  const auto polydata = triangle_polydata(mesh);
-  polydata->GetPointData()->AddArray(class_attribute(classes));
-  mapper_->SetInputDataObject(with_normals(polydata));
+  take(shaded_polydata(mesh, class_attribute(classes)));
   paint_with("class_weights", "mesh_classes_vertex.glsl", "mesh_classes.glsl");
   set_palette(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), classes.palette);
   const bool empty = mesh.vertices.empty();
@@ -208,10 +234,10 @@ void MeshLayer::set_style(MeshStyle style) {
   if (style == MeshStyle::wire) {
     property.SetRepresentationToWireframe();
     property.SetLineWidth(float(scale()));
-    set_colour(property, theme::soft_ink);
+    set_colour(property, tone(theme::soft_ink));
   } else if (style == MeshStyle::ghost) {
     property.SetOpacity(0.5);  // sends it to VTK's translucent pass; the shader decides
-    set_colour(property, theme::soft_ink);
+    set_colour(property, tone(theme::soft_ink));
     shaders.AddFragmentShaderReplacement("//VTK::Normal::Dec", true, "//VTK::Normal::Dec\n" + load_shader("ghost.glsl"),
                                          false);
     shaders.AddFragmentShaderReplacement(

@@ -7,6 +7,7 @@
 
 class vtkActor;
 class vtkOpenGLPolyDataMapper;
+class vtkPolyData;
 
 namespace nextview {
 
@@ -50,14 +51,19 @@ class MeshLayer : public Layer {
   void show(const TriangleMesh& mesh, const MeshClasses& classes);
   /// Without paint from now on.
   void set_style(MeshStyle style);
+  /// While the camera moves, a mesh of very many triangles is drawn with fewer.
+  void set_coarse(bool wants_coarse);
 
  private:
   /// Solid, coloured by a function of ours that takes a vertex attribute of this name.
   void paint_with(const std::string& attribute, const std::string& vertex_shader, const std::string& fragment_shader);
   void on_scale() override;
+  void take(vtkSmartPointer<vtkPolyData> polydata);
 
   vtkSmartPointer<vtkOpenGLPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
+  vtkSmartPointer<vtkPolyData> full_, coarse_;  ///< the second is null where the first has few triangles
+  bool wants_coarse_ = false;
 };
 
 }  // namespace nextview

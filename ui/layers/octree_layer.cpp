@@ -2,7 +2,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <vtkActor.h>
 #include <vtkDataObject.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -19,6 +18,8 @@
 #include <stdexcept>
 
 #include "ui/drawing/shader_file.hpp"
+#include "ui/layers/coarse_voxels.hpp"
+#include "ui/layers/side_actor.hpp"
 #include "ui/layers/voxel_polydata.hpp"
 
 namespace nextview {
@@ -26,6 +27,9 @@ namespace {
 
 constexpr float no_value = -1.0f;  // instead of a colour, for shaders/voxels_vertex.glsl
 constexpr std::size_t faces_per_task = 4096;
+constexpr int sides = 6;  // of a voxel
+/// More than a software renderer draws while the camera moves.
+constexpr std::size_t many_faces = 40'000;
 
 /// 8 bits a channel in one float, which holds 24 bits exactly.
 float packed(const Colour& colour) {
@@ -48,13 +52,37 @@ void set_uniforms(vtkUniforms& uniforms, double scale, double darkness) {
 
 }  // namespace
 
-OctreeLayer::OctreeLayer(vtkRenderer& renderer) : Layer(renderer), solid_(make_part(0.45)), free_(make_part(0.0)) {
-  solid_.actor->GetProperty()->BackfaceCullingOn();
-  free_.actor->GetProperty()->SetOpacity(0.16);
+OctreeLayer::OctreeLayer(vtkRenderer& renderer) : Layer(renderer), parts_(make_parts()), coarse_(make_parts()) {
+  set_coarse(false);
+}
+
+std::size_t OctreeLayer::face_count() const {
+  std::size_t count = 0;
+  for (const Part& part : parts_) count += part.cells.size();
+  return count;
+}
+
+void OctreeLayer::set_coarse(bool coarse) {
+  wants_coarse_ = coarse;
+  const bool drawn = coarse && has_coarse_;
+  for (const Part& part : parts_) part.actor->set_drawn(!drawn);
+  for (const Part& part : coarse_) part.actor->set_drawn(drawn);
+}
+
+OctreeLayer::Parts OctreeLayer::make_parts() {
+  Parts parts;
+  for (int side = 0; side < sides; ++side) {
+    parts.push_back(make_part(0.45));
+    parts.back().actor->set_side(side);
+    parts.back().actor->GetProperty()->BackfaceCullingOn();
+  }
+  parts.push_back(make_part(0.0));
+  parts.back().actor->GetProperty()->SetOpacity(0.16);
+  return parts;
 }
 
 OctreeLayer::Part OctreeLayer::make_part(double nook_darkness) {
-  Part part{vtkSmartPointer<vtkOpenGLPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New(), nook_darkness, {}, {}};
+  Part part{vtkSmartPointer<vtkOpenGLPolyDataMapper>::New(), vtkSmartPointer<SideActor>::New(), nook_darkness, {}, {}};
   part.mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
   for (const char* name : {"voxel_corner", "voxel_colour"})
     part.mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
@@ -80,32 +108,64 @@ OctreeLayer::Part OctreeLayer::make_part(double nook_darkness) {
 }
 
 void OctreeLayer::on_scale() {
-  for (Part* part : {&solid_, &free_})
-    set_uniforms(*part->actor->GetShaderProperty()->GetFragmentCustomUniforms(), scale(), part->nook_darkness);
+  for (const Parts* parts : {&parts_, &coarse_})
+    for (const Part& part : *parts)
+      set_uniforms(*part.actor->GetShaderProperty()->GetFragmentCustomUniforms(), scale(), part.nook_darkness);
 }
 
-void OctreeLayer::show_part(Part& part, const VoxelGrid& grid, std::span<const Voxel> voxels,
-                            const VoxelFilter& filter) {
-  part.faces = exposed_faces(grid, voxels, filter);
-  part.voxels.clear();
-  for (const VoxelFace& face : part.faces) part.voxels.push_back(voxels[face.voxel]);
-  part.mapper->SetInputDataObject(voxel_polydata(grid, part.faces));
+void OctreeLayer::show_parts(Parts& parts, const VoxelGrid& grid, std::span<const VoxelFace> solid,
+                             std::span<const VoxelFace> free, std::span<const std::uint32_t> cells,
+                             std::span<const Voxel> voxels) {
+  std::array<std::vector<VoxelFace>, sides + 1> faces;
+  for (Part& part : parts) part.cells.clear();
+  const auto take = [&](std::size_t part, const VoxelFace& face, std::uint32_t cell) {
+    faces[part].push_back(face);
+    parts[part].cells.push_back(cell);
+  };
+  for (std::size_t i = 0; i < solid.size(); ++i) take(solid[i].side, solid[i], cells[i]);
+  for (std::size_t i = 0; i < free.size(); ++i) take(sides, free[i], cells[solid.size() + i]);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].voxels.clear();
+    for (const std::uint32_t cell : parts[i].cells) parts[i].voxels.push_back(voxels[cell]);
+    parts[i].mapper->SetInputDataObject(voxel_polydata(grid, faces[i]));
+  }
+}
+
+/// With larger voxels, the more the fewer of them: they need not be sharp while they move.
+void OctreeLayer::show_coarse(const VoxelGrid& grid, std::span<const VoxelFace> solid, std::span<const VoxelFace> free,
+                              std::span<const Voxel> voxels) {
+  const std::size_t count = solid.size() + free.size();
+  has_coarse_ = count > many_faces;
+  set_coarse(wants_coarse_);
+  if (!has_coarse_) return show_parts(coarse_, grid, {}, {}, {}, voxels);
+  const int halvings = count > 16 * many_faces ? 2 : 1;
+  const CoarseVoxels coarse_solid = coarse_voxels(grid, solid, halvings);
+  const CoarseVoxels coarse_free = coarse_voxels(grid, free, halvings);
+  std::vector<std::uint32_t> cells;
+  for (const std::size_t i : coarse_solid.stand_for) cells.push_back(solid[i].voxel);
+  for (const std::size_t i : coarse_free.stand_for) cells.push_back(free[i].voxel);
+  show_parts(coarse_, coarse_solid.grid, coarse_solid.faces, coarse_free.faces, cells, voxels);
 }
 
 void OctreeLayer::show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter,
                        VoxelColouring colouring, std::span<const float> values) {
   if (!values.empty() && values.size() != grid.voxel_count())
     throw std::invalid_argument("values: their number is not that of the voxels");
-  VoxelFilter solid = filter, free = filter;
-  solid.free = false;
-  free.occupied = free.unknown = free.uncertain = false;
-  free.free = filter.free && !filter.uncertain;
-  show_part(solid_, grid, voxels, solid);
-  show_part(free_, grid, voxels, free);
+  VoxelFilter solid_filter = filter, free_filter = filter;
+  solid_filter.free = false;
+  free_filter.occupied = free_filter.unknown = free_filter.uncertain = false;
+  free_filter.free = filter.free && !filter.uncertain;
+  const std::vector<VoxelFace> solid = exposed_faces(grid, voxels, solid_filter);
+  const std::vector<VoxelFace> free = exposed_faces(grid, voxels, free_filter);
+  std::vector<std::uint32_t> cells;
   Eigen::AlignedBox3d box;
-  for (const Part* part : {&solid_, &free_}) {
-    for (const VoxelFace& face : part->faces) box.extend(grid.centre(face.voxel));
-  }
+  for (const auto* faces : {&solid, &free})
+    for (const VoxelFace& face : *faces) {
+      cells.push_back(face.voxel);
+      box.extend(grid.centre(face.voxel));
+    }
+  show_parts(parts_, grid, solid, free, cells, voxels);
+  show_coarse(grid, solid, free, voxels);
   if (!box.isEmpty()) {
     box.min().array() -= 0.5 * grid.resolution;
     box.max().array() += 0.5 * grid.resolution;
@@ -119,12 +179,12 @@ void OctreeLayer::show(const VoxelGrid& grid, std::span<const Voxel> voxels, con
 bool OctreeLayer::colour_part(Part& part, const VoxelPalette& palette, std::span<const float> values) {
   vtkNew<vtkFloatArray> colours;
   colours->SetName("voxel_colour");
-  colours->SetNumberOfTuples(vtkIdType(part.faces.size()) * 4);
+  colours->SetNumberOfTuples(vtkIdType(part.cells.size()) * 4);
   std::atomic<bool> complete = true;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, part.faces.size(), faces_per_task), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, part.cells.size(), faces_per_task), [&](const auto& range) {
     float* out = colours->GetPointer(vtkIdType(range.begin()) * 4);
     for (std::size_t f = range.begin(); f < range.end(); ++f, out += 4) {
-      const float value = values.empty() ? std::numeric_limits<float>::quiet_NaN() : values[part.faces[f].voxel];
+      const float value = values.empty() ? std::numeric_limits<float>::quiet_NaN() : values[part.cells[f]];
       const auto colour = palette.colour(part.voxels[f], value);
       if (!colour) complete = false;
       std::fill_n(out, 4, colour ? packed(*colour) : no_value);
@@ -139,10 +199,12 @@ void OctreeLayer::set_colouring(VoxelColouring colouring, std::span<const float>
   if (!values.empty() && values.size() != voxel_count_)
     throw std::invalid_argument("values: their number is not that of the voxels");
   const VoxelPalette palette(colouring);
-  const bool solid = colour_part(solid_, palette, values), free = colour_part(free_, palette, values);
+  bool complete = true;
+  for (Part& part : parts_) complete &= colour_part(part, palette, values);
+  for (Part& part : coarse_) colour_part(part, palette, values);
   const std::vector<Vector3> points(outline().begin(), outline().end());
   std::vector<Legend> legends;
-  if (!points.empty()) legends.push_back(palette.legend(filter_, !solid || !free));
+  if (!points.empty()) legends.push_back(palette.legend(filter_, !complete));
   describe(points, std::move(legends));
 }
 

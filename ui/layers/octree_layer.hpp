@@ -3,10 +3,11 @@
 #include "ui/layers/voxel_faces.hpp"
 #include "ui/layers/voxel_palette.hpp"
 
-class vtkActor;
 class vtkOpenGLPolyDataMapper;
 
 namespace nextview {
+
+class SideActor;
 
 /// The map's voxels as cubes with crisp edges, darker in nooks; only exposed faces are drawn. Free voxels, if shown,
 /// are a translucent shell.
@@ -23,23 +24,35 @@ class OctreeLayer : public Layer {
   /// @throws std::invalid_argument if the number of values is not that of the shown grid's voxels.
   void set_colouring(VoxelColouring colouring, std::span<const float> values = {});
 
-  std::size_t face_count() const { return solid_.faces.size() + free_.faces.size(); }
+  std::size_t face_count() const;  ///< at rest
+  /// Draws many voxels as fewer, larger ones from now on.
+  void set_coarse(bool coarse);
 
  private:
   struct Part {
     vtkSmartPointer<vtkOpenGLPolyDataMapper> mapper;
-    vtkSmartPointer<vtkActor> actor;
-    double nook_darkness;  ///< a clear shell has none
-    std::vector<VoxelFace> faces;
-    std::vector<Voxel> voxels;  ///< one a face
+    vtkSmartPointer<SideActor> actor;
+    double nook_darkness;              ///< a clear shell has none
+    std::vector<std::uint32_t> cells;  ///< of the map, one a face: whose colours the faces have
+    std::vector<Voxel> voxels;         ///< the same
   };
+  /// The solid voxels' six sides, then the free shell.
+  using Parts = std::vector<Part>;
+  Parts make_parts();
   Part make_part(double nook_darkness);
-  static void show_part(Part& part, const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter);
+  /// The faces of a grid, and of each the voxel of the map whose colour it has.
+  static void show_parts(Parts& parts, const VoxelGrid& grid, std::span<const VoxelFace> solid,
+                         std::span<const VoxelFace> free, std::span<const std::uint32_t> cells,
+                         std::span<const Voxel> voxels);
+  void show_coarse(const VoxelGrid& grid, std::span<const VoxelFace> solid, std::span<const VoxelFace> free,
+                   std::span<const Voxel> voxels);
   /// Returns whether all voxels have a colour.
   static bool colour_part(Part& part, const VoxelPalette& palette, std::span<const float> values);
   void on_scale() override;
 
-  Part solid_, free_;
+  Parts parts_;
+  Parts coarse_;  ///< the same with fewer, larger voxels; empty if there are few anyway
+  bool has_coarse_ = false, wants_coarse_ = false;
   VoxelFilter filter_;
   std::size_t voxel_count_ = 0;  ///< of the shown grid
 };

@@ -37,12 +37,12 @@ void RaysLayer::show(std::span<const RaySegment> segments, const RayValues& valu
   }
   const double high = values.high.value_or(largest);
   Geometry geometry;
-  const ColourMap map = ColourMap::contribution();
+  const ColourMap map = tone(ColourMap::contribution());
   for (const RaySegment& segment : segments) {
     const double share = high > 0 ? std::clamp(segment.value / high, 0.0, 1.0) : 0.0;
     // Mixed with the background, not translucent: VTK smooths the edges of opaque lines only.
     geometry.add_line(segment.from, segment.to,
-                      mix(theme::sky, map.at(share), faintest + (1 - faintest) * std::sqrt(share)));
+                      mix(tone(theme::sky), map.at(share), faintest + (1 - faintest) * std::sqrt(share)));
   }
   mapper_->SetInputDataObject(geometry.polydata());
   std::vector<Legend> legends;

@@ -10,16 +10,15 @@
 namespace nextview {
 namespace {
 
-bool within(const VoxelGrid& grid, const std::optional<Slice>& slice, int axis, int cell) {
-  if (!slice || slice->axis != axis) return true;
-  return slice->holds((grid.first[axis] + cell + 0.5) * grid.resolution);  // as VoxelGrid::centre
+bool within(const VoxelGrid& grid, const VoxelFilter& filter, int axis, int cell) {
+  return filter.holds(axis, (grid.first[axis] + cell + 0.5) * grid.resolution);  // as VoxelGrid::centre
 }
 
-/// A bit a cell along x, whether the slice leaves it; in words as ShownVoxels has them.
-std::vector<std::uint64_t> cells_within(const VoxelGrid& grid, const std::optional<Slice>& slice, int words) {
+/// A bit a cell along x, whether slice and section leave it; in words as ShownVoxels has them.
+std::vector<std::uint64_t> cells_within(const VoxelGrid& grid, const VoxelFilter& filter, int words) {
   std::vector<std::uint64_t> bits(std::size_t(words), 0);
   for (int x = 0; x < grid.size.x(); ++x)
-    bits[std::size_t(x / 64)] |= std::uint64_t(within(grid, slice, 0, x)) << (x % 64);
+    bits[std::size_t(x / 64)] |= std::uint64_t(within(grid, filter, 0, x)) << (x % 64);
   return bits;
 }
 
@@ -57,14 +56,16 @@ ShownVoxels::ShownVoxels(const VoxelGrid& grid, std::span<const Voxel> voxels, c
   if (voxels.size() != grid.voxel_count()) throw std::invalid_argument("voxels: their number is not the grid's");
   if (filter.slice && (filter.slice->axis < 0 || filter.slice->axis > 2))
     throw std::invalid_argument("slice: the axis must be 0, 1 or 2");
+  if (filter.section && (filter.section->axis < 0 || filter.section->axis > 2))
+    throw std::invalid_argument("section: the axis must be 0, 1 or 2");
   bits_.resize(std::size_t(words_) * size_.y() * size_.z());
   nothing_.resize(std::size_t(words_));
-  const auto cells = cells_within(grid, filter.slice, words_);
+  const auto cells = cells_within(grid, filter, words_);
   const Threshold threshold(filter);
   const std::size_t row_length = std::size_t(size_.x());
   tbb::parallel_for(0, size_.z(), [&](int z) {
-    for (int y = 0; y < size_.y() && within(grid, filter.slice, 2, z); ++y) {
-      if (!within(grid, filter.slice, 1, y)) continue;
+    for (int y = 0; y < size_.y() && within(grid, filter, 2, z); ++y) {
+      if (!within(grid, filter, 1, y)) continue;
       const std::size_t row = std::size_t(z) * size_.y() + y;
       for (std::size_t x = 0; x < row_length; x += 64) {
         const Voxel* first = &voxels[row * row_length + x];

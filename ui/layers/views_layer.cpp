@@ -62,10 +62,12 @@ struct Scores {
   double low = 0.0, high = 0.0;       ///< of the colours
   bool below = false, above = false;  ///< some scores are beyond these
   bool any = false;                   ///< some candidate is left to have one
+
+  ColourMap map;
   std::vector<bool> taken, unreachable;
 
-  explicit Scores(const ViewsPicture& picture)
-      : taken(picture.candidates.size(), false), unreachable(picture.candidates.size(), false) {
+  Scores(const ViewsPicture& picture, const ColourMap& of_scores)
+      : map(of_scores), taken(picture.candidates.size(), false), unreachable(picture.candidates.size(), false) {
     for (const std::size_t index : picture.taken) taken[index] = true;
     for (const std::size_t index : picture.unreachable) unreachable[index] = true;
     for (std::size_t i = 0; i < picture.scores.size(); ++i) {
@@ -84,7 +86,7 @@ struct Scores {
     if (picture.chosen == candidate && !picture.custom_view) return theme::chosen;
     if (taken[candidate]) return theme::muted;
     if (unreachable[candidate]) return theme::unreachable;
-    return picture.scores.empty() ? theme::object : ColourMap::score().at(picture.scores[candidate], low, high);
+    return picture.scores.empty() ? theme::object : map.at(picture.scores[candidate], low, high);
   }
 };
 
@@ -101,7 +103,7 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
   if (scores.any) {
     result.push_back({picture.score_name,
                       {},
-                      Legend::Range{ColourMap::score(), scores.low, scores.high, picture.score_unit,
+                      Legend::Range{scores.map, scores.low, scores.high, picture.score_unit,
                                     scores.below ? "and less" : "", scores.above ? "and more" : ""},
                       picture.range.has_value()});
   }
@@ -145,7 +147,7 @@ ViewsLayer::Part ViewsLayer::make_part(double line_width, double opacity) {
 
 void ViewsLayer::show(const ViewsPicture& picture) {
   check(picture);
-  const Scores scores(picture);
+  const Scores scores(picture, tone(ColourMap::score()));
   Geometry frustums, outlines, path;
   std::vector<Vector3> points;
   std::vector<Label> labels;
@@ -159,8 +161,9 @@ void ViewsLayer::show(const ViewsPicture& picture) {
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);
     if (!at_eye(picture.candidates[i])) {
-      frustum.add_faces(frustums, colour, true);
-      frustum.add_outline(outlines, mix(colour, theme::ink, 0.45));
+      // Of those that were taken the edges do: they are not to stand before the object.
+      if (!scores.taken[i] || picture.chosen == i) frustum.add_faces(frustums, colour, true);
+      frustum.add_outline(outlines, scores.taken[i] ? colour : mix(colour, tone(theme::ink), 0.45));
     }
     points.push_back(frustum.apex);
     points.insert(points.end(), frustum.base.begin(), frustum.base.end());

@@ -54,6 +54,7 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   if (!layout.scene.empty()) draw_guide(context, layout.scene);
   draw_question(context, front);
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});
+  manual_.draw(context, {0, 0, layout.menu.width, layout.height});
   palette_.draw(context, front);
   file_dialog_.draw(context, beneath_menu);
   popups_ = ImGui::GetCurrentContext()->OpenPopupStack.Size;
@@ -113,6 +114,8 @@ void AllPanels::obey_keys(const PanelContext& context) {
     if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.post(command::palette());
   } else if (context.window.shortcuts_open) {
     if (pressed(Key::escape) || pressed(Key::f1)) context.post(command::shortcuts());
+  } else if (context.window.manual && !io.WantTextInput) {
+    if (pressed(Key::escape)) context.post(command::manual());
   } else if (!io.WantTextInput) {
     obey_shortcuts(context);
   }

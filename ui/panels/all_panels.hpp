@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ui/panels/file_dialog.hpp"
+#include "ui/panels/manual_sheet.hpp"
 #include "ui/panels/notifications.hpp"
 #include "ui/panels/palette.hpp"
 #include "ui/panels/panel_table.hpp"
@@ -19,8 +20,8 @@ class AllPanels {
   /// `log_count`: of all entries ever; `seconds`: since the last frame.
   void draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds);
   /// Emits the commands whose keys are pressed, before draw(). Whatever is in front has the keyboard: a menu or a list,
-  /// then a question, the file dialog, the palette, the sheet of keys, a text that is written; Escape closes it, and no
-  /// other key does anything else.
+  /// then a question, the file dialog, the palette, the sheet of keys, the manual, a text that is written; Escape
+  /// closes it, and no other key does anything else.
   void obey_keys(const PanelContext& context);
   /// How long the picture stays as it is if nothing happens [s].
   double seconds_left() const { return notifications_.seconds_left(); }
@@ -31,6 +32,7 @@ class AllPanels {
   std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
   FileDialog file_dialog_;
+  ManualSheet manual_;
   Notifications notifications_;
   int popups_ = 0;  ///< menus and lists that were open in the last frame; Escape has closed one since, maybe
 };

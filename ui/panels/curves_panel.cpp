@@ -52,8 +52,8 @@ ChartContent chart_of(const ScanCourse& course, CurveKind kind) {
   return entropy_chart(course);
 }
 
-/// Of other runs the first curve, from its first view: all of them would be a tangle. Those that are not compared are
-/// pale.
+/// Of other runs with the same object the first curve, from its first view: all of them would be a tangle. Those that
+/// are not compared are pale.
 void add_other_runs(ChartContent& content, const SessionSnapshot& s, CurveKind kind) {
   const auto add = [&](const std::string& name, std::span<const StepRecord> records, bool pale) {
     ChartSeries series = chart_of(course_of(s, records), kind).series.front();
@@ -70,7 +70,8 @@ void add_other_runs(ChartContent& content, const SessionSnapshot& s, CurveKind k
     add("'" + compared + "'", s.compared->snapshot->records, false);
   for (const auto& [name, records] : other_branches(s, compared)) add(name, records, true);
   if (!s.earlier_runs) return;
-  for (const Run& run : *s.earlier_runs) add(run.name, run.records, true);
+  for (const Run& run : *s.earlier_runs)
+    if (run.object == s.object_name) add(run.name, run.records, true);
 }
 
 /// Which curves a plot shows; at the right of its title.

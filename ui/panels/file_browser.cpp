@@ -48,6 +48,16 @@ void FileBrowser::go_to(const fs::path& wanted) {
   folder_ = std::move(folder);
 }
 
+std::string FileBrowser::enter(const std::string& written) {
+  const std::size_t slash = written.rfind('/');
+  if (slash == written.npos) return written;
+  const fs::path before = meant(written.substr(0, slash + 1));
+  std::error_code ignored;
+  if (!fs::is_directory(before, ignored)) return written;
+  go_to(before);
+  return written.substr(slash + 1);
+}
+
 std::vector<std::size_t> FileBrowser::matching(std::string_view written) const {
   const std::string wanted = lower_case(written);
   std::vector<std::size_t> found;

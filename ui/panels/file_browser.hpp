@@ -21,6 +21,8 @@ class FileBrowser {
   /// Looks into a folder, or, if that cannot be, into the nearest above it that can.
   void go_to(const std::filesystem::path& folder);
   void go_up() { go_to(folder_.parent_path()); }
+  /// Looks into the folder that a path begins with, if it is there. Returns what is left of the path.
+  std::string enter(const std::string& written);
 
   const std::filesystem::path& folder() const { return folder_; }
   /// Folders first, then files, each by name; hidden ones only if what is written begins with a dot.

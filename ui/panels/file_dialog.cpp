@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/file/read_file.hpp"
 #include "core/journal/journal.hpp"
@@ -32,11 +33,16 @@ void FileDialog::write(std::string text) {
   replaced_.clear();
 }
 
-/// Tab; the field has its own copy of what is written while it has the keyboard.
-void FileDialog::complete(ImGuiInputTextCallbackData& field) const {
-  const std::string completed = browser_.completed({field.Buf, std::size_t(field.BufTextLen)});
+/// Tab completes, and folders are looked into as they are written. The field has its own copy of what is written while
+/// it has the keyboard.
+void FileDialog::follow(ImGuiInputTextCallbackData& field) {
+  const std::string written(field.Buf, std::size_t(field.BufTextLen));
+  const bool tab = field.EventFlag == ImGuiInputTextFlags_CallbackCompletion;
+  const std::string left = browser_.enter(tab ? browser_.completed(written) : written);
+  entered_ = left.empty() && !written.empty();
+  if (left == written) return;
   field.DeleteChars(0, field.BufTextLen);
-  field.InsertChars(0, completed.c_str());
+  field.InsertChars(0, left.c_str());
 }
 
 void FileDialog::begin(const PanelContext& context, const Command& command) {
@@ -158,17 +164,17 @@ void FileDialog::obey_keys(const PanelContext& context, const Command& command) 
   const int by = int(pressed(Key::down, true)) - int(pressed(Key::up, true));
   if (by > 0 || (by < 0 && chosen_ > 0)) {  // that there are so many is seen to where they are drawn
     chosen_ += std::size_t(by);
+    entered_ = false;
     scroll_ = true;
   }
   if (pressed(Key::enter)) accept_written(context, command);
 }
 
 /// Names are parts of what is there while a file is looked for.
-std::vector<std::size_t> FileDialog::shown() const {
-  return browser_.matching(to_read_ && written_.find('/') == written_.npos ? written_ : "");
-}
+std::vector<std::size_t> FileDialog::shown() const { return browser_.matching(to_read_ ? written_ : ""); }
 
 void FileDialog::accept_written(const PanelContext& context, const Command& command) {
+  if (written_.empty() && std::exchange(entered_, false)) return;  // who writes a folder and Enter wants to see it
   const std::vector<std::size_t> found = shown();
   const bool by_name = !written_.empty() && (!to_read_ || found.empty() || is_there(browser_.meant(written_)));
   if (by_name)
@@ -185,11 +191,12 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
   if (!ImGui::IsAnyItemActive() && open_popups() == 0) ImGui::SetKeyboardFocusHere();  // letters always go there
   const std::string hint =
       to_read_ ? "A part of a name, or a path; Tab completes it" : command.arguments().front().help;
-  const auto on_tab = [](ImGuiInputTextCallbackData* field) {
-    static_cast<FileDialog*>(field->UserData)->complete(*field);
+  const auto follow = [](ImGuiInputTextCallbackData* field) {
+    static_cast<FileDialog*>(field->UserData)->follow(*field);
     return 0;
   };
-  if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_, ImGuiInputTextFlags_CallbackCompletion, on_tab,
+  if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_,
+                               ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackEdit, follow,
                                this)) {
     chosen_ = 0;
     replaced_.clear();

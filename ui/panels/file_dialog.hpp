@@ -30,7 +30,7 @@ class FileDialog {
   void accept_written(const PanelContext& context, const Command& command);
   std::vector<std::size_t> shown() const;  ///< places in the browser's entries
   void write(std::string text);
-  void complete(ImGuiInputTextCallbackData& field) const;
+  void follow(ImGuiInputTextCallbackData& field);
 
   std::string command_;  ///< that it was begun for; empty: it is closed
   FileBrowser browser_;
@@ -38,6 +38,7 @@ class FileDialog {
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
   std::size_t chosen_ = 0;          ///< among those that match
   bool to_read_ = true, scroll_ = false;
+  bool entered_ = false;                            ///< the folder that was written, and nothing was done since
   std::filesystem::path last_read_, last_written_;  ///< folders that were used last
 };
 

@@ -8,7 +8,7 @@
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/gibbs_commands.hpp"
-#include "ui/commands/scene_commands.hpp"
+#include "ui/commands/layer_commands.hpp"
 #include "ui/panels/plot.hpp"
 
 namespace nextview {

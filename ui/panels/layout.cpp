@@ -7,8 +7,7 @@ namespace nextview {
 namespace {
 
 // [px] on a display that does not scale
-constexpr double menu_height = 27, bar_height = 50, status_height = 26, left_width = 272, right_width = 336;
-constexpr double bottom_height = 236;
+constexpr double menu_height = 27, bar_height = 50, status_height = 26;
 /// Panels are this far apart: a hairline, in the colour behind them.
 constexpr double gap = 1;
 /// With less than this for the scene, panels are folded [px].
@@ -24,7 +23,7 @@ Viewport Rectangle::in(int surface_width, int surface_height) const {
   return {x / surface_width, 1 - (y + height) / surface_height, (x + width) / surface_width, 1 - y / surface_height};
 }
 
-Layout::Layout(int w, int h, double scale, Side open) : width(w), height(h), open_(open) {
+Layout::Layout(int w, int h, double scale, Side open, const PlaceSizes& sizes) : width(w), height(h), open_(open) {
   const auto px = [&](double length) { return std::round(length * scale); };
   menu = {0, 0, width, std::min(px(menu_height), height)};
   double top = menu.height + gap, end = height;
@@ -37,21 +36,27 @@ Layout::Layout(int w, int h, double scale, Side open) : width(w), height(h), ope
     top += control_bar.height + gap;
   }
   const double middle = std::max(end - top, 0.0);
-  left_folded = width < px(left_width) + px(right_width) + px(min_scene_width) + 2 * gap;
-  bottom_folded = middle < px(bottom_height) + px(min_scene_height) + gap;
+  // Whether there is room goes by the usual sizes: others have what is left of it.
+  constexpr PlaceSizes usual;
+  left_folded = width < px(usual.left) + px(usual.right) + px(min_scene_width) + 2 * gap;
+  bottom_folded = middle < px(usual.lower) + px(min_scene_height) + gap;
+  const double beside = width - px(min_scene_width) - 2 * gap, share = sizes.left / (sizes.left + sizes.right);
+  const double left_width = std::min(px(sizes.left), std::max(beside - px(sizes.right), std::floor(share * beside)));
+  const double right_width = std::min(px(sizes.right), beside - left_width);
+  const double bottom_height = std::min(px(sizes.lower), middle - px(min_scene_height) - gap);
 
-  const double column = left_folded ? std::min(px(right_width), std::floor(widest_column * width)) : px(right_width);
-  const double begin_x = left_folded ? 0 : px(left_width) + gap, end_x = std::max(width - column - gap, begin_x);
-  const double lower = bottom_folded ? end : end - px(bottom_height);
+  const double column = left_folded ? std::min(px(usual.right), std::floor(widest_column * width)) : right_width;
+  const double begin_x = left_folded ? 0 : left_width + gap, end_x = std::max(width - column - gap, begin_x);
+  const double lower = bottom_folded ? end : end - bottom_height;
   scene = {begin_x, top, end_x - begin_x, std::max(lower - (bottom_folded ? 0 : gap) - top, 0.0)};
-  if (!left_folded) left = {0, top, px(left_width), middle};
+  if (!left_folded) left = {0, top, left_width, middle};
   if (!bottom_folded) bottom = {begin_x, lower, end_x - begin_x, end - lower};
   fold({end_x + gap, top, column, middle}, px(tabs_height));
 }
 
-Layout Layout::with_captions(int w, int h, double scale, Side open) {
+Layout Layout::with_captions(int w, int h, double scale, Side open, const PlaceSizes& sizes) {
   const int strip = std::min(int(std::round(caption_height * scale)), h);
-  Layout layout(w, h - strip, scale, open);
+  Layout layout(w, h - strip, scale, open, sizes);
   layout.height = h;
   layout.captions = {0, double(h - strip), layout.width, double(strip)};
   return layout;

@@ -24,10 +24,10 @@ struct Layout {
   bool left_folded = false, bottom_folded = false;  ///< into the column at the right
 
   /// Of a window of any size [px]; `scale` is the display's. `open` is the place that is open where they are folded.
-  Layout(int width, int height, double scale, Side open = Side::right);
+  Layout(int width, int height, double scale, Side open = Side::right, const PlaceSizes& sizes = {});
 
   /// With a strip for captions beneath all else, as wide as the window.
-  static Layout with_captions(int width, int height, double scale, Side open);
+  static Layout with_captions(int width, int height, double scale, Side open, const PlaceSizes& sizes = {});
 
   /// Gives the scene all but the menu, or also the menu's place.
   void hide_panels(bool menu_too = false);

@@ -8,7 +8,10 @@
 #include "core/session/recent_files.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/demo_file.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/recording_commands.hpp"
+#include "ui/commands/scene_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -27,6 +30,24 @@ void draw_recent(const PanelContext& context) {
   ImGui::EndMenu();
 }
 
+/// The cameras that were kept.
+void draw_cameras(const PanelContext& context) {
+  const auto& cameras = context.snapshot.cameras;
+  if (!cameras || cameras->empty() || !ImGui::BeginMenu("Kept cameras")) return;
+  for (const CameraBookmark& camera : *cameras)
+    if (ImGui::MenuItem(camera.name.c_str())) context.post(command::go_to_camera(camera.name));
+  ImGui::EndMenu();
+}
+
+/// Those that come with the program.
+void draw_demos(const PanelContext& context) {
+  if (!ImGui::BeginMenu("Play another")) return;
+  const bool can = command::play_demo.available(context.state());
+  for (const std::string& demo : demo_names())
+    if (ImGui::MenuItem(demo.c_str(), nullptr, false, can)) context.post(command::play_demo(demo));
+  ImGui::EndMenu();
+}
+
 /// Commands that begin a group of their menu.
 constexpr std::array group_begins = {"set",
                                      "connect",
@@ -41,14 +62,18 @@ constexpr std::array group_begins = {"set",
                                      "compare",
                                      "inspect-voxel",
                                      "clear-selection",
-                                     "toggle-object",
+                                     "toggle-orthographic",
+                                     "keep-camera",
+                                     "section-axis",
                                      "object-style",
                                      "toggle-occupied",
                                      "slice",
                                      "lock-ranges",
-                                     "text-size",
+                                     "dark",
                                      "palette",
-                                     "caption"};
+                                     "caption",
+                                     "orbit",
+                                     "wait"};
 
 void draw_menu(const PanelContext& context, const std::string& menu) {
   bool any = false;
@@ -61,6 +86,8 @@ void draw_menu(const PanelContext& context, const std::string& menu) {
       context.invoke(command);
     tooltip(help_of(context, command));
     if (&command == &command::open) draw_recent(context);
+    if (&command == &command::remove_camera) draw_cameras(context);
+    if (&command == &command::play_demo) draw_demos(context);
   }
 }
 

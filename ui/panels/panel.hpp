@@ -7,6 +7,7 @@
 #include "ui/panels/layout.hpp"
 #include "ui/panels/panel_pictures.hpp"
 #include "ui/panels/style.hpp"
+#include "ui/workbench/found_surface.hpp"
 #include "ui/workbench/inspection.hpp"
 #include "ui/workbench/session_log.hpp"
 
@@ -23,7 +24,9 @@ struct PanelContext {
   const Style& style;
   PanelPictures& pictures;
   std::vector<CommandCall>& calls;
-  std::optional<std::size_t>& hovered;  ///< candidate that is pointed at
+  std::optional<std::size_t>& hovered;       ///< candidate that is pointed at
+  const FoundSurface* surface = nullptr;     ///< the latest that was made; null: none
+  std::optional<double> surface_progress{};  ///< of the one that is being made, 0 to 1
 
   CommandState state() const { return {snapshot, progress, window}; }
 

@@ -52,21 +52,28 @@ float title_height(const Style& style, const ChartContent& content) {
   return content.title.empty() ? 0.0f : style.semi_bold->FontSize + style.px(4);
 }
 
-void draw_captions(const Style& style, const ChartContent& content, ImVec2 corner) {
+/// As many as there is room for up to `right`, the last one maybe shortened.
+void draw_captions(const Style& style, const ChartContent& content, ImVec2 corner, float right) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(theme::ink), content.title.c_str());
   float x = corner.x;
   const float y = corner.y + title_height(style, content), size = style.small->FontSize;
-  const auto caption = [&](const char* name, ImU32 colour, bool dot) {
+  const float mark = style.px(21), gap = style.px(14), least = style.px(40);
+  const bool others = !content.series.empty() && content.series.back().earlier;
+  const float room = right - (others ? mark + style.small->CalcTextSizeA(size, FLT_MAX, 0, "others").x : 0);
+  const auto caption = [&](const std::string& whole, ImU32 colour, bool dot) {
+    ImGui::PushFont(style.small);
+    const std::string name = shortened(whole, (dot ? room : right) - x - mark);
+    ImGui::PopFont();
     list.AddLine({x, y + size / 2}, {x + style.px(16), y + size / 2}, colour, style.px(2));
     if (dot) list.AddCircleFilled({x + style.px(8), y + size / 2}, style.px(3), colour);
-    list.AddText(style.small, size, {x + style.px(21), y}, to_imgui_u32(theme::soft_ink), name);
-    x += style.px(35) + style.small->CalcTextSizeA(size, FLT_MAX, 0, name).x;
+    list.AddText(style.small, size, {x + mark, y}, to_imgui_u32(theme::soft_ink), name.c_str());
+    x += mark + gap + style.small->CalcTextSizeA(size, FLT_MAX, 0, name.c_str()).x;
   };
   const std::size_t named = std::min<std::size_t>(content.series.size(), 5);  // more have no room
-  for (std::size_t i = 0; i < named && !content.series[i].earlier; ++i)
-    caption(content.series[i].name.c_str(), series_colour(i), true);
-  if (!content.series.empty() && content.series.back().earlier) caption("others", earlier_colour(), false);
+  for (std::size_t i = 0; i < named && !content.series[i].earlier && room - x > mark + least; ++i)
+    caption(content.series[i].name, series_colour(i), true);
+  if (others) caption("others", earlier_colour(), false);
 }
 
 void draw_grid(const Style& style, const ChartContent& content, const Axes& axes) {
@@ -138,7 +145,7 @@ void draw_plot(const Style& style, const ChartContent& content, const Rectangle&
   const float top = title_height(style, content) + style.small->FontSize + style.px(12);
   const float left = style.px(34), right = style.px(48), bottom = style.small->FontSize + style.px(4);
   if (r.width < left + right + style.px(20) || r.height < top + bottom + style.px(20)) return;  // no room to read it
-  draw_captions(style, content, {float(r.x), float(r.y)});
+  draw_captions(style, content, {float(r.x), float(r.y)}, float(r.x + r.width));
   const Axes axes(content, {float(r.x) + left, float(r.y + r.height) - bottom},
                   {float(r.x + r.width) - right, float(r.y) + top});
   draw_grid(style, content, axes);

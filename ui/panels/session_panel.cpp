@@ -9,7 +9,7 @@
 #include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
 #include "ui/commands/file_commands.hpp"
-#include "ui/commands/scene_commands.hpp"
+#include "ui/commands/layer_commands.hpp"
 
 namespace nextview {
 namespace {

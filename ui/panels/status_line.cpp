@@ -25,6 +25,14 @@ std::string scanned(const SessionSnapshot& s) {
                      s.grid.size.z(), 1e3 * s.grid.resolution);
 }
 
+/// In the unit that the scene's labels have, so that a caliper can be held beside it.
+std::string coordinates(const Vector3& point) {
+  const double scale = point.cwiseAbs().maxCoeff() < 1.0 ? 1e3 : 1.0;
+  return scale == 1.0
+             ? fmt::format("x {:.3f}  y {:.3f}  z {:.3f} m", point.x(), point.y(), point.z())
+             : fmt::format("x {:.1f}  y {:.1f}  z {:.1f} mm", scale * point.x(), scale * point.y(), scale * point.z());
+}
+
 }  // namespace
 
 void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
@@ -33,7 +41,7 @@ void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   const SessionSnapshot& s = context.snapshot;
   ImGui::PushFont(style.small);
   const float y = (float(rectangle.height) - ImGui::GetTextLineHeight()) / 2;
-  const std::string right = scanned(s);
+  const std::string right = context.window.pointed_at ? coordinates(*context.window.pointed_at) : scanned(s);
   const float right_x = float(rectangle.width) - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
   ImGui::SetCursorPos({style.px(14), y});
   if (s.message.empty()) {

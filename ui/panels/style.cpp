@@ -30,7 +30,14 @@ ImFont* add_font(TextWeight weight, float size) {
   return ImGui::GetIO().Fonts->AddFontFromFileTTF(font_file(weight).c_str(), size, &config, characters);
 }
 
-void set_colours(ImGuiStyle& style) {
+ImVec4 as_is(const Colour& colour, double opacity = 1.0) {
+  return {float(colour[0]), float(colour[1]), float(colour[2]), float(opacity)};
+}
+
+}  // namespace
+
+void set_colours(bool dark) {
+  ImGuiStyle& style = ImGui::GetStyle();
   const Colour accent = theme::series[0];
   const Colour quiet = mix(theme::sky, theme::hairline, 0.35), hovered = mix(quiet, theme::soft_ink, 0.12),
                pressed = mix(quiet, theme::soft_ink, 0.25);
@@ -68,18 +75,19 @@ void set_colours(ImGuiStyle& style) {
       {ImGuiCol_TitleBg, theme::sky},
       {ImGuiCol_TitleBgActive, theme::sky},
   };
-  for (const auto& [which, colour] : colours) style.Colors[which] = to_imgui(colour);
+  for (const auto& [which, colour] : colours) style.Colors[which] = as_is(dark ? on_dark(colour) : colour);
   style.Colors[ImGuiCol_TableRowBg] = style.Colors[ImGuiCol_TableRowBgAlt] = ImVec4(0, 0, 0, 0);
-  style.Colors[ImGuiCol_ModalWindowDimBg] = to_imgui(theme::ink, 0.25);
+  style.Colors[ImGuiCol_ModalWindowDimBg] = as_is(dark ? Colour{} : theme::ink, dark ? 0.5 : 0.25);
 }
 
-}  // namespace
+/// They are kept nowhere but in ImGui's context.
+bool is_dark() { return ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x < 0.5f; }
 
 Style apply_style(float scale) {
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
   ImGui::StyleColorsLight(&style);
-  set_colours(style);
+  set_colours(false);
   style.WindowPadding = {14, 10};
   style.FramePadding = {8, 4};
   style.ItemSpacing = {8, 7};
@@ -104,9 +112,9 @@ Style apply_style(float scale) {
   return result;
 }
 
-ImVec4 to_imgui(const Colour& colour, double opacity) {
-  return {float(colour[0]), float(colour[1]), float(colour[2]), float(opacity)};
-}
+ImVec4 to_imgui(const Colour& colour, double opacity) { return as_is(is_dark() ? on_dark(colour) : colour, opacity); }
+
+ImU32 scene_colour_u32(const Colour& colour) { return ImGui::ColorConvertFloat4ToU32(as_is(colour)); }
 
 ImU32 to_imgui_u32(const Colour& colour, double opacity) {
   return ImGui::ColorConvertFloat4ToU32(to_imgui(colour, opacity));

@@ -27,6 +27,7 @@ std::string title(const SessionSnapshot& s, const ViewSelection& view) {
     case ViewSelection::Kind::next:
       break;
   }
+  if (!s.finished.empty()) return "Next: none";
   if (s.custom_next_view) return "Next: your custom view";
   return s.next_candidate ? fmt::format("Next: candidate {}", *s.next_candidate) : "Next: the start view";
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "ui/drawing/shader_file.hpp"
 #include "ui/render_target/vtk_messages.hpp"
@@ -16,7 +17,7 @@ namespace nextview {
 namespace {
 
 constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_back = 0x0405, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401,
-                       gl_point_sprite_coord_origin = 0x8CA0, gl_upper_left = 0x8CA2;
+                       gl_point_sprite_coord_origin = 0x8CA0, gl_upper_left = 0x8CA2, gl_renderer = 0x1F01;
 
 void answer_vtk(vtkObject*, unsigned long event, void* target_pointer, void* answer) {
   auto& target = *static_cast<RenderTarget*>(target_pointer);
@@ -45,11 +46,20 @@ void RenderTarget::start(int width, int height) {
   window_->SetReadyForRendering(true);
   window_->SetOwnContext(0);
   window_->SetDPI(72);  // so that a font size is a height in pixels
-  window_->SetMultiSamples(4);
+  window_->SetMultiSamples(smooth_samples);
   window_->SetSize(width, height);
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();  // edges lie before the faces that they bound
   make_current();
   window_->OpenGLInitContext();
+}
+
+bool RenderTarget::draws_in_software() {
+  using GetString = const unsigned char* (*)(unsigned int);
+  make_current();
+  const auto* name =
+      reinterpret_cast<const char*>(reinterpret_cast<GetString>(gl_function("glGetString"))(gl_renderer));
+  const std::string_view renderer = name ? name : "";
+  return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
 }
 
 void RenderTarget::finish() {

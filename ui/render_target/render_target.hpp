@@ -10,6 +10,8 @@ namespace nextview {
 /// Where pixels end: a window or an image. VTK draws through `window()` into either, with the same pixels.
 class RenderTarget {
  public:
+  static constexpr int smooth_samples = 4;  ///< of a pixel, for smooth edges; from the start
+
   virtual ~RenderTarget();
   RenderTarget(const RenderTarget&) = delete;
   RenderTarget& operator=(const RenderTarget&) = delete;
@@ -22,6 +24,9 @@ class RenderTarget {
   virtual bool is_current() const = 0;
   /// An OpenGL function of the target's context by its name.
   virtual void* gl_function(const char* name) const = 0;
+
+  /// Whether a processor does what graphics cards do (Mesa's llvmpipe or softpipe): each pixel counts.
+  bool draws_in_software();
 
   /// Draws every renderer of the window.
   /// @throws std::runtime_error if VTK reports an error; for a shader it names the file, the line and the compiler's

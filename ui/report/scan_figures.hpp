@@ -32,8 +32,7 @@ struct FigurePaper {
   std::vector<int> views;  ///< columns of `strategy`, from 1; those that the scan does not have are left out
 };
 
-/// A figure that needs no study: of one scan or several, drawn headless (ensure_headless). Scenes stand on their own
-/// light ground on dark paper too: the colours of what is in them are made for it.
+/// A figure that needs no study: of one scan or several, drawn headless (ensure_headless).
 struct ScanFigure {
   std::string name;
   std::string caption;                                                           ///< what it shows, and how it is read

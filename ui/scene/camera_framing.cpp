@@ -31,7 +31,29 @@ struct AxisFit {
   double position(double at_depth) const { return 0.5 * (upper + low * at_depth + lower + high * at_depth); }
 };
 
+/// Spread evenly over the sphere.
+Eigen::Vector3f direction(int i, int count) {
+  const double z = 1 - (2 * i + 1.0) / count, around = i * std::numbers::pi * (3 - std::sqrt(5.0));
+  const double radius = std::sqrt(1 - z * z);
+  return Vector3(radius * std::cos(around), radius * std::sin(around), z).cast<float>();
+}
+
 }  // namespace
+
+std::vector<Vector3> extreme_points(std::span<const Eigen::Vector3f> points) {
+  constexpr int directions = 256;
+  constexpr std::size_t looked_at = 200'000;
+  const std::size_t stride = points.size() / looked_at + 1;
+  std::vector<Vector3> result;
+  for (int i = 0; i < directions && !points.empty(); ++i) {
+    const Eigen::Vector3f outward = direction(i, directions);
+    std::size_t farthest = 0;
+    for (std::size_t p = stride; p < points.size(); p += stride)
+      if (outward.dot(points[p]) > outward.dot(points[farthest])) farthest = p;
+    result.push_back(points[farthest].cast<double>());
+  }
+  return result;
+}
 
 Vector3 frame_points(const Eigen::Matrix3d& R_world_camera, double vertical_angle, double aspect,
                      const FrameMargins& margins, std::span<const Vector3> points) {

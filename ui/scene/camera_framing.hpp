@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "core/view/pose.hpp"
 
@@ -10,6 +11,10 @@ namespace nextview {
 struct FrameMargins {
   double left = 0.04, right = 0.04, bottom = 0.04, top = 0.04;
 };
+
+/// Of many points those that stick out farthest in some direction [m, world], to frame them all by: within 1 % of their
+/// largest extent. Empty if there are none.
+std::vector<Vector3> extreme_points(std::span<const Eigen::Vector3f> points);
 
 /// Moves a camera with a fixed orientation as near as it can while it sees all points.
 /// `T_world_camera` gives the orientation (x right, y down, z forward), `vertical_angle` [rad] and `aspect` (width /

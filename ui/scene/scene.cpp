@@ -8,18 +8,16 @@
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkNew.h>
-#include <vtkRenderer.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "ui/drawing/painter.hpp"
 #include "ui/scene/scene_overlay.hpp"
+#include "ui/scene/scene_renderer.hpp"
 
 namespace nextview {
 namespace {
-
-constexpr double vertical_angle = 28.0;  // [deg] a long lens: little distortion
 
 /// Lights that travel with the camera: a key from the upper left, a weaker fill from the right, a little from the
 /// front.
@@ -57,7 +55,7 @@ struct Scene::Overlay {
 };
 
 Scene::Scene()
-    : renderer_(vtkSmartPointer<vtkRenderer>::New()),
+    : renderer_(vtkSmartPointer<SceneRenderer>::New()),
       mesh_(std::make_unique<MeshLayer>(*renderer_)),
       cloud_(std::make_unique<CloudLayer>(*renderer_)),
       octree_(std::make_unique<OctreeLayer>(*renderer_)),
@@ -65,10 +63,11 @@ Scene::Scene()
       rays_(std::make_unique<RaysLayer>(*renderer_)),
       region_(std::make_unique<RegionLayer>(*renderer_)),
       fit_(std::make_unique<FitLayer>(*renderer_)),
+      surface_(std::make_unique<MeshLayer>(*renderer_)),
+      section_(std::make_unique<SectionLayer>(*renderer_)),
       overlay_(std::make_unique<Overlay>()) {
   renderer_->GradientBackgroundOn();
-  renderer_->SetBackground(theme::ground.data());
-  renderer_->SetBackground2(theme::sky.data());
+  set_dark(false);
   renderer_->AutomaticLightCreationOff();
   renderer_->GetActiveCamera()->SetViewAngle(vertical_angle);
   add_lights(*renderer_);
@@ -91,10 +90,42 @@ vtkRenderer& Scene::renderer() { return *renderer_; }
 void Scene::attach(RenderTarget& target, const Viewport& viewport) {
   renderer_->SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
   target.window().AddRenderer(renderer_);
+  software_ = target.draws_in_software();
 }
 
-std::array<Layer*, 7> Scene::layers() const {
-  return {views_.get(), rays_.get(), octree_.get(), cloud_.get(), mesh_.get(), region_.get(), fit_.get()};
+std::array<Layer*, 9> Scene::layers() const {
+  return {views_.get(), rays_.get(),   octree_.get(), cloud_.get(),  surface_.get(),
+          mesh_.get(),  region_.get(), fit_.get(),    section_.get()};
+}
+
+void Scene::cut(const std::optional<Section>& section) {
+  for (Layer* layer :
+       {static_cast<Layer*>(mesh_.get()), static_cast<Layer*>(surface_.get()), static_cast<Layer*>(cloud_.get())})
+    layer->set_section(section);
+}
+
+void Scene::set_dark(bool dark) {
+  renderer_->SetBackground((dark ? on_dark(theme::ground) : theme::ground).data());
+  renderer_->SetBackground2((dark ? on_dark(theme::sky) : theme::sky).data());
+  overlay_->item->dark = dark;
+  for (Layer* layer : layers()) layer->set_dark(dark);
+}
+
+void Scene::set_orthographic(bool orthographic, const Vector3& point) {
+  vtkCamera& camera = *renderer_->GetActiveCamera();
+  const Vector3 position(camera.GetPosition()), forward(camera.GetDirectionOfProjection());
+  const double slope = std::tan(radians(camera.GetViewAngle()) / 2), depth = forward.dot(point - position);
+  if (orthographic == bool(camera.GetParallelProjection()) || depth <= 0) return;
+  camera.SetParallelProjection(orthographic);
+  // Before all there is, else what lies behind the camera would be cut off; back again as far as the picture says.
+  Eigen::AlignedBox3d box;
+  for (const Vector3& corner : outline()) box.extend(corner);
+  const double away = orthographic ? std::max(depth, box.diagonal().norm()) : camera.GetParallelScale() / slope;
+  if (orthographic) camera.SetParallelScale(depth * slope);
+  const Vector3 moved = position + (depth - away) * forward, focus = moved + away * forward;
+  camera.SetPosition(moved.data());
+  camera.SetFocalPoint(focus.data());
+  renderer_->ResetCameraClippingRange();
 }
 
 void Scene::set_caption(const std::string& caption) { overlay_->item->caption = caption; }
@@ -107,15 +138,24 @@ void Scene::set_axes(bool axes, bool scale_bar) {
 void Scene::set_scale(double scale) {
   if (scale == overlay_->item->scale) return;
   overlay_->item->scale = scale;
-  for (Layer* layer : layers()) layer->set_scale(scale);
+  scale_layers();
 }
 
-void Scene::set_moving(bool moving) {
+/// Of a coarse picture's pixels lines and points take half as many.
+void Scene::scale_layers() {
+  const bool coarse = quality_ == DrawingQuality::moving && software_;
+  renderer_->set_coarse(coarse);
+  // Where nothing moves it is seen that voxels change their size.
+  octree_->set_coarse(coarse || (quality_ == DrawingQuality::quick && software_ && octree_->face_count() > 120'000));
+  for (Layer* layer : layers()) layer->set_scale(overlay_->item->scale * (coarse ? 0.5 : 1.0));
+}
+
+void Scene::set_quality(DrawingQuality quality) {
   vtkRenderWindow* window = renderer_->GetRenderWindow();
-  if (!window || moving == moving_) return;
-  if (moving) samples_at_rest_ = window->GetMultiSamples();
-  window->SetMultiSamples(moving ? 0 : samples_at_rest_);
-  moving_ = moving;
+  if (!window || quality == quality_) return;
+  quality_ = quality;
+  window->SetMultiSamples(quality == DrawingQuality::still ? RenderTarget::smooth_samples : 0);
+  scale_layers();
 }
 
 void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
@@ -165,7 +205,7 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
   const bool to_come = overlay.backed && legends_ && has_room_for_legends();
   if (overlay.legends.empty() && !to_come) return middle;
   FrameMargins beside = centred, beneath = centred;
-  constexpr double widest_in_window = 212.0;  // "measured but undecided, p ≥ 0.5", which comes with the first view
+  constexpr double widest_in_window = 236.0;  // "measured but undecided, p ≥ 0.5", which comes with the first view
   const double legends_width = overlay.backed ? widest_in_window : usual_legend_width;
   beside.right = std::min((legends_width + 36) / width, 0.5);
   // In a window more legends come as the scan goes on.
@@ -221,6 +261,7 @@ void Scene::frame(std::span<const Vector3> points, const ViewDirection& directio
   camera.SetFocalPoint(focus.data());
   camera.SetViewUp(up.data());
   camera.SetViewAngle(vertical_angle);
+  camera.SetParallelScale(towards_camera.dot(position - box.center()) * std::tan(radians(vertical_angle) / 2));
   renderer_->ResetCameraClippingRange();
   overlay_->item->scale_reference = box.center();
 }

@@ -10,6 +10,7 @@
 #include "ui/layers/octree_layer.hpp"
 #include "ui/layers/rays_layer.hpp"
 #include "ui/layers/region_layer.hpp"
+#include "ui/layers/section_layer.hpp"
 #include "ui/layers/views_layer.hpp"
 #include "ui/render_target/render_target.hpp"
 #include "ui/scene/camera_framing.hpp"
@@ -17,6 +18,15 @@
 class vtkCamera;
 
 namespace nextview {
+
+class SceneRenderer;
+
+/// A picture that somebody waits for takes less care.
+enum class DrawingQuality {
+  still,   ///< smooth edges
+  quick,   ///< rough edges: where a processor draws, it takes a third of the time
+  moving,  ///< and where a processor draws, half of the pixels each way, and fewer voxels if there are many: a fifth
+};
 
 /// Where the camera looks from, seen from what it looks at.
 struct ViewDirection {
@@ -27,6 +37,8 @@ struct ViewDirection {
 /// One 3D picture: layers, light, background, orientation axes, scale bar and the legends of what is visible. z is up.
 class Scene {
  public:
+  static constexpr double vertical_angle = 28.0;  ///< of the picture [deg]: a long lens, little distortion
+
   Scene();
   ~Scene();
   Scene(const Scene&) = delete;
@@ -42,15 +54,24 @@ class Scene {
   RaysLayer& rays() { return *rays_; }
   RegionLayer& region() { return *region_; }
   FitLayer& fit() { return *fit_; }
+  MeshLayer& surface() { return *surface_; }  ///< reconstructed
+  SectionLayer& section() { return *section_; }
+
+  /// Cuts off what the section does not leave of object, surface and cloud; voxels are filtered where they are shown.
+  void cut(const std::optional<Section>& section);
+  /// On a dark ground from now on; layers that show values have to be shown again.
+  void set_dark(bool dark);
+  /// Without vanishing points: what is equally long is drawn so, wherever it is. What lies in the plane through a point
+  /// [m, world] keeps its size.
+  void set_orthographic(bool orthographic, const Vector3& point);
 
   void set_caption(const std::string& caption);
   void set_axes(bool axes, bool scale_bar);
   /// Pixels of the display per pixel of the design: 2 on a HiDPI display, 1 unless told otherwise. Lines, points, text
   /// and legends become as much larger.
   void set_scale(double scale);
-  /// While the camera moves, edges may be rough: drawing in software then takes a third of the time. Holds for the
-  /// whole target, from the next drawing on. Does nothing without a target.
-  void set_moving(bool moving);
+  /// From the next drawing on. Edges are rough in the whole target then. Does nothing without a target.
+  void set_quality(DrawingQuality quality);
   /// Whether paper lies behind the legends: for scenes that people move, where anything may come to lie there. It does
   /// not unless told otherwise.
   void set_backed(bool backed);
@@ -87,15 +108,17 @@ class Scene {
   vtkRenderer& renderer();
 
  private:
-  std::array<Layer*, 7> layers() const;  ///< in the order of their legends
+  std::array<Layer*, 9> layers() const;  ///< in the order of their legends
   bool has_room_for_legends() const;
+  void scale_layers();
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
-  bool legends_ = true, moving_ = false, tight_ = false;
+  bool legends_ = true, tight_ = false;
+  DrawingQuality quality_ = DrawingQuality::still;
+  bool software_ = false;     ///< a processor draws
   double covered_below_ = 0;  ///< [px] of the design
-  int samples_at_rest_ = 0;   ///< of a pixel, while moving
-  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<SceneRenderer> renderer_;
   std::unique_ptr<MeshLayer> mesh_;
   std::unique_ptr<CloudLayer> cloud_;
   std::unique_ptr<OctreeLayer> octree_;
@@ -103,6 +126,8 @@ class Scene {
   std::unique_ptr<RaysLayer> rays_;
   std::unique_ptr<RegionLayer> region_;
   std::unique_ptr<FitLayer> fit_;
+  std::unique_ptr<MeshLayer> surface_;
+  std::unique_ptr<SectionLayer> section_;
   std::unique_ptr<Overlay> overlay_;
 };
 

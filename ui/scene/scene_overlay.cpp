@@ -19,10 +19,10 @@
 namespace nextview {
 namespace {
 
-constexpr double margin = 16.0;        // [px]
-constexpr double axis_length = 30.0;   // [px]
-constexpr double legend_gap = 14.0;    // [px]
-constexpr double longest_bar = 150.0;  // [px]
+constexpr double margin = 16.0;                        // [px]
+constexpr double axis_length = 30.0;                   // [px]
+constexpr double legend_gap = 14.0;                    // [px]
+constexpr double longest_bar = 150.0, min_bar = 24.0;  // [px]
 
 struct Axis {
   const char* name;
@@ -71,10 +71,14 @@ void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, cons
   const Vector3 position(camera.GetPosition());
   const double distance = Vector3(camera.GetDirectionOfProjection()).dot(reference - position);
   if (distance <= 0) return;
-  const double height = 2 * distance * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
+  const double height = camera.GetParallelProjection()
+                            ? 2 * camera.GetParallelScale()
+                            : 2 * distance * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
   const double pixels_per_metre = picture_size(renderer, scale).y() / height;
-  const double length = round_length(longest_bar / pixels_per_metre);
-  const double x = margin + 2 * axis_length + 44, y = margin + 4, width = length * pixels_per_metre;
+  const double x = margin + 2 * axis_length + 44, y = margin + 4;
+  const double longest = std::min(longest_bar, picture_size(renderer, scale).x() - x - 2 * margin);
+  if (longest < min_bar) return;
+  const double length = round_length(longest / pixels_per_metre), width = length * pixels_per_metre;
   painter.line(x, y, x + width, y, 2, theme::ink);
   painter.line(x, y - 4, x, y + 4, 2, theme::ink);
   painter.line(x + width, y - 4, x + width, y + 4, 2, theme::ink);
@@ -168,7 +172,7 @@ void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& size) 
 }
 
 bool SceneOverlay::Paint(vtkContext2D* context) {
-  Painter painter(*context, scale);
+  Painter painter(*context, scale, dark);
   const Eigen::Vector2d size = picture_size(*renderer, scale);
   if (backed) paint_backing(painter, size);
   if (axes) paint_axes(painter, *renderer->GetActiveCamera());

@@ -25,6 +25,7 @@ class SceneOverlay : public vtkContextItem {
 
   vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
   bool backed = false;                        ///< paper lies behind the legends
+  bool dark = false;                          ///< on dark paper
   std::string caption;                        ///< upper left
   std::vector<Legend> legends;                ///< upper right, from top to bottom
   std::vector<Label> labels;                  ///< beside their places

@@ -26,6 +26,13 @@ void stand(vtkRenderer& renderer, const Vector3& position, const Vector3& focus)
   renderer.ResetCameraClippingRange();
 }
 
+/// How high the picture is where a point lies [m].
+double height_at(vtkCamera& camera, const Vector3& point) {
+  if (camera.GetParallelProjection()) return 2 * camera.GetParallelScale();
+  const double depth = std::max((point - Vector3(camera.GetPosition())).dot(forward_of(camera)), nearest);
+  return 2 * depth * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
+}
+
 void shift(vtkRenderer& renderer, const Vector3& by) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   stand(renderer, Vector3(camera.GetPosition()) + by, Vector3(camera.GetFocalPoint()) + by);
@@ -54,15 +61,20 @@ void pan(vtkRenderer& renderer, const Vector3& pivot, double x, double y) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 forward = forward_of(camera);
   const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
-  const double depth = std::max((pivot - Vector3(camera.GetPosition())).dot(forward), nearest);
-  const double height = 2 * depth * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
-  const double metres_per_pixel = height / std::max(renderer.GetSize()[1], 1);
+  const double metres_per_pixel = height_at(camera, pivot) / std::max(renderer.GetSize()[1], 1);
   shift(renderer, (right.cross(forward) * y - right * x) * metres_per_pixel);
 }
 
 void zoom(vtkRenderer& renderer, const Vector3& pivot, double steps) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 position(camera.GetPosition()), focus(camera.GetFocalPoint());
+  if (camera.GetParallelProjection()) {
+    const double now = camera.GetParallelScale(),
+                 then = std::clamp(now / std::pow(zoom_per_step, steps), nearest, farthest);
+    camera.SetParallelScale(then);
+    const Vector3 aside = pivot - position - (pivot - position).dot(forward_of(camera)) * forward_of(camera);
+    return shift(renderer, (1 - then / now) * aside);
+  }
   const double distance = (position - pivot).norm();
   const double scale = std::clamp(distance / std::pow(zoom_per_step, steps), nearest, farthest) / distance;
   stand(renderer, pivot + scale * (position - pivot), pivot + scale * (focus - pivot));

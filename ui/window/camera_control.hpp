@@ -5,7 +5,8 @@ class vtkRenderer;
 
 namespace nextview {
 
-/// How a pointer moves the camera of a scene in which z is up. Lengths in pixels, x to the right, y downwards.
+/// How a pointer moves the camera of a scene in which z is up, with vanishing points or without. Lengths in pixels, x
+/// to the right, y downwards.
 
 /// Turns around a point, which stays where it is in the picture, as if the scene were grasped there.
 void orbit(vtkRenderer& renderer, const Vector3& pivot, double x, double y);

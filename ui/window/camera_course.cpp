@@ -43,7 +43,22 @@ CameraCourse::CameraCourse(SceneView& view, const CameraFlight& flight)
   to_ = place_of(view);
   to_.azimuth = near_to(to_.azimuth, from_.azimuth);
   to_.distance /= flight.zoom;
+  to_.focus = flight.focus.value_or(to_.focus);
   view.layers().restore(start);
+}
+
+CameraFlight CameraCourse::flight_to_here(SceneView& view) {
+  const Scene::Stand start = view.layers().stand();
+  const Place here = place_of(view);
+  const double azimuth = here.azimuth / radians, elevation = std::clamp(here.elevation, -steepest, steepest) / radians;
+  view.move(camera_motion::LookFrom{azimuth, elevation});
+  const double framed = place_of(view).distance;
+  view.layers().restore(start);
+  const auto rounded = [](double value) { return std::round(1e4 * value) / 1e4; };
+  CameraFlight flight{false, rounded(azimuth), rounded(elevation),
+                      std::clamp(rounded(framed / here.distance), 0.01, 100.0)};
+  flight.focus = here.focus.unaryExpr(rounded);
+  return flight;
 }
 
 void CameraCourse::stand(SceneView& view, double share) const {

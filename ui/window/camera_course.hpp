@@ -12,6 +12,8 @@ class CameraCourse {
   CameraCourse(SceneView& view, const CameraFlight& flight);
   /// Puts the camera where it is after this share of the way.
   void stand(SceneView& view, double share) const;
+  /// The flight that ends as the camera stands now.
+  static CameraFlight flight_to_here(SceneView& view);
 
  private:
   struct Place {

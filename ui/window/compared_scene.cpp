@@ -16,18 +16,44 @@ std::string caption(const std::string& branch, const SessionSnapshot& session) {
   return fmt::format("{} · {}", branch, counted(session.records.size(), "view"));
 }
 
+std::string caption_of(SecondView second) {
+  switch (second) {
+    case SecondView::object:
+      return "object";
+    case SecondView::surface:
+      return "reconstructed surface";
+    case SecondView::cloud:
+      return "measured points";
+    case SecondView::octree:
+      return "occupancy map";
+    case SecondView::gibbs:
+      return "Gibbs map";
+    case SecondView::missed:
+      return "missed surface";
+    case SecondView::none:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
-bool ComparedScene::share(SceneView& view, const Rectangle& place, const SessionSnapshot& session) {
-  const bool wanted = session.compared != nullptr, there_was = beside_ != nullptr;
+bool ComparedScene::share(SceneView& view, const Rectangle& place, const std::shared_ptr<const SessionSnapshot>& shown,
+                          const WindowState& window) {
+  const SessionSnapshot& session = *shown;
+  const bool compared = session.compared != nullptr;
+  const bool wanted = compared || (session.loaded() && window.layers.second != SecondView::none);
+  const bool there_was = beside_ != nullptr;
   Rectangle left = place, right = place;
   if (wanted) {
     left.width = std::floor(place.width / 2);
     right.x += left.width;
     right.width -= left.width;
   }
-  const std::string of_session = wanted ? caption(session.timeline->branches.current().name, session) : "";
-  const std::string of_other = wanted ? caption(session.compared->branch, *session.compared->snapshot) : "";
+  const std::string of_session = compared ? caption(session.timeline->branches.current().name, session) : "";
+  const std::string of_other = compared ? caption(session.compared->branch, *session.compared->snapshot)
+                               : wanted ? caption_of(window.layers.second)
+                                        : "";
   const bool same_place = view.rectangle() == left && wanted == there_was;
   if (same_place && of_session == caption_ && of_other == other_caption_) return false;
   if (!wanted) beside_.reset();
@@ -38,16 +64,23 @@ bool ComparedScene::share(SceneView& view, const Rectangle& place, const Session
   if (!same_place) view.place(left);
   if (beside_) beside_->place(right);
   if (beside_ && !there_was) {
-    show(session, window_.layers);  // it frames its own camera, which goes then
+    show(shown, window, nullptr);  // it frames its own camera, which goes then
     beside_->renderer().SetActiveCamera(view.renderer().GetActiveCamera());
   }
   return true;
 }
 
-bool ComparedScene::show(const SessionSnapshot& session, const LayerChoice& layers) {
-  if (!beside_ || !session.compared) return false;
-  window_.layers = layers;
-  return beside_->show(session.compared->snapshot, window_, nothing_);
+bool ComparedScene::show(const std::shared_ptr<const SessionSnapshot>& session, const WindowState& window,
+                         std::shared_ptr<const FoundSurface> surface) {
+  if (!beside_) return false;
+  window_.dark = window.dark;
+  window_.orthographic = window.orthographic;
+  if (session->compared) {
+    window_.layers = window.layers;
+    return beside_->show(session->compared->snapshot, window_, nothing_);
+  }
+  window_.layers = window.layers.of_second();
+  return beside_->show(session, window_, nothing_, nullptr, std::move(surface));
 }
 
 void ComparedScene::set_scale(double scale) {
@@ -64,8 +97,8 @@ void ComparedScene::share_depth(SceneView& view) {
   camera.SetClippingRange(std::min(near, camera.GetClippingRange()[0]), std::max(far, camera.GetClippingRange()[1]));
 }
 
-void ComparedScene::set_in_motion(bool in_motion) {
-  if (beside_) beside_->set_in_motion(in_motion);
+void ComparedScene::set_quality(DrawingQuality quality) {
+  if (beside_) beside_->set_quality(quality);
 }
 
 }  // namespace nextview

@@ -5,16 +5,19 @@
 
 namespace nextview {
 
-/// The branch that a session is compared with, in the right half of the scene, looked at by the same camera.
+/// The right half of the scene, looked at by the same camera: the branch that a session is compared with, or else the
+/// session once more with other layers.
 class ComparedScene {
  public:
   ComparedScene(RenderTarget& target, double scale) : target_(target), scale_(scale) {}
 
   /// Shows it beside `view` in this part of the target, or gives `view` all of it. Returns whether that has changed.
-  bool share(SceneView& view, const Rectangle& place, const SessionSnapshot& session);
+  bool share(SceneView& view, const Rectangle& place, const std::shared_ptr<const SessionSnapshot>& session,
+             const WindowState& window);
   /// Returns whether its picture changed.
-  bool show(const SessionSnapshot& session, const LayerChoice& layers);
-  void set_in_motion(bool in_motion);
+  bool show(const std::shared_ptr<const SessionSnapshot>& session, const WindowState& window,
+            std::shared_ptr<const FoundSurface> surface);
+  void set_quality(DrawingQuality quality);
   void set_scale(double scale);
   /// The camera that both share shows what lies in either.
   void share_depth(SceneView& view);

@@ -45,8 +45,9 @@ WorkerProgress Interface::Parts::progress() const {
 
 /// What is drawn beside the window's own frame, and before it, as the scene has to be drawn anew after it.
 void Interface::Parts::draw_wanted_picture() {
-  if (!state.picture || state.picture->of == Of::window) return;
+  if (!state.picture) return;
   if (motion_left > 0) bring_to_rest();
+  if (state.picture->of == Of::window) return;  // it is drawn with the frame
   try {
     draw_apart();
   } catch (const std::exception& error) {

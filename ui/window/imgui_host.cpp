@@ -34,8 +34,14 @@ ImguiHost::ImguiHost(double scale) : context_(ImGui::CreateContext()) {
 }
 
 void ImguiHost::set_scale(double scale) {
+  const bool dark = is_dark();
   ImGui::GetIO().Fonts->Clear();
   style_ = apply_style(float(scale));
+  set_colours(dark);
+}
+
+void ImguiHost::set_dark(bool dark) {
+  if (dark != is_dark()) set_colours(dark);
 }
 
 ImguiHost::~ImguiHost() { ImGui::DestroyContext(context_); }

@@ -18,6 +18,8 @@ class ImguiHost {
 
   /// Makes text and controls of another size. @pre the context is current; the fonts' texture has to be made again
   void set_scale(double scale);
+  /// Light text and controls on dark paper. @pre as above
+  void set_dark(bool dark);
   void make_current() const;
   const Style& style() const { return style_; }
   const ImGuiContext& context() const { return *context_; }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/recording_commands.hpp"
 #include "ui/window/interface_parts.hpp"
 
 namespace nextview {
@@ -51,6 +53,14 @@ void Interface::offer(const UnfinishedSession& session) {
   parts_->worker.post(request::OfferSession{session});
 }
 void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
+void Interface::record(const std::string& file) {
+  CommandTarget target{parts_->worker, parts_->state, *parts_->news.snapshot, parts_->news.progress};
+  execute(command::record(file), target);
+}
+void Interface::stop_recording() {
+  CommandTarget target{parts_->worker, parts_->state, *parts_->news.snapshot, parts_->news.progress};
+  if (parts_->state.recording) execute(command::record_stop(), target);
+}
 void Interface::play_demo(std::vector<CommandCall> calls) {
   parts_->state.guide_open = false;
   parts_->state.presentation.demo = true;
@@ -74,6 +84,8 @@ bool Interface::wants_to_quit() const {
 }
 void Interface::set_text_scale(double scale) { parts_->state.text_scale = scale; }
 void Interface::show_guide(bool show) { parts_->state.guide_open = show; }
+void Interface::set_dark(bool dark) { parts_->state.dark = dark; }
+void Interface::set_place_sizes(const PlaceSizes& sizes) { parts_->state.place_sizes = sizes; }
 const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
 SceneView& Interface::scene() { return parts_->view; }
@@ -93,6 +105,10 @@ double Interface::seconds_to_next_frame() const {
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
 }
+
+// What runs is asked first: it may end meanwhile, and then there is something to draw.
+bool Interface::is_still() const { return !parts_->works() && seconds_to_next_frame() > 0.0; }
+bool Interface::is_drawn_well() const { return parts_->motion_left <= 0; }
 
 std::string Interface::title() const {
   const SessionSnapshot& s = *parts_->news.snapshot;
@@ -119,6 +135,7 @@ bool Interface::draw(double seconds) {
   p.draw_interface(seconds);
   p.move_camera();
   p.ask_inspector();
+  p.ask_surface();
   if (wants_picture) p.draw_wanted_picture();
   const auto new_scene = p.draw_scene() ? std::optional(p.layout.scene) : std::nullopt;
   const bool new_frame = p.composer.compose(*ImGui::GetDrawData(), new_scene, p.pictures.uploads() != pictures);

@@ -36,12 +36,22 @@ class Interface {
   void offer(const UnfinishedSession& session);
   /// Does these calls one after the other, each when the one before has had its effect.
   void run_script(std::vector<CommandCall> calls);
+  /// Records all that is done from now on, until it is ended by command or stop_recording(). The file ends in
+  /// .nextview.
+  /// @throws std::runtime_error naming the file if it cannot be written.
+  void record(const std::string& file);
+  void stop_recording();  ///< if there is one. @throws likewise
   /// The same as a demo: with its own time, and the keyboard to pause, to skip and to take over.
   void play_demo(std::vector<CommandCall> calls);
   bool script_is_done() const;  ///< or the window is about to close: what is left of it is not done
   ScriptPlayer& script();
   /// How long after the last frame another one would look different, if there is no input and no news [s]. 0: at once.
   double seconds_to_next_frame() const;
+  /// Nothing runs (a refinement may be paused), and what came of it is drawn: until time passes or somebody does
+  /// something, no frame differs.
+  bool is_still() const;
+  /// What is asked for by hand is drawn with less care at first; whether the scene has been drawn well since.
+  bool is_drawn_well() const;
   /// Draws a frame into the target's back buffer, `seconds` after the last one, and returns whether it differs from
   /// the last one; if not, the back buffer is left alone. The scene is drawn anew only if it changed.
   bool draw(double seconds);
@@ -56,6 +66,8 @@ class Interface {
   /// Of text and controls, beside the display's.
   void set_text_scale(double scale);
   void show_guide(bool show);
+  void set_dark(bool dark);
+  void set_place_sizes(const PlaceSizes& sizes);
   /// "Nextview - gearbox - view 3 of 20"
   std::string title() const;
   /// What is shown; tests look here for where things are.

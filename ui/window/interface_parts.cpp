@@ -4,20 +4,16 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <utility>
+
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/scanner_commands.hpp"
+#include "ui/commands/selection_commands.hpp"
 #include "ui/window/presentation_drawing.hpp"
 #include "ui/window/selection_overlay.hpp"
 
 namespace nextview {
-namespace {
-
-/// The camera is at rest when it did not move for so long [s].
-constexpr double rest = 0.15;
-
-}  // namespace
-
 /// A script waits until nothing runs and the news of that are here.
 bool Interface::Parts::script_may_go_on() const {
   if (state.presentation.holds() || state.presentation.paused) return false;
@@ -25,9 +21,10 @@ bool Interface::Parts::script_may_go_on() const {
 }
 
 void Interface::Parts::take_news() {
-  for (const std::uint64_t failed : worker.take_failed()) recorder.forget(failed);
+  record_done();
   News now = latest();
   if (now.snapshot != news.snapshot || now.inspection != news.inspection || now.log != news.log ||
+      now.surface != news.surface || now.surface_progress != news.surface_progress ||
       now.progress.busy != news.progress.busy || now.progress.question != news.progress.question)
     settling = frames_to_settle;
   news = std::move(now);
@@ -50,6 +47,7 @@ void Interface::Parts::take_input() {
 
 void Interface::Parts::follow_scale() {
   const double scale = display_scale * state.text_scale;
+  host.set_dark(state.dark);
   if (float(scale) == host.style().scale) return;
   host.set_scale(scale);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -63,7 +61,7 @@ void Interface::Parts::follow_scale() {
 bool Interface::Parts::layout_is_old() const {
   return float(display_scale * state.text_scale) != host.style().scale || layout_hidden != state.panels_hidden ||
          layout.captions.empty() == shows_captions() || layout.width != target.width() ||
-         layout.height != target.height() || layout_open != state.open;
+         layout.height != target.height() || layout_open != state.open || layout_sizes != state.place_sizes;
 }
 
 void Interface::Parts::follow_size() {
@@ -71,9 +69,11 @@ void Interface::Parts::follow_size() {
   const Rectangle scene = layout.scene;
   const bool resized = layout.width != target.width() || layout.height != target.height();
   layout_open = state.open;
+  layout_sizes = state.place_sizes;
   layout_hidden = state.panels_hidden;
-  layout = shows_captions() ? Layout::with_captions(target.width(), target.height(), host.style().scale, state.open)
-                            : Layout(target.width(), target.height(), host.style().scale, state.open);
+  layout = shows_captions()
+               ? Layout::with_captions(target.width(), target.height(), host.style().scale, state.open, layout_sizes)
+               : Layout(target.width(), target.height(), host.style().scale, state.open, layout_sizes);
   if (layout_hidden) layout.hide_panels(state.presentation.demo);
   settling = frames_to_settle;
   if (resized || layout.scene != scene) view.place({});  // share_scene() gives it its place
@@ -82,8 +82,8 @@ void Interface::Parts::follow_size() {
 /// The scene's place is the session's, or half of it while it is compared.
 void Interface::Parts::share_scene() {
   const Rectangle before = view.rectangle();
-  if (!compared.share(view, layout.scene, *news.snapshot)) return;
-  if (view.rectangle() != before && !camera_moved) view.move(camera_motion::Frame{});
+  if (!compared.share(view, layout.scene, news.snapshot, state)) return;
+  if (view.rectangle() != before && !camera_moved) view.move(framing);
   scene_is_old = true;
 }
 
@@ -94,6 +94,11 @@ void Interface::Parts::follow_session() {
     session = s.session;
     state.selection = {};
     camera_moved = false;
+    framing = camera_motion::Frame{};
+    if (std::exchange(object, s.object_name) != s.object_name) {  // what was cut there may not even be here
+      state.layers.section.reset();
+      state.layers.voxels.slice.reset();
+    }
   }
   if (state.selection.view.kind == ViewSelection::Kind::taken && state.selection.view.index >= s.records.size())
     state.selection.view = {};
@@ -105,12 +110,15 @@ void Interface::Parts::draw_interface(double seconds) {
   std::vector<CommandCall> calls;
   std::optional<std::size_t> hovered;
   const WorkerProgress shown = asked_call.with_question(progress());
-  const PanelContext context{*news.snapshot, shown,    state, *news.inspection, *news.log,
-                             host.style(),   pictures, calls, hovered};
+  const PanelContext context{*news.snapshot,       shown,    state, *news.inspection, *news.log,
+                             host.style(),         pictures, calls, hovered,          news.surface.get(),
+                             news.surface_progress};
   state.scene_camera = view.camera_pose();
+  point_at(ImGui::GetIO().MousePos);
   panels.obey_keys(context);
   follow_pointer(context, seconds);
   panels.draw(context, layout, worker.log().count(), seconds);
+  splitters.draw(context, layout);
   if (!news.progress.doubtful) {
     draw_selection_overlay(view, context);
     pointer.region_handles().draw(view, context);
@@ -121,8 +129,16 @@ void Interface::Parts::draw_interface(double seconds) {
   draw_presentation(host.style(), state.presentation, layout);
   ImGui::Render();
   follow_tooltip();
-  if (calls.empty() && script_may_go_on()) calls = script.go_on(*news.snapshot);
+  scripted = calls.empty() && script_may_go_on();
+  if (scripted) calls = script.go_on(*news.snapshot);
   do_calls(std::move(calls));
+}
+
+/// While the camera moves, the coordinates stay; in a demo nobody points.
+void Interface::Parts::point_at(const ImVec2& mouse) {
+  const bool over_scene = !ImGui::GetIO().WantCaptureMouse && view.rectangle().contains(mouse.x, mouse.y);
+  if (!over_scene || state.presentation.demo) return state.pointed_at.reset();
+  if (motion_left <= 0) state.pointed_at = view.surface_point(mouse.x, mouse.y);
 }
 
 /// ImGui shows a window that is new a frame after it was made.
@@ -150,10 +166,11 @@ void Interface::Parts::do_for_people(const CommandCall& call) {
 }
 
 /// What cannot be done now is told in the log.
-void Interface::Parts::do_call(const CommandCall& call) {
+void Interface::Parts::do_call(const CommandCall& wanted) {
   const WorkerProgress now = progress();
   CommandTarget acted_on{worker, state, *news.snapshot, now};
   const Selection before = state.selection;
+  const CommandCall call = with_numbers(wanted, acted_on);
   const std::uint64_t posted = worker.posted();
   try {
     execute(call, acted_on);
@@ -163,34 +180,8 @@ void Interface::Parts::do_call(const CommandCall& call) {
     script.refused(call, error.what());
     return worker.log().add(LogEntry::Level::warning, error.what());
   }
-  recorder.add(call, worker.posted() > posted ? worker.posted() : 0);
-}
-
-void Interface::Parts::follow_pointer(const PanelContext& context, double seconds) {
-  if (pointer.follow(view, compared.rectangle(), context)) {
-    camera_moved = scene_is_old = true;
-    motion_left = rest;
-    view.set_in_motion(true);
-    compared.set_in_motion(true);
-  } else if (motion_left > 0 && (motion_left -= seconds) <= 0) {
-    bring_to_rest();
-  }
-}
-
-void Interface::Parts::bring_to_rest() {
-  motion_left = 0;
-  view.set_in_motion(false);
-  compared.set_in_motion(false);
-  scene_is_old = true;
-}
-
-void Interface::Parts::move_camera() {
-  for (const CameraMotion& motion : state.camera_motions) {
-    view.move(motion);
-    camera_moved = !std::holds_alternative<camera_motion::Frame>(motion);
-    bring_to_rest();
-  }
-  state.camera_motions.clear();
+  record(call, worker.posted() > posted ? worker.posted() : 0, now.playing);
+  if (!state.wanted_demo.empty()) play(std::exchange(state.wanted_demo, {}));
 }
 
 void Interface::Parts::ask_inspector() {
@@ -200,16 +191,20 @@ void Interface::Parts::ask_inspector() {
   inspector.ask(asked_of, asked);
 }
 
-/// Returns whether it was drawn anew.
-bool Interface::Parts::draw_scene() {
-  scene_is_old |= view.show(news.snapshot, state, news.inspection, news.progress.doubtful);
-  scene_is_old |= compared.show(*news.snapshot, state.layers);
-  if (!scene_is_old) return false;
-  compared.share_depth(view);
-  target.render();
-  ++scene_drawings;
-  scene_is_old = false;
-  return true;
+/// A surface that is shown is made of all views; it takes a moment, so none is made that nobody looks at.
+void Interface::Parts::ask_surface() {
+  const LayerChoice& layers = state.layers;
+  if (!news.snapshot->loaded() || !(layers.surface || layers.second == SecondView::surface)) {
+    if (asked_surface && inspector.surface_progress()) {
+      inspector.drop_surface();
+      asked_surface.reset();
+    }
+    return;
+  }
+  SurfaceQuestion question{news.snapshot, layers.surface_source, layers.map};
+  if (asked_surface && asked_surface->same_as(question)) return;
+  asked_surface = question;
+  inspector.ask_surface(question);
 }
 
 }  // namespace nextview

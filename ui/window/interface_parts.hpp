@@ -11,6 +11,7 @@
 #include "ui/window/imgui_host.hpp"
 #include "ui/window/interface.hpp"
 #include "ui/window/scene_pointer.hpp"
+#include "ui/window/splitters.hpp"
 
 namespace nextview {
 
@@ -23,6 +24,8 @@ struct News {
   WorkerProgress progress;
   std::shared_ptr<const Inspection> inspection;
   std::shared_ptr<const SessionLog::Entries> log;
+  std::shared_ptr<const FoundSurface> surface;
+  std::optional<double> surface_progress;
 
   bool operator==(const News&) const = default;
 };
@@ -49,31 +52,44 @@ struct Interface::Parts {
   SceneView view;
   ComparedScene compared;
   ScenePointer pointer;
+  Splitters splitters;
   PanelPictures pictures;
   FrameComposer composer;
   AllPanels panels;
   Layout layout;
   Side layout_open = Side::right;  ///< that the layout was made for, as the next
   bool layout_hidden = false;
+  PlaceSizes layout_sizes;
   WindowState state;
   News news;
   AskedCall asked_call;
   std::filesystem::path offered;                    ///< a session to go on with
   std::uint64_t session = 0;                        ///< whose numbers the selection has
+  std::string object;                               ///< that section and slice are of
   std::shared_ptr<const SessionSnapshot> asked_of;  ///< the last question
   Selection asked;
+  std::optional<SurfaceQuestion> asked_surface;
   ScriptPlayer script;
-  ScriptRecorder recorder{state.script};
-  bool tooltip_is_due = false;         ///< in the last frame
-  bool camera_moved = false;           ///< by the user, since it was framed
-  double motion_left = 0;              ///< until the camera is at rest [s]; 0: it is
+  ScriptRecorder recorder{state.history};
+  std::vector<std::pair<std::uint64_t, CommandCall>> behind_play;  ///< by their requests: given while views are played
+  bool tooltip_is_due = false;                                     ///< in the last frame
+  bool scripted = false;                                           ///< what was done in this frame
+  bool camera_moved = false;                                       ///< by the user, since it was framed
+  CameraMotion framing = camera_motion::Frame{};                   ///< the last one that framed something
+  double motion_left = 0;              ///< until what was drawn with less care is drawn well [s]; 0: it is
+  double motion_began = 0;             ///< in the operator's time [s]
+  bool dragged = false;                ///< by the pointer, since it was at rest
   std::optional<CameraCourse> course;  ///< of the flight that is under way
   bool rested = false;                 ///< nothing ran at the begin of the last frame
   bool scene_is_old = true;
   std::size_t scene_drawings = 0;
   int settling = frames_to_settle;
 
-  News latest() const { return {worker.snapshot(), worker.progress(), inspector.answer(), worker.log().entries()}; }
+  News latest() const {
+    return {worker.snapshot(),      worker.progress(),   inspector.answer(),
+            worker.log().entries(), inspector.surface(), inspector.surface_progress()};
+  }
+  bool works() const;
   bool at_rest() const;
   bool shows_captions() const { return state.presentation.demo || state.presentation.caption; }
   bool script_may_go_on() const;
@@ -81,6 +97,10 @@ struct Interface::Parts {
   void fly(double seconds);
   std::vector<InputEvent> input_beside_demo(const std::vector<InputEvent>& events);
   void take_over();
+  void play(const std::string& demo);
+  void record(const CommandCall& call, std::uint64_t request, bool playing);
+  void record_done();
+  void record_drag();
   void take_news();
   void take_input();
   bool layout_is_old() const;
@@ -90,13 +110,16 @@ struct Interface::Parts {
   void follow_session();
   void draw_interface(double seconds);
   void follow_tooltip();
+  void point_at(const ImVec2& mouse);
   void do_calls(std::vector<CommandCall> calls);
   void do_call(const CommandCall& call);
   void do_for_people(const CommandCall& call);
   void follow_pointer(const PanelContext& context, double seconds);
   void move_camera();
+  void draw_fast(DrawingQuality quality);
   void bring_to_rest();
   void ask_inspector();
+  void ask_surface();
   bool draw_scene();
   /// Of the session's worker, or of the turntable that is drawn.
   WorkerProgress progress() const;

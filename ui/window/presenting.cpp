@@ -1,18 +1,22 @@
 // A demo in the window: its time, its camera, and who has the keyboard meanwhile.
+#include "ui/commands/demo_file.hpp"
 #include "ui/window/interface_parts.hpp"
 
 namespace nextview {
 
-/// Nothing runs, and what came of it is here.
-bool Interface::Parts::at_rest() const {
-  return (!news.progress.busy || news.progress.paused) && news == latest() && !inspector.busy() && !state.picture &&
-         !state.quit;
+bool Interface::Parts::works() const {
+  const WorkerProgress now = worker.progress();
+  return (now.busy && !now.paused) || inspector.busy();
 }
+
+/// Nothing runs, and what came of it is here: asked in this order, as it may end in between.
+bool Interface::Parts::at_rest() const { return !works() && news == latest() && !state.picture && !state.quit; }
 
 /// What the session takes to compute is not the demo's time.
 void Interface::Parts::pass_time(double seconds) {
   Presentation& p = state.presentation;
   const bool rests = at_rest();
+  if (rests && rested && script.done()) state.history.now += seconds;
   const double passed = p.pass(rests && rested ? seconds : 0.0, !script.done());
   rested = rests;
   fly(passed);
@@ -61,6 +65,26 @@ void Interface::Parts::take_over() {
   state.presentation = {};
   course.reset();
   state.panels_hidden = false;
+}
+
+/// From nothing: with the window and the settings as they are at first.
+void Interface::Parts::play(const std::string& demo) {
+  std::vector<CommandCall> calls = read_demo(demo).calls;
+  if (news.snapshot->loaded()) {
+    Configuration configuration;
+    configuration.object = news.snapshot->configuration.object;
+    worker.post(request::Load{configuration});
+  }
+  WindowState first;
+  first.text_scale = state.text_scale;
+  first.full_screen = state.full_screen;
+  first.guide_open = false;
+  first.presentation.demo = true;
+  state = std::move(first);
+  recorder.begin_with_nothing();
+  course.reset();
+  script.stop();
+  script.add(std::move(calls));
 }
 
 }  // namespace nextview

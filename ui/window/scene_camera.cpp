@@ -6,19 +6,22 @@
 #include <numbers>
 
 #include "ui/layers/geometry.hpp"
+#include "ui/scene/camera_framing.hpp"
 #include "ui/window/camera_control.hpp"
 #include "ui/window/scene_view.hpp"
 
 namespace nextview {
 
-std::vector<Vector3> SceneView::object_corners() const {
+std::vector<Vector3> SceneView::object_outline() const {
   if (!shown_) return scene_.outline();
   const SessionSnapshot& s = *shown_;
-  if (s.mesh) return corners(s.mesh->bounding_box());
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& point : s.cloud->points) box.extend(point.cast<double>());
-  const Eigen::AlignedBox3d region(s.grid.lower(), s.grid.upper());
-  return corners(box.isEmpty() ? region : box.intersection(region).isEmpty() ? box : box.intersection(region));
+  if (s.mesh) return extreme_points(s.mesh->vertices);
+  const Eigen::AlignedBox3d region = s.grid.box();
+  std::vector<Eigen::Vector3f> inside;
+  for (const Eigen::Vector3f& point : s.cloud->points)
+    if (region.contains(point.cast<double>())) inside.push_back(point);
+  const auto outline = extreme_points(inside.empty() ? s.cloud->points : inside);
+  return outline.empty() ? corners(region) : outline;
 }
 
 void SceneView::move(const CameraMotion& motion) {
@@ -29,24 +32,33 @@ void SceneView::move(const CameraMotion& motion) {
     if (frame->what == Framed::all)
       scene_.frame();
     else
-      scene_.frame(frame->what == Framed::object || !shown_ ? object_corners()
+      scene_.frame(frame->what == Framed::object || !shown_ ? object_outline()
                                                             : corners({shown_->grid.lower(), shown_->grid.upper()}));
   }
   if (const auto* from = std::get_if<camera_motion::LookFrom>(&motion))
-    scene_.frame(object_corners(), ViewDirection{from->azimuth, from->elevation});
+    scene_.frame(object_outline(), ViewDirection{from->azimuth, from->elevation});
   if (const auto* by = std::get_if<camera_motion::Turn>(&motion))
     turn(renderer(), pivot_, by->azimuth * std::numbers::pi / 180, by->elevation * std::numbers::pi / 180);
   if (const auto* through = std::get_if<camera_motion::LookThrough>(&motion); through && shown_) {
     const double angle = 2 * std::atan(0.5 * shown_->camera.height / shown_->camera.fy);  // all that the camera sees
     look_through(renderer(), through->T_world_camera, pivot_, angle * 180 / std::numbers::pi);
   }
+  if (const auto* to = std::get_if<camera_motion::GoTo>(&motion)) {
+    const bool orthographic = orthographic_;
+    scene_.set_orthographic(false, pivot_);
+    look_through(renderer(), to->T_world_camera, pivot_, Scene::vertical_angle);
+    scene_.set_orthographic(orthographic, pivot_);
+  }
   if (const auto* step = std::get_if<camera_motion::Zoom>(&motion)) zoom(renderer(), pivot_, step->steps);
   renderer().ResetCameraClippingRange();
 }
 
-void SceneView::set_in_motion(bool in_motion) {
-  scene_.set_moving(in_motion);
-  scene_.cloud().set_flat(in_motion);
+void SceneView::set_quality(DrawingQuality quality) {
+  const bool fast = quality != DrawingQuality::still;
+  scene_.set_quality(quality);
+  scene_.cloud().set_flat(fast);
+  scene_.mesh().set_coarse(fast);
+  scene_.surface().set_coarse(fast);
 }
 
 Pose SceneView::camera_pose() { return nextview::camera_pose(renderer()); }

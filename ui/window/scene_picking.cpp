@@ -39,13 +39,20 @@ Sight SceneView::sight(double x, double y) {
   const double up = std::tan(renderer().GetActiveCamera()->GetViewAngle() * std::numbers::pi / 360);
   const double right = up * rectangle_.width / rectangle_.height;
   const double u = 2 * (x - rectangle_.x) / rectangle_.width - 1, v = 2 * (y - rectangle_.y) / rectangle_.height - 1;
+  vtkCamera& camera = *renderer().GetActiveCamera();
+  if (camera.GetParallelProjection()) {
+    const double high = camera.GetParallelScale(), wide = high * rectangle_.width / rectangle_.height;
+    return {pose * Vector3(u * wide, v * high, 0), pose.linear().col(2)};
+  }
   return {pose.translation(), pose.linear() * Vector3(u * right, v * up, 1)};
 }
 
 /// What was measured there, whether its voxels are shown or not: the object, or the points, lie where they do.
 std::optional<std::uint32_t> SceneView::occupied_voxel(double x, double y) {
   const auto [origin, direction] = sight(x, y);
-  return voxel_on_ray(origin, direction, shown_->grid, chosen_voxels(*shown_, choice_.map), VoxelFilter{});
+  VoxelFilter filter;
+  filter.section = choice_.section;
+  return voxel_on_ray(origin, direction, shown_->grid, chosen_voxels(*shown_, choice_.map), filter);
 }
 
 bool SceneView::set_pivot(double x, double y) {
@@ -59,8 +66,10 @@ namespace {
 
 constexpr double point_reach = 6.0;  // [px]
 
-/// The first of a mesh's triangles along a ray, by Möller and Trumbore 1997. `direction` of any length but 0.
-std::optional<Vector3> first_hit(const TriangleMesh& mesh, const Vector3& origin, const Vector3& direction) {
+/// The first of a mesh's triangles along a ray, of what a section leaves, by Möller and Trumbore 1997. `direction` of
+/// any length but 0.
+std::optional<Vector3> first_hit(const TriangleMesh& mesh, const Vector3& origin, const Vector3& direction,
+                                 const std::optional<Section>& section) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& t : mesh.triangles) {
     const Vector3 a = mesh.vertices[t[0]].cast<double>();
@@ -70,7 +79,8 @@ std::optional<Vector3> first_hit(const TriangleMesh& mesh, const Vector3& origin
     if (volume == 0.0) continue;
     const Vector3 from = origin - a, around = from.cross(u);
     const double p = from.dot(across) / volume, q = direction.dot(around) / volume, way = v.dot(around) / volume;
-    if (p >= 0 && q >= 0 && p + q <= 1 && way > 0) nearest = std::min(nearest, way);
+    if (p < 0 || q < 0 || p + q > 1 || way <= 0 || way >= nearest) continue;
+    if (!section || section->holds(origin + way * direction)) nearest = way;
   }
   if (!std::isfinite(nearest)) return std::nullopt;
   return origin + nearest * direction;
@@ -82,21 +92,27 @@ std::optional<Vector3> SceneView::surface_point(double x, double y) {
   if (!shown_ || doubtful_) return std::nullopt;
   const auto [origin, direction] = sight(x, y);
   if (choice_.object && shown_->mesh)
-    if (const auto hit = first_hit(*shown_->mesh, origin, direction)) return hit;
+    if (const auto hit = first_hit(*shown_->mesh, origin, direction, choice_.section)) return hit;
+  if (const TriangleMesh* surface = shown_surface())
+    if (const auto hit = first_hit(*surface, origin, direction, choice_.section)) return hit;
   if (choice_.cloud) {
     std::optional<Vector3> best;
     double least = point_reach;
     const Vector3 unit = direction.normalized();
+    vtkCamera& camera = *renderer().GetActiveCamera();
+    const bool parallel = camera.GetParallelProjection();
     const double pixels =
-        0.5 * rectangle_.height / std::tan(renderer().GetActiveCamera()->GetViewAngle() * std::numbers::pi / 360);
+        0.5 * rectangle_.height /
+        (parallel ? camera.GetParallelScale() : std::tan(camera.GetViewAngle() * std::numbers::pi / 360));
     const auto voxel = occupied_voxel(x, y);  // what lies behind that is not seen
     const double farthest = voxel ? (shown_->grid.centre(*voxel) - origin).dot(unit) + 2 * shown_->grid.resolution
                                   : std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3f& point : shown_->cloud->points) {
       const Vector3 from = point.cast<double>() - origin;
       const double depth = from.dot(unit);
-      if (depth <= 0 || depth > farthest) continue;
-      const double off = (from - depth * unit).norm() * pixels / depth;
+      if (depth <= 0 || depth > farthest || (choice_.section && !choice_.section->holds(point.cast<double>())))
+        continue;
+      const double off = (from - depth * unit).norm() * pixels / (parallel ? 1.0 : depth);
       if (off >= least) continue;
       least = off;
       best = point.cast<double>();
@@ -125,7 +141,7 @@ Picked SceneView::pick(double x, double y) {
   if (picked.candidate) return picked;
   if (choice_.octree) {
     const auto [origin, direction] = sight(x, y);
-    picked.voxel = voxel_on_ray(origin, direction, s.grid, chosen_voxels(s, choice_.map), choice_.voxels);
+    picked.voxel = voxel_on_ray(origin, direction, s.grid, chosen_voxels(s, choice_.map), choice_.shown_voxels());
     if (picked.voxel) return picked;
   }
   least = ray_reach;

@@ -39,9 +39,10 @@ std::vector<bool> hidden_candidates(const SessionSnapshot& s, const Selection& s
 bool same(const LayerChoice& a, const LayerChoice& b) {
   const auto shown = [](const LayerChoice& c) {
     return std::tuple(c.object, c.cloud, c.octree, c.views, c.rays, c.region, c.missed, c.all_candidates, c.legends,
-                      c.object_style, c.cloud_colouring, c.map, c.colouring, c.ranges_locked);
+                      c.object_style, c.cloud_colouring, c.map, c.colouring, c.ranges_locked, c.surface,
+                      c.surface_colouring);
   };
-  return shown(a) == shown(b) && a.voxels == b.voxels;
+  return shown(a) == shown(b) && a.voxels == b.voxels && a.section == b.section;
 }
 
 /// The explanation of the view that is looked at, if it is known.
@@ -75,8 +76,12 @@ void SceneView::place(const Rectangle& rectangle) {
 }
 
 bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
-                     std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful) {
-  if (!snapshot->loaded()) return false;
+                     std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful,
+                     std::shared_ptr<const FoundSurface> surface) {
+  const bool new_ground = dark_ != window.dark, new_projection = orthographic_ != window.orthographic;
+  if (new_ground) scene_.set_dark(dark_ = window.dark);
+  if (new_projection) scene_.set_orthographic(orthographic_ = window.orthographic, pivot_);
+  if (!snapshot->loaded()) return new_ground;
   const LayerChoice& choice = window.layers;
   const auto explanation = explanation_of(*snapshot, window.selection, *inspection);
   const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
@@ -86,24 +91,35 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   if (new_doubt && doubtful_) leave_doubtful();
   const auto eye = eye_of_a_view(*snapshot, window);
   const bool new_selection = selection_.candidate() != window.selection.candidate();
-  if (!new_selection && !new_snapshot && !new_choice && !new_rays && !new_custom_view && !new_doubt && eye == eye_)
+  const bool new_session = !shown_ || shown_->session != snapshot->session;
+  const bool new_surface = surface != surface_ || new_session || choice.surface != choice_.surface ||
+                           choice.surface_colouring != choice_.surface_colouring;
+  if (!new_selection && !new_ground && !new_projection && !new_surface && !new_snapshot && !new_choice && !new_rays &&
+      !new_custom_view && !new_doubt && eye == eye_)
     return false;
 
   const SessionSnapshot& s = *snapshot;
-  const bool new_session = !shown_ || shown_->session != s.session, new_map = new_session || shown_->map != s.map;
+  const bool new_map = new_session || shown_->map != s.map;
   if (new_session) scene_.region().show({s.grid.lower(), s.grid.upper()});
-  if (new_session || choice.object_style != choice_.object_style || choice.missed != choice_.missed ||
+  if (new_session || new_ground || choice.object_style != choice_.object_style || choice.missed != choice_.missed ||
       (choice.missed && new_map))
     show_mesh(s, choice);
   if (new_map || choice.cloud_colouring != choice_.cloud_colouring || choice.ranges_locked != choice_.ranges_locked)
     show_cloud(s, choice);
-  const bool new_voxels = new_map || choice.map != choice_.map || choice.voxels != choice_.voxels;
+  const bool new_section = choice.section != choice_.section;
+  const bool new_voxels = new_map || choice.map != choice_.map || choice.voxels != choice_.voxels || new_section;
+  surface_ = std::move(surface);
+  if (new_surface) show_surface(s, choice);
+  if (new_section) scene_.cut(choice.section);
+  if (new_section || new_surface || new_session || new_ground ||
+      (choice.object || choice.missed) != (choice_.object || choice_.missed))
+    show_section(s, choice);
   if (new_voxels || choice.colouring != choice_.colouring) show_voxels(s, choice, new_voxels);
   explanation_ = explanation;
   keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
   eye_ = eye;
-  if (const auto pose = selected_view_pose(s, window.selection); new_rays || new_snapshot)
+  if (const auto pose = selected_view_pose(s, window.selection); new_rays || new_snapshot || new_ground)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
   show_views(s, window);
@@ -159,7 +175,7 @@ void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice,
       choice.colouring == VoxelColouring::by_difference || choice.colouring == VoxelColouring::by_error;
   const auto colouring = needs_values && values.empty() ? VoxelColouring::by_class : choice.colouring;
   if (new_voxels) {
-    scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.voxels, colouring, values);
+    scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.shown_voxels(), colouring, values);
   } else {
     scene_.octree().set_colouring(colouring, values);
   }
@@ -213,6 +229,7 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
 }
 
 std::optional<Vector3> SceneView::eye_of_a_view(const SessionSnapshot& s, const WindowState& window) {
+  if (window.orthographic) return std::nullopt;  // the camera is at no place
   const Vector3 eye = camera_pose().translation();
   const double depth = frustum_depth(s.candidates, 0.5 * (s.grid.lower() + s.grid.upper()));
   const auto is_here = [&](const Pose& T_world_camera) { return stands_at(eye, T_world_camera.translation(), depth); };
@@ -237,6 +254,8 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
 void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice) {
   const bool usual = !doubtful_;
   scene_.mesh().set_visible(usual && ((choice.object && s.mesh) || (choice.missed && s.missed)));
+  scene_.surface().set_visible(usual && shown_surface());
+  scene_.section().set_visible(usual && choice.section);
   scene_.cloud().set_visible(usual && choice.cloud);
   scene_.octree().set_visible(usual && choice.octree);
   scene_.views().set_visible(usual && choice.views);

@@ -5,6 +5,7 @@
 #include "ui/render_target/drawn_apart.hpp"
 #include "ui/scene/scene.hpp"
 #include "ui/window/box_handles.hpp"
+#include "ui/workbench/found_surface.hpp"
 #include "ui/workbench/inspection.hpp"
 #include "ui/workbench/session_snapshot.hpp"
 
@@ -26,10 +27,11 @@ class SceneView {
   void set_scale(double scale);
   /// Returns whether the picture changed. While a scan is doubtful, it is shown with those before it, and nothing else.
   bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
-            std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful = nullptr);
+            std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful = nullptr,
+            std::shared_ptr<const FoundSurface> surface = nullptr);
   void move(const CameraMotion& motion);
-  /// While the camera follows the pointer the picture is coarser, so that it follows at once.
-  void set_in_motion(bool in_motion);
+  /// Unless it is still, objects and surfaces of many triangles have fewer, too.
+  void set_quality(DrawingQuality quality);
 
   const Rectangle& rectangle() const { return rectangle_; }
   vtkRenderer& renderer() { return scene_.renderer(); }
@@ -59,8 +61,11 @@ class SceneView {
   void show_cloud(const SessionSnapshot& snapshot, const LayerChoice& choice);
   void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_voxels);
   void show_views(const SessionSnapshot& snapshot, const WindowState& window);
-  /// What is scanned, as far as it is known: corners of a box around it.
-  std::vector<Vector3> object_corners() const;
+  void show_surface(const SessionSnapshot& snapshot, const LayerChoice& choice);
+  void show_section(const SessionSnapshot& snapshot, const LayerChoice& choice);
+  const TriangleMesh* shown_surface() const;
+  /// Points that enclose what is scanned, as far as it is known [m, world].
+  std::vector<Vector3> object_outline() const;
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
   /// Where the scene's camera is, if a view that is drawn is from there.
   std::optional<Vector3> eye_of_a_view(const SessionSnapshot& snapshot, const WindowState& window);
@@ -82,6 +87,8 @@ class SceneView {
   std::vector<RaySegment> rays_;
   std::vector<bool> hidden_;  ///< of each candidate: it is not drawn
   std::shared_ptr<const DoubtfulScan> doubtful_;
+  std::shared_ptr<const FoundSurface> surface_;  ///< null, or another session's: there is none
+  bool dark_ = false, orthographic_ = false;
   Scene::Stand stand_before_;  ///< of the camera, before it was shown
 
   // Colour ranges, kept while they are locked.

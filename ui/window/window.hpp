@@ -17,6 +17,7 @@ struct Script {
 struct WindowStart {
   std::optional<request::Connect> scanner = {};
   std::filesystem::path session = {};  ///< folder of a session to go on with
+  std::string record = {};             ///< a file that all that is done is recorded into; empty: none
   bool offer = false;                  ///< to go on with what nobody closed, if there is such a session
 };
 

@@ -17,7 +17,14 @@ WindowPreferences read_preferences(const std::filesystem::path& state, const Win
   try {
     std::ifstream stream(state / file_name);
     const auto json = nlohmann::json::parse(stream);
-    return {std::clamp(json.at("text_scale").get<double>(), 0.5, 4.0), json.at("guide").get<bool>()};
+    const auto size = [&](const char* name, double usual) {
+      return std::clamp(json.value(name, usual), PlaceSizes::smallest, PlaceSizes::largest);
+    };
+    constexpr PlaceSizes usual;
+    return {std::clamp(json.at("text_scale").get<double>(), 0.5, 4.0),
+            json.at("guide").get<bool>(),
+            json.value("dark", false),
+            {size("left", usual.left), size("right", usual.right), size("lower", usual.lower)}};
   } catch (const std::exception&) {
     return otherwise;
   }
@@ -27,7 +34,12 @@ void keep_preferences(const std::filesystem::path& state, const WindowPreference
   try {
     if (state.empty()) return;
     std::filesystem::create_directories(state);
-    const nlohmann::ordered_json json = {{"text_scale", preferences.text_scale}, {"guide", preferences.guide}};
+    const nlohmann::ordered_json json = {{"text_scale", preferences.text_scale},
+                                         {"guide", preferences.guide},
+                                         {"dark", preferences.dark},
+                                         {"left", preferences.place_sizes.left},
+                                         {"right", preferences.place_sizes.right},
+                                         {"lower", preferences.place_sizes.lower}};
     write_file(state / file_name, json.dump(2) + "\n");
   } catch (const std::exception&) {  // they are a comfort alone
   }

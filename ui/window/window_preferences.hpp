@@ -1,12 +1,16 @@
 #pragma once
 #include <filesystem>
 
+#include "ui/commands/window_state.hpp"
+
 namespace nextview {
 
 /// What of a window is kept for the next one.
 struct WindowPreferences {
   double text_scale = 1.0;  ///< of text and controls, beside the display's
   bool guide = true;        ///< what to do first is shown
+  bool dark = false;
+  PlaceSizes place_sizes = {};
 
   bool operator==(const WindowPreferences&) const = default;
 };

@@ -1,44 +1,44 @@
 #pragma once
-#include <condition_variable>
+#include <atomic>
 #include <functional>
-#include <mutex>
-#include <thread>
 
+#include "ui/workbench/answer_thread.hpp"
+#include "ui/workbench/found_surface.hpp"
 #include "ui/workbench/inspector.hpp"
 
 namespace nextview {
 
-/// Inspects on a thread of its own, also while the session worker is busy: snapshots never change.
+/// Inspects on a thread of its own, also while the session worker is busy: snapshots never change. Surfaces, which take
+/// longer, are made on another.
 class InspectionWorker {
  public:
-  /// `on_news` is called, from that thread, when there is another answer.
+  /// `on_news` is called, from these threads, when there is another answer.
   explicit InspectionWorker(std::function<void()> on_news = {});
-  ~InspectionWorker();
-  InspectionWorker(const InspectionWorker&) = delete;
-  InspectionWorker& operator=(const InspectionWorker&) = delete;
 
   /// Takes the place of what was asked and is not answered yet.
-  void ask(std::shared_ptr<const SessionSnapshot> session, const Selection& selection);
-  std::shared_ptr<const Inspection> answer() const;  ///< the latest; never null
-  bool busy() const;
+  void ask(std::shared_ptr<const SessionSnapshot> session, const Selection& selection) {
+    inspections_.ask({std::move(session), selection});
+  }
+  std::shared_ptr<const Inspection> answer() const { return inspections_.answer(); }  ///< the latest; never null
+
+  void ask_surface(const SurfaceQuestion& question);
+  void drop_surface() { surfaces_.drop(); }
+  std::shared_ptr<const FoundSurface> surface() const { return surfaces_.answer(); }  ///< likewise
+  /// Of the surface that is being made, 0 to 1; none if none is.
+  std::optional<double> surface_progress() const;
+
+  bool busy() const { return inspections_.busy() || surfaces_.busy(); }
 
  private:
   struct Question {
     std::shared_ptr<const SessionSnapshot> session;
     Selection selection;
   };
-  void run(std::stop_token stop);
 
-  const std::function<void()> on_news_;
   Inspector inspector_;  ///< the thread's alone
-
-  mutable std::mutex mutex_;  ///< guards what follows
-  std::condition_variable_any wake_;
-  std::optional<Question> question_;
-  bool running_ = false;
-  std::shared_ptr<const Inspection> answer_ = std::make_shared<Inspection>();
-
-  std::jthread thread_;  ///< the last member: it ends before the others do
+  std::atomic<double> surface_fraction_ = 0.0;
+  AnswerThread<Question, Inspection> inspections_;
+  AnswerThread<SurfaceQuestion, FoundSurface> surfaces_;
 };
 
 }  // namespace nextview

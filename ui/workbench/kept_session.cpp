@@ -2,9 +2,38 @@
 
 #include <fmt/format.h>
 
+#include "core/file/atomic_file.hpp"
 #include "core/session/untitled_sessions.hpp"
 
 namespace nextview {
+
+KeptSession::KeptSession(SessionFolder folder, Notice notice) : folder_(std::move(folder)), notice_(std::move(notice)) {
+  try {
+    if (folder_->keeps()) cameras_ = read_cameras(folder_->path());
+  } catch (const std::runtime_error& error) {
+    if (notice_) notice_(error.what());
+  }
+}
+
+void KeptSession::set_cameras(std::vector<CameraBookmark> cameras) {
+  cameras_ = std::move(cameras);
+  write_cameras();
+}
+
+void KeptSession::write_cameras() {
+  if (!folder()) return;
+  try {
+    write_file(folder_->out().claim(cameras_name), cameras_json(cameras_));
+  } catch (const std::runtime_error& error) {
+    if (notice_) notice_(error.what());
+  }
+}
+
+void KeptSession::copy_to(OutputFolder& copy, const Session& session) const {
+  if (!folder_) return;
+  folder_->copy_to(copy, session);
+  if (!cameras_.empty()) write_file(copy.claim(cameras_name), cameras_json(cameras_));
+}
 
 void KeptSession::begin(const Session& session) {
   if (folder_) return;
@@ -15,6 +44,7 @@ void KeptSession::begin(const Session& session) {
     folder_ = SessionFolder::in_memory(session);
     not_kept(error.what());
   }
+  if (!cameras_.empty()) write_cameras();
 }
 
 bool KeptSession::step(Session& session, const Progress& progress, const std::stop_token& stop) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/session/camera_bookmarks.hpp"
 #include "core/session/session_folder.hpp"
 
 namespace nextview {
@@ -17,7 +18,7 @@ class KeptSession {
   /// Below `state`, in a folder that is made with the first view; an empty path: nowhere.
   KeptSession(std::filesystem::path state, Notice notice) : state_(std::move(state)), notice_(std::move(notice)) {}
   /// In the folder that it was opened from.
-  KeptSession(SessionFolder folder, Notice notice) : folder_(std::move(folder)), notice_(std::move(notice)) {}
+  KeptSession(SessionFolder folder, Notice notice);
   ~KeptSession() { close(nullptr); }
   KeptSession(const KeptSession&) = delete;
   KeptSession& operator=(const KeptSession&) = delete;
@@ -35,22 +36,25 @@ class KeptSession {
   }
   /// Nobody is in the middle of it. With what makes it quick to open, if the session is given.
   void close(const Session* session);
+  const std::vector<CameraBookmark>& cameras() const { return cameras_; }
+  /// Into its folder, if it has one yet; else with the first view.
+  void set_cameras(std::vector<CameraBookmark> cameras);
   /// Null if it is kept nowhere.
   SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
   /// What is kept, wherever; null if nothing is.
   SessionFolder* record() { return folder_ ? &*folder_ : nullptr; }
   /// Makes another folder one of the same session, also where this one is in memory alone. Nothing without captures.
-  void copy_to(OutputFolder& copy, const Session& session) const {
-    if (folder_) folder_->copy_to(copy, session);
-  }
+  void copy_to(OutputFolder& copy, const Session& session) const;
 
  private:
   void keep_state(const Session& session);
   void not_kept(const std::string& reason);
+  void write_cameras();
 
   std::filesystem::path state_;
   std::optional<SessionFolder> folder_;
   bool closed_ = false;
+  std::vector<CameraBookmark> cameras_;
   Notice notice_;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/export/export_kind.hpp"
 #include "ui/appearance/styles.hpp"
 #include "ui/appearance/voxel_filter.hpp"
 
@@ -6,19 +7,43 @@ namespace nextview {
 
 enum class MapChoice { conventional, gibbs };
 
+/// What the reconstructed surface's colours say.
+enum class SurfaceColouring {
+  by_deviation,    ///< how far it lies from the true one; without a truth, the next
+  by_uncertainty,  ///< how far it may lie off, by those who make it
+  single
+};
+
+/// What is shown in a second scene beside the first.
+enum class SecondView { none, object, surface, cloud, octree, gibbs, missed };
+
 /// What of a session the scene shows, and how.
 struct LayerChoice {
   bool object = true, octree = true, views = true, rays = true;
   bool cloud = false;  ///< within the voxels it would be specks
   bool region = false, missed = false;
+  bool surface = false;         ///< reconstructed
   bool all_candidates = false;  ///< not only the best ones
   bool legends = true;
   MeshStyle object_style = MeshStyle::ghost;
   CloudColouring cloud_colouring = CloudColouring::single;
   MapChoice map = MapChoice::conventional;
   VoxelColouring colouring = VoxelColouring::by_class;
+  SurfaceSource surface_source = SurfaceSource::cloud;
+  SurfaceColouring surface_colouring = SurfaceColouring::by_deviation;
   VoxelFilter voxels;
+  std::optional<Section> section{};  ///< of all that is solid
+  SecondView second = SecondView::none;
   bool ranges_locked = false;  ///< colour ranges stay as they were when this was switched on
+
+  /// The voxels that are drawn.
+  VoxelFilter shown_voxels() const {
+    VoxelFilter filter = voxels;
+    filter.section = section;
+    return filter;
+  }
+  /// What the second scene shows of it.
+  LayerChoice of_second() const;
 };
 
 }  // namespace nextview

@@ -7,6 +7,7 @@
 
 #include "core/config/configuration.hpp"
 #include "core/export/export_kind.hpp"
+#include "core/session/camera_bookmarks.hpp"
 #include "core/session/planning_config.hpp"
 #include "core/session/untitled_sessions.hpp"
 
@@ -79,9 +80,17 @@ struct RenameBranch {
 struct RemoveBranch {
   std::string name;
 };
-/// Shows the end of another branch beside this one.
+/// Shows the end of another branch beside this one, or, view for view, where it had as many as this one has.
 struct Compare {
   std::string branch;  ///< empty: no more
+  bool view_for_view = false;
+};
+/// Keeps a place to look at the scene from, with the session.
+struct KeepCamera {
+  CameraBookmark camera;
+};
+struct RemoveCamera {
+  std::string name;
 };
 /// Samples the Gibbs map of all views so far until it is stationary.
 struct Refine {
@@ -108,6 +117,7 @@ using SessionRequest =
                  request::Reconnect, request::SetTermination, request::SetPlanning, request::Reset, request::Step,
                  request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
                  request::Redo, request::GoTo, request::BeginBranch, request::RenameBranch, request::RemoveBranch,
-                 request::Compare, request::Refine, request::Export, request::ExportOne, request::ForgetRuns>;
+                 request::Compare, request::KeepCamera, request::RemoveCamera, request::Refine, request::Export,
+                 request::ExportOne, request::ForgetRuns>;
 
 }  // namespace nextview

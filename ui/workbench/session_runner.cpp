@@ -130,6 +130,7 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
   tree_->step(kept_->last_number().value_or(tree_->last_number() + 1), stand_of(*session_, *seen_));
   remember(std::move(before));
   show_map(*snapshot_);
+  follow_compared(control);
 }
 
 void SessionRunner::take_view(std::size_t candidate) {
@@ -147,11 +148,13 @@ void SessionRunner::take_custom_view(const Pose& T_world_camera) {
 void SessionRunner::undo(const JobControl& control) {
   if (history_.can_undo())
     adopt(history_.undo(now(), ScanHistory::limit(session_->configuration()), control.progress, control.stop));
+  follow_compared(control);
 }
 
 void SessionRunner::redo(const JobControl& control) {
   if (history_.can_redo())
     adopt(history_.redo(now(), ScanHistory::limit(session_->configuration()), control.progress, control.stop));
+  follow_compared(control);
 }
 
 /// Goes on from there. The next view is the planner's choice again.

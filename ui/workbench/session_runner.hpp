@@ -64,8 +64,12 @@ class SessionRunner {
   void begin_branch(const std::string& name);
   void rename_branch(const std::string& name, const std::string& to);
   void remove_branch(const std::string& name);
-  /// Shows the end of another branch beside this one; an empty name: no more.
-  void compare(const std::string& name, const JobControl& control);
+  /// Shows the end of another branch beside this one, or, view for view from now on, where it had as many as this one
+  /// has; an empty name: no more.
+  void compare(const std::string& name, const JobControl& control, bool view_for_view = false);
+  /// With the session, where that is kept. Nothing without one. @throws std::invalid_argument
+  void keep_camera(const CameraBookmark& camera);
+  void remove_camera(const std::string& name);
   void refine(int chains, int sweeps, const JobControl& control);
   /// Writes what `nextview scan` writes. Returns a line for people on each surface.
   std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
@@ -91,6 +95,7 @@ class SessionRunner {
                               std::uint32_t number);
   std::shared_ptr<KeptSession> kept_of(SavedSession& saved, const Session& session) const;
   Stand stand_at(std::uint32_t number, const JobControl& control);
+  void follow_compared(const JobControl& control);
   SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
   void open_session(const std::filesystem::path& folder, const JobControl& control);
@@ -121,6 +126,7 @@ class SessionRunner {
   KeptSession::Notice notice_;
   std::shared_ptr<KeptSession> kept_;   ///< of the session; null without one
   std::shared_ptr<StepTree> tree_;      ///< likewise
+  bool view_for_view_ = false;          ///< what is compared
   std::vector<std::uint32_t> put_off_;  ///< steps of it whose maps are to be made again
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };

@@ -1,6 +1,8 @@
 // Where a session runner goes along the steps that were taken.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/file/counted.hpp"
 #include "core/progress/stopped.hpp"
 #include "ui/workbench/session_runner.hpp"
@@ -57,7 +59,8 @@ void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> vi
   change_when_gone_ = history_.last_change();
   const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == branch.name;
   adopt(std::move(after));
-  if (is_swapped) compare(before.branches.current().name, control);
+  if (is_swapped) compare(before.branches.current().name, control, view_for_view_);
+  follow_compared(control);
 }
 
 void SessionRunner::begin_branch(const std::string& name) {
@@ -82,17 +85,42 @@ void SessionRunner::change_branches(const std::function<void(Branches&)>& change
   publish(*snapshot_);
 }
 
-void SessionRunner::compare(const std::string& name, const JobControl& control) {
+void SessionRunner::keep_camera(const CameraBookmark& camera) {
+  if (!kept_) return;
+  std::vector<CameraBookmark> cameras = kept_->cameras();
+  keep(cameras, camera);
+  kept_->set_cameras(std::move(cameras));
+  publish(*snapshot_);
+}
+
+void SessionRunner::remove_camera(const std::string& name) {
+  if (!kept_) return;
+  std::vector<CameraBookmark> cameras = kept_->cameras();
+  forget(cameras, name);
+  kept_->set_cameras(std::move(cameras));
+  publish(*snapshot_);
+}
+
+void SessionRunner::compare(const std::string& name, const JobControl& control, bool view_for_view) {
   if (!tree_) return;
+  view_for_view_ = view_for_view;
   SessionSnapshot next = *snapshot_;
   next.compared = nullptr;
   if (!name.empty()) {
     const Branch& branch = tree_->branches.all[tree_->branches.find(name)];
-    auto there = std::make_shared<const SessionSnapshot>(snapshot_of(stand_at(branch.tip, control)));
+    const std::vector<std::uint32_t> line = tree_->line(branch.tip);
+    const std::size_t views = std::min(view_for_view ? tree_->line(tree_->at).size() : line.size(), line.size());
+    const std::uint32_t number = views == 0 ? 0 : line[views - 1];
+    auto there = std::make_shared<const SessionSnapshot>(snapshot_of(stand_at(number, control)));
     next.compared = std::make_shared<const Comparison>(Comparison{branch.name, std::move(there)});
     history_.keep_within(ScanHistory::limit(session_->configuration()), tree_->stand(tree_->at)->state.get());
   }
   publish(std::move(next));
+}
+
+/// After this branch has gone on or back.
+void SessionRunner::follow_compared(const JobControl& control) {
+  if (view_for_view_ && snapshot_->compared) compare(std::string(snapshot_->compared->branch), control, true);
 }
 
 /// What the window would show if the session stood there.

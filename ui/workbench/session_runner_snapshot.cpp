@@ -36,6 +36,8 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   const bool is_there = snapshot.compared && tree_ && tree_->branches.has(snapshot.compared->branch);
   if (!is_there || snapshot.compared->branch == tree_->branches.current().name) snapshot.compared = nullptr;
   snapshot.kept = kept_ && kept_->folder();
+  snapshot.cameras =
+      std::make_shared<const std::vector<CameraBookmark>>(kept_ ? kept_->cameras() : std::vector<CameraBookmark>());
   snapshot.live = scanner_ != nullptr;
   snapshot.scanner_lost = scanner_ && scanner_->is_lost();
   snapshot_ = std::make_shared<const SessionSnapshot>(std::move(snapshot));
@@ -53,7 +55,8 @@ void SessionRunner::set_message(const std::string& message) {
 /// What a new session takes the place of stays for its curves.
 void SessionRunner::remember_run(SessionSnapshot& snapshot) {
   if (snapshot.records.empty()) return;
-  Run run{fmt::format("{}, {}", snapshot.object_name, snapshot.configuration.planner.gain), snapshot.records};
+  Run run{fmt::format("{}, {}", snapshot.object_name, snapshot.configuration.planner.gain), snapshot.records,
+          snapshot.object_name};
   for (StepRecord& record : run.records) record.candidates.clear();
   std::vector<Run> runs;
   if (snapshot.earlier_runs) runs = *snapshot.earlier_runs;

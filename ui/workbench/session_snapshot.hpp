@@ -12,6 +12,7 @@
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "core/session/camera_bookmarks.hpp"
 #include "core/session/scan_state.hpp"
 #include "ui/workbench/timeline.hpp"
 
@@ -60,6 +61,7 @@ struct MissedPicture {
 struct Run {
   std::string name;                 ///< "gearbox, occlusion-aware"
   std::vector<StepRecord> records;  ///< without candidates
+  std::string object;               ///< that was scanned
 };
 
 struct SessionSnapshot;
@@ -112,6 +114,7 @@ struct SessionSnapshot {
   std::shared_ptr<const Timeline> timeline;    ///< null without a session
   std::shared_ptr<const Comparison> compared;  ///< null if the session is shown alone
   bool kept = false;                           ///< what was taken is in a folder
+  std::shared_ptr<const std::vector<CameraBookmark>> cameras;  ///< to look at the scene from; may be null
 
   bool loaded() const { return session > 0; }
   /// Goes through recorded data, whose frames are the candidates.

@@ -113,9 +113,9 @@ std::uint64_t SessionWorker::posted() const {
   return posted_;
 }
 
-std::vector<std::uint64_t> SessionWorker::take_failed() {
+std::vector<SessionWorker::Done> SessionWorker::take_done() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(failed_, {});
+  return std::exchange(done_, {});
 }
 
 std::optional<std::pair<std::uint64_t, SessionRequest>> SessionWorker::next_request(std::stop_token stop) {
@@ -184,8 +184,8 @@ void SessionWorker::attempt(std::uint64_t number, const SessionRequest& request)
   const auto after = runner_.snapshot();
   if (!failed) finish(request, *before);
   const std::lock_guard lock(mutex_);
-  if (failed && number > 0) failed_.push_back(number);
   const bool taken = after->records.size() > before->records.size();
+  if (number > 0 || taken) done_.push_back({number, failed});
   if (failed || !runner_.can_step() || (is<request::Step>(request) && !taken)) progress_.playing = false;
   snapshot_ = after;
 }
@@ -226,9 +226,11 @@ void SessionWorker::execute(const SessionRequest& request) {
                    runner_.go_to(r.branch, r.views, job_control());
                  },
                  [&](const request::BeginBranch& r) { runner_.begin_branch(r.name); },
+                 [&](const request::KeepCamera& r) { runner_.keep_camera(r.camera); },
+                 [&](const request::RemoveCamera& r) { runner_.remove_camera(r.name); },
                  [&](const request::RenameBranch& r) { runner_.rename_branch(r.name, r.to); },
                  [&](const request::RemoveBranch& r) { runner_.remove_branch(r.name); },
-                 [&](const request::Compare& r) { runner_.compare(r.branch, job_control()); },
+                 [&](const request::Compare& r) { runner_.compare(r.branch, job_control(), r.view_for_view); },
                  [&](const request::Refine& r) {
                    {
                      const std::lock_guard lock(mutex_);

@@ -29,8 +29,13 @@ class SessionWorker {
   void post(SessionRequest request);
   /// How many requests were posted: the number of the last one.
   std::uint64_t posted() const;
-  /// The numbers of those that failed since this was asked last.
-  std::vector<std::uint64_t> take_failed();
+  /// What was done, in its order.
+  struct Done {
+    std::uint64_t request = 0;  ///< its number; 0: a view of request::Play
+    bool failed = false;
+  };
+  /// Since this was asked last.
+  std::vector<Done> take_done();
   /// Drops what waits and stops what runs as soon as that is possible; a step that is not complete is taken back, a
   /// refinement keeps its sweeps so far.
   void cancel();
@@ -77,7 +82,7 @@ class SessionWorker {
   std::condition_variable_any wake_;
   std::deque<std::pair<std::uint64_t, SessionRequest>> queue_;  ///< by number
   std::uint64_t posted_ = 0;
-  std::vector<std::uint64_t> failed_;
+  std::vector<Done> done_;
   std::stop_source job_;
   Clock::time_point job_start_, next_play_;
   bool running_ = false;                ///< a request is being executed
