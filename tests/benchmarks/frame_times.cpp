@@ -5,16 +5,20 @@
 // Wall time is what the user feels; it grows with whatever else the machine does. Processor time is of the thread that
 // draws and of the renderer's own threads, without the workers': what the frame costs, also on a busy machine.
 #include <fmt/format.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <thread>
 #include <vector>
 
+#include "core/surface/surface_file.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/render_target/headless.hpp"
 #include "ui/render_target/offscreen_target.hpp"
@@ -68,8 +72,7 @@ class Window {
     settle();
   }
   void settle() {
-    while (interface_.seconds_to_next_frame() == 0 || worker_.progress().busy || inspector_.busy() ||
-           !interface_.script_is_done())
+    while (!interface_.is_still() || !interface_.is_drawn_well() || !interface_.script_is_done())
       interface_.draw(frame_interval);
   }
 
@@ -139,6 +142,27 @@ class Window {
     return times;
   }
 
+  struct Drawn {
+    FrameTimes first;  ///< what was asked for is seen
+    FrameTimes still;  ///< and then with smooth edges
+  };
+  /// Those that draw the scene after each of these commands, as from a person.
+  Drawn frames_after(const std::vector<std::string>& commands, int times_each) {
+    Drawn times;
+    for (int i = 0; i < times_each; ++i)
+      for (const std::string& command : commands) {
+        interface_.ask(parse_script(command + "\n").front());
+        do {
+          FrameTimes frame;
+          const std::size_t drawings = interface_.scene_drawings();
+          draw_frame(frame);
+          const bool still = target_.window().GetMultiSamples() > 0;
+          if (interface_.scene_drawings() > drawings) append(still ? times.still : times.first, frame);
+        } while (!interface_.is_still() || !interface_.is_drawn_well());
+      }
+    return times;
+  }
+
   std::size_t faces() { return interface_.scene().voxel_faces(); }
 
  private:
@@ -170,12 +194,58 @@ void report(const std::string& what, FrameTimes times) {
   fmt::print("{:6.1f} %\n", 100.0 * double(slow) / double(times.wall.size()));
 }
 
+/// A ball with dents, of about this many triangles.
+TriangleMesh dented_ball(int triangles) {
+  const int rings = int(std::sqrt(triangles / 4.0)), around = 2 * rings;
+  TriangleMesh mesh;
+  for (int i = 0; i <= rings; ++i)
+    for (int k = 0; k < around; ++k) {
+      const double polar = std::numbers::pi * i / rings, azimuth = 2 * std::numbers::pi * k / around;
+      const double radius = 0.3 + 0.01 * std::sin(9 * polar) * std::cos(14 * azimuth);
+      mesh.vertices.push_back(
+          (radius * Vector3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)))
+              .cast<float>());
+    }
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < around; ++k) {
+      const auto at = [&](int ring, int step) { return std::uint32_t(ring * around + step % around); };
+      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  return mesh;
+}
+
+/// What an operator waits for: a layer switched, triangles turned, a new map.
+void measure_scene(Window& window) {
+  window.load({});
+  window.run("play\nwait until done\n");
+  const auto layers = window.frames_after(
+      {"toggle-octree", "toggle-cloud", "toggle-object", "toggle-missed", "toggle-views", "toggle-rays"}, 4);
+  report("layers of a finished scan", layers.first);
+  report("  the still pictures", layers.still);
+  window.load({});
+  const auto maps = window.frames_after({"step"}, 8);
+  report("new maps", maps.first);
+  report("  the still pictures", maps.still);
+  const auto file = std::filesystem::temp_directory_path() / "nextview_frame_times.stl";
+  const TriangleMesh ball = dented_ball(870'000);
+  write_stl(ball, file, "a ball with dents");
+  window.run(fmt::format("open \"{}\"\nobject-style solid\n", file.string()));
+  report(fmt::format("turning, {} triangles", ball.triangles.size()), window.frames_turning(60));
+  report("  in full quality", window.frames_zooming(20));
+  window.run("step\nstep\ntoggle-surface\nwait until done\ntoggle-object\n");
+  report("turning, its surface", window.frames_turning(60));
+  std::filesystem::remove(file);
+  window.run("toggle-surface\ntoggle-object\nobject-style ghost\n");
+}
+
 void measure() {
   fmt::print("{:<36} {:>5} {:^33} {:^33} {:>8}\n", "", "", "wall time [ms]", "processor time [ms]", "wall");
   fmt::print("{:<36} {:>5}", "", "count");
   for (int i = 0; i < 2; ++i) fmt::print(" {:>7} {:>7} {:>7} {:>7}  ", "p50", "p90", "p99", "max");
   fmt::print("{:>8}\n", "> 33 ms");
   Window window;
+  measure_scene(window);
   window.load({});
   window.run("step\nstep\n");
   report("nothing happens", window.frames_idle(200));

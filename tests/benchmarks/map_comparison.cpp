@@ -1,5 +1,5 @@
 // The Gibbs map beside the conventional map and the other baselines, on objects with known surfaces. Prints a row a map
-// as CSV; the README's table comes from it.
+// as CSV; the manual's table comes from it (gibbs).
 //   build/release/map_comparison                               all objects, takes about an hour
 //   build/release/map_comparison --object bunny --views 4      some of it
 #include <fmt/format.h>

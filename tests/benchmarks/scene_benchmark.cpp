@@ -93,7 +93,7 @@ void measure_turning(int edge, double radius, int frames, bool moving) {
   scene.attach(target, {269 / 1280.0, 250 / 800.0, 944 / 1280.0, 740 / 800.0});  // 675 x 490, as in the window
   scene.octree().show(map.grid, map.voxels);
   scene.frame();
-  scene.set_moving(moving);
+  scene.set_quality(moving ? DrawingQuality::moving : DrawingQuality::still);
   const auto finish = reinterpret_cast<void (*)()>(target.gl_function("glFinish"));
   const auto draw = [&] {
     target.render();

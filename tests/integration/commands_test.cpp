@@ -8,6 +8,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "tests/integration/random_calls.hpp"
+#include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/integration/valid_session.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
@@ -19,17 +20,12 @@ namespace {
 constexpr int width = 640, height = 400;
 constexpr double scale = 0.5;
 
-Configuration tiny_scan() {
-  Configuration c;
-  c.object.file = "sphere";
-  c.sensor.width = 80;
-  c.sensor.height = 60;
-  c.map.resolution = 0.04;
-  c.views.count = 8;
+/// Likewise.
+Configuration coarse_scan() {
+  Configuration c = tiny_scan();
   c.planner.ray_columns = 8;
   c.planner.ray_rows = 6;
   c.gibbs.sampler.sweeps = 40;
-  c.evaluation.surface_samples = 500;
   c.termination.views = 6;
   c.termination.surface_left = 0.0;
   return c;
@@ -56,7 +52,7 @@ std::size_t another(const SessionSnapshot& s) {
 
 class Commands : public InTemporaryFolder {
  protected:
-  Commands() { write_file(folder_ / "tiny scan.toml", to_toml(tiny_scan())); }
+  Commands() { write_file(folder_ / "tiny scan.toml", to_toml(coarse_scan())); }
   std::filesystem::path file(const char* name) const { return folder_ / name; }
 
   /// Does these lines, each of which must be done, and looks at the window.
@@ -79,7 +75,7 @@ class Commands : public InTemporaryFolder {
 };
 
 TEST_F(Commands, EachIsDoneByAScript) {
-  User user(tiny_scan(), width, height, scale);
+  User user(coarse_scan(), width, height, scale);
   const auto path = [&](const char* name) { return '"' + file(name).string() + '"'; };
   walk(user, "frame\nlook-from 30 20\nzoom 2\nstep\nstep\n");
   for (const char* lines : {"take-view",
@@ -138,13 +134,16 @@ TEST_F(Commands, EachIsDoneByAScript) {
     if (std::string(lines) == "take-view") walk(user, fmt::format("select-view {}", another(user.session())));
     walk(user, lines);
   }
-  for (const char* command : {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel"})
+  for (const char* command : {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel",
+                              "section-axis", "second-view", "surface-of", "surface-colour"})
     for (const std::string& value : find_command(command).arguments().front().choices({}))
       walk(user, fmt::format("{} {}", command, value));
   for (const char* kind : {"entropy", "coverage", "divergence", "gain", "time"})
     walk(user, fmt::format("curves {} entropy", kind));
   walk(user, "previous-view\nnext-view\ngo-to-view 1\nbranch \"what if\"\nrename-branch \"what if\" closer\nstep\n");
-  walk(user, "go-to-branch main\ncompare closer\nstop-comparing\nremove-branch closer\n");
+  walk(user,
+       "go-to-branch main\nsplit closer\nprevious-view\nnext-view\ncompare closer\nstop-comparing\nremove-branch "
+       "closer\n");
   walk(user, "export " + path("a scan") + "\n");
   walk(user, "save-picture " + path("a picture.png") + "\n");
   for (const auto& [command, name] :
@@ -162,11 +161,16 @@ TEST_F(Commands, EachIsDoneByAScript) {
        "standard-view top\nturn 30 -10\ntoggle-candidates\ntoggle-candidates\ntoggle-legends\ntoggle-legends\nmeasure\n"
        "measure-point 0 0 0.1\nmeasure-point 0.1 0 0.1\nmeasure bore\nmeasure\n");
   walk(user,
+       "toggle-surface\nsection-axis z\nsection-at 0.01\nflip-section\nsection-axis none\ntoggle-surface\n"
+       "toggle-orthographic\nkeep-camera here\nturn 20 0\ngo-to-camera here\nremove-camera here\n"
+       "toggle-orthographic\ndark\ndark\npanel-sizes 300 400 200\n");
+  walk(user,
        "text-size bigger\nhide-panels\nhide-panels\ntext-size usual\nfull-screen\nfull-screen\n"
        "file-dialog export\nfile-dialog\nguide\nguide\n");
   walk(user,
        "caption \"Why? {reason}\" 1\ntitle Title Subtitle 1\nhighlight view 1\norbit 10 0.2 5\nfly-to 20 30 0.2 1.2\n"
        "wait 0.1\nwait until done\nassert views >= 1\ncaption \"\"\n");
+  walk(user, "record " + path("a recording.nextview") + "\nmanual\nmanual planning\nmanual\nrecord-stop\n");
   walk(user, "reset\nspeed 0\nplay\npause\n");
   walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
   walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
@@ -174,7 +178,8 @@ TEST_F(Commands, EachIsDoneByAScript) {
   walk(user, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
   walk(user, "save-script " + path("a script.txt") + "\n");
   EXPECT_NO_THROW(parse_script(read_file(file("a script.txt"))));
-  walked_.insert("reset-settings");  // a large scan: it has a test of its own
+  walked_.insert("reset-settings");  // a large scan: it has a test of its own, as has
+  walked_.insert("play-demo");
   walked_.insert("quit");
   EXPECT_FALSE(user.window().wants_to_quit());
   user.run("quit\n");
@@ -185,7 +190,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
 
 /// This part of the test above once depended on how fast the machine was.
 TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
-  User user(tiny_scan(), width, height, scale);
+  User user(coarse_scan(), width, height, scale);
   walk(user, endless_refinement);
   const auto log = *user.worker().log().entries();
   expect_words_for_people(log);
@@ -194,25 +199,25 @@ TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
 }
 
 TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
-  User user(tiny_scan(), width, height, scale);
+  User user(coarse_scan(), width, height, scale);
   user.run("reset-settings\n");
   Configuration expected;
-  expected.object = tiny_scan().object;
+  expected.object = coarse_scan().object;
   EXPECT_EQ(to_toml(user.session().configuration), to_toml(expected));
   user.run("undo\n");
-  EXPECT_EQ(to_toml(user.session().configuration), to_toml(tiny_scan()));
+  EXPECT_EQ(to_toml(user.session().configuration), to_toml(coarse_scan()));
 }
 
 TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
   const std::string script = '"' + file("script.txt").string() + '"';
-  User first(tiny_scan(), width, height, scale);
+  User first(coarse_scan(), width, height, scale);
   first.run(
       "step\nstep\nselect-view 3\nzoom 1\nzoom 1\nslice-axis x\nslice-at 0.1 0.2\nslice-at 0.05\n"
       "set planner.combined_weights \"\"\nstep\ncustom-view 0.6 -0.6 0.5 0 0 0\ntake-custom-view\nstep\nundo\nstep\n"
       "inspect-ray 3\ninspect-voxel 0 0 0\nsave-script " +
       script + "\n");
   const std::string saved = read_file(file("script.txt"));
-  User second(tiny_scan(), width, height, scale);
+  User second(coarse_scan(), width, height, scale);
   second.run(saved);
   expect_valid(second.session());
   ASSERT_EQ(second.session().records.size(), first.session().records.size());
@@ -229,7 +234,7 @@ TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
 TEST_F(Commands, AtRandomLeaveAValidSession) {
   const char* const wanted = std::getenv("NEXTVIEW_RANDOM_COMMANDS");
   const std::size_t count = wanted ? std::stoul(wanted) : 200;
-  User user(tiny_scan(), width, height, scale);
+  User user(coarse_scan(), width, height, scale);
   // Other commands: --gtest_random_seed.
   RandomCalls random(20240229 + std::uint64_t(GTEST_FLAG_GET(random_seed)), folder_, file("tiny scan.toml"));
   std::size_t done = 0, refused = 0, views = 0;

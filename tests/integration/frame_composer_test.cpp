@@ -52,7 +52,7 @@ class Comparison : public ::testing::Test {
   /// While the session's worker is busy, and until nothing new comes.
   void look_until_done(const char* what) {
     do look(what);
-    while (!HasFailure() && (user_.worker().progress().busy || user_.window().seconds_to_next_frame() == 0.0));
+    while (!HasFailure() && !user_.window().is_still());
   }
   void hover(double x, double y) {
     user_.move(x, y);
@@ -143,7 +143,8 @@ TEST_F(Comparison, EdgesAreSmoothAgainWhenTheCameraIsAtRest) {
   user_.move(scene.x + 60, scene.y + 100);
   user_.press();
   user_.move(scene.x + 100, scene.y + 100);
-  user_.wait();
+  do user_.window().draw(1e-3);
+  while (user_.window().seconds_to_next_frame() == 0.0);
   const Image in_motion = user_.look();
   EXPECT_GT(user_.window().seconds_to_next_frame(), 0.0);
   EXPECT_LE(user_.window().seconds_to_next_frame(), 0.15) << "the still picture is late";

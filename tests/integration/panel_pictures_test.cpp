@@ -1,4 +1,4 @@
-// Each panel in use, as the README shows it.
+// Each panel in use, as the manual shows it.
 #include <gtest/gtest.h>
 
 #include "tests/integration/user.hpp"
@@ -7,7 +7,7 @@
 namespace nextview {
 namespace {
 
-/// The README's object, with a camera that is quick to simulate.
+/// The manual's object, with a camera that is quick to simulate.
 Configuration housing() {
   Configuration c;
   c.object.file = "slotted_housing";
@@ -60,6 +60,18 @@ TEST(PanelPictures, LogAndMissedSurface) {
   user.run(
       "step\nstep\ntake-view 20\nstep\npanel log\ntoggle-octree\ntoggle-cloud\ntoggle-missed\ntoggle-rays\nzoom 4\n");
   expect_screenshot("panel_log", user.look(), bound());
+}
+
+TEST(PanelPictures, ASectionThroughTheSurface) {
+  Configuration c = housing();
+  c.termination.views = 6;
+  c.termination.surface_left = 0.0;
+  User user(c);
+  user.run("play\npanel layers\ntoggle-surface\ntoggle-views\nsection-axis x\nsecond-view octree\nframe\n");
+  user.run("wait until done\nwait 10\n");  // notices go
+  expect_screenshot("panel_section", user.look(), bound());
+  user.run("dark\n");
+  expect_screenshot("window_dark", user.look(), bound());
 }
 
 TEST(PanelPictures, CurvesOfSeveralRuns) {

@@ -63,8 +63,9 @@ std::string RandomCalls::number(const Command& command, const Argument& argument
 std::string RandomCalls::file(const Command& command) {
   if (command.name != "open") {
     const std::map<std::string, std::string> endings = {
-        {"save-picture", ".png"},   {"save-script", ".txt"},   {"export-cloud", ".pcd"},  {"export-map", ".ot"},
-        {"export-surface", ".stl"}, {"export-views", ".json"}, {"export-curves", ".svg"}, {"export-picture", ".png"}};
+        {"save-picture", ".png"},  {"save-script", ".txt"},   {"record", ".nextview"},
+        {"export-cloud", ".pcd"},  {"export-map", ".ot"},     {"export-surface", ".stl"},
+        {"export-views", ".json"}, {"export-curves", ".svg"}, {"export-picture", ".png"}};
     const auto found = endings.find(command.name);
     const std::string end = found == endings.end() ? "" : found->second;
     return (folder_ / fmt::format("{} {}{}", command.name, below(3), end)).string();
@@ -104,7 +105,7 @@ std::pair<const Command*, std::vector<std::string>> RandomCalls::next(const Sess
   const Command* command = nullptr;
   do {
     command = &commands()[below(commands().size())].get();
-  } while (command->name == "quit");
+  } while (command->name == "quit" || command->name == "play-demo");
   const std::array<std::string, 7> wrong = {"", "x", "nan", "-1e9", "1e99", "two words", "\""};
   std::vector<std::string> values;
   for (const Argument& argument : command->arguments()) {

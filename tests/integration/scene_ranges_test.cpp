@@ -132,7 +132,7 @@ TEST_F(SceneRanges, TheScriptHasWhatWasDoneAndNothingElse) {
   const std::vector<std::string> expected = {"step",          "zoom 1",       "zoom 1",           "threshold 0.4",
                                              "slice-axis x",  "slice-at 0.2", "slice-at 0.2 0.1", "select-view 1",
                                              "select-view 2", "frame"};
-  std::vector<std::string> script = user_.window().state().script;
+  std::vector<std::string> script = user_.window().state().history.lines;
   ASSERT_GE(script.size(), expected.size());
   script.erase(script.begin(), script.end() - long(expected.size()));
   EXPECT_THAT(script, ElementsAreArray(expected));

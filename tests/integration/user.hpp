@@ -24,12 +24,10 @@ class User {
   void wait() {
     constexpr auto pause = std::chrono::milliseconds(2);
     constexpr double frame = 1.0 / 60;  // [s]
-    const auto works = [&] {
+    while (!interface_.is_still() || !interface_.is_drawn_well() || !interface_.script_is_done()) {
       const WorkerProgress progress = worker_.progress();
-      return (progress.busy && !progress.paused) || inspector_.busy();
-    };
-    while (interface_.seconds_to_next_frame() == 0.0 || works() || !interface_.script_is_done()) {
-      if (interface_.seconds_to_next_frame() > 0.0 && works()) {
+      const bool works = (progress.busy && !progress.paused) || inspector_.busy();
+      if (works && interface_.seconds_to_next_frame() > 0.0) {
         std::this_thread::sleep_for(pause);
       } else {
         interface_.draw(frame);

@@ -83,8 +83,8 @@ inline void expect_valid(const WindowState& window, const SessionSnapshot& s) {
   EXPECT_TRUE(window.camera_motions.empty());
   EXPECT_TRUE(window.scene_camera.matrix().allFinite());
   std::string script;
-  for (const std::string& line : window.script) script += line + "\n";
-  EXPECT_NO_THROW(EXPECT_EQ(parse_script(script).size(), window.script.size()));
+  for (const std::string& line : window.history.lines) script += line + "\n";
+  EXPECT_NO_THROW(EXPECT_EQ(parse_script(script).size(), window.history.lines.size()));
 }
 
 /// Words that people are not to see.

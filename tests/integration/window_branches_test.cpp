@@ -1,5 +1,6 @@
 // The timeline and the comparison, by hand, and what a person is asked.
 #include <gmock/gmock.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
@@ -69,6 +70,7 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
   user_.release();
   user_.wait();
   EXPECT_FALSE(user_.window().scene().camera_pose().isApprox(camera)) << "a drag there turns both";
+  EXPECT_EQ(user_.target().window().GetMultiSamples(), RenderTarget::smooth_samples) << "edges stay rough";
   user_.run("toggle-octree\n");
   EXPECT_LT(amber(), before / 2) << "layers are those of both";
   user_.run("toggle-octree\nstop-comparing\n");
@@ -79,7 +81,8 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
 TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
   user_.run("step\nstep\n");
   user_.window().ask(command::set("map.resolution", "0.05"));
-  EXPECT_THAT(question(), HasSubstr("starts the scan over. Its 2 views are set aside: undo brings them back."));
+  EXPECT_THAT(question(), HasSubstr("resolution = 50 mm starts the scan over. Its 2 views are set aside: undo brings "
+                                    "them back."));
   user_.type(Key::escape);
   user_.wait();
   EXPECT_EQ(question(), "");
@@ -89,6 +92,9 @@ TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
   EXPECT_EQ(views(), 0u);
   user_.run("undo\n");
   EXPECT_EQ(views(), 2u);
+  user_.window().ask(command::set("map.resolution", "0.01 mm"));
+  user_.wait();
+  EXPECT_EQ(question(), "") << "it is refused before anything is asked";
   user_.window().ask(command::set("planner.gain", "random"));
   user_.wait();
   EXPECT_EQ(question(), "") << "it keeps the scan";
@@ -132,8 +138,9 @@ TEST_F(WindowBranches, ASavedScriptLeavesOutWhatFailed) {
   user_.run("step\n");
   user_.window().run_script(parse_script("open \"/no/such file.ply\"\nstep\n"));
   user_.wait();
-  for (const std::string& line : user_.window().state().script) EXPECT_EQ(line.find("no such file"), line.npos) << line;
-  EXPECT_THAT(user_.window().state().script, testing::Contains("step").Times(2));
+  for (const std::string& line : user_.window().state().history.lines)
+    EXPECT_EQ(line.find("no such file"), line.npos) << line;
+  EXPECT_THAT(user_.window().state().history.lines, testing::Contains("step").Times(2));
 }
 
 }  // namespace

@@ -26,8 +26,13 @@ struct RandomMap {
 };
 
 TEST(VoxelFaces, AreTheBoundaryOfTheShownVoxels) {
-  for (const VoxelFilter filter : {VoxelFilter{}, VoxelFilter{true, true, true}, VoxelFilter{false, false, true}}) {
-    const RandomMap map(3);
+  const RandomMap map(3);
+  VoxelFilter cut{true, true, true}, cut_slice{true, true, true};
+  cut.section = Section{0, map.grid.lower().x() + 0.3, true};
+  cut_slice.section = Section{1, map.grid.lower().y() + 0.3, false};
+  cut_slice.slice = Slice{2, map.grid.lower().z(), map.grid.lower().z() + 0.2};
+  for (const VoxelFilter& filter :
+       {VoxelFilter{}, VoxelFilter{true, true, true}, VoxelFilter{false, false, true}, cut, cut_slice}) {
     // A face between two shown voxels is met twice, from either side; the boundary is what is met once.
     std::multiset<std::array<long, 3>> centres;
     std::set<std::array<long, 3>> expected, actual;
@@ -36,7 +41,7 @@ TEST(VoxelFaces, AreTheBoundaryOfTheShownVoxels) {
       return std::array{std::lround(c.x() * 1e4), std::lround(c.y() * 1e4), std::lround(c.z() * 1e4)};
     };
     for (std::uint32_t voxel = 0; voxel < map.voxels.size(); ++voxel) {
-      if (!filter.shows(map.voxels[voxel])) continue;
+      if (!filter.shows(map.grid, voxel, map.voxels[voxel])) continue;
       for (int axis = 0; axis < 3; ++axis) {
         for (const int sign : {-1, 1}) centres.insert(centre_of(voxel, axis, sign));
       }
@@ -92,6 +97,28 @@ TEST(CameraFraming, AllPointsAreWithinTheMarginsAndTouchTwoOfThem) {
   const double bottom = image.min().y() - margins.bottom, top = 1 - margins.top - image.max().y();
   EXPECT_GT(std::min({left, right, bottom, top}), -1e-9);
   EXPECT_TRUE((left < 1e-9 && right < 1e-9) || (bottom < 1e-9 && top < 1e-9)) << "the camera could be nearer";
+}
+
+TEST(CameraFraming, ExtremePointsReachAsFarAsAllInEveryDirection) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    const auto draw = CounterRandom(5, 907).uniform(i);
+    const Vector3 on_ball = Vector3(draw[0] - 0.5, draw[1] - 0.5, draw[2] - 0.5).normalized();
+    points.push_back(on_ball.cwiseProduct(Vector3(1.0, 0.6, 0.1)).cast<float>());
+  }
+  const std::vector<Vector3> extreme = extreme_points(points);
+  EXPECT_LT(extreme.size(), 300u);
+  const auto reach = [](const auto& all, const Vector3& outward) {
+    double farthest = -1e9;
+    for (const auto& point : all) farthest = std::max(farthest, outward.dot(point.template cast<double>()));
+    return farthest;
+  };
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const auto draw = CounterRandom(5, 908).uniform(i);
+    const Vector3 outward = Vector3(draw[0] - 0.5, draw[1] - 0.5, draw[2] - 0.5).normalized();
+    EXPECT_LT(reach(points, outward) - reach(extreme, outward), 0.01 * 2.0) << "of the longest axis";
+  }
+  EXPECT_TRUE(extreme_points({}).empty());
 }
 
 TEST(CameraFraming, PointsInTheUpperRightAreSeen) {

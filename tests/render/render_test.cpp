@@ -1,22 +1,18 @@
 #include "tests/render/render_test.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/render/failures_page.hpp"
 #include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
 
 const std::filesystem::path screenshots = NEXTVIEW_SCREENSHOTS;
-const std::filesystem::path failures = NEXTVIEW_RENDER_FAILURES;
-
-void leave_pictures(const std::string& name, const Image* expected, const Image& actual, const Image& difference) {
-  std::filesystem::create_directories(failures);
-  if (expected) write_png(*expected, failures / (name + ".expected.png"));
-  write_png(actual, failures / (name + ".actual.png"));
-  if (!difference.rgba.empty()) write_png(difference, failures / (name + ".difference.png"));
-}
+const FailuresPage failures(NEXTVIEW_RENDER_FAILURES);
 
 }  // namespace
 
@@ -28,18 +24,19 @@ void expect_screenshot(const std::string& name, const Image& actual, const Pictu
     return;
   }
   if (!std::filesystem::exists(file)) {
-    leave_pictures(name, nullptr, actual, {});
-    ADD_FAILURE() << file.string() << " is missing. What was drawn: " << (failures / (name + ".actual.png")).string()
+    failures.add(name, nullptr, actual, {}, "it is missing");
+    ADD_FAILURE() << file.string() << " is missing. What was drawn: " << failures.file().string()
                   << ". If it is right, run tests/update-screenshots " << name;
     return;
   }
   const Image expected = read_png(file);
   const PictureDifference difference = compare(expected, actual);
-  if (difference.within(bound)) return;
-  leave_pictures(name, &expected, actual, difference.picture);
-  ADD_FAILURE() << name << ": " << difference.summary() << " (allowed: " << 100 * bound.changed_share << " %, "
-                << bound.largest_difference << "). Expected, actual and difference: " << (failures / name).string()
-                << ".*.png. If the change is meant, run tests/update-screenshots " << name;
+  if (difference.within(bound)) return failures.remove(name);
+  const std::string reason =
+      fmt::format("{} (allowed: {} %, {})", difference.summary(), 100 * bound.changed_share, bound.largest_difference);
+  failures.add(name, &expected, actual, difference.picture, reason);
+  ADD_FAILURE() << name << ": " << reason << ". Stored, drawn and difference: " << failures.file().string()
+                << ". If the change is meant, run tests/update-screenshots " << name;
 }
 
 Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill) {

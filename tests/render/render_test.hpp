@@ -9,9 +9,9 @@
 
 namespace nextview {
 
-/// Expects `actual` to be screenshots/<name>.png within the bound. Otherwise leaves the expected, the actual and the
-/// difference picture in <build>/render-failures/. With NEXTVIEW_UPDATE_SCREENSHOTS set (tests/update-screenshots),
-/// renews the picture.
+/// Expects `actual` to be screenshots/<name>.png within the bound. Otherwise leaves the stored, the drawn and the
+/// difference picture in <build>/render-failures/index.html. With NEXTVIEW_UPDATE_SCREENSHOTS set
+/// (tests/update-screenshots), renews the picture.
 void expect_screenshot(const std::string& name, const Image& actual, const PictureBound& bound = {});
 
 /// Draws a scene into an image of this size [px]. Expects that OpenGL reports no error.

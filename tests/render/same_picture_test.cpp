@@ -61,6 +61,38 @@ TEST(SamePicture, ColouringAndStyleCanChangeLater) {
   EXPECT_EQ(at_once, later);
 }
 
+/// Everything, moved by so many voxels along each axis; the camera is framed anew, and so moves along.
+Image draw_moved(const Eigen::Vector3i& voxels) {
+  return draw_scene(480, 300, [&](Scene& scene) {
+    auto map = samples::map(viewer);
+    map.grid.first += voxels;
+    const Vector3 by = voxels.cast<double>() * map.grid.resolution;
+    TriangleMesh torus = samples::torus();
+    for (auto& vertex : torus.vertices) vertex += by.cast<float>();
+    PointCloud cloud = samples::cloud(viewer);
+    for (auto& point : cloud) point += by.cast<float>();
+    auto rays = samples::rays(look_at(viewer, Vector3::Zero()));
+    for (RaySegment& ray : rays) ray.from += by, ray.to += by;
+    scene.mesh().show(torus, MeshStyle::ghost);
+    scene.cloud().show(cloud);
+    scene.octree().show(map.grid, map.voxels);
+    scene.rays().show(rays, {});
+    scene.region().show({map.grid.lower(), map.grid.upper()});
+    scene.frame();
+  });
+}
+
+TEST(SamePicture, WhatIsMovedWithItsCameraLooksTheSame) {
+  const Image here = draw_moved({0, 0, 0});
+  for (const Eigen::Vector3i& by : {Eigen::Vector3i(100, 0, 0), {-30, 70, 20}}) {
+    const PictureDifference difference = compare(here, draw_moved(by));
+    // Coordinates are floats: edges may fall into the pixel beside.
+    EXPECT_TRUE(difference.within({0.01, 255, "farther from the origin, floats are coarser"})) << difference.summary();
+  }
+  EXPECT_FALSE(compare(here, draw_scene(480, 300, [](Scene& scene) { scene.frame(); })).within({}))
+      << "nothing is seen";
+}
+
 TEST(SamePicture, AnotherColouringIsAnotherPicture) {
   const auto draw = [](VoxelColouring colouring) {
     return draw_scene(320, 200, [=](Scene& scene) {
@@ -78,7 +110,7 @@ TEST(SamePicture, RoughEdgesWhileMovingAreSmoothAgainAtRest) {
   show_map(scene, VoxelColouring::by_class);
   scene.frame();
   const auto draw = [&](bool moving) {
-    scene.set_moving(moving);
+    scene.set_quality(moving ? DrawingQuality::moving : DrawingQuality::still);
     target.render();
     return target.read_back();
   };

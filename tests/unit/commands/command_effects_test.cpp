@@ -20,7 +20,8 @@ auto scene_state(const WindowState& w) {
   return std::tuple(l.object, l.cloud, l.octree, l.views, l.rays, l.region, l.missed, l.object_style, l.cloud_colouring,
                     l.map, l.colouring, l.ranges_locked, v.occupied, v.unknown, v.free, v.uncertain, v.unknown_from,
                     v.entropy_from, v.slice.has_value(), w.front, w.curves, w.sort_column, w.sort_ascending,
-                    w.palette_open, w.shortcuts_open, w.picture.has_value(), w.quit);
+                    w.palette_open, w.shortcuts_open, w.picture.has_value(), w.quit, l.surface, l.surface_source,
+                    l.surface_colouring, l.second, l.section.has_value(), w.orthographic, w.dark, w.place_sizes.left);
 }
 
 class CommandEffects : public testing::Test {
@@ -63,15 +64,21 @@ TEST_F(CommandEffects, EachLayerIsSwitchedByItsOwn) {
     expect_effect("toggle-views", [](WindowState& w) { w.layers.views ^= true; });
     expect_effect("toggle-rays", [](WindowState& w) { w.layers.rays ^= true; });
     expect_effect("toggle-region", [](WindowState& w) { w.layers.region ^= true; });
-    expect_effect("toggle-missed", [](WindowState& w) {
-      w.layers.missed ^= true;
-      w.layers.octree = !w.layers.missed;  // which would be in front of it, as the points would
-      if (w.layers.missed) w.layers.cloud = false;
-    });
+    const auto alone = [](WindowState& w, bool LayerChoice::*shown) {
+      const bool now = !(w.layers.*shown);
+      w.layers.missed = w.layers.surface = false;
+      w.layers.*shown = now;
+      w.layers.octree = !now;  // which would be in front of it, as the points would
+      if (now) w.layers.cloud = false;
+    };
+    expect_effect("toggle-missed", [&](WindowState& w) { alone(w, &LayerChoice::missed); });
+    expect_effect("toggle-surface", [&](WindowState& w) { alone(w, &LayerChoice::surface); });
     expect_effect("toggle-occupied", [](WindowState& w) { w.layers.voxels.occupied ^= true; });
     expect_effect("toggle-unknown", [](WindowState& w) { w.layers.voxels.unknown ^= true; });
     expect_effect("toggle-free", [](WindowState& w) { w.layers.voxels.free ^= true; });
     expect_effect("toggle-uncertain", [](WindowState& w) { w.layers.voxels.uncertain ^= true; });
+    expect_effect("toggle-orthographic", [](WindowState& w) { w.orthographic ^= true; });
+    expect_effect("dark", [](WindowState& w) { w.dark ^= true; });
     expect_effect("lock-ranges", [](WindowState& w) { w.layers.ranges_locked ^= true; });
     expect_effect("palette", [](WindowState& w) { w.palette_open ^= true; });
     expect_effect("shortcuts", [](WindowState& w) { w.shortcuts_open ^= true; });
@@ -93,6 +100,13 @@ TEST_F(CommandEffects, EachChoiceIsTheOneOfItsName) {
   expect_effect("voxel-colour error", [](WindowState& w) { w.layers.colouring = VoxelColouring::by_error; });
   expect_effect("threshold 0.4", [](WindowState& w) { w.layers.voxels.unknown_from = 0.4; });
   expect_effect("uncertain-from 0.3", [](WindowState& w) { w.layers.voxels.entropy_from = 0.3; });
+  expect_effect("surface-of map", [](WindowState& w) { w.layers.surface_source = SurfaceSource::map; });
+  expect_effect("surface-colour uncertainty",
+                [](WindowState& w) { w.layers.surface_colouring = SurfaceColouring::by_uncertainty; });
+  expect_effect("surface-colour single", [](WindowState& w) { w.layers.surface_colouring = SurfaceColouring::single; });
+  expect_effect("second-view gibbs", [](WindowState& w) { w.layers.second = SecondView::gibbs; });
+  expect_effect("second-view none", [](WindowState& w) { w.layers.second = SecondView::none; });
+  expect_effect("panel-sizes 300 400 200", [](WindowState& w) { w.place_sizes = {300, 400, 200}; });
   expect_effect("panel gibbs", [](WindowState& w) { w.front = {w.front[0], panel_name::gibbs, w.front[2]}; });
   expect_effect("panel layers", [](WindowState& w) { w.front = {"layers", w.front[1], w.front[2]}; });
   expect_effect("panel log", [](WindowState& w) { w.front = {w.front[0], w.front[1], "log"}; });
@@ -113,6 +127,24 @@ TEST_F(CommandEffects, EachChoiceIsTheOneOfItsName) {
   });
   expect_effect("save-picture a.png", [](WindowState& w) { w.picture = PictureRequest{}; });
   expect_effect("quit", [](WindowState& w) { w.quit = true; });
+}
+
+TEST_F(CommandEffects, ASectionKeepsTheHalfAwayFromTheCamera) {
+  const auto& section = window_.layers.section;
+  EXPECT_THAT(error_of("section-at 0.1"), HasSubstr("choose an axis first"));
+  window_.scene_camera.translation() = Vector3(3, -2, 1);
+  run("section-axis x");
+  EXPECT_EQ(section.value(), (Section{0, 0.0, false})) << "through the middle of the sphere";
+  EXPECT_TRUE(section->holds(Vector3(-0.1, 5, 5)));
+  EXPECT_FALSE(section->holds(Vector3(0.1, 0, 0)));
+  run("section-axis y");
+  EXPECT_TRUE(section.value().keeps_upper) << "the camera is where y is negative";
+  run("section-at 0.05");
+  EXPECT_EQ(section->at, 0.05);
+  run("flip-section");
+  EXPECT_FALSE(section->keeps_upper);
+  run("section-axis none");
+  EXPECT_FALSE(section);
 }
 
 TEST_F(CommandEffects, DemosShowWhatIsSaidByTheirOwnTime) {

@@ -77,7 +77,7 @@ TEST(BrokenMeshFile, garbageOfAnyType) {
   for (const std::size_t size : {1, 10, 100, 5000})
     for (const auto& [name, bytes] : files::all()) {
       std::string garbage;
-      for (std::size_t i = 0; i < size; ++i) garbage.push_back(static_cast<char>(256 * random.uniform(i)[0]));
+      for (std::size_t i = 0; i < size; ++i) garbage.push_back(char(int(256 * random.uniform(i)[0])));
       EXPECT_NE(complaint(folder.write(name, garbage)), "no complaint") << name << " of " << size << " bytes";
     }
 }

@@ -22,7 +22,7 @@ class Bars : public testing::Test {
   }
 
   std::shared_ptr<SessionSnapshot> scan_ = made_scan();
-  Desk desk_;
+  Desk desk_{1280, 960};
 };
 
 TEST_F(Bars, TheFiguresAreThoseOfTheLastView) {
@@ -106,6 +106,10 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   const Eigen::Vector3i n = scan_->grid.size;
   EXPECT_THAT(status(), HasSubstr(fmt::format("sphere · {} triangles · {} × {} × {} voxels of 40 mm",
                                               scan_->mesh->triangles.size(), n.x(), n.y(), n.z())));
+  desk_.window.pointed_at = Vector3(0.0125, -0.2, 0.31);
+  EXPECT_THAT(status(), HasSubstr("x 12.5  y -200.0  z 310.0 mm"));
+  desk_.window.pointed_at = Vector3(1.25, -0.2, 0.31);
+  EXPECT_THAT(status(), HasSubstr("x 1.250  y -0.200  z 0.310 m"));
   scan_->message = "it went wrong";
   EXPECT_EQ(status(), "it went wrong");
   desk_.snapshot = scanned(small_scan(), 0);
@@ -147,6 +151,7 @@ TEST_F(Layers, EachLineSwitchesItsOwn) {
   desk_.frames();
   for (const auto& [label, command] : {std::pair{"Object", "toggle-object"},
                                        {"Missed surface", "toggle-missed"},
+                                       {"Reconstructed surface", "toggle-surface"},
                                        {"Point cloud", "toggle-cloud"},
                                        {"Octree", "toggle-octree"},
                                        {"occupied", "toggle-occupied"},
@@ -166,7 +171,7 @@ TEST_F(Layers, ListsNameWhatTheyChoose) {
   desk_.frames();
   for (const auto& [shown, entry, command] : {std::tuple{"conventional map", "Gibbs map", "voxel-map gibbs"},
                                               {"class", "entropy", "voxel-colour entropy"},
-                                              {"class", "error against truth", "voxel-colour error"},
+                                              {"class", "error", "voxel-colour error"},
                                               {"one colour", "height", "cloud-colour height"},
                                               {"one colour", "distance to truth", "cloud-colour distance"}}) {
     click_on(desk_, shown, "Layers");
@@ -176,7 +181,7 @@ TEST_F(Layers, ListsNameWhatTheyChoose) {
   layers().colouring = VoxelColouring::by_difference;
   layers().cloud_colouring = CloudColouring::by_view;
   EXPECT_THAT(panel(), HasSubstr("Coloured by view"));
-  EXPECT_THAT(panel(), HasSubstr("Of the Gibbs map Coloured by Gibbs − conv"));
+  EXPECT_THAT(panel(), HasSubstr("Of the Gibbs map Coloured by change by Gibbs"));
 }
 
 TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {

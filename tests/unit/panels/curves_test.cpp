@@ -83,9 +83,10 @@ TEST(Curves, EntropyAndCoverageBeginBeforeTheFirstView) {
 
 TEST(Curves, EarlierRunsStayBehindWithTheirFirstCurve) {
   auto s = made_scan();
-  std::vector<nextview::Run> runs(2);
-  for (std::size_t run = 0; run < 2; ++run) {
-    runs[run].name = run == 0 ? "box, random" : "sphere, farthest";
+  std::vector<nextview::Run> runs(3);
+  for (std::size_t run = 0; run < 3; ++run) {
+    runs[run].name = run == 0 ? "random" : run == 1 ? "farthest" : "of another object";
+    runs[run].object = run < 2 ? s->object_name : "box";
     for (int step = 1; step <= 3; ++step) {
       StepRecord r;
       r.step = step;
@@ -97,7 +98,7 @@ TEST(Curves, EarlierRunsStayBehindWithTheirFirstCurve) {
   }
   s->earlier_runs = std::make_shared<const std::vector<nextview::Run>>(runs);
   const ChartContent content = curve_content(*s, CurveKind::entropy);
-  ASSERT_THAT(names(content), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)", "box, random", "sphere, farthest"));
+  ASSERT_THAT(names(content), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)", "random", "farthest"));
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(content.series[i].earlier, i >= 2) << content.series[i].name;
   EXPECT_THAT(content.series[2].x, ElementsAre(1, 2, 3));
   EXPECT_THAT(content.series[2].y, ElementsAre(11, 12, 13));

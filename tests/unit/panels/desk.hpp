@@ -105,18 +105,20 @@ inline std::shared_ptr<const SessionSnapshot> scanned(const Configuration& confi
 inline void open_all_ways(Desk& desk) {
   auto s = std::make_shared<SessionSnapshot>(*scanned(small_scan(), 2));
   s->can_undo = s->can_redo = true;
-  s->earlier_runs = std::make_shared<const std::vector<Run>>(1, Run{"sphere, random", s->records});
+  s->earlier_runs = std::make_shared<const std::vector<Run>>(1, Run{"sphere, random", s->records, s->object_name});
   s->next_candidate = *s->proposal() == 0 ? 1 : 0;
   auto timeline = std::make_shared<Timeline>(*s->timeline);
   timeline->branches.all.push_back({"other", 2, 1});
   timeline->at = 1;
   s->compared = std::make_shared<const Comparison>(Comparison{"other", s});
   s->timeline = std::move(timeline);
+  s->cameras = std::make_shared<const std::vector<CameraBookmark>>(1, CameraBookmark{"here"});
   desk.snapshot = s;
   desk.window.selection.view = {ViewSelection::Kind::candidate, *s->proposal()};
   desk.window.selection.custom_view = Pose::Identity();
   desk.window.measurement = Measurement{};
   desk.window.layers.voxels.slice = Slice{0, -0.1, 0.1};
+  desk.window.layers.section = Section{0, 0.0, false};
 }
 
 /// What may be under way: nothing, playing, refining, a refinement that is paused.

@@ -56,6 +56,18 @@ TEST_F(FileBrowserTest, ANameIsMeantHereAndAPathWhereItSays) {
   EXPECT_EQ(browser_.meant("~/scan"), "/home/of mine/scan");
 }
 
+TEST_F(FileBrowserTest, FoldersOfAPathAreLookedIntoIfTheyAreThere) {
+  EXPECT_EQ(browser_.enter("older"), "older");
+  EXPECT_EQ(browser_.folder(), folder_ / "parts");
+  EXPECT_EQ(browser_.enter("older/x"), "x");
+  EXPECT_EQ(browser_.folder(), folder_ / "parts/older");
+  EXPECT_EQ(browser_.enter("../br"), "br");
+  EXPECT_EQ(browser_.folder(), folder_ / "parts");
+  EXPECT_EQ(browser_.enter("gone/x"), "gone/x");
+  EXPECT_EQ(browser_.enter((folder_ / "parts").string() + "/"), "");
+  EXPECT_EQ(browser_.folder(), folder_ / "parts");
+}
+
 TEST_F(FileBrowserTest, WhatIsNotThereIsSaidAndTheNearestFolderShown) {
   browser_.go_to(folder_ / "parts/gone/for good");
   EXPECT_EQ(browser_.folder(), folder_ / "parts");

@@ -72,6 +72,16 @@ TEST_F(FileDialogTest, ArrowsChooseAndTabCompletes) {
   EXPECT_EQ(done(), "open " + quoted(path("parts/older/arm.obj")));
 }
 
+TEST_F(FileDialogTest, APathThatIsNotThereOpensNothingElse) {
+  begin("open");
+  desk_.write("gone/brac");
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/gone/brac"))) << "which says that it is not there";
+  begin("open");
+  EXPECT_THAT(read("File"), testing::HasSubstr("bracket.stl")) << "the folder is seen before Enter";
+}
+
 TEST_F(FileDialogTest, EscapeClosesItAndNothingElse) {
   begin("open");
   const Selection selected = desk_.window.selection;

@@ -1,11 +1,9 @@
 // A panel of one's own, in one file of tests/exercises and one line here; and what the program's own panels are.
 #include <gmock/gmock.h>
 
-#include "core/file/read_file.hpp"
 #include "tests/exercises/note_panel.hpp"
 #include "tests/unit/panels/desk.hpp"
 #include "tests/unit/panels/seen.hpp"
-#include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
 
 namespace nextview {
@@ -64,12 +62,6 @@ TEST(StandardPanels, HaveNamesOfTheirOwnAndOneInFrontOfEachSide) {
   EXPECT_EQ(WindowState().in_front(Side::bottom), "curves");
   for (const std::string& name : {panel_name::view, panel_name::inspector, panel_name::gibbs, panel_name::curves})
     EXPECT_TRUE(names.contains(name)) << "commands bring it to the front";
-}
-
-TEST(CommandTable, StandsInTheReadme) {
-  const Desk desk;
-  const std::string readme = read_file(NEXTVIEW_SOURCE_DIR "/README.md");
-  EXPECT_NE(readme.find(command_table()), readme.npos) << "put what `nextview window --list-commands` prints there";
 }
 
 }  // namespace

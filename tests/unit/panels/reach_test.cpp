@@ -71,8 +71,9 @@ TEST(Reach, EveryCommandByMouseThroughTheMenu) {
     open_all_ways(desk);
     desk.progress = progress;
     desk.snapshot = all_snapshots(desk)[snapshot];
+    if (snapshot == 1) desk.window.recording = DemoRecording{"a.nextview"};
     std::set<float> menus;
-    for (double x = 10; x < 500; x += 15) click_menu(desk, x, menus, reached);
+    for (double x = 10; x < 700; x += 15) click_menu(desk, x, menus, reached);
     EXPECT_EQ(menus.size(), nextview::menus().size());
   }
   for (const Command& command : commands()) EXPECT_TRUE(reached.contains(command.name)) << command.name;
@@ -87,6 +88,7 @@ std::string valid_value(const Argument& argument, const SessionSnapshot& snapsho
 
 /// Brings the desk to where this command can be done: nothing runs, or what must; the scan goes on, or is finished.
 void prepare_for(const Command& command, Desk& desk, const Snapshots& snapshots) {
+  if (command.name == "record-stop") desk.window.recording = DemoRecording{"a.nextview"};
   for (const auto& snapshot : snapshots)
     for (const WorkerProgress& progress : all_progress()) {
       desk.snapshot = snapshot;
@@ -102,8 +104,8 @@ TEST(Reach, EveryCommandThroughThePalette) {
   const Snapshots snapshots = all_snapshots(desk);
   const WindowState before = desk.window;
   for (const Command& command : commands()) {
-    prepare_for(command, desk, snapshots);
     desk.window = before;
+    prepare_for(command, desk, snapshots);
     desk.window.palette_open = true;
     desk.frames();
     desk.write(command.name);
@@ -150,8 +152,8 @@ TEST(Reach, EveryKeyDoesItsCommand) {
   const WindowState before = desk.window;
   for (const Command& command : commands())
     for (const Shortcut& shortcut : command.shortcuts()) {
-      prepare_for(command, desk, snapshots);
       desk.window = before;
+      prepare_for(command, desk, snapshots);
       desk.frames();
       const ImGuiIO& io = ImGui::GetIO();
       EXPECT_FALSE(io.WantTextInput);

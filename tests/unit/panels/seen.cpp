@@ -83,9 +83,12 @@ void each_triangle(const ImDrawList& list,
 
 }  // namespace
 
-std::vector<SeenText> seen_texts() {
+namespace {
+
+/// Letters of the last frame, with where they may be seen.
+void each_letter(const std::function<void(Reader&, const Letter&, const ImDrawVert&, ImVec2 middle, const ImRect&)>& f,
+                 const std::function<void(const Reader&)>& end_of_window) {
   const auto all = letters();
-  std::vector<SeenText> result;
   const ImDrawData* data = ImGui::GetDrawData();
   for (int i = 0; i < data->CmdListsCount; ++i) {
     Reader reader(window_of(*data->CmdLists[i]));
@@ -95,11 +98,45 @@ std::vector<SeenText> seen_texts() {
       const ImFontGlyph& glyph = *found->second.glyph;
       const bool whole = a[2].uv.x == glyph.U1 && a[2].uv.y == glyph.V1 && b[1].uv.x == glyph.U1;
       const ImVec2 middle((a[0].pos.x + a[2].pos.x) / 2, (a[0].pos.y + a[2].pos.y) / 2);
-      if (whole && clip.Contains(middle)) reader.take(found->second, a[0].pos, a[0].col);
+      if (whole) f(reader, found->second, a[0], middle, clip);
       return whole;
     });
-    for (SeenText& run : reader.runs()) result.push_back(std::move(run));
+    end_of_window(reader);
   }
+}
+
+}  // namespace
+
+std::vector<SeenText> seen_texts() {
+  std::vector<SeenText> result;
+  each_letter(
+      [](Reader& reader, const Letter& letter, const ImDrawVert& corner, ImVec2 middle, const ImRect& clip) {
+        if (clip.Contains(middle)) reader.take(letter, corner.pos, corner.col);
+      },
+      [&](const Reader& reader) {
+        for (SeenText& run : reader.runs()) result.push_back(std::move(run));
+      });
+  return result;
+}
+
+std::vector<SeenText> cut_texts() {
+  std::vector<SeenText> result;
+  std::vector<ImVec2> outside;  // letters that are beside what is seen, of one window
+  each_letter(
+      [&](Reader& reader, const Letter& letter, const ImDrawVert& corner, ImVec2 middle, const ImRect& clip) {
+        if (middle.y < clip.Min.y || middle.y > clip.Max.y) return;
+        reader.take(letter, corner.pos, corner.col);
+        if (middle.x < clip.Min.x || middle.x > clip.Max.x) outside.push_back(middle);
+      },
+      [&](const Reader& reader) {
+        for (const SeenText& run : reader.runs()) {
+          const auto within = [&](const ImVec2& p) {
+            return p.x >= run.from.x && p.x <= run.to.x && p.y >= run.from.y && p.y <= run.to.y;
+          };
+          if (std::any_of(outside.begin(), outside.end(), within)) result.push_back(run);
+        }
+        outside.clear();
+      });
   return result;
 }
 

@@ -22,6 +22,9 @@ struct SeenText {
 
 /// All words of the last frame, as they were drawn: a run of letters in one line each.
 std::vector<SeenText> seen_texts();
+/// Words of the last frame that end, or begin, beyond where their window or column does, so that a part of them is not
+/// seen; what is scrolled away upwards or downwards is none.
+std::vector<SeenText> cut_texts();
 /// The words of a window as people read them: line by line, joined by a space; "" if it is not there. Without a name:
 /// of all windows.
 std::string read(const std::string& window = "");

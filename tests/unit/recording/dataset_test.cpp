@@ -91,6 +91,22 @@ TEST(Dataset, PatternsFindFilesInNaturalOrderAndStayInTheFolder) {
     EXPECT_NE(failure_of([&] { find_frame_files(folder / "", outside); }), "") << outside;
 }
 
+TEST(Dataset, ViSPsCastleIsKnownInOneFolderAndAsDebianHasIt) {
+  using namespace std::string_literals;
+  const std::string image = "\1\0\0\0\2\0\0\0"s + "\0\0\0\0"s;  // 1 x 2 pixels
+  for (const auto& [depths, poses] : {std::pair{"", ""}, {"Depth/", "CameraPose/"}}) {
+    const TemporaryFolder folder;
+    for (const char* part : {"Depth", "CameraPose"}) std::filesystem::create_directories(folder / part);
+    folder.write(std::string(depths) + "Depth_0001.bin", image);
+    folder.write(std::string(poses) + "Camera_001.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    const auto guess = guess_dataset(folder / "");
+    ASSERT_TRUE(guess);
+    EXPECT_EQ(guess->description.frames, std::string(depths) + "Depth_*.bin");
+    EXPECT_EQ(guess->description.poses, std::string(poses) + "Camera_*.txt");
+    EXPECT_EQ(guess->description.depth.width, 2);
+  }
+}
+
 TEST(Dataset, UnknownFoldersSayWhatWasLookedFor) {
   const TemporaryFolder folder;
   EXPECT_THAT(failure_of([&] { describe_dataset(folder / ""); }),

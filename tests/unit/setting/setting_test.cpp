@@ -30,18 +30,6 @@ TEST(Bounds, AreToldInWords) {
   EXPECT_EQ(zero_or(4, 1e6).text(), "0 or from 4 to 1000000");
 }
 
-TEST(Bounds, TheNearestNumberIsAtAnEndThatIsAllowed) {
-  EXPECT_EQ(from_to(1, 2).nearest(1.5), 1.5);
-  EXPECT_EQ(from_to(1, 2).nearest(-7), 1);
-  EXPECT_EQ(from_to(1, 2).nearest(INFINITY), 2);
-  EXPECT_EQ(zero_or(4, 9).nearest(-3), 0);
-  EXPECT_EQ(zero_or(4, 9).nearest(1), 0);
-  EXPECT_EQ(zero_or(4, 9).nearest(3), 4);
-  EXPECT_EQ(over_to(0, 9).nearest(10), 9);
-  EXPECT_EQ(over_to(0, 9).nearest(-1), -1) << "0 is not allowed: there is none";
-  EXPECT_TRUE(std::isnan(from_to(1, 2).nearest(std::nan(""))));
-}
-
 TEST(Setting, IsCheckedOnlyWhenItIsAskedTo) {
   int pixels = 5;
   Setting setting{"sensor.width", "px", "image width", &pixels, from_to(1, 10)};

@@ -146,6 +146,24 @@ TEST_F(SessionBranches, AreComparedAtTheirEnds) {
   EXPECT_FALSE(now().compared);
 }
 
+TEST_F(SessionBranches, AreComparedViewForView) {
+  fork();
+  runner_.compare("main", job_control(), true);
+  const auto shown = [&] { return now().compared ? now().compared->snapshot->records.size() : 99; };
+  EXPECT_EQ(shown(), views());
+  steps(1);
+  EXPECT_EQ(shown(), std::min<std::size_t>(views(), 4)) << "it has four";
+  runner_.go_to("", 1, job_control());
+  EXPECT_EQ(shown(), 1u);
+  runner_.go_to("", 0, job_control());
+  EXPECT_EQ(shown(), 0u);
+  runner_.go_to("", {}, job_control());
+  expect_same_scan(*now().compared->snapshot, *fresh(int(std::min<std::size_t>(views(), 4)), long_scan()));
+  runner_.compare("main", job_control());
+  runner_.go_to("", 1, job_control());
+  EXPECT_EQ(shown(), 4u) << "its end again";
+}
+
 TEST_F(SessionBranches, AreThereWhenASessionIsOpened) {
   for (const double memory : {1.0, 0.0}) {
     const fs::path state = folder_ / fmt::format("state {}", memory);

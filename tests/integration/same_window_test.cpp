@@ -1,0 +1,74 @@
+// Ways to the same session must show the same window. These need no stored picture, and so none can be wrong.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/file/atomic_file.hpp"
+#include "tests/integration/small_scan.hpp"
+#include "tests/integration/user.hpp"
+#include "tests/render/picture_comparison.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr int width = 640, height = 400;
+constexpr double scale = 0.5;
+/// Two views, and all that can be switched on.
+constexpr const char* lines = "step\nstep\ntoggle-region\ntoggle-candidates\nvoxel-colour probability\nselect-view 3\n";
+
+/// The window, or the scene alone (of what is opened, the log and the buttons differ).
+Image look(User& user, bool scene_alone) {
+  if (scene_alone) user.run("hide-panels\n");
+  user.run("look-from 20 30\n");
+  user.window().draw(60.0);  // at rest, and what was told has gone
+  user.wait();
+  return user.look();
+}
+
+class SameWindow : public InTemporaryFolder {
+ protected:
+  static Image after(const std::string& script, bool scene_alone = false) {
+    User user(tiny_scan(), width, height, scale);
+    user.run(script);
+    return look(user, scene_alone);
+  }
+};
+
+/// All but the status line, which says how long the step took.
+TEST_F(SameWindow, OnOneThreadAndOnAll) {
+  constexpr int status_line = 20;  // [px] no less than its height
+  const auto above_status_line = [](Image picture) {
+    picture.height -= status_line;
+    picture.rgba.resize(std::size_t(picture.width) * std::size_t(picture.height) * 4);
+    return picture;
+  };
+  const Image all = above_status_line(after(lines));
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Image single = above_status_line(after(lines));
+  EXPECT_TRUE(all == single) << compare(all, single).summary();
+}
+
+TEST_F(SameWindow, StepByStepAndLoadedFromItsFolder) {
+  const std::string kept = (folder_ / "kept").string();
+  const Image stepped = after(fmt::format("{}export \"{}\"\n", lines, kept), true);
+  const Image loaded = after(fmt::format("open \"{}\"\ntoggle-region\ntoggle-candidates\nvoxel-colour probability\n"
+                                         "select-view 3\n",
+                                         kept),
+                             true);
+  EXPECT_TRUE(compare(stepped, loaded).within({})) << compare(stepped, loaded).summary();
+  EXPECT_FALSE(compare(stepped, after("step\n", true)).within({})) << "nothing is seen of what was done";
+}
+
+TEST_F(SameWindow, BackAndForthAndStraight) {
+  const Image straight = after(lines, true);
+  const Image detour = after(
+      "step\nstep\nstep\nundo\nprevious-view\nnext-view\ntoggle-region\ntoggle-region\n"
+      "toggle-region\ntoggle-candidates\nvoxel-colour entropy\nvoxel-colour probability\n"
+      "select-view 5\nselect-view 3\n",
+      true);
+  EXPECT_TRUE(compare(straight, detour).within({})) << compare(straight, detour).summary();
+}
+
+}  // namespace
+}  // namespace nextview
