@@ -81,9 +81,13 @@ std::vector<ScanSurface> scan_surfaces(const ReconstructionInput& input, const P
   if (!stop.stop_requested()) surfaces.push_back(std::move(cloud));
 
   const std::optional<SignedDistance> truth = truth_of(input);
-  for (ScanSurface& surface : surfaces)
-    if (report(0.8, "looking at the surfaces")) examine(surface, input, truth);
-  return surfaces;
+  std::vector<ScanSurface> whole;
+  for (ScanSurface& surface : surfaces) {
+    if (!report(0.8, "looking at the surfaces")) break;
+    examine(surface, input, truth);
+    whole.push_back(std::move(surface));
+  }
+  return whole;
 }
 
 ScanSurface scan_surface(const ReconstructionInput& input, SurfaceSource source, const Progress& progress,
