@@ -72,8 +72,9 @@ class Display : public testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "nextview-display-XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder_ = name;
+    // A server that begins anew when its last client leaves would turn away whoever comes at that moment.
     server_ = std::make_unique<Background>(
-        fmt::format("Xvfb -displayfd 1 -screen 0 {}x24 -fbdir {} -nolisten tcp 2>/dev/null", size(), name));
+        fmt::format("Xvfb -displayfd 1 -noreset -screen 0 {}x24 -fbdir {} -nolisten tcp 2>/dev/null", size(), name));
     display_ = ":" + server_->line();
     ASSERT_NE(display_, ":") << "Xvfb does not start; install xvfb";
   }

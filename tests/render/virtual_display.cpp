@@ -27,7 +27,9 @@ int exit_status(pid_t process) {
 VirtualDisplay::VirtualDisplay() {
   int ends[2];
   if (::pipe(ends) != 0) return;
-  server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"});
+  // A server that begins anew when its last client leaves would turn away whoever comes at that moment.
+  server_ = start(
+      {"Xvfb", "-displayfd", std::to_string(ends[1]), "-noreset", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"});
   ::close(ends[1]);
   char c = 0;
   while (::read(ends[0], &c, 1) == 1 && c != '\n') name_ += c;  // ends when the server is ready, or has ended
