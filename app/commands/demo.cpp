@@ -75,8 +75,8 @@ void add_demo_command(CLI::App& program) {
   app->add_option("--size", a->size, "of the frames in pixels (default 1280x720)")->type_name("WxH");
   app->add_option("--fps", a->frames_per_second, "frames a second, of the demo's own time (default 30)")
       ->check(CLI::Range(1, 120));
-  app->add_option("--video", a->video, "also makes a video of them, by the program ffmpeg")
-      ->type_name("FILE.mp4|FILE.webm");
+  app->add_option("--video", a->video, "also makes a video of them by the program ffmpeg, or an animated PNG")
+      ->type_name("FILE.mp4|FILE.webm|FILE.png");
   app->add_flag("--check", a->check, "only tells whether every line is right, and what it opens is there");
   app->add_flag("--list-commands", a->list_commands, "prints all commands and ends");
   app->footer(

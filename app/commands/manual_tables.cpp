@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/commands/declared_options.hpp"
+#include "app/commands/protocol_example.hpp"
 #include "core/config/configuration.hpp"
 #include "ui/demo/demo_window.hpp"
 
@@ -83,6 +84,7 @@ std::string table(const std::string& name, const CLI::App& program) {
   if (name == "commands") return demo_commands();
   if (name == "settings") return settings_tables();
   if (name == "options") return options_tables(program);
+  if (name == "protocol") return "```text\n" + protocol_example() + "```\n";
   throw std::runtime_error("the manual has a table of the name '" + name + "', which nothing makes");
 }
 

@@ -22,6 +22,7 @@
 #include "ui/commands/script.hpp"
 #include "ui/render_target/headless.hpp"
 #include "ui/render_target/offscreen_target.hpp"
+#include "ui/window/drawing_first.hpp"
 #include "ui/window/interface.hpp"
 
 namespace nextview {
@@ -176,6 +177,7 @@ class Window {
   }
 
   OffscreenTarget target_;
+  DrawingFirst drawing_first_;
   SessionWorker worker_;
   InspectionWorker inspector_;
   Interface interface_;
@@ -218,15 +220,14 @@ TriangleMesh dented_ball(int triangles) {
 /// What an operator waits for: a layer switched, triangles turned, a new map.
 void measure_scene(Window& window) {
   window.load({});
+  const auto maps = window.frames_after({"step"}, 8);
+  report("new maps", maps.first);
+  report("  the still pictures", maps.still);
   window.run("play\nwait until done\n");
   const auto layers = window.frames_after(
       {"toggle-octree", "toggle-cloud", "toggle-object", "toggle-missed", "toggle-views", "toggle-rays"}, 4);
   report("layers of a finished scan", layers.first);
   report("  the still pictures", layers.still);
-  window.load({});
-  const auto maps = window.frames_after({"step"}, 8);
-  report("new maps", maps.first);
-  report("  the still pictures", maps.still);
   const auto file = std::filesystem::temp_directory_path() / "nextview_frame_times.stl";
   const TriangleMesh ball = dented_ball(870'000);
   write_stl(ball, file, "a ball with dents");

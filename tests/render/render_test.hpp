@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/render/picture_comparison.hpp"
 #include "ui/scene/scene.hpp"
@@ -13,6 +14,9 @@ namespace nextview {
 /// difference picture in <build>/render-failures/index.html. With NEXTVIEW_UPDATE_SCREENSHOTS set
 /// (tests/update-screenshots), renews the picture.
 void expect_screenshot(const std::string& name, const Image& actual, const PictureBound& bound = {});
+
+/// The same of screenshots/<name>.png with motion: picture by picture.
+void expect_animation(const std::string& name, const std::vector<Image>& actual, int pictures_per_second);
 
 /// Draws a scene into an image of this size [px]. Expects that OpenGL reports no error.
 Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill);

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "core/driver/started_process.hpp"
+#include "core/export/frame_folder.hpp"
+#include "ui/render_target/animation.hpp"
 
 namespace nextview {
 namespace {
@@ -34,16 +36,25 @@ std::string words_of(const Descriptor& errors) {
   return text.substr(text.rfind('\n') + 1);
 }
 
+void write_animation(const fs::path& frames, int frames_per_second, const fs::path& file) {
+  Animation animation(frames_per_second);
+  for (int number = 1; fs::exists(frames / frame_name(number)); ++number)
+    animation.add(read_png(frames / frame_name(number)));
+  animation.write(file);
+}
+
 }  // namespace
 
 void require_video(const fs::path& video) {
+  if (video.extension() == ".png") return;
   if (video.extension() != ".mp4" && video.extension() != ".webm")
-    throw std::invalid_argument(fmt::format("--video: {} must end in .mp4 or .webm", video.string()));
+    throw std::invalid_argument(fmt::format("--video: {} must end in .mp4, .webm or .png", video.string()));
   if (!is_on_path("ffmpeg"))
-    throw std::runtime_error("--video: there is no program ffmpeg; install it, or leave --video out");
+    throw std::runtime_error("--video: there is no program ffmpeg; install it, or write an animated .png");
 }
 
 void write_video(const fs::path& frames, int frames_per_second, const fs::path& video) {
+  if (video.extension() == ".png") return write_animation(frames, frames_per_second, video);
   // yuv420p wants even sides, and is what players know.
   const StartedProcess ffmpeg =
       start_process({"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(frames_per_second),

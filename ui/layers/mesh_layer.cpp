@@ -4,7 +4,6 @@
 #include <vtkActor.h>
 #include <vtkDataObject.h>
 #include <vtkFloatArray.h>
-#include <vtkNew.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -19,13 +18,9 @@
 #include "ui/drawing/shader_file.hpp"
 #include "ui/layers/coarse_mesh.hpp"
 #include "ui/layers/geometry.hpp"
-#include "ui/layers/shaded_mesh.hpp"
 
 namespace nextview {
 namespace {
-
-/// Smooth over shallow edges, sharp over steep ones.
-constexpr double crease_angle = 35.0;  // [deg]
 
 /// More triangles than a software renderer draws while the camera moves, and the cells along the longest side that
 /// they are gathered in then.
@@ -125,26 +120,6 @@ Legend legend_of(const MeshPaint& paint) {
   return legend;
 }
 
-/// With normals, and the vertices' attribute if there is one.
-vtkSmartPointer<vtkPolyData> shaded_polydata(const TriangleMesh& mesh, vtkFloatArray* attribute) {
-  const ShadedMesh shading = shaded(mesh, crease_angle);
-  TriangleMesh points;
-  points.vertices.reserve(shading.vertices.size());
-  for (const std::uint32_t vertex : shading.vertices) points.vertices.push_back(mesh.vertices[vertex]);
-  points.triangles = shading.triangles;
-  auto polydata = triangle_polydata(points);
-  polydata->GetPointData()->SetNormals(float_vectors(shading.normals));
-  if (!attribute) return polydata;
-  vtkNew<vtkFloatArray> of_points;
-  of_points->SetName(attribute->GetName());
-  of_points->SetNumberOfComponents(attribute->GetNumberOfComponents());
-  of_points->SetNumberOfTuples(vtkIdType(shading.vertices.size()));
-  for (std::size_t i = 0; i < shading.vertices.size(); ++i)
-    of_points->SetTuple(vtkIdType(i), vtkIdType(shading.vertices[i]), attribute);
-  polydata->GetPointData()->AddArray(of_points);
-  return polydata;
-}
-
 }  // namespace
 
 MeshLayer::MeshLayer(vtkRenderer& renderer)
@@ -174,14 +149,14 @@ void MeshLayer::set_coarse(bool wants_coarse) {
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, MeshStyle style) {
-  take(shaded_polydata(mesh, nullptr));
+  take(shaded_.of(mesh));
   set_style(style);
   describe(mesh.vertices.empty() ? std::vector<Vector3>{} : corners(mesh.bounding_box()), {});
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {
   check(mesh, paint);
-  take(shaded_polydata(mesh, paint_attribute(paint)));
+  take(shaded_.of(mesh, paint_attribute(paint)));
   paint_with("paint", "mesh_paint_vertex.glsl", "mesh_paint.glsl");
   set_palette(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), paint.map);
   const bool empty = mesh.vertices.empty();
@@ -190,7 +165,7 @@ void MeshLayer::show(const TriangleMesh& mesh, const MeshPaint& paint) {
 
 void MeshLayer::show(const TriangleMesh& mesh, const MeshClasses& classes) {
   check(mesh, classes);
-  take(shaded_polydata(mesh, class_attribute(classes)));
+  take(shaded_.of(mesh, class_attribute(classes)));
   paint_with("class_weights", "mesh_classes_vertex.glsl", "mesh_classes.glsl");
   set_palette(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), classes.palette);
   const bool empty = mesh.vertices.empty();

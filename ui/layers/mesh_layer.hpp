@@ -4,6 +4,7 @@
 #include "core/mesh/triangle_mesh.hpp"
 #include "ui/appearance/styles.hpp"
 #include "ui/layers/layer.hpp"
+#include "ui/layers/shaded_polydata.hpp"
 
 class vtkActor;
 class vtkOpenGLPolyDataMapper;
@@ -60,6 +61,7 @@ class MeshLayer : public Layer {
   void on_scale() override;
   void take(vtkSmartPointer<vtkPolyData> polydata);
 
+  ShadedPolydata shaded_;
   vtkSmartPointer<vtkOpenGLPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
   vtkSmartPointer<vtkPolyData> full_, coarse_;  ///< the second is null where the first has few triangles

@@ -4,6 +4,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/planner/policy.hpp"
 #include "core/setting/quantity.hpp"
 #include "ui/panels/panel.hpp"
@@ -22,13 +25,24 @@ std::string shown_text(const Setting& setting) {
   return setting.text();
 }
 
+bool shown_in_millimetres(const Setting& setting) {
+  return setting.unit == "m" && std::holds_alternative<double*>(setting.value) && shown_text(setting).ends_with(" mm");
+}
+
+/// In the unit that the field shows.
+std::string bounds_text(const Setting& setting) {
+  if (!shown_in_millimetres(setting)) return setting.bounds->text();
+  Bounds bounds = *setting.bounds;
+  for (double* limit : {&bounds.low, &bounds.high}) *limit = std::stod(fmt::format("{:.9g}", 1e3 * *limit));
+  return bounds.text("mm");
+}
+
 /// What was written, in the unit that the field showed if it has none of its own.
 std::string with_unit(const Setting& setting, const std::string& text) {
   double number = 0.0;
   if (!std::holds_alternative<double*>(setting.value) || !read_quantity(text, setting.unit, number)) return text;
-  const std::string shown = shown_text(setting);
   const bool has_unit = text.find_first_not_of("0123456789.,+-eE ") != text.npos;
-  const bool in_millimetres = setting.unit == "m" && shown.ends_with(" mm") && !has_unit;
+  const bool in_millimetres = shown_in_millimetres(setting) && !has_unit;
   Setting wanted = setting;
   double value = 0.0;
   wanted.value = &value;
@@ -61,8 +75,26 @@ struct Control {
     ImGui::EndCombo();
     return wanted;
   }
+  /// Whole numbers are written, or go by one.
+  Wanted operator()(const int* value) const {
+    const float side = ImGui::GetFrameHeight(), gap = 2;
+    ImGui::SetNextItemWidth(std::max(ImGui::CalcItemWidth() - 2 * (side + gap), side));
+    ImGui::BeginGroup();
+    Wanted wanted = written();
+    for (const auto& [sign, by] : {std::pair{"-", -1}, {"+", 1}}) {
+      ImGui::SameLine(0, gap);
+      const bool allowed = !setting.bounds || setting.bounds->allow(*value + by);
+      ImGui::BeginDisabled(!allowed);
+      if (ImGui::Button(fmt::format("{}{}", sign, id).c_str(), {side, side})) wanted = std::to_string(*value + by);
+      ImGui::EndDisabled();
+    }
+    ImGui::EndGroup();
+    return wanted;
+  }
   /// Everything else is written.
-  Wanted operator()(const auto*) const {
+  Wanted operator()(const auto*) const { return written(); }
+
+  Wanted written() const {
     const std::string shown = shown_text(setting);
     std::string text = typed.key == setting.key ? typed.text : shown;
     ImGui::InputText(id, &text);
@@ -76,7 +108,7 @@ struct Control {
 }  // namespace
 
 std::string setting_help(const Setting& setting) {
-  return setting.explanation() + (setting.bounds ? "; " + setting.bounds->text() : "");
+  return setting.explanation() + (setting.bounds ? "; " + bounds_text(setting) : "");
 }
 
 std::optional<std::string> setting_control(const Setting& setting, TypedSetting& typed) {

@@ -18,29 +18,32 @@ namespace nextview {
 namespace {
 
 /// VTK's rows go from bottom to top.
-vtkNew<vtkImageData> to_vtk(const Image& image) {
+vtkNew<vtkImageData> to_vtk(const Image& image, int channels) {
   vtkNew<vtkImageData> result;
   result->SetDimensions(image.width, image.height, 1);
-  result->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  const std::size_t row = std::size_t(image.width) * 4;
+  result->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
   auto* target = static_cast<std::uint8_t*>(result->GetScalarPointer());
-  for (int y = 0; y < image.height; ++y) {
-    std::copy_n(&image.rgba[y * row], row, target + (image.height - 1 - y) * row);
-  }
+  for (int y = image.height; y-- > 0;)
+    for (int x = 0; x < image.width; ++x)
+      target = std::copy_n(&image.rgba[(std::size_t(y) * image.width + x) * 4], channels, target);
   return result;
 }
 
 }  // namespace
 
-void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration) {
-  if (image.rgba.empty()) throw std::runtime_error(fmt::format("{}: the picture is empty", file.string()));
+std::string png_bytes(const Image& image, const std::string& configuration, int channels) {
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
-  writer->SetInputData(to_vtk(image));
+  writer->SetInputData(to_vtk(image, channels));
   if (!configuration.empty()) writer->AddText(png_configuration_keyword, configuration.c_str());
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  write_file(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), std::size_t(bytes->GetNumberOfValues())});
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)), std::size_t(bytes->GetNumberOfValues())};
+}
+
+void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration) {
+  if (image.rgba.empty()) throw std::runtime_error(fmt::format("{}: the picture is empty", file.string()));
+  write_file(file, png_bytes(image, configuration));
 }
 
 Image read_png(const std::filesystem::path& file) {

@@ -15,6 +15,9 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
+/// The bytes of a PNG file, with alpha (4 channels) or without (3).
+std::string png_bytes(const Image& image, const std::string& configuration = {}, int channels = 4);
+
 /// Atomic (AtomicFile). The same picture gives the same bytes. It carries the text of a configuration file, if one is
 /// given (png_configuration finds it again).
 /// @throws std::runtime_error naming the file and the reason.

@@ -12,6 +12,7 @@
 
 #include "core/session/untitled_sessions.hpp"
 #include "ui/render_target/window_target.hpp"
+#include "ui/window/drawing_first.hpp"
 #include "ui/window/interface.hpp"
 #include "ui/window/window_preferences.hpp"
 
@@ -217,6 +218,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
   glfwSwapInterval(1);
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);
+  const DrawingFirst drawing_first;
   SessionWorker worker([] { glfwPostEmptyEvent(); });
   if (!script.demo) worker.keep_sessions(state_folder());
   InspectionWorker inspector([] { glfwPostEmptyEvent(); });
