@@ -22,7 +22,7 @@
 #include "ui/commands/script.hpp"
 #include "ui/render_target/headless.hpp"
 #include "ui/render_target/offscreen_target.hpp"
-#include "ui/window/drawing_first.hpp"
+#include "ui/window/behind_drawing.hpp"
 #include "ui/window/interface.hpp"
 
 namespace nextview {
@@ -177,9 +177,8 @@ class Window {
   }
 
   OffscreenTarget target_;
-  DrawingFirst drawing_first_;
-  SessionWorker worker_;
-  InspectionWorker inspector_;
+  SessionWorker worker_{stay_behind_drawing};
+  InspectionWorker inspector_{stay_behind_drawing};
   Interface interface_;
 };
 
@@ -260,12 +259,14 @@ void measure() {
   report("Gibbs run", window.frames_while("refine\n"));
   report(fmt::format("turning, {} faces", window.faces()), window.frames_turning(100));
   Configuration fine;
-  fine.map.resolution = 0.004;
   fine.map.region_edge = 0.8;
   fine.object.longest_side = 0.7;
-  window.load(fine);
-  window.run("step\nstep\nstep\nstep\nstep\nstep\n");
-  report(fmt::format("turning, {} faces", window.faces()), window.frames_turning(60));
+  for (const double resolution : {0.008, 0.004}) {
+    fine.map.resolution = resolution;
+    window.load(fine);
+    window.run("step\nstep\nstep\nstep\nstep\nstep\n");
+    report(fmt::format("turning, {} faces", window.faces()), window.frames_turning(60));
+  }
   report("  by keys, in full quality", window.frames_zooming(20));
   for (const char* layer : {"cloud", "object", "views", "rays", "region", "octree"}) {
     window.run(fmt::format("toggle-{}\n", layer));

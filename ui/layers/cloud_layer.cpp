@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -20,6 +21,9 @@ namespace nextview {
 namespace {
 
 constexpr int steps = 512;  // along a colour map: more than the eye tells apart
+/// More than a software renderer draws at once beside the rest, and of how many one is drawn then.
+constexpr std::size_t many_points = 15'000;
+constexpr int every = 3;
 const Colour no_truth = mix(theme::object, theme::ink, 0.1);
 
 void check(const CloudPicture& picture) {
@@ -106,6 +110,17 @@ vtkSmartPointer<vtkUnsignedCharArray> colours_of(const CloudPicture& picture, co
   return colours;
 }
 
+vtkSmartPointer<vtkPolyData> thinned(vtkPolyData& points) {
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(&points);
+  vtkNew<vtkCellArray> vertices;
+  std::vector<vtkIdType> ids;
+  for (vtkIdType id = 0; id < points.GetNumberOfPoints(); id += every) ids.push_back(id);
+  vertices->InsertNextCell(vtkIdType(ids.size()), ids.data());
+  result->SetVerts(vertices);
+  return result;
+}
+
 }  // namespace
 
 CloudLayer::CloudLayer(vtkRenderer& renderer)
@@ -119,9 +134,18 @@ CloudLayer::CloudLayer(vtkRenderer& renderer)
   add(*actor_);
 }
 
-void CloudLayer::set_flat(bool flat) {
-  moving_ = flat;
-  actor_->GetProperty()->SetRenderPointsAsSpheres(!moving_ && !has_normals_);
+void CloudLayer::set_coarse(bool coarse) {
+  if (coarse == coarse_) return;
+  coarse_ = coarse;
+  show_points();
+}
+
+void CloudLayer::show_points() {
+  if (!full_) return;
+  const bool thin = coarse_ && thin_;
+  mapper_->SetInputDataObject(thin ? thin_ : full_);
+  actor_->GetProperty()->SetRenderPointsAsSpheres(!coarse_ && !has_normals_);
+  actor_->GetProperty()->SetPointSize(float(point_size_ * scale() * (thin ? std::sqrt(every) : 1.0)));
 }
 
 void CloudLayer::show(const PointCloud& cloud, double point_size) {
@@ -141,9 +165,10 @@ void CloudLayer::show(const CloudPicture& picture) {
   }
   if (!picture.normals.empty()) polydata->GetPointData()->SetNormals(float_vectors(picture.normals));
   has_normals_ = !picture.normals.empty();
-  set_flat(moving_);
-  mapper_->SetInputDataObject(polydata);
-  actor_->GetProperty()->SetPointSize(static_cast<float>(picture.point_size * scale()));
+  point_size_ = picture.point_size;
+  full_ = polydata;
+  thin_ = picture.points.size() > many_points ? thinned(*full_) : nullptr;
+  show_points();
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3f& point : picture.points) box.extend(point.cast<double>());
   describe(corners(box), std::move(legends));

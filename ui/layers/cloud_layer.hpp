@@ -6,6 +6,7 @@
 #include "ui/layers/layer.hpp"
 
 class vtkActor;
+class vtkPolyData;
 class vtkPolyDataMapper;
 
 namespace nextview {
@@ -32,13 +33,19 @@ class CloudLayer : public Layer {
   /// @throws std::invalid_argument if there are views or distances but not one a point, none though the points are to
   ///         be coloured by them, or a range is empty.
   void show(const CloudPicture& picture);
-  /// Points are flat squares rather than spheres, which a software renderer draws faster.
-  void set_flat(bool flat);
+  /// Points are flat squares rather than spheres, and of many every third is drawn, larger: a software renderer feels
+  /// each.
+  void set_coarse(bool coarse);
 
  private:
+  void show_points();
+  void on_scale() override { show_points(); }
+
   vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
-  bool moving_ = false, has_normals_ = false;
+  vtkSmartPointer<vtkPolyData> full_, thin_;  ///< the second is null where the first has few points
+  double point_size_ = 2.5;                   ///< [px]
+  bool coarse_ = false, has_normals_ = false;
 };
 
 }  // namespace nextview

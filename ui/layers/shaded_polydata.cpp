@@ -47,8 +47,10 @@ vtkSmartPointer<vtkPolyData> ShadedPolydata::of(const TriangleMesh& mesh, vtkFlo
   of_points->SetName(attribute->GetName());
   of_points->SetNumberOfComponents(attribute->GetNumberOfComponents());
   of_points->SetNumberOfTuples(vtkIdType(k.vertices.size()));
-  for (std::size_t i = 0; i < k.vertices.size(); ++i)
-    of_points->SetTuple(vtkIdType(i), vtkIdType(k.vertices[i]), attribute);
+  const auto components = std::size_t(attribute->GetNumberOfComponents());
+  const float* of_vertices = attribute->GetPointer(0);
+  float* out = of_points->GetPointer(0);
+  for (const std::uint32_t vertex : k.vertices) out = std::copy_n(of_vertices + components * vertex, components, out);
   auto polydata = vtkSmartPointer<vtkPolyData>::New();
   polydata->ShallowCopy(k.polydata);
   polydata->GetPointData()->AddArray(of_points);

@@ -56,7 +56,7 @@ void SceneView::move(const CameraMotion& motion) {
 void SceneView::set_quality(DrawingQuality quality) {
   const bool fast = quality != DrawingQuality::still;
   scene_.set_quality(quality);
-  scene_.cloud().set_flat(fast);
+  scene_.cloud().set_coarse(fast);
   scene_.mesh().set_coarse(fast);
   scene_.surface().set_coarse(fast);
 }

@@ -12,7 +12,7 @@
 
 #include "core/session/untitled_sessions.hpp"
 #include "ui/render_target/window_target.hpp"
-#include "ui/window/drawing_first.hpp"
+#include "ui/window/behind_drawing.hpp"
 #include "ui/window/interface.hpp"
 #include "ui/window/window_preferences.hpp"
 
@@ -218,10 +218,13 @@ int run_window(const Configuration& configuration, const Script& script, const W
   glfwSwapInterval(1);
   float scale = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &scale, &ignored);
-  const DrawingFirst drawing_first;
-  SessionWorker worker([] { glfwPostEmptyEvent(); });
+  const auto has_news = [] {  // called by those that compute
+    stay_behind_drawing();
+    glfwPostEmptyEvent();
+  };
+  SessionWorker worker(has_news);
   if (!script.demo) worker.keep_sessions(state_folder());
-  InspectionWorker inspector([] { glfwPostEmptyEvent(); });
+  InspectionWorker inspector(has_news);
   Interface interface(target, worker, inspector, scale);
   ScriptErrors errors(script.file);
   interface.script().set_on_failure([&](const ScriptFailure& failure) { errors.add(failure); });
