@@ -49,7 +49,8 @@ std::vector<std::string> requests() {
           fmt::format(R"({{"id": 2, "request": "reach", "from": {}, "poses": [{}]}})", above, beside),
           fmt::format(R"({{"id": 3, "request": "move", "pose": {}}})", beside),
           R"({"id": 4, "request": "capture", "step": 1, "seed": 1, "folder": "/path"})",
-          R"({"id": 5, "request": "dance"})", R"({"id": 6, "request": "bye"})"};
+          R"({"id": 5, "request": "dance"})",
+          R"({"id": 6, "request": "bye"})"};
 }
 
 }  // namespace
