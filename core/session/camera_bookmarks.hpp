@@ -11,6 +11,10 @@ namespace nextview {
 struct CameraBookmark {
   std::string name;
   Pose T_world_camera = Pose::Identity();
+
+  bool operator==(const CameraBookmark& other) const {
+    return name == other.name && T_world_camera.matrix() == other.T_world_camera.matrix();
+  }
 };
 
 constexpr const char* cameras_name = "cameras.json";  ///< of the file in a session's folder

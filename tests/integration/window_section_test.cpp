@@ -161,6 +161,22 @@ TEST_F(WindowSection, AKeptCameraIsComeBackTo) {
   EXPECT_EQ(user_.look(), there);
 }
 
+TEST_F(WindowSection, KeptCamerasAreUndone) {
+  const auto names = [&] {
+    std::string all;
+    for (const CameraBookmark& camera : *user_.session().cameras) all += camera.name + " ";
+    return all;
+  };
+  user_.run("keep-camera one\nkeep-camera two\nremove-camera one\n");
+  EXPECT_EQ(names(), "two ");
+  user_.run("undo\n");
+  EXPECT_EQ(names(), "one two ");
+  user_.run("undo\n");
+  EXPECT_EQ(names(), "one ");
+  user_.run("redo\nredo\n");
+  EXPECT_EQ(names(), "two ");
+}
+
 TEST_F(WindowSection, BordersAreDraggedAndADoubleClickPutsThemBack) {
   const Layout usual = user_.window().layout();
   const double border = usual.left.width, y = usual.left.y + 200;

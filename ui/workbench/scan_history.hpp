@@ -19,7 +19,8 @@ struct HistoryEntry {
   std::uint32_t at;                ///< the step that it stood at
   Branches branches;
   Stand stand;
-  std::uint64_t change = 0;  ///< that was made from there
+  std::vector<CameraBookmark> cameras = {};  ///< that the session kept
+  std::uint64_t change = 0;                  ///< that was made from there
 };
 
 /// The states to go back to, and those to go forward to again. Their maps, and those of all steps of their sessions,

@@ -23,7 +23,7 @@ SessionRunner::~SessionRunner() {
 }
 
 HistoryEntry SessionRunner::now() const {
-  return {session_, scanner_, kept_, tree_, tree_->at, tree_->branches, *tree_->stand(tree_->at)};
+  return {session_, scanner_, kept_, tree_, tree_->at, tree_->branches, *tree_->stand(tree_->at), kept_->cameras()};
 }
 
 Stand SessionRunner::stand_of(const Session& session, SeenSurface seen) {
@@ -176,6 +176,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   session_->set_termination(entry.stand.termination);
   session_->take_proposal();
   kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);
+  if (kept_->cameras() != entry.cameras) kept_->set_cameras(std::move(entry.cameras));
   seen_ = entry.stand.seen;
   tree_->set_stand(entry.at, std::move(entry.stand));
   if (same_scan && planner == &session_->planner()) return show_next();

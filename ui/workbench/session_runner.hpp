@@ -88,6 +88,7 @@ class SessionRunner {
   static Stand stand_of(const Session& session, SeenSurface seen);
   void remember(HistoryEntry before);
   void change_branches(const std::function<void(Branches&)>& change);
+  void change_cameras(const std::function<void(std::vector<CameraBookmark>&)>& change);
   bool is_own(const std::filesystem::path& folder) const;
   void adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
                     const std::shared_ptr<StepTree>& tree);

@@ -86,18 +86,20 @@ void SessionRunner::change_branches(const std::function<void(Branches&)>& change
 }
 
 void SessionRunner::keep_camera(const CameraBookmark& camera) {
-  if (!kept_) return;
-  std::vector<CameraBookmark> cameras = kept_->cameras();
-  keep(cameras, camera);
-  kept_->set_cameras(std::move(cameras));
-  publish(*snapshot_);
+  change_cameras([&](std::vector<CameraBookmark>& cameras) { keep(cameras, camera); });
 }
 
 void SessionRunner::remove_camera(const std::string& name) {
-  if (!kept_) return;
+  change_cameras([&](std::vector<CameraBookmark>& cameras) { forget(cameras, name); });
+}
+
+void SessionRunner::change_cameras(const std::function<void(std::vector<CameraBookmark>&)>& change) {
+  if (!tree_) return;
   std::vector<CameraBookmark> cameras = kept_->cameras();
-  forget(cameras, name);
+  change(cameras);
+  HistoryEntry before = now();
   kept_->set_cameras(std::move(cameras));
+  remember(std::move(before));
   publish(*snapshot_);
 }
 

@@ -85,7 +85,7 @@ std::shared_ptr<KeptSession> SessionRunner::kept_of(SavedSession& saved, const S
 void SessionRunner::adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
                                  const std::shared_ptr<StepTree>& tree) {
   const auto entry = [&](std::uint32_t number) {
-    return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number)};
+    return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number), kept->cameras()};
   };
   const std::size_t limit = ScanHistory::limit(session->configuration());
   const ScanState* const here = tree->stand(tree->at)->state.get();
