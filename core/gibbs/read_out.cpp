@@ -36,56 +36,59 @@ std::vector<RayCount> ray_counts(const RayLists& lists) {
   return counts;
 }
 
-/// Sums over the voxels around one: those that share a face with it, and all 26.
-struct ReadOutFeatures::Around {
-  struct Sums {
-    double uninformed = 0.0, occupied = 0.0, upper = 0.0;
-    double uncrossed = 0.0;  ///< voxels that no measured ray crosses
-    double ended = 0.0;      ///< shares of the voxels' rays that end there
-    double log_ended = 0.0;  ///< log(1 + rays that end there)
-  };
-  Sums faces, all;
-  double face_log_odds = 0.0, log_crossed = 0.0;
-};
+ReadOutFeatures::Word& ReadOutFeatures::Word::operator+=(const Word& other) {
+  uninformed += other.uninformed;
+  occupied += other.occupied;
+  upper += other.upper;
+  log_odds += other.log_odds;
+  uncrossed += other.uncrossed;
+  ended += other.ended;
+  log_ended += other.log_ended;
+  log_crossed += other.log_crossed;
+  return *this;
+}
 
 ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays)
-    : posterior_(posterior), rays_(rays) {}
+    : grid_(posterior.grid),
+      occupied_(posterior.occupied),
+      upper_(posterior.upper),
+      rays_(rays),
+      words_(posterior.occupied.size()) {
+  tbb::parallel_for(std::size_t{0}, words_.size(), [&](std::size_t v) {
+    Word& word = words_[v];
+    if (posterior.informed[v]) {
+      word.occupied = posterior.occupied[v];
+      word.upper = posterior.upper[v];
+      word.log_odds = static_cast<float>(kept_log_odds(posterior.occupied[v]));
+    } else {
+      word.uninformed = 1.0f;
+    }
+    const float crossed = rays[v].crossed();
+    word.uncrossed = crossed == 0.0f ? 1.0f : 0.0f;
+    word.ended = rays[v].ended / (crossed + 0.1f);
+    word.log_ended = std::log1p(rays[v].ended);
+    word.log_crossed = std::log1p(crossed);
+  });
+}
 
 ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
-  const VoxelGrid& grid = posterior_.grid;
-  const Eigen::Vector3i centre = grid.cell(voxel);
+  const Eigen::Vector3i centre = grid_.cell(voxel);
   Around around;
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         const int steps = std::abs(x) + std::abs(y) + std::abs(z);
         const Eigen::Vector3i cell = centre + Eigen::Vector3i(x, y, z);
-        if (steps == 0 || !grid.contains(cell)) continue;
-        const std::uint32_t v = grid.index(cell);
-        const bool informed = posterior_.informed[v] != 0;
-        const double crossed = rays_[v].crossed();
-        const Around::Sums here{
-            informed ? 0.0 : 1.0,       informed ? posterior_.occupied[v] : 0.0, informed ? posterior_.upper[v] : 0.0,
-            crossed == 0.0 ? 1.0 : 0.0, rays_[v].ended / (crossed + 0.1),        std::log1p(rays_[v].ended)};
-        const auto add = [&](Around::Sums& sums) {
-          sums.uninformed += here.uninformed;
-          sums.occupied += here.occupied;
-          sums.upper += here.upper;
-          sums.uncrossed += here.uncrossed;
-          sums.ended += here.ended;
-          sums.log_ended += here.log_ended;
-        };
-        add(around.all);
-        around.log_crossed += std::log1p(crossed);
-        if (steps > 1) continue;
-        add(around.faces);
-        if (informed) around.face_log_odds += kept_log_odds(posterior_.occupied[v]);
+        if (steps == 0 || !grid_.contains(cell)) continue;
+        const Word& word = words_[grid_.index(cell)];
+        around.all += word;
+        if (steps == 1) around.faces += word;
       }
   return around;
 }
 
 ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
-  const double occupied = kept_log_odds(posterior_.occupied[voxel]), upper = kept_log_odds(posterior_.upper[voxel]);
+  const double occupied = kept_log_odds(occupied_[voxel]), upper = kept_log_odds(upper_[voxel]);
   const RayCount& rays = rays_[voxel];
   const double ended = std::log((rays.ended + 0.05) / (rays.passed + 0.05));
   const Around a = around(voxel);
@@ -101,7 +104,7 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           a.all.occupied,
           a.faces.upper,
           a.all.upper,
-          a.face_log_odds / 6.0,
+          a.faces.log_odds / 6.0,
           std::log1p(rays.crossed()),
           ended,
           ended * ended / 10.0,
@@ -109,7 +112,7 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           a.all.uncrossed,
           a.faces.ended,
           a.all.ended,
-          a.log_crossed / 26.0,
+          a.all.log_crossed / 26.0,
           std::log1p(rays.ended),
           a.all.log_ended / 26.0,
           a.faces.log_ended / 6.0};

@@ -28,7 +28,7 @@ class ReadOutFeatures {
   static constexpr std::size_t count = 23;
   using Vector = std::array<double, count>;
 
-  /// Of GibbsPosterior::occupied, ::upper and ::informed. All must outlive it.
+  /// Of GibbsPosterior::occupied, ::upper and ::informed.
   ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays);
   /// Voxels beyond the grid are taken for free ones that rays cross.
   Vector of(std::uint32_t voxel) const;
@@ -36,11 +36,27 @@ class ReadOutFeatures {
   static constexpr std::size_t first_of_rays = 12;
 
  private:
-  struct Around;
+  /// What a voxel says to those around it. Ready made, as each has 26 that ask.
+  struct Word {
+    float uninformed = 0.0f;                     ///< 1: it is
+    float occupied = 0.0f, upper = 0.0f;         ///< 0 if not informed
+    float log_odds = 0.0f;                       ///< of being occupied; 0 if not informed
+    float uncrossed = 0.0f;                      ///< 1: no measured ray crosses it
+    float ended = 0.0f;                          ///< share of its rays that end in it
+    float log_ended = 0.0f, log_crossed = 0.0f;  ///< log(1 + rays)
+
+    Word& operator+=(const Word& other);
+  };
+  /// Sums over the voxels that share a face with one, and over all 26.
+  struct Around {
+    Word faces, all;
+  };
   Around around(std::uint32_t voxel) const;
 
-  const GibbsPosterior& posterior_;
-  std::span<const RayCount> rays_;
+  VoxelGrid grid_;
+  std::span<const float> occupied_, upper_;  ///< of the posterior, which must outlive it
+  std::span<const RayCount> rays_;           ///< likewise
+  std::vector<Word> words_;
 };
 
 /// log-odds = weights . features

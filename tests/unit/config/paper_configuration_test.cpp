@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 85> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.unit", "auto"},
     {"object.centred", "true"},
