@@ -44,6 +44,9 @@ std::vector<Setting> settings(GibbsConfig& c) {
   insert(all, "gibbs.eta_hit",
          {
              {"gibbs.attenuations", "", "attenuation: of each level, per voxel edge", &c.attenuations},
+             {"gibbs.independence", "",
+              "what each ray's log-likelihood counts; 1: rays are independent; 0: from how dense they are",
+              &c.independence, from_to(0, 1)},
          });
   std::vector<Setting> sampler = settings(c.sampler);
   insert(
@@ -66,6 +69,7 @@ PosteriorSamplerConfig posterior_sampler_config(const GibbsConfig& config, doubl
   PosteriorSamplerConfig sampler = config.sampler;
   sampler.seed = seed;
   sampler.model.attenuations = parse_attenuations(config.attenuations);
+  sampler.model.independence = config.independence;
   // Ranges much finer than a voxel say no more than the voxel; a sigma of nothing would say too much.
   sampler.model.sigma = config.sigma > 0.0 ? config.sigma : std::max(sensor_noise, 0.1 * resolution);
   sampler.model.angular_sigma = config.angular_sigma > 0.0 ? config.angular_sigma : 0.5 * ray_pitch;

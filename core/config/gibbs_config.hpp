@@ -9,7 +9,9 @@ namespace nextview {
 /// The settings of the Gibbs map. What the sampler needs beyond them comes from the sensor and the map.
 struct GibbsConfig {
   PosteriorSamplerConfig sampler;
-  double sigma = 0.0;          ///< of the range [m]; 0: the sensor's noise, but at least a tenth of a voxel edge
+  double sigma = 0.0;  ///< of the range [m]; 0: the sensor's noise, but at least a tenth of a voxel edge
+  /// What a ray's log-likelihood counts; 0: from how dense the rays are (with_independence).
+  double independence = 0.0;
   double angular_sigma = 0.0;  ///< of azimuth and altitude (model cone) [rad]; 0: half the angular pitch of the rays
   std::string attenuations = "0.05, 0.2";  ///< of the levels (model attenuation) [1 / voxel edge]
   int view_sweeps = 8;  ///< sweeps after each view of a scan, from the last view's maps on; 0: until stationary

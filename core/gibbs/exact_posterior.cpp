@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/gibbs/independence.hpp"
+
 namespace nextview {
 namespace {
 
@@ -33,16 +35,17 @@ bool advance(std::vector<std::uint8_t>& map, int levels) {
 }  // namespace
 
 ExactPosterior exact_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
-                               const ForwardSensorModel& model, double prior) {
-  model.validate();
+                               const ForwardSensorModel& configured, double prior) {
+  configured.validate();
   measurements.validate();
   if (!(prior > 0.0 && prior < 1.0))
     throw std::invalid_argument(fmt::format("gibbs: prior must be between 0 and 1, not {}", prior));
   const std::size_t voxels = grid.voxel_count();
-  if (static_cast<double>(voxels) * std::log2(model.levels()) > 20.0)
+  if (static_cast<double>(voxels) * std::log2(configured.levels()) > 20.0)
     throw std::invalid_argument(fmt::format("{} voxels of {} levels make {}^{} maps; at most 2^20 are enumerated",
-                                            voxels, model.levels(), model.levels(), voxels));
+                                            voxels, configured.levels(), configured.levels(), voxels));
 
+  const ForwardSensorModel model = with_independence(configured, measurements, grid);
   std::vector<std::vector<VoxelSegment>> segments;
   for (const RangeMeasurement& ray : measurements.rays)
     segments.push_back(ray_segments(grid, measurements, ray, model));
@@ -51,7 +54,7 @@ ExactPosterior exact_posterior(const VoxelGrid& grid, const RangeMeasurements& m
     double sum = 0.0;
     for (const std::uint8_t level : map) sum += level ? log_level : log_free;
     for (const RangeMeasurement& ray : measurements.rays)
-      sum += ray.weight * log_likelihood(grid, model, measurements, ray, map);
+      sum += ray.weight * model.independence * log_likelihood(grid, model, measurements, ray, map);
     return sum;
   };
 

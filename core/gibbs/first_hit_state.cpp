@@ -36,7 +36,7 @@ double FirstHitState::set(std::uint32_t voxel, std::uint8_t level) {
                               : first == entry.incidence ? first_occupied(entry.ray, entry.incidence + 1)
                                                          : first;
     if (now == first) continue;
-    change += lists_.weight(entry.ray) * (double(value(entry.ray, now)) - value(entry.ray, first));
+    change += lists_.evidence(entry.ray) * (double(value(entry.ray, now)) - value(entry.ray, first));
     first = now;
   }
   return change;
@@ -49,14 +49,14 @@ bool FirstHitState::conditional(std::uint32_t voxel, double, std::span<double> l
     const std::uint32_t next = first == entry.incidence ? first_occupied(entry.ray, entry.incidence + 1) : first;
     // A term of the sum in Eq. 8.
     log_weights[0] +=
-        lists_.weight(entry.ray) * (double(lists_.incidence(entry.incidence).value) - value(entry.ray, next));
+        lists_.evidence(entry.ray) * (double(lists_.incidence(entry.incidence).value) - value(entry.ray, next));
   }
   return false;
 }
 
 double FirstHitState::log_likelihood() const {
   double sum = 0.0;
-  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) sum += lists_.weight(ray) * double(value(ray, first_[ray]));
+  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) sum += lists_.evidence(ray) * double(value(ray, first_[ray]));
   return sum;
 }
 

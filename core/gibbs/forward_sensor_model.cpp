@@ -68,6 +68,8 @@ void ForwardSensorModel::validate() const {
   require(hit_weight() > 0.0, fmt::format("gibbs.random_weight, {}, and gibbs.max_weight, {}, must leave something for "
                                           "hits: together they must be below 1",
                                           random_weight, max_weight));
+  require(independence >= 0.0 && independence <= 1.0,
+          fmt::format("gibbs.independence must be from 0 to 1, not {}", independence));
   require(!attenuations.empty() && attenuations.size() <= max_attenuations && attenuations.front() > 0.0 &&
               attenuations.back() <= 50.0 && std::is_sorted(attenuations.begin(), attenuations.end()),
           fmt::format("gibbs.attenuations must be one to {} ascending numbers over 0, up to 50", max_attenuations));

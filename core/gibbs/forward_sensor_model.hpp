@@ -48,6 +48,10 @@ struct ForwardSensorModel {
   /// attenuation: kappa of each level, ascending [1 / voxel edge]. Weak levels, as a surface that touches a voxel
   /// mostly fills little of it: with strong ones a voxel that stops half of its rays makes its neighbours look free.
   std::vector<double> attenuations = {0.05, 0.2};
+  /// A power of the likelihood: what log p(z | m) of each ray counts. 1: rays err independently of each other. Less, as
+  /// neighbouring rays of a dense image are not independent witnesses of how full a voxel is. 0: from how dense the
+  /// rays are, see with_independence.
+  double independence = 1.0;
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
@@ -59,7 +63,7 @@ struct ForwardSensorModel {
   /// voxel.
   double transmission(int level, double chord) const;
 };
-/// Without those that come from elsewhere: sigmas and attenuations.
+/// Without those that come from elsewhere: sigmas, attenuations and the independence.
 std::vector<Setting> settings(ForwardSensorModel& model);
 
 /// How far a measurement depends on voxels [m]: up to 4 sigma behind its range, or to the maximum range.
@@ -78,8 +82,8 @@ double hit_density(const VoxelGrid& grid, const ForwardSensorModel& model, const
 double first_hit_log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const Vector3& origin,
                                 const Vector3& direction, const VoxelSegment* segment, double z, double max_range);
 
-/// log p(z | m): the definition, term by term, for one measured ray (its weight not counted). `levels` has one entry a
-/// voxel of the grid. The sampler gets the same numbers from state that it keeps.
+/// log p(z | m): the definition, term by term, for one measured ray (neither its weight nor the independence counted).
+/// `levels` has one entry a voxel of the grid. The sampler gets the same numbers from state that it keeps.
 double log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
                       const RangeMeasurement& ray, std::span<const std::uint8_t> levels);
 

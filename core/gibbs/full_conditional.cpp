@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/gibbs/independence.hpp"
+
 namespace nextview {
 namespace {
 
@@ -44,7 +46,7 @@ std::vector<std::vector<double>> log_likelihoods(const VoxelGrid& grid, const Ra
     map[voxel] = static_cast<std::uint8_t>(level);
     tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t k) {
       const RangeMeasurement& ray = measurements.rays[rays[k].ray];
-      terms[level][k] = ray.weight * log_likelihood(grid, model, measurements, ray, map);
+      terms[level][k] = ray.weight * model.independence * log_likelihood(grid, model, measurements, ray, map);
     });
   }
   return terms;
@@ -70,12 +72,13 @@ void require_same_grid(const VoxelGrid& grid, const ForwardSensorModel& model, s
 }  // namespace
 
 FullConditional full_conditional(const VoxelGrid& grid, const RangeMeasurements& measurements,
-                                 const ForwardSensorModel& model, double prior, std::span<const std::uint8_t> levels,
-                                 std::uint32_t voxel) {
-  model.validate();
+                                 const ForwardSensorModel& configured, double prior,
+                                 std::span<const std::uint8_t> levels, std::uint32_t voxel) {
+  configured.validate();
   if (!(prior > 0.0 && prior < 1.0))
     throw std::invalid_argument(fmt::format("gibbs: prior must be between 0 and 1, not {}", prior));
-  require_same_grid(grid, model, levels, voxel);
+  require_same_grid(grid, configured, levels, voxel);
+  const ForwardSensorModel model = with_independence(configured, measurements, grid);
   FullConditional conditional;
   conditional.log_prior_odds = std::log(prior / (model.levels() - 1) / (1.0 - prior));
   conditional.rays = crossing_rays(grid, measurements, model, voxel);

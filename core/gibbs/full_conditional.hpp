@@ -11,8 +11,8 @@ namespace nextview {
 struct RayEvidence {
   std::uint32_t ray = 0;           ///< of RangeMeasurements::rays
   double enter = 0.0, exit = 0.0;  ///< of the voxel, distances from the camera [m]
-  /// weight (log p(z | m, level) - log p(z | m, free)), level being FullConditional::level: positive where the ray
-  /// speaks for the voxel being at that level.
+  /// weight independence (log p(z | m, level) - log p(z | m, free)), level being FullConditional::level: positive where
+  /// the ray speaks for the voxel being at that level.
   double log_ratio = 0.0;
 };
 

@@ -43,7 +43,8 @@ std::size_t GibbsState::bytes(const GibbsState* other) const {
   if (!other || measurements_ != other->measurements_) bytes += measurements_->rays.size() * sizeof(RangeMeasurement);
   if (other && posterior_ == other->posterior_) return bytes;
   const GibbsPosterior& p = *posterior_;
-  bytes += p.occupied.size() * (sizeof p.occupied[0] + sizeof p.upper[0] + sizeof p.informed[0]);
+  bytes += p.occupied.size() * (sizeof p.occupied[0] + sizeof p.upper[0] + sizeof p.informed[0]) +
+           p.touch.size() * (sizeof p.touch[0] + sizeof p.centre[0]);
   for (const auto& state : p.states) bytes += state.size();
   return bytes;
 }
@@ -56,7 +57,7 @@ OccupancyMap to_occupancy_map(const GibbsPosterior& posterior, const InverseSens
   for (std::uint32_t v = 0; v < posterior.occupied.size(); ++v)
     if (posterior.informed[v])
       map.set_log_odds(
-          v, static_cast<float>(log_odds(std::clamp<double>(posterior.occupied[v], model.clamp_min, model.clamp_max))));
+          v, static_cast<float>(log_odds(std::clamp<double>(posterior.touch[v], model.clamp_min, model.clamp_max))));
   return map;
 }
 

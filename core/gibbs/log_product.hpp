@@ -1,6 +1,5 @@
 #pragma once
 #include <cmath>
-#include <cstdint>
 
 namespace nextview {
 
@@ -8,7 +7,7 @@ namespace nextview {
 /// @pre factors are between 1e-15 and 1e15
 class LogProduct {
  public:
-  void multiply(double factor, std::uint32_t weight) {
+  void multiply(double factor, double weight) {
     if (weight != weight_ || factors_ == 16) flush(weight);
     product_ *= factor;
     ++factors_;
@@ -19,7 +18,7 @@ class LogProduct {
   }
 
  private:
-  void flush(std::uint32_t next_weight) {
+  void flush(double next_weight) {
     if (factors_ > 0) sum_ += weight_ * std::log(product_);
     product_ = 1.0;
     factors_ = 0;
@@ -28,7 +27,7 @@ class LogProduct {
 
   double sum_ = 0.0, product_ = 1.0;
   int factors_ = 0;
-  std::uint32_t weight_ = 1;
+  double weight_ = 1.0;
 };
 
 }  // namespace nextview

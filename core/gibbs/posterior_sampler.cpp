@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "core/gibbs/chain_ensemble.hpp"
+#include "core/gibbs/independence.hpp"
+#include "core/gibbs/read_out.hpp"
 #include "core/memory/available_memory.hpp"
 
 namespace nextview {
@@ -75,6 +77,17 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
       d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, d.informed_voxels / 10000);
 }
 
+void read_out(GibbsPosterior& posterior, const RayLists& lists, const PosteriorSamplerConfig& config) {
+  const bool as_fitted = config.model.kind == ForwardModel::attenuation &&
+                         config.model.attenuations == ForwardSensorModel{}.attenuations &&
+                         config.sampler == Sampler::exact && config.updated == UpdatedVoxels::occupied_and_free;
+  if (config.read_out == ReadOut::fitted && as_fitted) {
+    read_out(posterior, ray_counts(lists), fitted_read_out());
+  } else {
+    posterior.touch = posterior.centre = posterior.occupied;
+  }
+}
+
 }  // namespace
 
 std::vector<Setting> settings(PosteriorSamplerConfig& c) {
@@ -90,6 +103,8 @@ std::vector<Setting> settings(PosteriorSamplerConfig& c) {
       {"gibbs.sweeps", "", "sweeps of each chain, at most", &c.sweeps, from_to(4, 1e6)},
       {"gibbs.burn_in", "", "sweeps before the first mean that is tried", &c.burn_in, from_to(0, 1e6)},
       {"gibbs.until_stationary", "", "stop as soon as the chains are stationary", &c.until_stationary},
+      {"gibbs.read_out", "", "probabilities: as learned from made-up parts, or of the levels as they are",
+       choice(c.read_out, {"fitted", "levels"})},
       {"gibbs.ray_spacing", "", "rays nearer to each other than this are merged [voxel edges]; 0: none", &c.ray_spacing,
        from_to(0, 100)},
   };
@@ -100,22 +115,23 @@ void PosteriorSamplerConfig::validate() const {
   require_in_bounds(*this);
 }
 
-std::vector<Voxel> GibbsPosterior::voxels(const InverseSensorModel& classes) const {
-  std::vector<Voxel> voxels(occupied.size());
+std::vector<Voxel> GibbsPosterior::voxels_of(std::span<const float> p, const InverseSensorModel& classes) const {
+  std::vector<Voxel> voxels(p.size());
   for (std::size_t v = 0; v < voxels.size(); ++v) {
-    voxels[v].probability = occupied[v];
-    voxels[v].entropy = static_cast<float>(entropy(occupied[v]));
-    voxels[v].voxel_class = classes.classify(occupied[v]);
+    voxels[v].probability = p[v];
+    voxels[v].entropy = static_cast<float>(entropy(p[v]));
+    voxels[v].voxel_class = classes.classify(p[v]);
     voxels[v].measured = informed[v];
   }
   return voxels;
 }
 
 GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
-                                const PosteriorSamplerConfig& config, std::span<const float> start_map,
+                                const PosteriorSamplerConfig& configured, std::span<const float> start_map,
                                 std::span<const std::vector<std::uint8_t>> warm, const SamplerProgress& progress,
                                 std::stop_token stop) {
-  config.validate();
+  configured.validate();
+  PosteriorSamplerConfig config = configured;
   measurements.validate();
   RayLists::require_holdable(grid);
   const std::size_t voxels = grid.voxel_count();
@@ -134,7 +150,9 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch building;
   if (progress) progress(0.0, "listing the rays of each voxel", d);
-  const RayLists lists(grid, merge_rays(measurements, grid, config.ray_spacing), config.model);
+  const RangeMeasurements merged = merge_rays(measurements, grid, config.ray_spacing);
+  config.model = with_independence(config.model, merged, grid);
+  const RayLists lists(grid, merged, config.model);
   const Sites sites = find_sites(lists, config, start_map);
   d.measured_rays = measurements.rays.size();
   d.merged_rays = lists.rays();
@@ -162,6 +180,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
                                                 : start_map[v];
     posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
   }
+  read_out(posterior, lists, config);
   for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
   if (config.keep_traces) posterior.traces = chains.take_level_traces();
   d.sample_seconds = sampling.seconds();

@@ -18,6 +18,11 @@ enum class Sampler {
   exact,      ///< draws from the full conditional
   algorithm1  ///< as printed: the conditional is replaced by 0.7 or 0.4, whichever side of 0.5 it is on
 };
+/// How a voxel's posterior becomes the probabilities that maps, scores and pictures show.
+enum class ReadOut {
+  fitted,  ///< as made-up parts taught: what the levels around it say too (core/gibbs/read_out.hpp)
+  levels   ///< P(level > 0)
+};
 /// `occupied`: only voxels that the start map calls occupied; the others stay free, and keep its probability.
 enum class UpdatedVoxels { occupied_and_free, occupied };
 enum class StartMap { octree, free, occupied, random };
@@ -35,7 +40,10 @@ struct PosteriorSamplerConfig {
   int sweeps = 400;              ///< at most, a chain
   int burn_in = 10;              ///< sweeps before the first attempt at a mean
   bool until_stationary = true;  ///< stop once stationary; otherwise all sweeps, burn-in left out, are the mean
-  double ray_spacing = 0.6;      ///< rays this near each other at the region's centre are merged [voxel edges]; 0: none
+  /// Fitted to levels that are drawn as by default: with another model or other attenuations, the sampler
+  /// Algorithm 1, or if not all voxels are updated, it is `levels`.
+  ReadOut read_out = ReadOut::fitted;
+  double ray_spacing = 0.6;  ///< rays this near each other at the region's centre are merged [voxel edges]; 0: none
   std::uint64_t seed = 1;
   /// Keeps GibbsPosterior::traces. For people who look into a run: no setting of files, and no result depends on it.
   bool keep_traces = false;
@@ -60,15 +68,23 @@ struct LevelTraces {
 /// solid.
 struct GibbsPosterior {
   VoxelGrid grid;
-  std::vector<float> occupied;                    ///< P(level > 0 | z), the map's p. 0.5 where not informed
+  std::vector<float> occupied;                    ///< P(level > 0 | z). 0.5 where not informed
   std::vector<float> upper;                       ///< P(uppermost level | z). 0.5 where not informed
   std::vector<std::uint8_t> informed;             ///< 1: on posterior average at least half a measured ray reaches it
   std::vector<std::vector<std::uint8_t>> states;  ///< the last map of each chain, to start from again
   SamplerDiagnostics diagnostics;
   LevelTraces traces;  ///< with PosteriorSamplerConfig::keep_traces
+  /// By PosteriorSamplerConfig::read_out, 0.5 where not informed: that the surface touches the voxel, the map's p, and
+  /// that its centre is inside the object. ReadOut::levels: both are `occupied`.
+  std::vector<float> touch = {}, centre = {};
 
-  /// The posterior as gains, pictures and scores see a map: measured means informed.
-  std::vector<Voxel> voxels(const InverseSensorModel& classes) const;
+  /// The posterior as gains, pictures and scores see a map: measured means informed. p is `touch`.
+  std::vector<Voxel> voxels(const InverseSensorModel& classes) const { return voxels_of(touch, classes); }
+  /// The same, p being `centre`: what is open and what is solid.
+  std::vector<Voxel> centre_voxels(const InverseSensorModel& classes) const { return voxels_of(centre, classes); }
+
+ private:
+  std::vector<Voxel> voxels_of(std::span<const float> p, const InverseSensorModel& classes) const;
 };
 
 /// Is given every few sweeps how far a run has come, and how it goes: `so_far` has the traces up to now, what is worked

@@ -154,12 +154,13 @@ RangeMeasurements merge_rays(const RangeMeasurements& measurements, double spaci
   return merge_each_origin(measurements, std::vector<double>(measurements.origins.size(), spacing), spread);
 }
 
-RangeMeasurements merge_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing) {
+RangeMeasurements merge_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing,
+                             double spread) {
   const Vector3 centre = 0.5 * (grid.lower() + grid.upper());
   std::vector<double> spacings;
   for (const Vector3& origin : measurements.origins)
     spacings.push_back(spacing * grid.resolution / std::max((origin - centre).norm(), grid.resolution));
-  return merge_each_origin(measurements, spacings, grid.resolution);
+  return merge_each_origin(measurements, spacings, spread * grid.resolution);
 }
 
 }  // namespace nextview

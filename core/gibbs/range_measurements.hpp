@@ -48,7 +48,8 @@ RangeMeasurements measurements_of(std::span<const Scan> scans);
 /// apart, at the cost of what differs within a cell. No spacing, no change.
 RangeMeasurements merge_rays(const RangeMeasurements& measurements, double spacing, double spread);
 
-/// The same for a map: cells are `spacing` voxel edges wide at the grid's centre, ranges at most a voxel edge apart.
-RangeMeasurements merge_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing);
+/// The same for a map: cells are `spacing` voxel edges wide at the grid's centre, ranges at most `spread` edges apart.
+RangeMeasurements merge_rays(const RangeMeasurements& measurements, const VoxelGrid& grid, double spacing,
+                             double spread = 1.0);
 
 }  // namespace nextview

@@ -77,7 +77,8 @@ void RayLists::sort_rays() {
                     rays.size(), max_rays));
   std::stable_sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
   for (std::uint32_t n = 0; n < rays.size(); ++n) {
-    if (n == 0 || rays[n].weight != rays[n - 1].weight) weight_runs_.push_back({n, rays[n].weight});
+    if (n == 0 || rays[n].weight != rays[n - 1].weight)
+      weight_runs_.push_back({n, rays[n].weight, rays[n].weight * model_.independence});
     weight_.push_back(rays[n].weight);
     open_value_.push_back(open_value_of(rays[n]));
   }
@@ -162,11 +163,19 @@ void RayLists::fill(Block& block) {
         [&](std::uint32_t voxel, std::uint32_t code) { front_[block.front[voxel]++] = FrontEntry{ray << 10 | code}; },
         [&](const VoxelSegment& segment) {
           near_[block.near[segment.voxel]++] = {ray, incidence};
-          incidences_[incidence] = {segment.voxel, chord_code((segment.exit - segment.enter) / grid_.resolution),
+          const std::uint32_t chord = chord_code((segment.exit - segment.enter) / grid_.resolution);
+          incidences_[incidence] = {segment.voxel, static_cast<std::uint16_t>(chord),
+                                    place_of(measurements_.rays[ray], segment),
                                     incidence_value_of(measurements_.rays[ray], segment)};
           ++incidence;
         });
   }
+}
+
+RayLists::Place RayLists::place_of(const RangeMeasurement& ray, const VoxelSegment& segment) const {
+  const double z = measurements_.range(ray);
+  if (ray.beyond_range || segment.exit <= z) return Place::in_front;
+  return segment.enter <= z ? Place::at_range : Place::behind;
 }
 
 float RayLists::open_value_of(const RangeMeasurement& ray) const {

@@ -27,18 +27,22 @@ class RayLists {
   struct NearEntry {
     std::uint32_t ray, incidence;
   };
+  /// Where a voxel near a ray's range lies.
+  enum class Place : std::uint16_t { in_front, at_range, behind };
   /// A voxel near a ray's range.
   struct Incidence {
     std::uint32_t voxel;
-    std::uint32_t chord;  ///< code
+    std::uint16_t chord;  ///< code
+    Place place;
     /// beam, attenuation: density of the measured range if the ray ended here, over that of a random range.
     /// paper, cone: log p(z | f = this voxel).
     float value;
   };
-  /// Rays from `first` on have this weight, until the next run.
+  /// Rays from `first` on have this weight and this evidence(), until the next run.
   struct WeightRun {
     std::uint32_t first;
     std::uint32_t weight;
+    double evidence;
   };
   static constexpr std::uint32_t chord_codes = 1024;
   static double chord(std::uint32_t code);  ///< [voxel edges]
@@ -77,7 +81,9 @@ class RayLists {
   /// What is left when nothing on the ray is occupied. beam, attenuation: by how much 'beyond range' is then likelier
   /// than otherwise, less 1; 0 for hits. paper, cone: log p(z | nothing).
   float open_value(std::uint32_t ray) const { return open_value_[ray]; }
-  std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }
+  std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }  ///< measured rays that it stands for
+  /// What its log-likelihood is multiplied by: its weight, as far as the rays are independent witnesses.
+  double evidence(std::uint32_t ray) const { return weight_[ray] * model_.independence; }
   std::span<const WeightRun> weight_runs() const { return weight_runs_; }
 
   /// A voxel in front of a ray, and its chord's code.
@@ -95,6 +101,7 @@ class RayLists {
   void count(Block& block);
   void lay_out(std::vector<Block>& blocks);
   void fill(Block& block);
+  Place place_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
   float open_value_of(const RangeMeasurement& ray) const;
   float incidence_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
 

@@ -8,35 +8,36 @@
 namespace nextview {
 namespace {
 
-double power(double base, unsigned exponent) {
-  double result = 1.0;
-  for (; exponent; exponent >>= 1, base *= base)
-    if (exponent & 1) result *= base;
-  return result;
-}
-
-/// How heavy rays are, asked in ascending order of rays.
-class WeightCursor {
+/// What rays' log-likelihoods are multiplied by, asked in ascending order of rays.
+class EvidenceCursor {
  public:
-  explicit WeightCursor(std::span<const RayLists::WeightRun> runs) : runs_(runs) { step(0); }
-  std::uint32_t weight(std::uint32_t ray) {
+  explicit EvidenceCursor(std::span<const RayLists::WeightRun> runs) : runs_(runs) { step(0); }
+  double evidence(std::uint32_t ray) {
     while (ray >= end_) step(run_ + 1);
-    return weight_;
+    return evidence_;
   }
-  std::uint32_t end() const { return end_; }  ///< the first ray of another weight
+  std::uint32_t end() const { return end_; }  ///< the first ray of another evidence
 
  private:
   void step(std::size_t run) {
     run_ = run;
-    weight_ = run < runs_.size() ? runs_[run].weight : 1;
+    evidence_ = run < runs_.size() ? runs_[run].evidence : 1.0;
     end_ = run + 1 < runs_.size() ? runs_[run + 1].first : 0xffffffffu;
   }
 
   std::span<const RayLists::WeightRun> runs_;
   std::size_t run_ = 0;
   std::uint32_t end_ = 0;
-  std::uint32_t weight_ = 1;
+  double evidence_ = 1.0;
 };
+
+/// log of the sum of what these are the logarithms of.
+double log_sum(std::span<const double> logs) {
+  const double largest = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0;
+  for (const double log : logs) sum += std::exp(log - largest);
+  return largest + std::log(sum);
+}
 
 }  // namespace
 
@@ -93,7 +94,7 @@ double SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
   LogProduct change;
   const auto refresh = [&](std::uint32_t ray) {
     const Hot now = hot(cold_[ray].near_sum * passing(cold_[ray].depth));
-    change.multiply((1.0 + now.s) / (1.0 + hot_[ray].s), lists_.weight(ray));
+    change.multiply((1.0 + now.s) / (1.0 + hot_[ray].s), lists_.evidence(ray));
     hot_[ray] = now;
   };
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
@@ -145,11 +146,11 @@ void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weight
     }
     const float here = reaching * own.value;
     const float if_free = 1.0f + pass_front * (before + after);
-    const std::uint32_t weight = lists_.weight(entry.ray);
+    const double evidence = lists_.evidence(entry.ray);
     for (int q = 1; q < levels_; ++q) {
       const float passed = passing_[q][own.chord];
       const float s = pass_front * (before + (1.0f - passed) * here + passed * after);
-      products[q].multiply((1.0f + s) / if_free, weight);
+      products[q].multiply((1.0f + s) / if_free, evidence);
     }
   }
   for (int q = 1; q < levels_; ++q) log_weights[q - 1] += products[q].sum();
@@ -164,42 +165,40 @@ SurvivalState::Hot SurvivalState::without(RayLists::FrontEntry entry, std::uint8
 /// The terms of Eq. 8 of the rays whose range lies behind the voxel.
 template <int Levels>
 bool SurvivalState::front_terms(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {
+  constexpr double least_product = 1e-200;  // far enough from where numbers end for a part's factors more
   const auto entries = lists_.front(voxel);
   const std::uint8_t level = map_[voxel];
-  // All factors are at most 1: a voxel in front can only block. As numbers while these are of a size for it; else logs.
-  const bool as_logs = *std::max_element(log_weights.begin(), log_weights.end()) > 600.0;
-  std::array<double, Levels> weights{};
-  for (int q = 1; q < Levels; ++q) weights[q] = as_logs ? 0.0 : std::exp(log_weights[q - 1]);
-  WeightCursor cursor(lists_.weight_runs());
-  bool sure = false;
+  const double log_negligible = std::log(negligible);
+  EvidenceCursor cursor(lists_.weight_runs());
   std::size_t part = 1;  // one ray often settles it; if not, look at more before asking again
-  for (std::size_t k = 0; k < entries.size() && !sure; part = std::min<std::size_t>(2 * part, 8)) {
-    const std::uint32_t heaviness = cursor.weight(entries[k].ray());
+  for (std::size_t k = 0; k < entries.size();) {
+    // Factors of rays of one evidence are multiplied before their logarithm is taken. All are at most 1, as a voxel in
+    // front can only block: once every level's product is below `enough`, the weights are sure to be negligible.
+    const double evidence = cursor.evidence(entries[k].ray());
+    const double enough = std::exp((log_negligible - log_sum(log_weights)) / evidence);
     std::array<double, Levels> products;
     products.fill(1.0);
-    for (const std::size_t end = std::min(k + part, entries.size()); k < end && entries[k].ray() < cursor.end(); ++k) {
-      const RayLists::FrontEntry entry = entries[k];
-      const Hot ray = level == 0 ? hot_[entry.ray()] : without(entry, level);
-      for (int q = 1; q < Levels; ++q) products[q] *= (1.0f + ray.s * passing_[q][entry.chord()]) * ray.inverse;
+    double largest = 1.0, least = 1.0;
+    while (k < entries.size() && entries[k].ray() < cursor.end() && largest >= enough && least > least_product) {
+      for (const std::size_t end = std::min(k + part, entries.size()); k < end && entries[k].ray() < cursor.end();
+           ++k) {
+        const RayLists::FrontEntry entry = entries[k];
+        const Hot ray = level == 0 ? hot_[entry.ray()] : without(entry, level);
+        for (int q = 1; q < Levels; ++q) products[q] *= (1.0f + ray.s * passing_[q][entry.chord()]) * ray.inverse;
+      }
+      part = std::min<std::size_t>(2 * part, 8);
+      largest = *std::max_element(products.begin() + 1, products.end());
+      least = *std::min_element(products.begin() + 1, products.end());
     }
-    double sum = 0.0;
-    for (int q = 1; q < Levels; ++q) {
-      if (as_logs)
-        log_weights[q - 1] += heaviness * std::log(products[q]);
-      else
-        weights[q] *= heaviness == 1 ? products[q] : power(products[q], heaviness);
-      sum += weights[q];
-    }
-    sure = !as_logs && sum < negligible;
+    for (int q = 1; q < Levels; ++q) log_weights[q - 1] += evidence * std::log(products[q]);
+    if (largest < enough) return true;
   }
-  if (!as_logs)
-    for (int q = 1; q < Levels; ++q) log_weights[q - 1] = std::log(weights[q]);
-  return sure;
+  return false;
 }
 
 double SurvivalState::log_likelihood() const {
   LogProduct product;
-  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) product.multiply(1.0 + hot_[ray].s, lists_.weight(ray));
+  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) product.multiply(1.0 + hot_[ray].s, lists_.evidence(ray));
   return product.sum();
 }
 

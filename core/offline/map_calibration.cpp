@@ -31,7 +31,7 @@ std::vector<std::uint8_t> scored_voxels(const GibbsPosterior& posterior, const V
   const std::size_t voxels = posterior.occupied.size();
   std::vector<std::uint8_t> near(voxels, 1);
   if (band > 0) {
-    for (std::size_t v = 0; v < voxels; ++v) near[v] = posterior.informed[v] && posterior.occupied[v] >= 0.5f;
+    for (std::size_t v = 0; v < voxels; ++v) near[v] = posterior.informed[v] && posterior.touch[v] >= 0.5f;
     near = grown(posterior.grid, std::move(near), band);
   }
   auto voxel = conventional.begin();
@@ -69,7 +69,7 @@ struct Prepared {
 ExampleScores score(const Prepared& prepared, const InverseSensorModel& before, const InverseSensorModel& after,
                     const std::stop_token& stop) {
   const RefinementJob& job = prepared.example.job;
-  const std::vector<float>& gibbs = prepared.refinement.posterior.occupied;
+  const std::vector<float>& gibbs = prepared.refinement.posterior.touch;
   ExampleScores scores;
   scores.name = job.name;
   scores.views = job.scans.size();
@@ -132,7 +132,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     check_stop();
     auto mask = scored_voxels(refinement.posterior, refinement.conventional.voxels(), config.band);
     UpdateHistories of_example;
-    of_example.add(job.grid, job.scans, refinement.posterior.occupied, mask, stop);
+    of_example.add(job.grid, job.scans, refinement.posterior.touch, mask, stop);
     if (!examples[e].held_out) histories.append(of_example);
     prepared.push_back({examples[e], std::move(refinement), std::move(mask), std::move(of_example)});
   }

@@ -53,26 +53,35 @@ Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_
   r.gains_after = gibbs_gains(job, r.refined);
   r.rank_correlation = rank_correlation(r.gains_before, r.gains_after);
   r.scores_before = score_map(r.conventional.voxels(), job.truth);
-  r.scores_after = score_map(r.refined, job.truth);
+  r.scores_after = score_posterior(r.posterior, job.model, job.truth);
   return r;
+}
+
+MapScores score_map(std::span<const Voxel> touch, std::span<const Voxel> centre, const RefinementTruth& truth) {
+  const auto quality = [&](std::span<const Voxel> voxels, TruthConvention convention, ScoredSet set) {
+    return map_quality(probabilities(voxels), truth.voxels, convention, set, truth.visited);
+  };
+  MapScores scores{quality(touch, TruthConvention::touch, ScoredSet::visited_band),
+                   quality(centre, TruthConvention::centre, ScoredSet::visited_band),
+                   quality(touch, TruthConvention::touch, ScoredSet::visited),
+                   quality(centre, TruthConvention::centre, ScoredSet::visited),
+                   surface_recall(touch, truth.voxels, TruthConvention::touch, truth.visited),
+                   {}};
+  for (const Opening& opening : truth.openings)
+    scores.openings += score_opening(opening, centre, truth.voxels, TruthConvention::centre, truth.visited);
+  return scores;
 }
 
 std::optional<MapScores> score_map(const VoxelBricks& map, const std::optional<RefinementTruth>& truth) {
   if (!truth) return std::nullopt;
   const std::vector<Voxel> voxels = map.dense();
-  const auto p = probabilities(voxels);
-  const auto quality = [&](TruthConvention convention, ScoredSet set) {
-    return map_quality(p, truth->voxels, convention, set, truth->visited);
-  };
-  MapScores scores{quality(TruthConvention::touch, ScoredSet::visited_band),
-                   quality(TruthConvention::centre, ScoredSet::visited_band),
-                   quality(TruthConvention::touch, ScoredSet::visited),
-                   quality(TruthConvention::centre, ScoredSet::visited),
-                   surface_recall(voxels, truth->voxels, TruthConvention::touch, truth->visited),
-                   {}};
-  for (const Opening& opening : truth->openings)
-    scores.openings += score_opening(opening, voxels, truth->voxels, TruthConvention::centre, truth->visited);
-  return scores;
+  return score_map(voxels, voxels, *truth);
+}
+
+std::optional<MapScores> score_posterior(const GibbsPosterior& posterior, const InverseSensorModel& classes,
+                                         const std::optional<RefinementTruth>& truth) {
+  if (!truth) return std::nullopt;
+  return score_map(posterior.voxels(classes), posterior.centre_voxels(classes), *truth);
 }
 
 }  // namespace nextview

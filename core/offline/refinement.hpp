@@ -74,6 +74,12 @@ struct Refinement {
 };
 
 Refinement refine(const RefinementJob& job, const Progress& progress = {}, std::stop_token stop = {});
+/// Each truth by the map's own p.
 std::optional<MapScores> score_map(const VoxelBricks& map, const std::optional<RefinementTruth>& truth);
+/// Of a map that has a probability of its own for either truth; surface recall is of `touch`, openings of `centre`.
+MapScores score_map(std::span<const Voxel> touch, std::span<const Voxel> centre, const RefinementTruth& truth);
+/// The posterior, each truth by its own read-out: touch by GibbsPosterior::touch, centre and openings by ::centre.
+std::optional<MapScores> score_posterior(const GibbsPosterior& posterior, const InverseSensorModel& classes,
+                                         const std::optional<RefinementTruth>& truth);
 
 }  // namespace nextview

@@ -36,7 +36,7 @@ std::uint64_t map_bytes(const Configuration& c) {
   const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;
   const std::uint64_t truth = c.evaluation.enabled ? 10 : 0, changed = 7;
   const std::uint64_t sampler =
-      make_policy(c.planner)->needs().posterior ? 40 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
+      make_policy(c.planner)->needs().posterior ? 88 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
   return maps * OccupancyMap::bytes(grid) + (truth + changed + sampler) * grid.voxel_count();
 }
 

@@ -17,6 +17,7 @@ constexpr std::size_t sweeps_shown = 30;  ///< of a chain's way to stationarity
 
 struct MadeMap {
   std::vector<Voxel> voxels;
+  std::vector<Voxel> centre;                      ///< what it says of centres
   std::optional<SamplerDiagnostics> diagnostics;  ///< of a Gibbs map
 };
 
@@ -30,7 +31,7 @@ MadeMap gibbs_map(const RefinementJob& job, const Progress& progress, const std:
       },
       stop);
   throw_if_stopped(stop);
-  return {posterior.voxels(job.model), posterior.diagnostics};
+  return {posterior.voxels(job.model), posterior.centre_voxels(job.model), posterior.diagnostics};
 }
 
 MadeMap map_of(const RefinementJob& job, const std::string& kind, const Progress& progress,
@@ -38,7 +39,8 @@ MadeMap map_of(const RefinementJob& job, const std::string& kind, const Progress
   if (kind == "gibbs") return gibbs_map(job, progress, stop);
   const auto baseline = std::ranges::find(baseline_maps, kind, &BaselineMapInfo::name);
   if (baseline == baseline_maps.end()) throw std::invalid_argument("there is no map '" + kind + "'");
-  return {BaselineMaps(job.grid, job.scans, job.model).make(baseline->map), std::nullopt};
+  const std::vector<Voxel> voxels = BaselineMaps(job.grid, job.scans, job.model).make(baseline->map);
+  return {voxels, voxels, std::nullopt};
 }
 
 void add_quality(const MapScores& s, RunResult& result) {
@@ -73,7 +75,7 @@ void add_openings(const MadeMap& map, const RefinementTruth& truth, RunResult& r
   OpeningScore all;
   std::map<double, OpeningScore> by_width;  // [mm]
   for (const Opening& opening : truth.openings) {
-    const OpeningScore score = score_opening(opening, map.voxels, truth.voxels, TruthConvention::centre, truth.visited);
+    const OpeningScore score = score_opening(opening, map.centre, truth.voxels, TruthConvention::centre, truth.visited);
     all += score;
     by_width[std::round(1e3 * opening.width)] += score;
   }
@@ -123,7 +125,7 @@ RunResult perform_map(const Configuration& configuration, const std::string& kin
   throw_if_stopped(stop);
   const Stopwatch watch(seconds.stages.evaluate);
   RunResult result;
-  add_quality(*score_map({job.grid.size, map.voxels}, job.truth), result);
+  add_quality(score_map(map.voxels, map.centre, *job.truth), result);
   add_openings(map, *job.truth, result);
   if (map.diagnostics) add_chain(*map.diagnostics, result);
   return result;

@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 85> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.unit", "auto"},
     {"object.centred", "true"},
@@ -54,6 +54,7 @@ constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
     {"gibbs.max_weight", "0.05"},
     {"gibbs.eta_hit", "1"},
     {"gibbs.attenuations", "0.05, 0.2"},
+    {"gibbs.independence", "1"},
     {"gibbs.prior", "0.5"},
     {"gibbs.sampler", "algorithm1"},
     {"gibbs.updated", "occupied-and-free"},
@@ -65,6 +66,7 @@ constexpr std::array<std::array<const char*, 2>, 83> pinned = {{
     {"gibbs.burn_in", "10"},
     {"gibbs.until_stationary", "false"},
     {"gibbs.view_sweeps", "20"},
+    {"gibbs.read_out", "levels"},
     {"gibbs.ray_spacing", "0.6"},
     {"views.layout", "sphere"},
     {"views.count", "48"},

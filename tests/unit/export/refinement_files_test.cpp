@@ -80,7 +80,8 @@ class RefinementFiles : public InTemporaryFolder {
     refinement.gains_before = {next.share(), next.share()}, refinement.gains_after = {next.share(), next.share()};
     refinement.scores_before = scores(next), refinement.scores_after = scores(next);
     refinement.posterior.grid = job.grid;
-    refinement.posterior.occupied = {0.125f, 0.875f}, refinement.posterior.informed = {1, 1};
+    refinement.posterior.occupied = {0.25f, 0.75f}, refinement.posterior.informed = {1, 1};
+    refinement.posterior.touch = {0.125f, 0.875f}, refinement.posterior.centre = {0.0f, 0.5f};
     job.name = "thing", job.scans.resize(7), job.configuration.seed = 3;
     OutputFolder out = begun(folder_);
     write_refinement(job, refinement, out);

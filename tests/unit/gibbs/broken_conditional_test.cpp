@@ -105,6 +105,18 @@ TEST_P(Conditionals, oneThatCountsThePriorTwiceIsCaught) {
   });
 }
 
+TEST_P(Conditionals, oneThatTakesDependentRaysForIndependentIsCaught) {
+  Problem dependent = right;
+  dependent.model.independence = 0.4;
+  const plain::Posterior posterior = right.posterior(), expected = dependent.posterior();
+  std::vector<Estimate> runs;
+  for (const plain::Marginals& run : plain::gibbs_sampler(posterior, plain::full_conditional(posterior), 50'000, 8, 1))
+    runs.push_back(report(run));
+  const MarginalComparison comparison = compare(plain::enumerate(expected), runs);
+  EXPECT_FALSE(comparison.agrees());
+  EXPECT_GT(comparison.largest_difference, 4.0 * comparison.standard_error) << "by chance";
+}
+
 TEST_P(Conditionals, oneThatForgetsARayIsCaught) {
   Problem wrong = right;
   wrong.problem.measurements.rays.erase(wrong.problem.measurements.rays.begin() + 8);

@@ -57,6 +57,38 @@ TEST(ExactPosterior, isThePlainEnumeration) {
   }
 }
 
+TEST(ExactPosterior, isThePlainEnumerationWhateverRaysCount) {
+  for (const double independence : {0.03, 0.4}) {
+    const random_problems::Problem problem = random_problems::make(random_problems::small()[4], 7);
+    for (const ForwardModel kind : every_model) {
+      ForwardSensorModel model = model_for(problem, kind, VoxelRange::segment);
+      model.independence = independence;
+      expect_equal(problem, model, 0.1);
+    }
+  }
+}
+
+// Rays that are seen twice and count half are seen once.
+TEST(ExactPosterior, twiceTheRaysAtHalfTheIndependenceAreTheSame) {
+  const random_problems::Problem problem = random_problems::make(random_problems::small()[4], 5);
+  RangeMeasurements twice = problem.measurements;
+  twice.rays.insert(twice.rays.end(), problem.measurements.rays.begin(), problem.measurements.rays.end());
+  for (const ForwardModel kind : every_model) {
+    ForwardSensorModel model = model_for(problem, kind, VoxelRange::segment);
+    const ExactPosterior once = exact_posterior(problem.grid, problem.measurements, model, 0.1);
+    const ExactPosterior surer = exact_posterior(problem.grid, twice, model, 0.1);
+    model.independence = 0.5;
+    const ExactPosterior half = exact_posterior(problem.grid, twice, model, 0.1);
+    double change = 0.0;
+    for (std::size_t voxel = 0; voxel < problem.grid.voxel_count(); ++voxel) {
+      EXPECT_NEAR(half.occupied[voxel], once.occupied[voxel], 1e-9);
+      EXPECT_NEAR(half.upper[voxel], once.upper[voxel], 1e-9);
+      change = std::max(change, std::abs(surer.occupied[voxel] - once.occupied[voxel]));
+    }
+    EXPECT_GT(change, 0.01) << name(kind);
+  }
+}
+
 TEST(ExactPosterior, isThePlainEnumerationOfAMillionMaps) {
   const random_problems::Problem problem = random_problems::make(random_problems::large()[1], 101);
   ASSERT_EQ(problem.grid.voxel_count(), 20u);
@@ -134,6 +166,12 @@ TEST(ExactPosterior, moreThan2To20MapsAreRefused) {
 }
 
 TEST(ExactPosterior, parametersOutOfBoundsAreRefused) {
+  for (const double independence : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    ForwardSensorModel wrong;
+    wrong.independence = independence;
+    EXPECT_THROW(exact_posterior({0.1, {0, 0, 0}, {2, 1, 1}}, {}, wrong, 0.1), std::invalid_argument) << independence;
+  }
+
   const VoxelGrid grid{0.1, {0, 0, 0}, {2, 1, 1}};
   RangeMeasurements nothing;
   const ForwardSensorModel model;

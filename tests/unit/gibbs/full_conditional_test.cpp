@@ -22,7 +22,8 @@ using random_problems::Problem;
 
 constexpr double prior = 0.2;
 
-ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRange range = VoxelRange::segment) {
+ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRange range = VoxelRange::segment,
+                             double independence = 1.0) {
   ForwardSensorModel model;
   model.kind = kind;
   model.voxel_range = range;
@@ -30,6 +31,7 @@ ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRan
   model.angular_sigma = 0.3;
   model.random_weight = 0.1;
   model.attenuations = {0.3, 2.0};
+  model.independence = independence;
   return model;
 }
 
@@ -60,7 +62,7 @@ TEST_P(FullConditionals, AreThoseOfTheEquations) {
   for (const VoxelRange range : {VoxelRange::segment, VoxelRange::centre})
     for (const random_problems::Shape& shape : random_problems::small()) {
       const Problem problem = random_problems::make(shape, 3);
-      const ForwardSensorModel model = model_for(problem, GetParam(), range);
+      const ForwardSensorModel model = model_for(problem, GetParam(), range, shape.weights ? 0.3 : 1.0);
       const plain::Posterior plain(problem.grid, problem.measurements, model, prior);
       for (int map_number = 0; map_number < 4; ++map_number) {
         const plain::Levels map = random_map(problem, model, random);
@@ -157,8 +159,9 @@ std::vector<double> sampled_from(const Problem& problem, const ForwardSensorMode
 TEST_P(FullConditionals, AreWhatTheSamplerDrawsFrom) {
   std::mt19937 random(4);
   const Problem problem = random_problems::make({"oblong", {6, 5, 2}, 3, 60, 0.6, true}, 11);
-  const ForwardSensorModel model = model_for(problem, GetParam());
-  for (int map_number = 0; map_number < 5; ++map_number) {
+  for (int map_number = 0; map_number < 8; ++map_number) {
+    const ForwardSensorModel model =
+        model_for(problem, GetParam(), VoxelRange::segment, std::array{1.0, 0.02, 0.2, 0.7}[map_number % 4]);
     const plain::Levels map = random_map(problem, model, random);
     for (std::uint32_t v = 0; v < map.size(); ++v) {
       const FullConditional found = full_conditional(problem.grid, problem.measurements, model, prior, map, v);

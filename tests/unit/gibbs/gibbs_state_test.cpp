@@ -29,7 +29,7 @@ void expect_consistent(const GibbsState& refinement) {
   const GibbsPosterior& posterior = refinement.posterior();
   ASSERT_EQ(posterior.occupied.size(), refinement.voxels().size());
   for (std::size_t v = 0; v < posterior.occupied.size(); ++v) {
-    ASSERT_EQ(refinement.voxels()[v].probability, posterior.occupied[v]);
+    ASSERT_EQ(refinement.voxels()[v].probability, posterior.touch[v]);
     ASSERT_EQ(refinement.voxels()[v].measured, posterior.informed[v] != 0);
     ASSERT_TRUE(posterior.occupied[v] >= 0.0f && posterior.occupied[v] <= 1.0f);
   }

@@ -114,7 +114,7 @@ double Posterior::log_likelihood(const Ray& ray, const Levels& map) const {
 double Posterior::log_joint(const Levels& map) const {
   double sum = 0.0;
   for (const std::uint8_t level : map) sum += log_prior(level);
-  for (const Ray& ray : rays_) sum += ray.weight * log_likelihood(ray, map);
+  for (const Ray& ray : rays_) sum += ray.weight * model_.independence * log_likelihood(ray, map);
   return sum;
 }
 
@@ -136,7 +136,7 @@ std::vector<double> Posterior::log_conditional(const Levels& map, std::uint32_t 
     double sum = log_prior(level);
     for (const Ray& ray : rays_)
       if (std::any_of(ray.steps.begin(), ray.steps.end(), [&](const Step& step) { return step.voxel == voxel; }))
-        sum += ray.weight * log_likelihood(ray, changed);
+        sum += ray.weight * model_.independence * log_likelihood(ray, changed);
     result.push_back(sum);
   }
   return result;

@@ -40,6 +40,7 @@ TEST(PosteriorSampler, theSameBytesOnAnyNumberOfThreads) {
   for (const ForwardModel kind : every_model) {
     PosteriorSamplerConfig config = config_for(problem, kind);
     config.sweeps = 40, config.burn_in = 5, config.chains = 4;
+    config.model.independence = 0.0;
     std::vector<GibbsPosterior> posteriors;
     for (const std::size_t threads : {1, 2, 2}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -48,6 +49,8 @@ TEST(PosteriorSampler, theSameBytesOnAnyNumberOfThreads) {
     for (const GibbsPosterior& other : posteriors) {
       EXPECT_EQ(other.occupied, posteriors[0].occupied) << name(kind);
       EXPECT_EQ(other.upper, posteriors[0].upper);
+      EXPECT_EQ(other.touch, posteriors[0].touch);
+      EXPECT_EQ(other.centre, posteriors[0].centre);
       EXPECT_EQ(other.informed, posteriors[0].informed);
       EXPECT_EQ(other.states, posteriors[0].states);
       EXPECT_EQ(other.diagnostics.log_posterior, posteriors[0].diagnostics.log_posterior);
@@ -164,7 +167,7 @@ TEST(PosteriorSampler, aVoxelThatNoRayReachesReadsAHalf) {
                 static_cast<std::size_t>(std::count(posterior.informed.begin(), posterior.informed.end(), 1)));
       const std::vector<Voxel> voxels = posterior.voxels({});
       for (std::size_t voxel = 0; voxel < voxels.size(); ++voxel) {
-        EXPECT_EQ(voxels[voxel].probability, posterior.occupied[voxel]);
+        EXPECT_EQ(voxels[voxel].probability, posterior.touch[voxel]);
         EXPECT_EQ(voxels[voxel].measured, posterior.informed[voxel] == 1);
       }
     }

@@ -22,7 +22,7 @@ using random_problems::Shape;
 constexpr double largest_standard_error = 0.003;  // far below the bar
 constexpr int most_sweeps = 128'000;
 
-ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, bool centre_ranges) {
+ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, bool centre_ranges, double independence) {
   ForwardSensorModel model;
   model.kind = kind;
   model.voxel_range = centre_ranges ? VoxelRange::centre : VoxelRange::segment;
@@ -30,6 +30,7 @@ ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, bool cen
   model.angular_sigma = 0.3;
   model.random_weight = 0.1;
   model.attenuations = {0.3, 2.0};
+  model.independence = independence;
   return model;
 }
 
@@ -62,11 +63,13 @@ struct Case {
   double prior;
   bool centre_ranges;
   std::uint64_t seed;
+  double independence = 1.0;
 
   friend void PrintTo(const Case& c, std::ostream* out) { *out << c.shape.name << ", " << name(c.model); }
 };
 
-/// Every test problem with every model; priors and ranges go round. A prior of 0.5 is the paper's zero log-odds.
+/// Every test problem with every model; priors, ranges and what rays count go round. A prior of 0.5 is the paper's zero
+/// log-odds.
 std::vector<Case> cases() {
   std::vector<Case> list;
   std::uint64_t seed = 0;
@@ -74,7 +77,8 @@ std::vector<Case> cases() {
     for (const ForwardModel model :
          {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation}) {
       ++seed;
-      list.push_back({shape, model, std::array{0.1, 0.5, 0.03, 0.25}[(seed + seed / 4) % 4], seed % 3 == 0, seed});
+      list.push_back({shape, model, std::array{0.1, 0.5, 0.03, 0.25}[(seed + seed / 4) % 4], seed % 3 == 0, seed,
+                      seed / 4 % 2 == 0 ? 1.0 : 0.35});
     }
   for (const Shape& shape : random_problems::large()) {
     list.push_back({shape, ForwardModel::beam, 0.1, false, ++seed});
@@ -88,7 +92,7 @@ class SamplerOnProblems : public ::testing::TestWithParam<Case> {};
 TEST_P(SamplerOnProblems, marginalsAreThoseOfTheExactPosterior) {
   const Case& c = GetParam();
   const Problem problem = random_problems::make(c.shape, c.seed);
-  const ForwardSensorModel model = model_for(problem, c.model, c.centre_ranges);
+  const ForwardSensorModel model = model_for(problem, c.model, c.centre_ranges, c.independence);
   const plain::Marginals exact = plain::enumerate(plain::Posterior(problem.grid, problem.measurements, model, c.prior));
   for (const int swaps : {0, 1})
     for (const int plaquettes : {0, 1}) {

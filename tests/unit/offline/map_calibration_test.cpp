@@ -31,7 +31,7 @@ std::vector<std::uint32_t> scored_voxels(const Refinement& r, int band) {
   const GibbsPosterior& gibbs = r.posterior;
   std::vector<std::uint32_t> result, occupied;
   for (std::uint32_t v = 0; v < gibbs.occupied.size(); ++v)
-    if (gibbs.informed[v] && gibbs.occupied[v] >= 0.5f) occupied.push_back(v);
+    if (gibbs.informed[v] && gibbs.touch[v] >= 0.5f) occupied.push_back(v);
   for (std::uint32_t v = 0; v < gibbs.occupied.size(); ++v) {
     if (!gibbs.informed[v] || !r.conventional.voxels()[v].measured) continue;
     const auto near = [&](std::uint32_t other) {
@@ -98,7 +98,7 @@ TEST_P(Band, ScoresAreThoseOfMapsMadeAnew) {
     const auto voxels = scored_voxels(r, config.band);
     ASSERT_GT(voxels.size(), 100u);
     EXPECT_EQ(s.voxels, voxels.size());
-    const std::vector<float>& gibbs = r.posterior.occupied;
+    const std::vector<float>& gibbs = r.posterior.touch;
     const OccupancyMap map_before = made_with(found.before, job), map_after = made_with(found.fit.model, job);
     EXPECT_NEAR(s.cross_entropy_before.value(), cross_entropy(map_before, gibbs, voxels), 1e-5);
     EXPECT_NEAR(s.cross_entropy_after.value(), cross_entropy(map_after, gibbs, voxels), 1e-5);

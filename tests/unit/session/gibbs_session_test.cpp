@@ -25,7 +25,7 @@ TEST(GibbsSession, PlansOnThePosterior) {
   const GibbsPosterior& posterior = session.refinement()->posterior();
   const VoxelBricks& voxels = session.planning_voxels();
   for (std::size_t v = 0; v < voxels.size(); ++v) {
-    ASSERT_EQ(voxels[v].probability, posterior.occupied[v]);
+    ASSERT_EQ(voxels[v].probability, posterior.touch[v]);
     ASSERT_EQ(voxels[v].measured, posterior.informed[v] != 0);
   }
   EXPECT_EQ(last.total_entropy, total_entropy(voxels));

@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/ray_lists.hpp"
+
+/// From what the sampler draws to what people ask. Its levels say how many rays a voxel stops. Whether the surface
+/// touches the voxel, and whether the voxel's centre is inside, are other questions: a voxel that the surface cuts by a
+/// corner stops hardly a ray, and rays end just beside a surface by noise. What the levels of a voxel and of those
+/// around it say of both was learned from made-up parts, whose surface is known (logistic regression).
+namespace nextview {
+
+/// The measured rays of a voxel; merged rays count as many as they stand for.
+struct RayCount {
+  float passed = 0.0f;  ///< whose range lies behind the voxel
+  float ended = 0.0f;   ///< whose range lies in it
+  float crossed() const { return passed + ended; }
+};
+/// One a voxel of the lists' grid.
+std::vector<RayCount> ray_counts(const RayLists& lists);
+
+/// What the read-out looks at: the posterior and the rays of a voxel, and those of the voxels around it.
+class ReadOutFeatures {
+ public:
+  static constexpr std::size_t count = 23;
+  using Vector = std::array<double, count>;
+
+  /// Of GibbsPosterior::occupied, ::upper and ::informed.
+  ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays);
+  /// Voxels beyond the grid are taken for free ones that rays cross.
+  Vector of(std::uint32_t voxel) const;
+  /// From here on features are of the rays alone, whatever the sampler makes of them; the first is 1.
+  static constexpr std::size_t first_of_rays = 12;
+
+ private:
+  /// What a voxel says to those around it. Ready made, as each has 26 that ask.
+  struct Word {
+    float uninformed = 0.0f;                     ///< 1: it is
+    float occupied = 0.0f, upper = 0.0f;         ///< 0 if not informed
+    float log_odds = 0.0f;                       ///< of being occupied; 0 if not informed
+    float uncrossed = 0.0f;                      ///< 1: no measured ray crosses it
+    float ended = 0.0f;                          ///< share of its rays that end in it
+    float log_ended = 0.0f, log_crossed = 0.0f;  ///< log(1 + rays)
+
+    Word& operator+=(const Word& other);
+  };
+  /// Sums over the voxels that share a face with one, and over all 26.
+  struct Around {
+    Word faces, all;
+  };
+  Around around(std::uint32_t voxel) const;
+
+  VoxelGrid grid_;
+  std::span<const float> occupied_, upper_;  ///< of the posterior, which must outlive it
+  std::span<const RayCount> rays_;           ///< likewise
+  std::vector<Word> words_;
+};
+
+/// log-odds = weights . features
+struct ReadOutWeights {
+  ReadOutFeatures::Vector touch, centre;
+};
+/// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit; nothing else was looked at.
+const ReadOutWeights& fitted_read_out();
+
+/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. The same bytes on any number of threads.
+void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const ReadOutWeights& weights);
+
+}  // namespace nextview

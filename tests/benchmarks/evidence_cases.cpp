@@ -1,0 +1,95 @@
+#include "tests/benchmarks/evidence_cases.hpp"
+
+#include <array>
+#include <filesystem>
+
+#include "core/evaluation/visited_voxels.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "core/mesh/parts.hpp"
+#include "core/offline/training_parts.hpp"
+#include "tests/benchmarks/simulated_views.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr std::uint64_t fitting_seed = 19;
+constexpr std::string_view part_prefix = "part ";
+
+/// Turned about all three axes, and moved off the grid by a share of a voxel.
+Eigen::Affine3d off_the_grid() {
+  return Eigen::Translation3d(0.0031, -0.0047, 0.0023) * Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitX());
+}
+
+PlacedMesh mesh_of(const std::string& object) {
+  if (!object.starts_with(part_prefix)) return load_placed_mesh(resolve_object(object), {0.5});
+  PlacedMesh placed;
+  placed.mesh = training_part(std::uint32_t(std::stoul(object.substr(part_prefix.size()))), fitting_seed);
+  return placed;
+}
+
+std::vector<Opening> openings_of(const std::string& object, const MeshPlacement& placement, const Eigen::Affine3d& T) {
+  std::vector<Opening> openings;
+  if (object.starts_with(part_prefix)) return openings;
+  const auto file = resolve_object(object).replace_extension(".json");
+  if (!std::filesystem::exists(file)) return openings;
+  for (Opening opening : read_openings(file)) {
+    opening = placed(opening, placement);
+    opening.centre = T * opening.centre;
+    opening.axis = T.linear() * opening.axis;
+    opening.along = T.linear() * opening.along;
+    openings.push_back(opening);
+  }
+  return openings;
+}
+
+}  // namespace
+
+EvidenceCase evidence_case(const std::string& object, const EvidenceSensor& sensor, int views) {
+  EvidenceCase result{object, sensor, views, region_of_interest(Vector3::Zero(), 1.28, sensor.resolution), {}, {}};
+  PlacedMesh placed = mesh_of(object);
+  const Eigen::Affine3d T = off_the_grid();
+  for (Eigen::Vector3f& v : placed.mesh.vertices) v = (T * v.cast<double>()).cast<float>();
+  result.truth = {std::make_shared<TriangleMesh>(placed.mesh), ground_truth(placed.mesh, result.grid),
+                  std::vector<std::uint8_t>(result.grid.voxel_count()), openings_of(object, placed.placement, T)};
+  DepthCameraConfig camera;
+  camera.width = sensor.width;
+  camera.height = sensor.width * 3 / 4;
+  camera.range_noise = sensor.noise;
+  camera.outliers = sensor.outliers;
+  SimulatedViews simulated = simulate_views(placed.mesh, camera, views);
+  for (const Scan& ideal : simulated.ideal) mark_visited(result.grid, ideal, result.truth.visited);
+  result.scans = std::move(simulated.scans);
+  return result;
+}
+
+std::span<const char* const> fitting_parts() {
+  static constexpr std::array parts = {"part 1", "part 2", "part 3", "part 4"};
+  return parts;
+}
+
+std::vector<std::string> held_out_objects() {
+  static constexpr std::array objects = {
+      "bunny",
+      "gearbox",
+      "slotted_plate",
+      "slotted_housing",
+      "/usr/share/opencascade/data/stl/motor.stl",
+      "/usr/share/opencascade/data/stl/bearing.stl",
+      "/usr/share/opencascade/data/stl/head.stl",
+      "/usr/share/opencascade/data/stl/shape.stl",
+      "/usr/share/glmark2/models/horse.3ds",
+      "/usr/share/glmark2/models/cat.3ds",
+  };
+  std::vector<std::string> installed;
+  for (const char* object : objects) {
+    try {
+      if (std::filesystem::exists(resolve_object(object))) installed.push_back(object);
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+  }
+  return installed;
+}
+
+}  // namespace nextview

@@ -1,0 +1,257 @@
+// The Gibbs map beside every baseline, near the surface, each truth by its own read-out. Prints a row a map and object
+// as CSV, then the means over the objects; the manual's table comes from it (gibbs).
+//   build/release/posterior_comparison                                all held-out objects
+//   build/release/posterior_comparison --object bunny --views 4       some of it
+//   build/release/posterior_comparison --fit                          fits what is fitted, to made-up parts
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "core/calibration/sensor_model_calibration.hpp"
+#include "core/evaluation/baseline_maps.hpp"
+#include "core/progress/stopwatch.hpp"
+#include "tests/benchmarks/calibrated_terms.hpp"
+#include "tests/benchmarks/evidence_cases.hpp"
+#include "tests/benchmarks/read_out_fit.hpp"
+
+namespace nextview {
+namespace {
+
+struct Options {
+  std::vector<std::string> objects = held_out_objects();
+  std::vector<std::string> parts{fitting_parts().begin(), fitting_parts().end()};
+  std::vector<int> views = {4, 20};
+  std::vector<std::string> sensors = {"small", "default"};
+  bool fit = false;
+  bool before = true;
+};
+
+std::vector<float> octomap_of(const EvidenceCase& c) {
+  OccupancyMap map(c.grid, {});
+  for (const Scan& scan : c.scans) map.insert(scan);
+  return probabilities(map.voxels());
+}
+
+PosteriorSamplerConfig sampler_of(const EvidenceCase& c) {
+  PosteriorSamplerConfig config;
+  config.model.sigma = std::max(c.sensor.noise, 0.1 * c.grid.resolution);
+  config.model.independence = 0.0;
+  return config;
+}
+
+/// What the read-out sees of a case.
+struct Evidence {
+  GibbsPosterior posterior;
+  std::vector<RayCount> rays;
+};
+
+Evidence evidence_of(const EvidenceCase& c) {
+  const PosteriorSamplerConfig config = sampler_of(c);
+  const RangeMeasurements measurements = measurements_of(c.scans);
+  const RayLists lists(c.grid, merge_rays(measurements, c.grid, config.ray_spacing), ForwardSensorModel{});
+  return {sample_posterior(c.grid, measurements, config, octomap_of(c)), ray_counts(lists)};
+}
+
+/// The voxels that scores near the surface are of.
+std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
+  const GroundTruth& truth = c.truth.voxels;
+  std::vector<std::uint8_t> mask(truth.touch.size());
+  for (std::size_t v = 0; v < mask.size(); ++v)
+    mask[v] = c.truth.visited[v] && truth.surface_distance[v] <= band_width && !truth.hidden(v);
+  return mask;
+}
+
+ReadOutSamples samples_of(const EvidenceCase& c, const Evidence& evidence) {
+  const ReadOutFeatures features(evidence.posterior, evidence.rays);
+  const std::vector<std::uint8_t> scored = scored_voxels(c);
+  ReadOutSamples samples;
+  for (std::uint32_t v = 0; v < scored.size(); ++v) {
+    if (!scored[v] || !evidence.posterior.informed[v]) continue;
+    samples.features.push_back(features.of(v));
+    samples.touch.push_back(c.truth.voxels.touch[v]);
+    samples.centre.push_back(c.truth.voxels.centre[v]);
+  }
+  return samples;
+}
+
+/// What the conventional map's terms are fitted to, for one sensor.
+struct TermHistories {
+  UpdateHistories touch, centre, posterior;
+
+  void add(const EvidenceCase& c, const GibbsPosterior& gibbs) {
+    const std::vector<std::uint8_t> mask = scored_voxels(c);
+    const auto add = [&](UpdateHistories& histories, const auto& target) {
+      const std::vector<float> targets(target.begin(), target.end());
+      histories.add(c.grid, c.scans, targets, mask);
+    };
+    add(touch, c.truth.voxels.touch);
+    add(centre, c.truth.voxels.centre);
+    add(posterior, gibbs.touch);
+  }
+};
+
+void print_terms(const char* name, const UpdateHistories& histories) {
+  const InverseSensorModel m = calibrate(histories.without_ranges(), {}).model;
+  fmt::print("  {}: hit {:.4f} miss {:.4f} clamps {:.4f} {:.4f}\n", name, m.hit, m.miss, m.clamp_min, m.clamp_max);
+}
+
+void print_weights(const char* name, const std::vector<ReadOutSamples>& cases,
+                   std::vector<std::uint8_t> ReadOutSamples::*truth, bool rays_alone) {
+  std::array<bool, ReadOutFeatures::count> used;
+  for (std::size_t k = 0; k < used.size(); ++k) used[k] = !rays_alone || k == 0 || k >= ReadOutFeatures::first_of_rays;
+  fmt::print("{}: {:.5f}\n", name, fmt::join(fit_read_out(cases, truth, used), ", "));
+}
+
+void fit(const Options& options) {
+  std::vector<ReadOutSamples> cases;
+  for (const EvidenceSensor& sensor : fitting_sensors) {
+    TermHistories terms;
+    for (const std::string& part : options.parts)
+      for (const int views : options.views) {
+        const EvidenceCase c = evidence_case(part, sensor, views);
+        const Evidence evidence = evidence_of(c);
+        cases.push_back(samples_of(c, evidence));
+        if (sensor.compared) terms.add(c, evidence.posterior);
+        fmt::print(stderr, "{}, {}, {} views\n", part, sensor.name, views);
+      }
+    if (!sensor.compared) continue;
+    fmt::print("{}\n", sensor.name);
+    print_terms("touch", terms.touch);
+    print_terms("centre", terms.centre);
+    print_terms("posterior", terms.posterior);
+    std::fflush(stdout);
+  }
+  print_weights("touch", cases, &ReadOutSamples::touch, false);
+  print_weights("centre", cases, &ReadOutSamples::centre, false);
+  print_weights("touch, rays alone", cases, &ReadOutSamples::touch, true);
+  print_weights("centre, rays alone", cases, &ReadOutSamples::centre, true);
+}
+
+/// Scores of the maps of one sensor and number of views: by map, one an object.
+using Scores = std::map<std::string, std::vector<MapScores>>;
+
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
+
+/// All maps of one case.
+class Comparison {
+ public:
+  Comparison(const EvidenceCase& c, Scores& scores) : case_(c), scores_(scores) {}
+
+  void run(bool before) {
+    const BaselineMaps baselines(case_.grid, case_.scans);
+    for (const BaselineMapInfo& info : baseline_maps) add(std::string(info.name), baselines.make(info.map));
+    for (const CalibratedTerms& terms : calibrated_terms)
+      if (std::string_view(terms.sensor) == case_.sensor.name) add(terms);
+    if (before) gibbs("Gibbs before", 1.0, ReadOut::levels);
+    gibbs("Gibbs", 0.0, ReadOut::fitted);
+  }
+
+ private:
+  void add(const std::string& map, const std::vector<Voxel>& voxels) {
+    row(map, score_map(voxels, voxels, case_.truth), "");
+  }
+
+  void add(const CalibratedTerms& terms) {
+    InverseSensorModel model;
+    model.hit = terms.hit, model.miss = terms.miss;
+    model.clamp_min = terms.clamp_min, model.clamp_max = terms.clamp_max;
+    OccupancyMap map(case_.grid, model);
+    for (const Scan& scan : case_.scans) map.insert(scan);
+    add(fmt::format("calibrated to {}", terms.fitted_to), map.voxels().dense());
+  }
+
+  void gibbs(const char* name, double independence, ReadOut read_out_as) {
+    PosteriorSamplerConfig config = sampler_of(case_);
+    config.model.independence = independence;
+    config.read_out = read_out_as;
+    double seconds = 0.0;
+    GibbsPosterior posterior = [&] {
+      const Stopwatch watch(seconds);
+      return sample_posterior(case_.grid, measurements_of(case_.scans), config, octomap_of(case_));
+    }();
+    const SamplerDiagnostics& d = posterior.diagnostics;
+    row(name, *score_posterior(posterior, {}, case_.truth),
+        fmt::format("{:.1f} s {} sweeps R-hat {:.3f}{}", seconds, d.sweeps, d.r_hat,
+                    d.stationary ? "" : " NOT stationary"));
+    if (read_out_as != ReadOut::fitted) return;
+    const RayLists lists(case_.grid, merge_rays(measurements_of(case_.scans), case_.grid, config.ray_spacing),
+                         ForwardSensorModel{});
+    read_out(posterior, ray_counts(lists), read_out_of_rays_alone());
+    row("read-out of rays alone", *score_posterior(posterior, {}, case_.truth), "");
+  }
+
+  void row(const std::string& map, const MapScores& s, const std::string& remark) {
+    fmt::print("{},\"{}\",{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{}\n", case_.object, case_.sensor.name,
+               case_.views, map, s.touch_band.log_loss, s.touch_band.calibration_error, s.centre_band.log_loss,
+               s.centre_band.calibration_error, s.touch_visited.log_loss, cell(s.surface_recall),
+               cell(s.openings.row_openness()), cell(s.openings.recall()), cell(s.openings.leaks()), remark);
+    std::fflush(stdout);
+    scores_[map].push_back(s);
+  }
+
+  const EvidenceCase& case_;
+  Scores& scores_;
+};
+
+/// Means over the objects, and on how many of them the Gibbs map has less log loss than the map of the row.
+void print_means(const std::string& of, const Scores& scores) {
+  const std::vector<MapScores>& gibbs = scores.at("Gibbs");
+  fmt::print(
+      "\n# {}: mean over {} objects: touch log loss, ECE, centre log loss, ECE, surface recall; Gibbs is better "
+      "on (touch, centre)\n",
+      of, gibbs.size());
+  for (const auto& [map, of_objects] : scores) {
+    double sums[5] = {};
+    int touch = 0, centre = 0;
+    for (std::size_t i = 0; i < of_objects.size(); ++i) {
+      const MapScores& s = of_objects[i];
+      const double values[] = {s.touch_band.log_loss, s.touch_band.calibration_error, s.centre_band.log_loss,
+                               s.centre_band.calibration_error, s.surface_recall.value_or(0.0)};
+      for (int k = 0; k < 5; ++k) sums[k] += values[k] / double(of_objects.size());
+      touch += gibbs[i].touch_band.log_loss < s.touch_band.log_loss;
+      centre += gibbs[i].centre_band.log_loss < s.centre_band.log_loss;
+    }
+    fmt::print("# {:<26} {:.4f}  {:.4f}   {:.4f}  {:.4f}   {:.3f}   {:>2} {:>2}\n", map, sums[0], sums[1], sums[2],
+               sums[3], sums[4], touch, centre);
+  }
+}
+
+void compare(const Options& options) {
+  fmt::print(
+      "object,sensor,views,map,log_loss_touch_band,ece_touch_band,log_loss_centre_band,ece_centre_band,"
+      "log_loss_touch_visited,surface_recall,rows_open,opening_recall,leaks,remark\n");
+  std::map<std::string, Scores> all;
+  for (const EvidenceSensor& sensor : fitting_sensors)
+    for (const int views : options.views)
+      for (const std::string& object : options.objects) {
+        if (std::find(options.sensors.begin(), options.sensors.end(), sensor.key) == options.sensors.end()) continue;
+        const EvidenceCase c = evidence_case(object, sensor, views);
+        Comparison(c, all[fmt::format("{}, {} views", sensor.name, views)]).run(options.before);
+      }
+  for (const auto& [of, scores] : all) print_means(of, scores);
+}
+
+}  // namespace
+}  // namespace nextview
+
+int main(int argc, char** argv) {
+  nextview::Options options;
+  CLI::App program("Compares the Gibbs map with every baseline near the surface; CSV on standard output.");
+  program.add_option("--object", options.objects, "objects to compare on");
+  program.add_option("--part", options.parts, "made-up parts to fit to")->capture_default_str();
+  program.add_option("--views", options.views, "numbers of views")->capture_default_str();
+  program.add_option("--sensor", options.sensors, "small, between, default")->capture_default_str();
+  program.add_flag("--before,!--no-before", options.before, "the Gibbs map of 0.4.0 too, which takes half of the time");
+  program.add_flag("--fit", options.fit, "fit the read-outs and the conventional map's terms instead");
+  CLI11_PARSE(program, argc, argv);
+  try {
+    options.fit ? nextview::fit(options) : nextview::compare(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "posterior_comparison: {}\n", error.what());
+    return 2;
+  }
+}

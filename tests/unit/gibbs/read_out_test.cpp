@@ -1,0 +1,190 @@
+#include "core/gibbs/read_out.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <optional>
+
+#include "tests/unit/gibbs/random_problems.hpp"
+
+namespace nextview {
+namespace {
+
+using random_problems::Problem;
+
+Problem room() { return random_problems::make({"room", {8, 7, 5}, 4, 400, 0.4, true}, 7); }
+
+PosteriorSamplerConfig config_for(const Problem& problem) {
+  PosteriorSamplerConfig config;
+  config.model.sigma = problem.sigma;
+  config.sweeps = 60, config.burn_in = 5;
+  config.until_stationary = false;
+  config.ray_spacing = 0.0;
+  return config;
+}
+
+/// From the definition: walks each ray's line in small steps.
+std::vector<RayCount> plain_counts(const Problem& problem) {
+  std::vector<RayCount> counts(problem.grid.voxel_count());
+  const RangeMeasurements& measurements = problem.measurements;
+  for (const RangeMeasurement& ray : measurements.rays) {
+    const double z = measurements.range(ray);
+    std::vector<std::uint8_t> passed(counts.size());
+    std::optional<std::uint32_t> last;
+    const double step = 1e-4;
+    for (double t = 0.5 * step; t < z; t += step) {
+      const Vector3 point = measurements.origins[ray.origin] + t * measurements.direction(ray);
+      const Eigen::Vector3i cell = problem.grid.cell_at(point);
+      last.reset();
+      if (!problem.grid.contains(cell)) continue;
+      last = problem.grid.index(cell);
+      passed[*last] = 1;
+    }
+    if (!ray.beyond_range && last) passed[*last] = 0, counts[*last].ended += float(ray.weight);
+    for (std::size_t v = 0; v < counts.size(); ++v) counts[v].passed += float(passed[v] * ray.weight);
+  }
+  return counts;
+}
+
+TEST(ReadOut, CountsRaysUpToWhereTheyEnd) {
+  const Problem problem = room();
+  for (const ForwardModel kind : {ForwardModel::attenuation, ForwardModel::paper}) {
+    ForwardSensorModel model;
+    model.kind = kind;
+    model.sigma = problem.sigma;
+    const auto counts = ray_counts(RayLists(problem.grid, problem.measurements, model));
+    const auto expected = plain_counts(problem);
+    double passed = 0.0, ended = 0.0, difference = 0.0;
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      passed += expected[v].passed, ended += expected[v].ended;
+      difference += std::abs(counts[v].passed - expected[v].passed) + std::abs(counts[v].ended - expected[v].ended);
+    }
+    EXPECT_GT(passed, 1000.0);
+    EXPECT_GT(ended, 100.0);
+    EXPECT_LT(difference, 0.005 * (passed + ended)) << "corners that small steps miss, and no more";
+  }
+}
+
+/// A posterior written by hand over 3 x 3 x 3 voxels.
+struct ByHand {
+  GibbsPosterior posterior;
+  std::vector<RayCount> rays;
+
+  ByHand() {
+    posterior.grid = {0.1, {0, 0, 0}, {3, 3, 3}};
+    posterior.occupied.assign(27, 0.1f);
+    posterior.upper.assign(27, 0.05f);
+    posterior.informed.assign(27, 1);
+    rays.assign(27, {9.0f, 0.0f});
+  }
+};
+
+TEST(ReadOut, LooksAtAVoxelAndThoseAroundIt) {
+  ByHand by_hand;
+  by_hand.posterior.occupied[13] = 0.8f;
+  by_hand.posterior.upper[13] = 0.6f;
+  by_hand.rays[13] = {3.0f, 7.0f};
+  by_hand.posterior.informed[12] = 0;                                   // beside it
+  by_hand.posterior.occupied[12] = by_hand.posterior.upper[12] = 0.5f;  // as what is not informed reads
+  by_hand.posterior.informed[0] = 0, by_hand.rays[0] = {};              // at a corner
+  const auto x = ReadOutFeatures(by_hand.posterior, by_hand.rays).of(13);
+  const auto near = [&](int k, double expected) { EXPECT_NEAR(x[k], expected, 1e-5) << "feature " << k; };
+  const double occupied = std::log(4.0), upper = std::log(1.5);
+  near(0, 1.0), near(1, occupied), near(2, upper), near(3, occupied * occupied / 10), near(4, upper * upper / 10);
+  near(5, 1.0), near(6, 2.0);
+  near(7, 5 * 0.1), near(8, 24 * 0.1), near(9, 5 * 0.05), near(10, 24 * 0.05);
+  near(11, 5 * std::log(1.0 / 9.0) / 6);
+  near(12, std::log(11.0));
+  const double ended = std::log(7.05 / 3.05);
+  near(13, ended), near(14, ended * ended / 10);
+  near(15, 0.0), near(16, 1.0), near(17, 0.0), near(18, 0.0);
+  near(19, 25 * std::log(10.0) / 26);
+  near(20, std::log(8.0)), near(21, 0.0), near(22, 0.0);
+}
+
+TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
+  for (const int beside : {4, 1, 0}) {  // through a face, an edge, a corner
+    ByHand by_hand;
+    by_hand.rays[beside] = {1.0f, 3.0f};
+    const auto x = ReadOutFeatures(by_hand.posterior, by_hand.rays).of(13);
+    const double share = 3.0 / 4.1;
+    EXPECT_NEAR(x[17], beside == 4 ? share : 0.0, 1e-6);
+    EXPECT_NEAR(x[18], share, 1e-6);
+    EXPECT_NEAR(x[21], std::log(4.0) / 26, 1e-6);
+    EXPECT_NEAR(x[22], beside == 4 ? std::log(4.0) / 6 : 0.0, 1e-6);
+  }
+}
+
+TEST(ReadOut, VoxelsBeyondTheGridAreNeitherUnknownNorHidden) {
+  const ByHand by_hand;
+  const ReadOutFeatures features(by_hand.posterior, by_hand.rays);
+  for (const std::uint32_t v : {0u, 13u, 26u}) {
+    const auto x = features.of(v);
+    for (const int none : {5, 6, 15, 16}) EXPECT_EQ(x[none], 0.0) << v;
+  }
+  EXPECT_LT(features.of(0)[8], features.of(13)[8]);
+}
+
+TEST(ReadOut, IsTheLogisticOfTheWeightedFeatures) {
+  ByHand by_hand;
+  by_hand.posterior.informed[5] = 0;
+  ReadOutWeights weights{{}, {}};
+  weights.touch[0] = -0.4, weights.touch[1] = 0.5;
+  weights.centre[12] = -1.0;
+  read_out(by_hand.posterior, by_hand.rays, weights);
+  EXPECT_NEAR(by_hand.posterior.touch[13], 1.0 / (1.0 + std::exp(0.4 + 0.5 * std::log(9.0))), 1e-6);
+  EXPECT_NEAR(by_hand.posterior.centre[13], 1.0 / 11.0, 1e-6);
+  EXPECT_EQ(by_hand.posterior.touch[5], 0.5f) << "not informed";
+  EXPECT_EQ(by_hand.posterior.centre[5], 0.5f);
+}
+
+TEST(ReadOut, OfThePosteriorIsThatOfItsRaysAndLevels) {
+  const Problem problem = room();
+  const PosteriorSamplerConfig config = config_for(problem);
+  GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
+  const auto touch = posterior.touch, centre = posterior.centre;
+  EXPECT_NE(touch, posterior.occupied);
+  EXPECT_NE(touch, centre);
+  read_out(posterior, ray_counts(RayLists(problem.grid, problem.measurements, config.model)), fitted_read_out());
+  EXPECT_EQ(posterior.touch, touch);
+  EXPECT_EQ(posterior.centre, centre);
+  const auto voxels = posterior.voxels({}), centres = posterior.centre_voxels({});
+  for (std::size_t v = 0; v < touch.size(); ++v) {
+    EXPECT_EQ(voxels[v].probability, touch[v]);
+    EXPECT_EQ(centres[v].probability, centre[v]);
+    EXPECT_EQ(centres[v].measured, posterior.informed[v] != 0);
+  }
+}
+
+TEST(ReadOut, IsTheSameBytesOnAnyNumberOfThreads) {
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem);
+  config.model.independence = 0.0;
+  std::vector<GibbsPosterior> posteriors;
+  for (const std::size_t threads : {1, 2, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    posteriors.push_back(sample_posterior(problem.grid, problem.measurements, config));
+    EXPECT_EQ(posteriors.back().touch, posteriors.front().touch);
+    EXPECT_EQ(posteriors.back().centre, posteriors.front().centre);
+  }
+}
+
+TEST(ReadOut, IsNotAppliedToLevelsThatItWasNotFittedTo) {
+  const Problem problem = room();
+  std::vector<PosteriorSamplerConfig> configs(5, config_for(problem));
+  configs[0].read_out = ReadOut::levels;
+  configs[1].model.kind = ForwardModel::beam;
+  configs[2].sampler = Sampler::algorithm1;
+  configs[3].updated = UpdatedVoxels::occupied;
+  configs[4].model.attenuations = {0.3, 2.0};
+  const std::vector<float> start(problem.grid.voxel_count(), 0.7f);
+  for (const PosteriorSamplerConfig& config : configs) {
+    const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, start);
+    EXPECT_EQ(posterior.touch, posterior.occupied);
+    EXPECT_EQ(posterior.centre, posterior.occupied);
+  }
+}
+
+}  // namespace
+}  // namespace nextview
