@@ -110,23 +110,31 @@ vtkSmartPointer<vtkUnsignedCharArray> colours_of(const CloudPicture& picture, co
   return colours;
 }
 
-vtkSmartPointer<vtkPolyData> thinned(vtkPolyData& points) {
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->ShallowCopy(&points);
-  vtkNew<vtkCellArray> vertices;
-  std::vector<vtkIdType> ids;
-  for (vtkIdType id = 0; id < points.GetNumberOfPoints(); id += every) ids.push_back(id);
-  vertices->InsertNextCell(vtkIdType(ids.size()), ids.data());
-  result->SetVerts(vertices);
+/// With their colours, and their normals if there are any.
+vtkSmartPointer<vtkPolyData> polydata_of(const CloudPicture& picture, const std::optional<Legend::Range>& range) {
+  const auto polydata = point_polydata(picture.points);
+  if (range) polydata->GetPointData()->SetScalars(colours_of(picture, *range));
+  if (!picture.normals.empty()) polydata->GetPointData()->SetNormals(float_vectors(picture.normals));
+  return polydata;
+}
+
+template <class Value>
+std::vector<Value> thinned(std::span<const Value> values) {
+  std::vector<Value> result;
+  for (std::size_t i = 0; i < values.size(); i += every) result.push_back(values[i]);
   return result;
 }
 
 }  // namespace
 
 CloudLayer::CloudLayer(vtkRenderer& renderer)
-    : Layer(renderer), mapper_(vtkSmartPointer<vtkPolyDataMapper>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
-  mapper_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
-  actor_->SetMapper(mapper_);
+    : Layer(renderer),
+      full_(vtkSmartPointer<vtkPolyDataMapper>::New()),
+      thin_(vtkSmartPointer<vtkPolyDataMapper>::New()),
+      actor_(vtkSmartPointer<vtkActor>::New()) {
+  for (vtkPolyDataMapper* mapper : {full_.Get(), thin_.Get()})
+    mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
+  actor_->SetMapper(full_);
   actor_->GetProperty()->SetRenderPointsAsSpheres(true);
   actor_->GetProperty()->SetAmbient(0.5);
   actor_->GetProperty()->SetDiffuse(0.7);
@@ -141,9 +149,8 @@ void CloudLayer::set_coarse(bool coarse) {
 }
 
 void CloudLayer::show_points() {
-  if (!full_) return;
-  const bool thin = coarse_ && thin_;
-  mapper_->SetInputDataObject(thin ? thin_ : full_);
+  const bool thin = coarse_ && has_thin_;
+  actor_->SetMapper(thin ? thin_ : full_);
   actor_->GetProperty()->SetRenderPointsAsSpheres(!coarse_ && !has_normals_);
   actor_->GetProperty()->SetPointSize(float(point_size_ * scale() * (thin ? std::sqrt(every) : 1.0)));
 }
@@ -155,19 +162,26 @@ void CloudLayer::show(const PointCloud& cloud, double point_size) {
   show(picture);
 }
 
+void CloudLayer::show_thin(const CloudPicture& picture, const std::optional<Legend::Range>& range) {
+  has_thin_ = picture.points.size() > many_points;
+  if (!has_thin_) return thin_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
+  const auto points = thinned(picture.points), normals = thinned(picture.normals);
+  const auto views = thinned(picture.views);
+  const auto distances = thinned(picture.distances);
+  CloudPicture few = picture;
+  few.points = points, few.normals = normals, few.views = views, few.distances = distances;
+  thin_->SetInputDataObject(polydata_of(few, range));
+}
+
 void CloudLayer::show(const CloudPicture& picture) {
   check(picture);
-  const auto polydata = point_polydata(picture.points);
   std::vector<Legend> legends;
-  if (!picture.points.empty()) {
-    legends.push_back(legend_of(picture));
-    if (legends[0].range) polydata->GetPointData()->SetScalars(colours_of(picture, *legends[0].range));
-  }
-  if (!picture.normals.empty()) polydata->GetPointData()->SetNormals(float_vectors(picture.normals));
+  if (!picture.points.empty()) legends.push_back(legend_of(picture));
+  const auto range = legends.empty() ? std::nullopt : legends[0].range;
+  full_->SetInputDataObject(polydata_of(picture, range));
+  show_thin(picture, range);
   has_normals_ = !picture.normals.empty();
   point_size_ = picture.point_size;
-  full_ = polydata;
-  thin_ = picture.points.size() > many_points ? thinned(*full_) : nullptr;
   show_points();
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3f& point : picture.points) box.extend(point.cast<double>());

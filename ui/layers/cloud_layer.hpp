@@ -6,7 +6,6 @@
 #include "ui/layers/layer.hpp"
 
 class vtkActor;
-class vtkPolyData;
 class vtkPolyDataMapper;
 
 namespace nextview {
@@ -38,14 +37,15 @@ class CloudLayer : public Layer {
   void set_coarse(bool coarse);
 
  private:
+  void show_thin(const CloudPicture& picture, const std::optional<Legend::Range>& range);
   void show_points();
   void on_scale() override { show_points(); }
 
-  vtkSmartPointer<vtkPolyDataMapper> mapper_;
+  /// Each keeps on the graphics card what it draws: only what is looked at goes there.
+  vtkSmartPointer<vtkPolyDataMapper> full_, thin_;
   vtkSmartPointer<vtkActor> actor_;
-  vtkSmartPointer<vtkPolyData> full_, thin_;  ///< the second is null where the first has few points
-  double point_size_ = 2.5;                   ///< [px]
-  bool coarse_ = false, has_normals_ = false;
+  double point_size_ = 2.5;  ///< [px]
+  bool coarse_ = false, has_normals_ = false, has_thin_ = false;
 };
 
 }  // namespace nextview
