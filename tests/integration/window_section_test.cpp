@@ -8,12 +8,13 @@
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/integration/window_pixels.hpp"
+#include "tests/unit/map/in_temporary_folder.hpp"
 #include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
 namespace {
 
-class WindowSection : public testing::Test {
+class WindowSection : public InTemporaryFolder {
  protected:
   WindowSection() { user_.run("step\nstep\nobject-style solid\ntoggle-octree\ntoggle-views\ntoggle-rays\n"); }
   SceneView& scene() { return user_.window().scene(); }
@@ -137,6 +138,21 @@ TEST_F(WindowSection, ASecondSceneShowsAnotherThingUnderTheSameCamera) {
   user_.move(1, 1);
   user_.run("second-view none\nframe\n");
   EXPECT_EQ(user_.look(), alone);
+}
+
+TEST_F(WindowSection, AnExportedPictureHasBothScenes) {
+  const auto exported = [&](const std::string& name) {
+    user_.run("export-picture \"" + (folder_ / name).string() + "\" 640x360\n");
+    return read_png(folder_ / name);
+  };
+  user_.run("toggle-octree\ntoggle-object\nsecond-view object\n");
+  const Image both = exported("both.png");
+  ASSERT_EQ(both.width, 640);
+  ASSERT_EQ(both.height, 360);
+  EXPECT_GT(count_amber(both, {0, 0, 320, 360}), 1000) << "the octree";
+  EXPECT_EQ(count_amber(both, {320, 0, 320, 360}), 0) << "the object";
+  user_.run("second-view none\n");
+  EXPECT_GT(count_amber(exported("one.png"), {320, 0, 320, 360}), 1000) << "the octree in the middle";
 }
 
 TEST_F(WindowSection, DarkIsDarkAndComesBack) {

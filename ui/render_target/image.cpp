@@ -31,6 +31,17 @@ vtkNew<vtkImageData> to_vtk(const Image& image, int channels) {
 
 }  // namespace
 
+Image side_by_side(const Image& left, const Image& right) {
+  Image both{left.width + right.width, left.height, {}};
+  both.rgba.reserve(left.rgba.size() + right.rgba.size());
+  for (int y = 0; y < both.height; ++y)
+    for (const Image* half : {&left, &right}) {
+      const auto row = half->rgba.begin() + std::ptrdiff_t(4) * half->width * y;
+      both.rgba.insert(both.rgba.end(), row, row + std::ptrdiff_t(4) * half->width);
+    }
+  return both;
+}
+
 std::string png_bytes(const Image& image, const std::string& configuration, int channels) {
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();

@@ -15,6 +15,9 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
+/// One picture with the other to its right. @pre both are of a height
+Image side_by_side(const Image& left, const Image& right);
+
 /// The bytes of a PNG file, with alpha (4 channels) or without (3).
 std::string png_bytes(const Image& image, const std::string& configuration = {}, int channels = 4);
 

@@ -97,6 +97,18 @@ void ComparedScene::share_depth(SceneView& view) {
   camera.SetClippingRange(std::min(near, camera.GetClippingRange()[0]), std::max(far, camera.GetClippingRange()[1]));
 }
 
+Image ComparedScene::draw_apart(SceneView& view, const std::optional<PictureSize>& size, bool transparent,
+                                double degrees) {
+  if (!beside_) return view.draw_apart(size, transparent, degrees);
+  auto left = size, right = size;
+  if (size) {
+    left->width = std::max(smallest_picture, size->width / 2);
+    right->width = std::max(smallest_picture, size->width - left->width);
+  }
+  const Image first = view.draw_apart(left, transparent, degrees);
+  return side_by_side(first, beside_->draw_apart(right, transparent, degrees));
+}
+
 void ComparedScene::set_quality(DrawingQuality quality) {
   if (beside_) beside_->set_quality(quality);
 }

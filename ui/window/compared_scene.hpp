@@ -21,6 +21,9 @@ class ComparedScene {
   void set_scale(double scale);
   /// The camera that both share shows what lies in either.
   void share_depth(SceneView& view);
+  /// A picture of `view` with this beside it, half as wide each (SceneView::draw_apart); of `view` alone if there is
+  /// nothing beside it.
+  Image draw_apart(SceneView& view, const std::optional<PictureSize>& size, bool transparent, double degrees = 0);
   /// Null unless there is one.
   const Rectangle* rectangle() const { return beside_ ? &beside_->rectangle() : nullptr; }
 

@@ -63,7 +63,7 @@ void Interface::Parts::draw_apart() {
   if (request.of == Of::curves)
     draw_curves();
   else
-    write_wanted(view.draw_apart(request.size, request.transparent), request.file);
+    write_wanted(compared.draw_apart(view, request.size, request.transparent), request.file);
   state.picture.reset();
   worker.log().add(LogEntry::Level::success, "Picture written to " + request.file);
 }
@@ -73,7 +73,7 @@ void Interface::Parts::draw_next_frame() {
   PictureRequest& request = *state.picture;
   if (request.drawn == 0) make_frame_folder(request.file);
   const double degrees = 360.0 * request.drawn / request.frames;
-  write_wanted(view.draw_apart(request.size, request.transparent, degrees),
+  write_wanted(compared.draw_apart(view, request.size, request.transparent, degrees),
                std::filesystem::path(request.file) / frame_name(request.drawn + 1));
   if (++request.drawn < request.frames) return;
   worker.log().add(LogEntry::Level::success, fmt::format("{} frames written to {}", request.frames, request.file));
