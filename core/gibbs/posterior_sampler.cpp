@@ -14,7 +14,7 @@
 namespace nextview {
 namespace {
 
-constexpr int first_window = 40;  ///< sweeps of the first mean that is tried
+constexpr int first_window = 16;  ///< sweeps of the first mean that is tried
 constexpr int sweeps_between_reports = 4;
 
 class Stopwatch {
@@ -77,11 +77,16 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
       d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, d.informed_voxels / 10000);
 }
 
+/// As the levels were drawn that the read-out was fitted to.
+bool draws_as_fitted(const PosteriorSamplerConfig& config) {
+  const PosteriorSamplerConfig usual;
+  return config.model.kind == ForwardModel::attenuation && config.model.attenuations == usual.model.attenuations &&
+         config.prior == usual.prior && config.sampler == Sampler::exact &&
+         config.updated == UpdatedVoxels::occupied_and_free;
+}
+
 void read_out(GibbsPosterior& posterior, const RayLists& lists, const PosteriorSamplerConfig& config) {
-  const bool as_fitted = config.model.kind == ForwardModel::attenuation &&
-                         config.model.attenuations == ForwardSensorModel{}.attenuations &&
-                         config.sampler == Sampler::exact && config.updated == UpdatedVoxels::occupied_and_free;
-  if (config.read_out == ReadOut::fitted && as_fitted) {
+  if (config.read_out == ReadOut::fitted && draws_as_fitted(config)) {
     read_out(posterior, ray_counts(lists), fitted_read_out());
   } else {
     posterior.touch = posterior.centre = posterior.occupied;
@@ -180,7 +185,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
                                                 : start_map[v];
     posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
   }
-  read_out(posterior, lists, config);
+  read_out(posterior, lists, configured);
   for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
   if (config.keep_traces) posterior.traces = chains.take_level_traces();
   d.sample_seconds = sampling.seconds();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -170,6 +171,22 @@ void RayLists::fill(Block& block) {
           ++incidence;
         });
   }
+}
+
+RayLists::RangeFrom RayLists::range_from(std::uint32_t voxel, std::uint32_t ray) const {
+  const RangeMeasurement& measured = measurements_.rays[ray];
+  const Vector3 direction = measurements_.direction(measured);
+  const Vector3 centre = grid_.centre(voxel) - measurements_.origins[measured.origin];
+  const double z = measurements_.range(measured);
+  double enter = 0.0, exit = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0) continue;
+    const double middle = centre[axis] / direction[axis];
+    const double half = 0.5 * grid_.resolution / std::abs(direction[axis]);
+    enter = std::max(enter, middle - half), exit = std::min(exit, middle + half);
+  }
+  return {static_cast<float>((z - centre.dot(direction)) / grid_.resolution),
+          static_cast<float>(std::max({0.0, enter - z, z - exit}) / grid_.resolution)};
 }
 
 RayLists::Place RayLists::place_of(const RangeMeasurement& ray, const VoxelSegment& segment) const {

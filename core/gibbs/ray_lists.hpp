@@ -85,6 +85,12 @@ class RayLists {
   /// What its log-likelihood is multiplied by: its weight, as far as the rays are independent witnesses.
   double evidence(std::uint32_t ray) const { return weight_[ray] * model_.independence; }
   std::span<const WeightRun> weight_runs() const { return weight_runs_; }
+  /// Where a ray's range lies from a voxel that it crosses, along the ray [voxel edges].
+  struct RangeFrom {
+    float centre;  ///< behind it; less than 0: in front
+    float way;     ///< before or behind the ray's way through the voxel; 0: on it
+  };
+  RangeFrom range_from(std::uint32_t voxel, std::uint32_t ray) const;
 
   /// A voxel in front of a ray, and its chord's code.
   struct FrontVoxel {

@@ -18,20 +18,19 @@ std::vector<RayCount> ray_counts(const RayLists& lists) {
   std::vector<RayCount> counts(lists.grid().voxel_count());
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t v) {
     const auto voxel = static_cast<std::uint32_t>(v);
-    for (const RayLists::FrontEntry entry : lists.front(voxel)) counts[v].passed += float(lists.weight(entry.ray()));
+    RayCount& count = counts[v];
+    for (const RayLists::FrontEntry entry : lists.front(voxel)) count.passed += float(lists.weight(entry.ray()));
     for (const RayLists::NearEntry entry : lists.near(voxel)) {
       const float weight = static_cast<float>(lists.weight(entry.ray));
-      switch (lists.incidence(entry.incidence).place) {
-        case RayLists::Place::in_front:
-          counts[v].passed += weight;
-          break;
-        case RayLists::Place::at_range:
-          counts[v].ended += weight;
-          break;
-        case RayLists::Place::behind:
-          break;
-      }
+      const RayLists::Place place = lists.incidence(entry.incidence).place;
+      if (place == RayLists::Place::in_front) count.passed += weight;
+      if (place == RayLists::Place::at_range) count.ended += weight;
+      const RayLists::RangeFrom range = lists.range_from(voxel, entry.ray);
+      if (range.way > RayCount::reach) continue;
+      count.near += weight;
+      count.behind += weight * range.centre;
     }
+    if (count.near > 0.0f) count.behind /= count.near;
   });
   return counts;
 }
@@ -115,15 +114,22 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           a.all.log_crossed / 26.0,
           std::log1p(rays.ended),
           a.all.log_ended / 26.0,
-          a.faces.log_ended / 6.0};
+          a.faces.log_ended / 6.0,
+          rays.near > 0.0f ? 1.0 : 0.0,
+          rays.behind,
+          rays.behind * rays.behind,
+          std::abs(rays.behind),
+          rays.behind * std::log1p(rays.near) / 5.0};
 }
 
 const ReadOutWeights& fitted_read_out() {
   static const ReadOutWeights weights{
-      {-4.6952, 0.9472,  -0.3000, -0.7803, 0.2314, -1.2713, -0.6923, 0.7293,  1.9102, 0.5324, -2.1812, 0.6013,
-       0.7265,  -0.3003, -0.2799, 0.7093,  1.1223, 0.9690,  -0.1375, -0.9224, 1.3527, 0.4654, 1.0395},
-      {-6.2338, -0.3419, 0.8046, 0.1005, -0.3274, -0.5272, 0.2193,  0.1279, 3.1746, -0.3930, -2.8634, 0.4597,
-       -2.3922, -0.0196, 0.0135, 1.2608, 0.3192,  1.4571,  -0.6929, 0.2795, 0.8003, 3.1226,  -0.5686}};
+      {-6.0810, 0.7657,  -0.7390, 0.3478,  -0.2972, -1.3167, -0.6338, -1.5415, 2.4567,  1.8548,
+       -2.5610, 1.1977,  0.2199,  -0.0644, -0.2183, 0.0608,  1.2163,  0.9131,  -0.1335, 0.0014,
+       0.2763,  -1.0170, 0.8680,  3.5287,  -1.8664, -1.4604, 0.1226,  0.5808},
+      {-7.1147, -0.4634, 0.7672,  0.2079,  -0.3928, -0.5561, 0.2973,  -1.3790, 2.1871,  1.2590,
+       -1.9872, 0.2314,  -2.1293, -0.2926, 0.1951,  0.5361,  0.2583,  1.0566,  -0.2647, 0.3288,
+       1.3846,  0.9902,  -0.3877, 2.0829,  0.9530,  -0.7013, -0.8709, -15.5225}};
   return weights;
 }
 
@@ -134,8 +140,10 @@ void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const R
   tbb::parallel_for(std::size_t{0}, posterior.occupied.size(), [&](std::size_t v) {
     if (!posterior.informed[v]) return;
     const ReadOutFeatures::Vector x = features.of(static_cast<std::uint32_t>(v));
+    // Where rays only passed, what nobody looked at around it is no evidence of a surface.
+    const float most = ReadOutFeatures::a_ray_ended_near(x) ? 1.0f : posterior.occupied[v];
     const auto logistic = [&](const ReadOutFeatures::Vector& w) {
-      return static_cast<float>(probability(std::inner_product(x.begin(), x.end(), w.begin(), 0.0)));
+      return std::min(most, static_cast<float>(probability(std::inner_product(x.begin(), x.end(), w.begin(), 0.0))));
     };
     posterior.touch[v] = logistic(weights.touch);
     posterior.centre[v] = logistic(weights.centre);

@@ -17,7 +17,11 @@ namespace nextview {
 struct RayCount {
   float passed = 0.0f;  ///< whose range lies behind the voxel
   float ended = 0.0f;   ///< whose range lies in it
+  float near = 0.0f;    ///< that end in it, or at most `reach` before or behind their way through it
+  float behind = 0.0f;  ///< how far behind its centre those end, on average [voxel edges]; less than 0: in front
   float crossed() const { return passed + ended; }
+
+  static constexpr float reach = 0.8f;  ///< [voxel edges]
 };
 /// One a voxel of the lists' grid.
 std::vector<RayCount> ray_counts(const RayLists& lists);
@@ -25,7 +29,7 @@ std::vector<RayCount> ray_counts(const RayLists& lists);
 /// What the read-out looks at: the posterior and the rays of a voxel, and those of the voxels around it.
 class ReadOutFeatures {
  public:
-  static constexpr std::size_t count = 23;
+  static constexpr std::size_t count = 28;
   using Vector = std::array<double, count>;
 
   /// Of GibbsPosterior::occupied, ::upper and ::informed.
@@ -34,6 +38,10 @@ class ReadOutFeatures {
   Vector of(std::uint32_t voxel) const;
   /// From here on features are of the rays alone, whatever the sampler makes of them; the first is 1.
   static constexpr std::size_t first_of_rays = 12;
+  /// Whether one ended in the voxel or in those around it, or within RayCount::reach.
+  static bool a_ray_ended_near(const Vector& features) {
+    return features[20] > 0.0 || features[21] > 0.0 || features[23] > 0.0;
+  }
 
  private:
   /// What a voxel says to those around it. Ready made, as each has 26 that ask.

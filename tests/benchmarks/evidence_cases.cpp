@@ -1,5 +1,7 @@
 #include "tests/benchmarks/evidence_cases.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 
@@ -45,10 +47,11 @@ std::vector<Opening> openings_of(const std::string& object, const MeshPlacement&
 
 }  // namespace
 
-EvidenceCase evidence_case(const std::string& object, const EvidenceSensor& sensor, int views) {
-  EvidenceCase result{object, sensor, views, region_of_interest(Vector3::Zero(), 1.28, sensor.resolution), {}, {}};
+EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const EvidenceSensor& sensor, int views) {
+  EvidenceCase result{object, pose, sensor, views, region_of_interest(Vector3::Zero(), 1.28, sensor.resolution),
+                      {},     {}};
   PlacedMesh placed = mesh_of(object);
-  const Eigen::Affine3d T = off_the_grid();
+  const Eigen::Affine3d T = pose == EvidencePose::turned ? off_the_grid() : Eigen::Affine3d::Identity();
   for (Eigen::Vector3f& v : placed.mesh.vertices) v = (T * v.cast<double>()).cast<float>();
   result.truth = {std::make_shared<TriangleMesh>(placed.mesh), ground_truth(placed.mesh, result.grid),
                   std::vector<std::uint8_t>(result.grid.voxel_count()), openings_of(object, placed.placement, T)};
@@ -57,14 +60,18 @@ EvidenceCase evidence_case(const std::string& object, const EvidenceSensor& sens
   camera.height = sensor.width * 3 / 4;
   camera.range_noise = sensor.noise;
   camera.outliers = sensor.outliers;
+  camera.max_range = sensor.max_range;
   SimulatedViews simulated = simulate_views(placed.mesh, camera, views);
   for (const Scan& ideal : simulated.ideal) mark_visited(result.grid, ideal, result.truth.visited);
   result.scans = std::move(simulated.scans);
   return result;
 }
 
-std::span<const char* const> fitting_parts() {
-  static constexpr std::array parts = {"part 1", "part 2", "part 3", "part 4"};
+std::vector<FittingPart> fitting_parts() {
+  constexpr int count = 12;
+  std::vector<FittingPart> parts;
+  for (int i = 1; i <= count; ++i)
+    parts.push_back({fmt::format("{}{}", part_prefix, i), i % 2 ? EvidencePose::turned : EvidencePose::as_placed});
   return parts;
 }
 

@@ -16,19 +16,29 @@ struct EvidenceSensor {
   double noise;           ///< of ranges [m]
   double outliers;        ///< share of pixels
   double resolution;      ///< of the map [m]
+  double max_range;       ///< [m]
   bool compared;          ///< the conventional map's terms are fitted for it
 };
 
-/// A small, noisy camera with outliers, and the program's own; to fit to, one between them, and large voxels too.
-inline constexpr EvidenceSensor fitting_sensors[] = {{"small", "160x120, 5 mm", 160, 0.005, 0.01, 0.01, true},
-                                                     {"between", "320x240, 3 mm", 320, 0.003, 0.0, 0.01, false},
-                                                     {"default", "640x480, 2 mm", 640, 0.002, 0.0, 0.01, true},
-                                                     {"large", "640x480, large voxels", 640, 0.002, 0.0, 0.02, false}};
+/// A small, noisy camera with outliers, and the program's own; to fit to, one between them, large voxels, and a camera
+/// that reaches only what is near, too.
+inline constexpr EvidenceSensor fitting_sensors[] = {
+    {"small", "160x120, 5 mm", 160, 0.005, 0.01, 0.01, 1.5, true},
+    {"between", "320x240, 3 mm", 320, 0.003, 0.0, 0.01, 1.5, false},
+    {"default", "640x480, 2 mm", 640, 0.002, 0.0, 0.01, 1.5, true},
+    {"large", "640x480, large voxels", 640, 0.002, 0.0, 0.02, 1.5, false},
+    {"short", "160x120, short-sighted", 160, 0.005, 0.0, 0.02, 0.75, false}};
+
+/// How an object lies in the map. Walls of a part that is placed as the program does lie along the voxels, some of them
+/// right on their borders; turned about all axes, everywhere.
+enum class EvidencePose { as_placed, turned };
+constexpr const char* name_of(EvidencePose pose) { return pose == EvidencePose::turned ? "turned" : "as placed"; }
 
 /// Scans of an object whose surface is known: what maps are fitted to, or, held out, compared on. The object is
-/// 0.5 m long and not aligned with them.
+/// 0.5 m long.
 struct EvidenceCase {
   std::string object;
+  EvidencePose pose;
   EvidenceSensor sensor;
   int views = 0;
   VoxelGrid grid;
@@ -38,10 +48,14 @@ struct EvidenceCase {
 
 /// `object`: "part <number>", a made-up part (training_part); else what `object.file` takes. Views lie on a Fibonacci
 /// sphere of 0.9 m. @throws std::runtime_error if there is no such object
-EvidenceCase evidence_case(const std::string& object, const EvidenceSensor& sensor, int views);
+EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const EvidenceSensor& sensor, int views);
 
 /// Made-up parts: everything that is fitted is fitted to these.
-std::span<const char* const> fitting_parts();
+struct FittingPart {
+  std::string object;
+  EvidencePose pose;
+};
+std::vector<FittingPart> fitting_parts();
 /// Objects that nothing was fitted to, those of them that are installed.
 std::vector<std::string> held_out_objects();
 

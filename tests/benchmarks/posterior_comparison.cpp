@@ -23,9 +23,9 @@ namespace {
 
 struct Options {
   std::vector<std::string> objects = held_out_objects();
-  std::vector<std::string> parts{fitting_parts().begin(), fitting_parts().end()};
   std::vector<int> views = {4, 20};
   std::vector<std::string> sensors = {"small", "default"};
+  std::vector<EvidencePose> poses = {EvidencePose::as_placed, EvidencePose::turned};
   bool fit = false;
   bool before = true;
 };
@@ -65,15 +65,23 @@ std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
   return mask;
 }
 
-ReadOutSamples samples_of(const EvidenceCase& c, const Evidence& evidence) {
+/// Those near the surface, which scores are of, and a few of all others that were looked at, so that a voxel in the
+/// open is right too.
+std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& evidence) {
+  constexpr std::uint32_t one_of = 32;
+  constexpr double weight_elsewhere = 0.1;
   const ReadOutFeatures features(evidence.posterior, evidence.rays);
   const std::vector<std::uint8_t> scored = scored_voxels(c);
-  ReadOutSamples samples;
+  const GroundTruth& truth = c.truth.voxels;
+  std::array<ReadOutSamples, 2> samples;
+  samples[1].weight = weight_elsewhere;
   for (std::uint32_t v = 0; v < scored.size(); ++v) {
-    if (!scored[v] || !evidence.posterior.informed[v]) continue;
-    samples.features.push_back(features.of(v));
-    samples.touch.push_back(c.truth.voxels.touch[v]);
-    samples.centre.push_back(c.truth.voxels.centre[v]);
+    if (!evidence.posterior.informed[v] || !c.truth.visited[v] || truth.hidden(v)) continue;
+    if (!scored[v] && v % one_of != 0) continue;
+    ReadOutSamples& to = samples[scored[v] ? 0 : 1];
+    to.features.push_back(features.of(v));
+    to.touch.push_back(truth.touch[v]);
+    to.centre.push_back(truth.centre[v]);
   }
   return samples;
 }
@@ -110,13 +118,13 @@ void fit(const Options& options) {
   std::vector<ReadOutSamples> cases;
   for (const EvidenceSensor& sensor : fitting_sensors) {
     TermHistories terms;
-    for (const std::string& part : options.parts)
+    for (const FittingPart& part : fitting_parts())
       for (const int views : options.views) {
-        const EvidenceCase c = evidence_case(part, sensor, views);
+        const EvidenceCase c = evidence_case(part.object, part.pose, sensor, views);
         const Evidence evidence = evidence_of(c);
-        cases.push_back(samples_of(c, evidence));
+        for (ReadOutSamples& samples : samples_of(c, evidence)) cases.push_back(std::move(samples));
         if (sensor.compared) terms.add(c, evidence.posterior);
-        fmt::print(stderr, "{}, {}, {} views\n", part, sensor.name, views);
+        fmt::print(stderr, "{}, {}, {} views\n", part.object, sensor.name, views);
       }
     if (!sensor.compared) continue;
     fmt::print("{}\n", sensor.name);
@@ -142,12 +150,12 @@ class Comparison {
   Comparison(const EvidenceCase& c, Scores& scores) : case_(c), scores_(scores) {}
 
   void run(bool before) {
+    gibbs("Gibbs", 0.0, ReadOut::fitted);
     const BaselineMaps baselines(case_.grid, case_.scans);
     for (const BaselineMapInfo& info : baseline_maps) add(std::string(info.name), baselines.make(info.map));
     for (const CalibratedTerms& terms : calibrated_terms)
       if (std::string_view(terms.sensor) == case_.sensor.name) add(terms);
     if (before) gibbs("Gibbs before", 1.0, ReadOut::levels);
-    gibbs("Gibbs", 0.0, ReadOut::fitted);
   }
 
  private:
@@ -174,6 +182,7 @@ class Comparison {
       return sample_posterior(case_.grid, measurements_of(case_.scans), config, octomap_of(case_));
     }();
     const SamplerDiagnostics& d = posterior.diagnostics;
+    if (read_out_as == ReadOut::fitted) find_openings(posterior);
     row(name, *score_posterior(posterior, {}, case_.truth),
         fmt::format("{:.1f} s {} sweeps R-hat {:.3f}{}", seconds, d.sweeps, d.r_hat,
                     d.stationary ? "" : " NOT stationary"));
@@ -184,17 +193,38 @@ class Comparison {
     row("read-out of rays alone", *score_posterior(posterior, {}, case_.truth), "");
   }
 
+  /// Of the Gibbs map, by the probability from which on a voxel is called occupied.
+  void find_openings(const GibbsPosterior& posterior) {
+    for (double threshold = 0.02; threshold < 1.0; threshold += 0.02) {
+      std::vector<Voxel> voxels = posterior.centre_voxels({});
+      for (Voxel& voxel : voxels) voxel.probability = voxel.probability < threshold ? 0.25f : 0.75f;
+      openings_.push_back(score_map(voxels, voxels, case_.truth).openings);
+    }
+  }
+
+  /// The Gibbs map's at the threshold that leaks no more than another map does.
+  OpeningScore openings_at(const std::optional<double>& leaks) const {
+    const auto too_leaky = std::find_if(openings_.begin(), openings_.end(), [&](const OpeningScore& score) {
+      return score.leaks().value_or(0.0) > leaks.value_or(0.0);
+    });
+    return too_leaky == openings_.begin() ? OpeningScore{} : *std::prev(too_leaky);
+  }
+
   void row(const std::string& map, const MapScores& s, const std::string& remark) {
-    fmt::print("{},\"{}\",{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{}\n", case_.object, case_.sensor.name,
-               case_.views, map, s.touch_band.log_loss, s.touch_band.calibration_error, s.centre_band.log_loss,
-               s.centre_band.calibration_error, s.touch_visited.log_loss, cell(s.surface_recall),
-               cell(s.openings.row_openness()), cell(s.openings.recall()), cell(s.openings.leaks()), remark);
+    const OpeningScore gibbs = openings_at(s.openings.leaks());
+    fmt::print("{},{},\"{}\",{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{},{}\n", case_.object,
+               name_of(case_.pose), case_.sensor.name, case_.views, map, s.touch_band.log_loss,
+               s.touch_band.calibration_error, s.centre_band.log_loss, s.centre_band.calibration_error,
+               s.touch_visited.log_loss, cell(s.surface_recall), cell(s.openings.row_openness()),
+               cell(s.openings.recall()), cell(s.openings.leaks()), cell(gibbs.row_openness()), cell(gibbs.recall()),
+               remark);
     std::fflush(stdout);
     scores_[map].push_back(s);
   }
 
   const EvidenceCase& case_;
   Scores& scores_;
+  std::vector<OpeningScore> openings_;
 };
 
 /// Means over the objects, and on how many of them the Gibbs map has less log loss than the map of the row.
@@ -222,16 +252,19 @@ void print_means(const std::string& of, const Scores& scores) {
 
 void compare(const Options& options) {
   fmt::print(
-      "object,sensor,views,map,log_loss_touch_band,ece_touch_band,log_loss_centre_band,ece_centre_band,"
-      "log_loss_touch_visited,surface_recall,rows_open,opening_recall,leaks,remark\n");
+      "object,pose,sensor,views,map,log_loss_touch_band,ece_touch_band,log_loss_centre_band,ece_centre_band,"
+      "log_loss_touch_visited,surface_recall,rows_open,opening_recall,leaks,gibbs_rows_open_at_these_leaks,"
+      "gibbs_opening_recall_at_these_leaks,remark\n");
   std::map<std::string, Scores> all;
-  for (const EvidenceSensor& sensor : fitting_sensors)
+  for (const EvidenceSensor& sensor : fitting_sensors) {
+    if (std::find(options.sensors.begin(), options.sensors.end(), sensor.key) == options.sensors.end()) continue;
     for (const int views : options.views)
-      for (const std::string& object : options.objects) {
-        if (std::find(options.sensors.begin(), options.sensors.end(), sensor.key) == options.sensors.end()) continue;
-        const EvidenceCase c = evidence_case(object, sensor, views);
-        Comparison(c, all[fmt::format("{}, {} views", sensor.name, views)]).run(options.before);
-      }
+      for (const EvidencePose pose : options.poses)
+        for (const std::string& object : options.objects) {
+          const EvidenceCase c = evidence_case(object, pose, sensor, views);
+          Comparison(c, all[fmt::format("{}, {} views, {}", sensor.name, views, name_of(pose))]).run(options.before);
+        }
+  }
   for (const auto& [of, scores] : all) print_means(of, scores);
 }
 
@@ -242,9 +275,11 @@ int main(int argc, char** argv) {
   nextview::Options options;
   CLI::App program("Compares the Gibbs map with every baseline near the surface; CSV on standard output.");
   program.add_option("--object", options.objects, "objects to compare on");
-  program.add_option("--part", options.parts, "made-up parts to fit to")->capture_default_str();
   program.add_option("--views", options.views, "numbers of views")->capture_default_str();
-  program.add_option("--sensor", options.sensors, "small, between, default")->capture_default_str();
+  program.add_option("--sensor", options.sensors, "small, between, default, large, short")->capture_default_str();
+  program.add_option("--pose", options.poses, "of the objects")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, nextview::EvidencePose>{
+          {"placed", nextview::EvidencePose::as_placed}, {"turned", nextview::EvidencePose::turned}}));
   program.add_flag("--before,!--no-before", options.before, "the Gibbs map of 0.4.0 too, which takes half of the time");
   program.add_flag("--fit", options.fit, "fit the read-outs and the conventional map's terms instead");
   CLI11_PARSE(program, argc, argv);

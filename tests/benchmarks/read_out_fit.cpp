@@ -19,7 +19,7 @@ struct Slopes {
 
 void add_slopes(const ReadOutSamples& samples, std::span<const std::uint8_t> truth, const Weights& used,
                 const Weights& weights, Slopes& slopes) {
-  const double share = 1.0 / static_cast<double>(truth.size());
+  const double share = samples.weight / static_cast<double>(truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Weights x = Eigen::Map<const Weights>(samples.features[i].data()).cwiseProduct(used);
     const double p = probability(weights.dot(x));

@@ -66,6 +66,28 @@ TEST(ReadOut, CountsRaysUpToWhereTheyEnd) {
   }
 }
 
+// Two rays along a row of voxels of 0.1 m, one of them for three: the second ends 0.02 m behind the first.
+TEST(ReadOut, MeasuresHowFarRaysEndBehindACentre) {
+  const VoxelGrid grid{0.1, {0, 0, 0}, {10, 1, 1}};
+  RangeMeasurements measurements{3.0, {{-0.5, 0.05, 0.05}}, {}};
+  measurements.rays.push_back({{0.54f, 0.05f, 0.05f}, 0, 1, false});
+  measurements.rays.push_back({{0.56f, 0.05f, 0.05f}, 0, 3, false});
+  measurements.rays.push_back({{2.5f, 0.05f, 0.05f}, 0, 5, true});
+  ForwardSensorModel model;
+  model.sigma = 0.05;
+  const auto counts = ray_counts(RayLists(grid, measurements, model));
+  const double end = (0.54 + 3 * 0.56) / 4;
+  for (const int v : {4, 5, 6}) {
+    EXPECT_EQ(counts[v].near, 4.0f) << v;
+    EXPECT_NEAR(counts[v].behind, (end - (0.05 + 0.1 * v)) / 0.1, 1e-4) << v;
+  }
+  EXPECT_EQ(counts[5].ended, 4.0f);
+  for (const int v : {3, 7, 9}) {
+    EXPECT_EQ(counts[v].near, 0.0f) << "too far from where they end; and beyond range ends nowhere: " << v;
+    EXPECT_EQ(counts[v].behind, 0.0f) << v;
+  }
+}
+
 /// A posterior written by hand over 3 x 3 x 3 voxels.
 struct ByHand {
   GibbsPosterior posterior;
@@ -84,7 +106,7 @@ TEST(ReadOut, LooksAtAVoxelAndThoseAroundIt) {
   ByHand by_hand;
   by_hand.posterior.occupied[13] = 0.8f;
   by_hand.posterior.upper[13] = 0.6f;
-  by_hand.rays[13] = {3.0f, 7.0f};
+  by_hand.rays[13] = {3.0f, 7.0f, 9.0f, -0.8f};
   by_hand.posterior.informed[12] = 0;                                   // beside it
   by_hand.posterior.occupied[12] = by_hand.posterior.upper[12] = 0.5f;  // as what is not informed reads
   by_hand.posterior.informed[0] = 0, by_hand.rays[0] = {};              // at a corner
@@ -101,6 +123,7 @@ TEST(ReadOut, LooksAtAVoxelAndThoseAroundIt) {
   near(15, 0.0), near(16, 1.0), near(17, 0.0), near(18, 0.0);
   near(19, 25 * std::log(10.0) / 26);
   near(20, std::log(8.0)), near(21, 0.0), near(22, 0.0);
+  near(23, 1.0), near(24, -0.8), near(25, 0.64), near(26, 0.8), near(27, -0.8 * std::log(10.0) / 5);
 }
 
 TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
@@ -129,6 +152,7 @@ TEST(ReadOut, VoxelsBeyondTheGridAreNeitherUnknownNorHidden) {
 TEST(ReadOut, IsTheLogisticOfTheWeightedFeatures) {
   ByHand by_hand;
   by_hand.posterior.informed[5] = 0;
+  for (RayCount& rays : by_hand.rays) rays = {8.0f, 1.0f, 1.0f, 0.0f};
   ReadOutWeights weights{{}, {}};
   weights.touch[0] = -0.4, weights.touch[1] = 0.5;
   weights.centre[12] = -1.0;
@@ -137,6 +161,19 @@ TEST(ReadOut, IsTheLogisticOfTheWeightedFeatures) {
   EXPECT_NEAR(by_hand.posterior.centre[13], 1.0 / 11.0, 1e-6);
   EXPECT_EQ(by_hand.posterior.touch[5], 0.5f) << "not informed";
   EXPECT_EQ(by_hand.posterior.centre[5], 0.5f);
+}
+
+// As at the end of a short camera's range: what nobody looked at lies around, and nothing was met.
+TEST(ReadOut, WhereRaysOnlyPassedItSaysNoMoreThanTheLevels) {
+  ByHand by_hand;
+  const ReadOutWeights sure{{4.0}, {4.0}};
+  read_out(by_hand.posterior, by_hand.rays, sure);
+  EXPECT_EQ(by_hand.posterior.touch[13], 0.1f);
+  EXPECT_EQ(by_hand.posterior.centre[13], 0.1f);
+  by_hand.rays[12].ended = 1.0f;
+  read_out(by_hand.posterior, by_hand.rays, sure);
+  EXPECT_GT(by_hand.posterior.touch[13], 0.9f) << "a ray ended beside it";
+  EXPECT_EQ(by_hand.posterior.touch[14], 0.1f) << "two voxels from where it ended";
 }
 
 TEST(ReadOut, OfThePosteriorIsThatOfItsRaysAndLevels) {
@@ -172,12 +209,13 @@ TEST(ReadOut, IsTheSameBytesOnAnyNumberOfThreads) {
 
 TEST(ReadOut, IsNotAppliedToLevelsThatItWasNotFittedTo) {
   const Problem problem = room();
-  std::vector<PosteriorSamplerConfig> configs(5, config_for(problem));
+  std::vector<PosteriorSamplerConfig> configs(6, config_for(problem));
   configs[0].read_out = ReadOut::levels;
   configs[1].model.kind = ForwardModel::beam;
   configs[2].sampler = Sampler::algorithm1;
   configs[3].updated = UpdatedVoxels::occupied;
   configs[4].model.attenuations = {0.3, 2.0};
+  configs[5].prior = 0.3;
   const std::vector<float> start(problem.grid.voxel_count(), 0.7f);
   for (const PosteriorSamplerConfig& config : configs) {
     const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, start);
