@@ -43,6 +43,13 @@ PosteriorSamplerConfig sampler_of(const EvidenceCase& c) {
   return config;
 }
 
+std::vector<RayCount> rays_of(const EvidenceCase& c) {
+  const PosteriorSamplerConfig config = sampler_of(c);
+  ForwardSensorModel model;
+  model.sigma = config.model.sigma;
+  return ray_counts(RayLists(c.grid, merge_rays(measurements_of(c.scans), c.grid, config.ray_spacing), model));
+}
+
 /// What the read-out sees of a case.
 struct Evidence {
   GibbsPosterior posterior;
@@ -50,10 +57,7 @@ struct Evidence {
 };
 
 Evidence evidence_of(const EvidenceCase& c) {
-  const PosteriorSamplerConfig config = sampler_of(c);
-  const RangeMeasurements measurements = measurements_of(c.scans);
-  const RayLists lists(c.grid, merge_rays(measurements, c.grid, config.ray_spacing), ForwardSensorModel{});
-  return {sample_posterior(c.grid, measurements, config, octomap_of(c)), ray_counts(lists)};
+  return {sample_posterior(c.grid, measurements_of(c.scans), sampler_of(c), octomap_of(c)), rays_of(c)};
 }
 
 /// The voxels that scores near the surface are of.
@@ -187,9 +191,7 @@ class Comparison {
         fmt::format("{:.1f} s {} sweeps R-hat {:.3f}{}", seconds, d.sweeps, d.r_hat,
                     d.stationary ? "" : " NOT stationary"));
     if (read_out_as != ReadOut::fitted) return;
-    const RayLists lists(case_.grid, merge_rays(measurements_of(case_.scans), case_.grid, config.ray_spacing),
-                         ForwardSensorModel{});
-    read_out(posterior, ray_counts(lists), read_out_of_rays_alone());
+    read_out(posterior, rays_of(case_), read_out_of_rays_alone());
     row("read-out of rays alone", *score_posterior(posterior, {}, case_.truth), "");
   }
 
