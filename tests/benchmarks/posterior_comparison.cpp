@@ -13,6 +13,7 @@
 
 #include "core/calibration/sensor_model_calibration.hpp"
 #include "core/evaluation/baseline_maps.hpp"
+#include "core/evaluation/openings.hpp"
 #include "core/progress/stopwatch.hpp"
 #include "tests/benchmarks/calibrated_terms.hpp"
 #include "tests/benchmarks/evidence_cases.hpp"
@@ -45,7 +46,7 @@ PosteriorSamplerConfig sampler_of(const EvidenceCase& c) {
 
 std::vector<RayCount> rays_of(const EvidenceCase& c) {
   const PosteriorSamplerConfig config = sampler_of(c);
-  ForwardSensorModel model;
+  ForwardSensorModel model;  // the lists' extent is that of its sigma, whatever the rays are worth
   model.sigma = config.model.sigma;
   return ray_counts(RayLists(c.grid, merge_rays(measurements_of(c.scans), c.grid, config.ray_spacing), model));
 }
@@ -197,10 +198,15 @@ class Comparison {
 
   /// Of the Gibbs map, by the probability from which on a voxel is called occupied.
   void find_openings(const GibbsPosterior& posterior) {
+    if (case_.truth.openings.empty()) return;
+    const std::vector<Voxel> read_out = posterior.centre_voxels({});
+    std::vector<Voxel> classes = read_out;
     for (double threshold = 0.02; threshold < 1.0; threshold += 0.02) {
-      std::vector<Voxel> voxels = posterior.centre_voxels({});
-      for (Voxel& voxel : voxels) voxel.probability = voxel.probability < threshold ? 0.25f : 0.75f;
-      openings_.push_back(score_map(voxels, voxels, case_.truth).openings);
+      for (std::size_t v = 0; v < classes.size(); ++v)
+        classes[v].probability = read_out[v].probability < threshold ? 0.25f : 0.75f;
+      OpeningScore& score = openings_.emplace_back();
+      for (const Opening& opening : case_.truth.openings)
+        score += score_opening(opening, classes, case_.truth.voxels, TruthConvention::centre, case_.truth.visited);
     }
   }
 
