@@ -10,13 +10,13 @@
 namespace nextview {
 
 /// Surface coverage (Eq. 17): the share of ground-truth surface samples that have a point of the cloud within d_reg.
-/// Two denominators: all of the surface, and the surface that some candidate view can see. One object a d_reg. A value
-/// whose copies share the samples.
+/// Two denominators: all of the surface, and some of it, for example what some candidate view can see. One object a
+/// d_reg. A value whose copies share the samples.
 class SurfaceCoverage {
  public:
-  /// `samples` [m, world]; `visible[i]`: some candidate view can see sample i; `d_reg` [m].
-  /// @throws std::invalid_argument if there are no samples, if `visible` is not as long, or if d_reg is not over 0.
-  SurfaceCoverage(std::span<const Eigen::Vector3f> samples, std::span<const std::uint8_t> visible, double d_reg);
+  /// `samples` [m, world]; `d_reg` [m].
+  /// @throws std::invalid_argument if there are no samples, or if d_reg is not over 0.
+  SurfaceCoverage(std::span<const Eigen::Vector3f> samples, double d_reg);
 
   /// Observes the samples within d_reg of any of these points (distance <= d_reg). The order of calls does not matter.
   /// @throws Stopped; then some are observed.
@@ -25,9 +25,9 @@ class SurfaceCoverage {
   /// Those that are observed, as observed() said. @throws std::invalid_argument if there are not as many
   void set_observed(std::vector<std::uint8_t> observed);
 
-  double of_all() const;      ///< share of all samples that are observed
-  double of_visible() const;  ///< share of the visible samples that are observed; 0 if none is visible
+  double of_all() const;  ///< share of all samples that are observed
   /// Share of the samples that are not 0 in `counted` that are observed; 0 if there is none.
+  /// @pre counted.size() == observed().size()
   double of(std::span<const std::uint8_t> counted) const;
   double d_reg() const { return cells_->d_reg; }
   std::span<const std::uint8_t> observed() const { return observed_; }  ///< one per sample
@@ -37,24 +37,17 @@ class SurfaceCoverage {
     Eigen::Vector3f point;
     std::uint32_t index;
   };
-  /// The samples sorted into a grid of cells, cell by cell.
+  /// A grid of cells around the samples, and those in the order of their cells.
   struct Cells {
     double d_reg;
-    std::vector<std::uint8_t> visible;
     Vector3 lower;
-    double edge;           ///< of a cell [m]
+    double edge;           ///< of a cell, d_reg at least [m]
     Eigen::Vector3i size;  ///< cells along each axis
     std::vector<Sample> samples;
-    std::vector<std::uint32_t> begin;  ///< of each cell its first sample, and the end
 
     Eigen::Vector3i at(const Vector3& point) const;
-    std::size_t index(const Eigen::Vector3i& cell) const {
-      return (std::size_t(cell.z()) * size.y() + cell.y()) * size.x() + cell.x();
-    }
   };
-  static std::shared_ptr<const Cells> make_cells(std::span<const Eigen::Vector3f> samples,
-                                                 std::span<const std::uint8_t> visible, double d_reg);
-  void observe_around(const Eigen::Vector3f& point);
+  static std::shared_ptr<const Cells> make_cells(std::span<const Eigen::Vector3f> samples, double d_reg);
 
   std::shared_ptr<const Cells> cells_;
   std::vector<std::uint8_t> observed_;

@@ -1,6 +1,7 @@
 #include "core/evaluation/known_object.hpp"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -32,21 +33,35 @@ std::vector<std::uint32_t> numbers_to(std::size_t count) {
 }  // namespace
 
 KnownObject::KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::shared_ptr<const MeshRayCaster> scene,
-                         const DepthCamera& camera, std::span<const Pose> candidates, const VoxelGrid& grid,
-                         double d_reg, const Progress& progress, std::stop_token stop)
+                         const DepthCamera& camera, std::vector<Pose> candidates, const VoxelGrid& grid, double d_reg,
+                         const std::stop_token& stop)
     : scene_(std::move(scene)),
       camera_(camera),
       samples_(std::move(samples)),
       normals_(sample_normals(seen, samples_)),
       all_samples_(numbers_to(samples_.points.size())),
-      sight_(sight_of(candidates, progress, stop)),
-      visible_(sight_.seen_by_any()),
+      candidates_(std::move(candidates)),
       truth_(ground_truth(seen, grid, stop)),
       nothing_seen_{std::vector<std::uint8_t>(samples_.points.size()),
-                    {samples_.points, visible_, d_reg},
-                    {samples_.points, visible_, paper_d_reg},
+                    {samples_.points, d_reg},
+                    {samples_.points, paper_d_reg},
                     BitMask(grid.voxel_count())} {
-  if (stop.stop_requested()) throw Stopped();
+  throw_if_stopped(stop);
+}
+
+const CandidateSight& KnownObject::sight(const Progress& progress, const std::stop_token& stop) const {
+  const std::lock_guard lock(finding_);
+  if (!sight_) {
+    // Isolated: while it waits, this thread must not take up work that asks for the same.
+    sight_ = tbb::this_task_arena::isolate([&] { return sight_of(candidates_, progress, stop); });
+    visible_ = sight_->seen_by_any();
+  }
+  return *sight_;
+}
+
+std::span<const std::uint8_t> KnownObject::visible(const std::stop_token& stop) const {
+  sight({}, stop);
+  return visible_;
 }
 
 CandidateSight KnownObject::sight_of(std::span<const Pose> candidates, const Progress& progress,

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -37,8 +39,8 @@ class KnownObject {
   /// `seen` is all that a camera sees, the object and what it stands on; `samples` are those of the object.
   /// @throws Stopped
   KnownObject(const TriangleMesh& seen, SurfaceSamples samples, std::shared_ptr<const MeshRayCaster> scene,
-              const DepthCamera& camera, std::span<const Pose> candidates, const VoxelGrid& grid, double d_reg,
-              const Progress& progress, std::stop_token stop);
+              const DepthCamera& camera, std::vector<Pose> candidates, const VoxelGrid& grid, double d_reg,
+              const std::stop_token& stop);
 
   /// Surface samples that a perfect camera sees from a pose: in its image and ranges, not too slanted, nothing in
   /// between.
@@ -55,15 +57,19 @@ class KnownObject {
   void add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                 const std::stop_token& stop = {}) const;
 
-  /// What the candidates see that the scan began with: coverage_visible is a share of that.
-  const CandidateSight& sight() const { return sight_; }
+  /// Those that the scan began with.
+  std::span<const Pose> candidates() const { return candidates_; }
+  /// What those candidates see: coverage_visible is a share of that. Found when it is asked for first, which takes a
+  /// moment; from any thread. @throws Stopped; then the next who asks finds it.
+  const CandidateSight& sight(const Progress& progress = {}, const std::stop_token& stop = {}) const;
+  /// One per sample, 1: one of those candidates sees it. @throws as sight()
+  std::span<const std::uint8_t> visible(const std::stop_token& stop = {}) const;
   /// What other candidates see. @throws Stopped
   CandidateSight sight_of(std::span<const Pose> candidates, const Progress& progress = {},
                           const std::stop_token& stop = {}) const;
 
   const GroundTruth& truth() const { return truth_; }
   const SurfaceSamples& samples() const { return samples_; }
-  std::span<const std::uint8_t> visible() const { return visible_; }  ///< one per sample, 1: some candidate sees it
 
  private:
   SampledSurface surface() const { return {samples_.points, normals_}; }
@@ -73,10 +79,12 @@ class KnownObject {
   SurfaceSamples samples_;
   std::vector<Eigen::Vector3f> normals_;    ///< of the samples
   std::vector<std::uint32_t> all_samples_;  ///< their numbers
-  CandidateSight sight_;
-  std::vector<std::uint8_t> visible_;  ///< 1: some candidate sees the sample
+  std::vector<Pose> candidates_;
   GroundTruth truth_;
   EvaluationState nothing_seen_;
+  mutable std::mutex finding_;
+  mutable std::optional<CandidateSight> sight_;  ///< once it was asked for; so is the next
+  mutable std::vector<std::uint8_t> visible_;    ///< 1: some candidate sees the sample
 };
 
 }  // namespace nextview

@@ -47,6 +47,6 @@ double require_over_zero(double d_reg) {
 MissedSurface::MissedSurface(const TriangleMesh& mesh, double d_reg, std::size_t max_triangles)
     : longest_edge_(1.5 * require_over_zero(d_reg)),
       mesh_(fine_mesh(mesh, std::min(max_triangles, max_held), longest_edge_)),
-      coverage_(mesh_->vertices, std::vector<std::uint8_t>(mesh_->vertices.size(), 1), d_reg) {}
+      coverage_(mesh_->vertices, d_reg) {}
 
 }  // namespace nextview

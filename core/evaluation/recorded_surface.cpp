@@ -69,7 +69,7 @@ RecordedSurface::RecordedSurface(std::size_t frames, const std::function<PointCl
     samples_.insert(samples_.end(), added.begin(), added.end());
   }
   if (samples_.empty()) throw std::invalid_argument("no frame has a point");
-  const SurfaceCoverage nothing(samples_, std::vector<std::uint8_t>(samples_.size(), 1), d_reg);
+  const SurfaceCoverage nothing(samples_, d_reg);
   for (const PointCloud& points : thinned) seen_from_.push_back(observed_by(nothing, points, stop));
 }
 

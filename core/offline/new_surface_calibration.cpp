@@ -41,7 +41,7 @@ class CandidateRays {
             (views[i / count].translation() + hits_[i].range * direction(i / count, i % count)).cast<float>());
     }
     if (points.empty()) throw std::invalid_argument("new surface: no candidate view sees the object");
-    covered_.emplace(points, std::vector<std::uint8_t>(points.size(), 1), setup.configuration.evaluation.d_reg);
+    covered_.emplace(points, setup.configuration.evaluation.d_reg);
   }
 
   void cover(const PointCloud& points, const std::stop_token& stop) { covered_->add(points, stop); }

@@ -110,7 +110,8 @@ RefinementJob simulated_job(const Configuration& c, const ConfiguredObject& conf
   job.scans = scans.empty() ? take_scans(source, views_at(views), &c.cloud, progress, stop) : std::move(scans);
   const KnownObject known(mesh->surroundings(), evaluation_samples(c, mesh->mesh),
                           std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera, job.candidates,
-                          job.grid, c.evaluation.d_reg, progress, stop);
+                          job.grid, c.evaluation.d_reg, stop);
+  known.sight(progress, stop);
   EvaluationState evaluation = known.nothing_seen();
   for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].hits, stop);
   job.truth = RefinementTruth{std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),

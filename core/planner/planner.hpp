@@ -19,7 +19,7 @@ struct PlanningSetup {
   double occlusion_reach;  ///< d_max of proximity count [voxels]
   double scan_seconds;     ///< what taking a scan counts for in a utility per second
   const RayBundle& bundle;
-  const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
+  const TrueSurface* true_surface;  ///< null where it is not known, not evaluated, or not asked for by needs()
   double negligible_share = 0.005;  ///< of the surface: for less no view is worth it (termination.surface_left)
 };
 

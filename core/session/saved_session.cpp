@@ -36,6 +36,14 @@ Acquired acquired_of(const JournalStep& step, Capture capture) {
   return acquired;
 }
 
+/// @throws CaptureLost where a recording is gone through, and the view is none of its frames
+void require_frame(const Session& session, const JournalStep& step) {
+  const std::size_t frames = session.setup().source.frames.size();
+  const std::uint32_t frame = step.wanted.frame.value_or(0);
+  if (session.recording() && frame >= frames)
+    throw CaptureLost(fmt::format("it is of frame {}, and the recording has {}", frame + 1, frames));
+}
+
 /// Of the k-th of n views.
 Progress part_of_view(const Progress& whole, std::size_t k, std::size_t n) {
   if (!whole) return {};
@@ -167,6 +175,7 @@ bool take_again(Session& session, SavedSession& saved, std::span<const JournalSt
     session.set_planning(chosen_by(saved, line[k]), {}, stop);
     Capture capture;
     try {
+      require_frame(session, line[k]);
       capture = read_capture(line[k], saved.folder);
     } catch (const CaptureLost& error) {
       saved.notices.push_back(fmt::format("a view is left out: {}", error.what()));

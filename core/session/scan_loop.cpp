@@ -56,7 +56,7 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   auto evaluation = std::make_shared<EvaluationState>(*state.evaluation);
   setup.truth->add_view(*evaluation, record.T_world_camera, scan.hits, stop);
   record.coverage = evaluation->coverage.of_all();
-  record.coverage_visible = evaluation->coverage.of_visible();
+  record.coverage_visible = evaluation->coverage.of(setup.truth->visible(stop));
   if (!setup.any_pose.empty()) record.coverage_any_pose = evaluation->coverage.of(setup.any_pose);
   record.coverage_paper = evaluation->coverage_paper.of_all();
   const GroundTruth& truth = setup.truth->truth();

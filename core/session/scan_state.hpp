@@ -27,7 +27,7 @@ struct ScanSetup {
   std::shared_ptr<const CandidateGenerator> candidates;
   std::shared_ptr<const Planner> planner;
   std::shared_ptr<const KnownObject> truth;              ///< null without evaluation
-  std::shared_ptr<const CandidateSight> sight = {};      ///< of the candidates, for planners that may look at the truth
+  std::shared_ptr<const CandidateSight> sight = {};      ///< of the candidates, if they are not those of `truth`
   std::shared_ptr<const RecordedSurface> recorded = {};  ///< null if the source is no recording
   std::vector<std::uint8_t> any_pose = {};  ///< KnownObject::seen_from_any_pose; empty unless it is asked for
 };

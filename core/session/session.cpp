@@ -109,8 +109,7 @@ void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, c
       std::make_shared<KnownObject>(object_->surroundings(), evaluation_samples(c, object_->mesh),
                                     std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
                                     poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
-                                    setup_.region, c.evaluation.d_reg, progress, stop);
-  setup_.sight = {setup_.truth, &setup_.truth->sight()};
+                                    setup_.region, c.evaluation.d_reg, stop);
   if (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive)
     setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
 }

@@ -99,6 +99,13 @@ void each_taken(Archive& archive, Taken& taken) {
 std::string key_of(const Session& session, std::span<const JournalStep> line, const fs::path& folder) {
   std::string key = "nextview " NEXTVIEW_VERSION "\n" + to_toml(session.configuration(), folder);
   for (const JournalStep& step : line) key += fmt::format("{} {} {}\n", step.number, step.hash.crc32, step.hash.bytes);
+  // The journal has the hash of what is scanned, and of nothing else that the state follows from.
+  const auto add_file = [&](const fs::path& file) {
+    const FileHash hash = file_hash(file);
+    key += fmt::format("{} {}\n", hash.crc32, hash.bytes);
+  };
+  if (session.recording() && !session.object_file().empty()) add_file(session.object_file());
+  if (const std::string& start = session.configuration().map.start; !start.empty()) add_file(start);
   return key;
 }
 
@@ -193,6 +200,10 @@ ScanState state_in(ByteReader& reader, const Session& session, std::span<const J
   each_next(reader, state.next);
   if (state.next.candidate.value_or(0) >= std::max<std::size_t>(1, state.candidates.size()))
     throw std::runtime_error("it is of other candidates");
+  const auto is_of_the_recording = [&](const View& view) { return view.frame.value_or(0) < setup.source.frames.size(); };
+  if (session.recording() && !(std::ranges::all_of(state.known.taken, is_of_the_recording, &TakenView::wanted) &&
+                               is_of_the_recording(state.next.view)))
+    throw std::runtime_error("it is of other frames");
   reader(state.finished);
   each(reader, state.T_world_camera);
   read_bricks(reader, state.known.map);

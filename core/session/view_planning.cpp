@@ -46,8 +46,9 @@ struct PlanningInput {
     if (scan.recorded)
       surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
                                                                scan.recorded->seen(frames_taken(state.known)));
-    else if (state.evaluation && scan.sight)
-      surface = std::make_unique<SurfaceLeft<CandidateSight>>(*scan.sight, state.evaluation->seen);
+    else if (state.evaluation && scan.planner->needs().true_surface)
+      surface = std::make_unique<SurfaceLeft<CandidateSight>>(scan.sight ? *scan.sight : scan.truth->sight(),
+                                                              state.evaluation->seen);
     setup.true_surface = surface.get();
   }
   PlanningInput(const PlanningInput&) = delete;

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <map>
+#include <random>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
@@ -59,24 +61,65 @@ class SessionFolders : public testing::Test {
   TemporaryFolder folder_;
 };
 
+/// With the camera built in, and with the same one behind a driver.
+class KilledSessions : public SessionFolders, public testing::WithParamInterface<bool> {
+ protected:
+  std::string source() const {
+    return GetParam() ? "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated box " + camera + "' " : "";
+  }
+  std::string scan(const std::string& name) const {
+    return "scan " + (GetParam() ? source() : "box " + camera) + "--views 3 " + quick + "--out " + in(name);
+  }
+  std::string resumed() const {
+    return "scan --resume " + in("killed") + " --no-pictures --no-surfaces " + source();
+  }
+  /// What a user does after the scan into "killed" was ended, and that it comes to what a whole one gives.
+  void goes_on_to_the_same() const {
+    const bool has_begun = fs::exists(in("killed/journal")) && fs::file_size(in("killed/journal")) > 0;
+    const std::string anew = scan("killed") + " --overwrite";
+    const Result on = nextview(has_begun ? resumed() : anew);
+    if (has_begun && on.exit_code != 0) {  // its first record was being written
+      EXPECT_THAT(on.err, HasSubstr("its beginning is lost"));
+      ASSERT_EQ(nextview(anew).exit_code, 0);
+    }
+    expect_same("killed", "whole");
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(By, KilledSessions, testing::Bool(),
+                         [](const auto& behind) { return behind.param ? "ADriver" : "TheBuiltInCamera"; });
+
 /// At every write by NEXTVIEW_EVERY_WRITE=1, at some of them here.
-TEST_F(SessionFolders, KilledAtAnyWriteItGoesOnToTheSameBytes) {
-  const std::string scan = "scan box --views 3 " + camera + quick;
-  const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
+TEST_P(KilledSessions, AtAnyWriteGoOnToTheSameBytes) {
+  const long calls = run_and_kill(0, in("whole"), scan("whole"));
   ASSERT_GT(calls, 60);
-  const long stride = std::getenv("NEXTVIEW_EVERY_WRITE") ? 1 : calls / 12;
+  const long stride = std::getenv("NEXTVIEW_EVERY_WRITE") ? 1 : calls / (GetParam() ? 3 : 12);
   for (long at = 1; at <= calls; at += stride) {
     SCOPED_TRACE(at);
     fs::remove_all(in("killed"));
-    run_and_kill(at, in("killed"), scan + "--out " + in("killed"));
-    const bool has_begun = fs::exists(in("killed/journal")) && fs::file_size(in("killed/journal")) > 0;
-    const Result on = has_begun ? nextview("scan --resume " + in("killed") + " --no-pictures --no-surfaces")
-                                : nextview(scan + "--overwrite --out " + in("killed"));
-    if (has_begun && on.exit_code != 0) {  // its first record was being written
-      EXPECT_THAT(on.err, HasSubstr("its beginning is lost"));
-      ASSERT_EQ(nextview(scan + "--overwrite --out " + in("killed")).exit_code, 0);
-    }
-    expect_same("killed", "whole");
+    run_and_kill(at, in("killed"), scan("killed"));
+    goes_on_to_the_same();
+  }
+}
+
+/// As often as NEXTVIEW_RANDOM_KILLS says; what goes on is killed, too.
+TEST_P(KilledSessions, AtRandomMomentsGoOnToTheSameBytes) {
+  const char* const wanted = std::getenv("NEXTVIEW_RANDOM_KILLS");
+  const int rounds = wanted ? std::atoi(wanted) : 2;
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(nextview(scan("whole")).exit_code, 0);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  std::mt19937 random(1);
+  const auto run_for_a_while = [&](const std::string& arguments) {
+    const double share = std::uniform_real_distribution(0.0, 1.0)(random);
+    nextview_behind("timeout -s KILL " + std::to_string(0.01 + share * whole.count()), arguments);
+  };
+  for (int round = 0; round < rounds; ++round) {
+    SCOPED_TRACE(round);
+    fs::remove_all(in("killed"));
+    run_for_a_while(scan("killed"));
+    run_for_a_while(resumed());
+    goes_on_to_the_same();
   }
 }
 
@@ -100,19 +143,6 @@ TEST_F(SessionFolders, AFullDiskAtAnyWriteIsSaidAndItGoesOnLater) {
                                 : nextview(scan + "--overwrite --out " + in("full"));
     EXPECT_EQ(on.exit_code, 0) << on.err;
     expect_same("full", "whole");
-  }
-}
-
-TEST_F(SessionFolders, KilledBehindADriverItGoesOnToTheSameBytes) {
-  const std::string driver = "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated box " + camera + "' ";
-  const std::string scan = "scan " + driver + "--views 3 " + quick;
-  const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
-  for (const long at : {calls / 3, calls / 2}) {
-    SCOPED_TRACE(at);
-    fs::remove_all(in("killed"));
-    run_and_kill(at, in("killed"), scan + "--out " + in("killed"));
-    ASSERT_EQ(nextview("scan --resume " + in("killed") + " --no-pictures --no-surfaces " + driver).exit_code, 0);
-    expect_same("killed", "whole");
   }
 }
 

@@ -18,27 +18,42 @@ SeenSurface::SeenSurface(const Session& session) {
   const KnownObject* object = session.known_object();
   if (!object) return;
   truth_ = {session.setup().truth, &object->truth()};
-  surface_ = std::make_shared<const MeshDistance>(*session.mesh());
-  missed_.emplace(*session.mesh(), session.configuration().evaluation.d_reg);
+  reference_ = std::make_shared<Reference>(Reference{session.mesh(), session.configuration().evaluation.d_reg});
 }
 
-void SeenSurface::follow(const Session& session) {
-  if (scans_ == session.scans().size()) return;
+void SeenSurface::follow(std::span<const std::shared_ptr<const Scan>> scans) {
+  if (scans_ == scans.size()) return;
+  const auto stride = [&](std::size_t scan) { return scans[scan]->hits.size() / points_per_view + 1; };
+  std::vector<std::vector<Eigen::Vector3f>> normals(scans.size());
+  tbb::parallel_for(scans_, scans.size(),
+                    [&](std::size_t scan) { normals[scan] = viewed_normals(*scans[scan], stride(scan)); });
   auto cloud = std::make_shared<SeenCloud>(*cloud_);
-  for (; scans_ < session.scans().size(); ++scans_) {
-    const PointCloud& hits = session.scans()[scans_]->hits;
-    if (missed_) missed_->add(hits);
-    const std::size_t stride = hits.size() / points_per_view + 1;
-    for (std::size_t i = 0; i < hits.size(); i += stride) cloud->points.push_back(hits[i]);
-    std::ranges::copy(viewed_normals(*session.scans()[scans_], stride), std::back_inserter(cloud->normals));
+  for (; scans_ < scans.size(); ++scans_) {
+    const PointCloud& hits = scans[scans_]->hits;
+    for (std::size_t i = 0; i < hits.size(); i += stride(scans_)) cloud->points.push_back(hits[i]);
+    std::ranges::copy(normals[scans_], std::back_inserter(cloud->normals));
     cloud->views.resize(cloud->points.size(), static_cast<std::uint16_t>(scans_));
   }
+  cloud_ = std::move(cloud);
+}
+
+void SeenSurface::compare(std::span<const std::shared_ptr<const Scan>> scans) {
+  if (!reference_) return;
+  Reference& reference = *reference_;
+  if (!reference.distance) reference.distance.emplace(*reference.mesh);
+  if (!reference.nothing_seen) reference.nothing_seen.emplace(*reference.mesh, reference.d_reg);
+  if (!missed_) missed_ = reference.nothing_seen;
+  if (compared_ == scans_) return;
+  PointCloud hits;
+  for (; compared_ < scans_; ++compared_)
+    hits.insert(hits.end(), scans[compared_]->hits.begin(), scans[compared_]->hits.end());
+  missed_->add(hits);
+  auto cloud = std::make_shared<SeenCloud>(*cloud_);
   const std::size_t known = cloud->distances.size();
-  if (surface_) {
-    cloud->distances.resize(cloud->points.size());
-    tbb::parallel_for(known, cloud->points.size(),
-                      [&](std::size_t i) { cloud->distances[i] = static_cast<float>((*surface_)(cloud->points[i])); });
-  }
+  cloud->distances.resize(cloud->points.size());
+  tbb::parallel_for(known, cloud->points.size(), [&](std::size_t i) {
+    cloud->distances[i] = static_cast<float>((*reference.distance)(cloud->points[i]));
+  });
   cloud_ = std::move(cloud);
 }
 

@@ -26,8 +26,7 @@ HistoryEntry SessionRunner::now() const {
   return {session_, scanner_, kept_, tree_, tree_->at, tree_->branches, *tree_->stand(tree_->at), kept_->cameras()};
 }
 
-Stand SessionRunner::stand_of(const Session& session, SeenSurface seen) {
-  seen.follow(session);
+Stand SessionRunner::stand_of(const Session& session, std::shared_ptr<SeenSurface> seen) {
   const Configuration& c = session.configuration();
   return {c.termination, planning_of(c), session.planner().needs(), std::make_shared<ScanState>(session.state()),
           std::move(seen)};
@@ -83,7 +82,7 @@ void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverCon
   if (!session_) wanted_ = configuration;
   SessionParts parts = scanner ? scanner_parts(configuration, scanner) : SessionParts{};
   auto session = std::make_shared<Session>(std::move(configuration), std::move(parts), control.progress, control.stop);
-  Stand beginning = stand_of(*session, SeenSurface(*session));
+  Stand beginning = stand_of(*session, std::make_shared<SeenSurface>(*session));
   if (session_) history_.push(now(), nullptr, ScanHistory::limit(session_->configuration()));
   auto tree = std::make_shared<StepTree>(beginning, session->camera());
   adopt({session, std::move(scanner), std::make_shared<KeptSession>(state_folder_, notice_), std::move(tree), 0,
@@ -94,7 +93,7 @@ void SessionRunner::set_termination(const TerminationConfig& termination) {
   if (!session_) return;
   HistoryEntry before = now();
   session_->set_termination(termination);
-  tree_->set_stand(tree_->at, stand_of(*session_, *seen_));
+  tree_->set_stand(tree_->at, stand_of(*session_, seen_));
   remember(std::move(before));
   show_next();
 }
@@ -104,7 +103,7 @@ void SessionRunner::set_planning(const PlanningConfig& planning, const JobContro
   HistoryEntry before = now();
   control.progress(0.0, "ranking the candidate views");
   session_->set_planning(planning, control.progress, control.stop);
-  tree_->set_stand(tree_->at, stand_of(*session_, *seen_));
+  tree_->set_stand(tree_->at, stand_of(*session_, seen_));
   remember(std::move(before));
   SessionSnapshot next = *snapshot_;
   next.configuration = session_->configuration();
@@ -127,7 +126,8 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
     if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
     return;
   }
-  tree_->step(kept_->last_number().value_or(tree_->last_number() + 1), stand_of(*session_, *seen_));
+  seen_ = std::make_shared<SeenSurface>(*seen_);  // the stand before keeps its own
+  tree_->step(kept_->last_number().value_or(tree_->last_number() + 1), stand_of(*session_, seen_));
   remember(std::move(before));
   show_map(*snapshot_);
   follow_compared(control);
@@ -160,7 +160,10 @@ void SessionRunner::redo(const JobControl& control) {
 /// Goes on from there. The next view is the planner's choice again.
 void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_session = session_ == entry.session;
-  if (!same_session) put_off_.clear();
+  if (!same_session) {
+    put_off_.clear();
+    sight_put_off_ = true;
+  }
   const bool same_scan = same_session && session_->scans() == entry.stand.state->scans;
   const Planner* const planner = session_ ? &session_->planner() : nullptr;
   SessionSnapshot next = *snapshot_;

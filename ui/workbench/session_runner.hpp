@@ -26,6 +26,7 @@ class SessionRunner {
     Progress progress;                                       ///< of the job
     std::function<void(const SamplerDiagnostics&)> sampler;  ///< how the refinement goes
     std::stop_token stop;
+    std::function<void()> shown = {};  ///< there is another snapshot already, though the job goes on
   };
 
   /// Sessions are kept below this folder as they go on; `notice` hears, a line each, what could not be. Without it,
@@ -75,32 +76,34 @@ class SessionRunner {
   std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
   /// Writes one thing of it that needs no drawing. Returns the files.
   std::vector<std::filesystem::path> write_one(const request::ExportOne& wanted, const JobControl& control) const;
-  /// What opening a session put off, so that it is shown at once: the maps of its earlier views, one view at a time.
-  /// False if nothing is left to be done. @throws Stopped; OutOfMemory
+  /// What opening a session or an object put off, so that it is shown at once: what the candidates can see, then what
+  /// earlier views had, one view at a time. False if nothing is left to be done. @throws Stopped; OutOfMemory
   bool catch_up(const std::stop_token& stop);
-  bool is_behind() const { return !put_off_.empty(); }
+  bool is_behind() const { return sight_put_off_ || !put_off_.empty(); }
   void forget_runs();
   /// Shown until the next thing that works.
   void set_message(const std::string& message);
 
  private:
   HistoryEntry now() const;
-  static Stand stand_of(const Session& session, SeenSurface seen);
+  static Stand stand_of(const Session& session, std::shared_ptr<SeenSurface> seen);
   void remember(HistoryEntry before);
   void change_branches(const std::function<void(Branches&)>& change);
   void change_cameras(const std::function<void(std::vector<CameraBookmark>&)>& change);
   bool is_own(const std::filesystem::path& folder) const;
   void adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
                     const std::shared_ptr<StepTree>& tree);
-  static Stand stand_as_saved(const Session& session, SeenSurface seen, const SavedSession& saved,
+  static Stand stand_as_saved(const Session& session, std::shared_ptr<SeenSurface> seen, const SavedSession& saved,
                               std::uint32_t number);
   std::shared_ptr<KeptSession> kept_of(SavedSession& saved, const Session& session) const;
   Stand stand_at(std::uint32_t number, const JobControl& control);
+  void tell_notices(const SavedSession& saved, std::size_t first) const;
   void follow_compared(const JobControl& control);
   SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
   void open_session(const std::filesystem::path& folder, const JobControl& control);
   void adopt(HistoryEntry entry);
+  void compare_what_is_shown();
   std::vector<std::string> write_results(OutputFolder& out, const JobControl& control) const;
   void show_next();
   static void remember_run(SessionSnapshot& snapshot);
@@ -115,7 +118,7 @@ class SessionRunner {
   std::shared_ptr<Session> session_;
   std::unique_ptr<GibbsState> refinement_;  ///< the window's own; null if the planner has one, or none was asked for
   std::vector<std::shared_ptr<const Scan>> refined_scans_;  ///< that it holds
-  std::optional<SeenSurface> seen_;
+  std::shared_ptr<SeenSurface> seen_;  ///< null without a session
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
   ScanHistory history_;
   std::uint64_t change_when_gone_ = 0;                    ///< the last one when the timeline was gone along
@@ -128,7 +131,9 @@ class SessionRunner {
   std::shared_ptr<KeptSession> kept_;   ///< of the session; null without one
   std::shared_ptr<StepTree> tree_;      ///< likewise
   bool view_for_view_ = false;          ///< what is compared
-  std::vector<std::uint32_t> put_off_;  ///< steps of it whose maps are to be made again
+  bool compares_later_ = false;         ///< what is seen is shown before it is compared with the truth
+  bool sight_put_off_ = false;          ///< of the candidates (KnownObject::sight)
+  std::vector<std::uint32_t> put_off_;  ///< steps of it whose maps and seen surface are to be made again
   std::shared_ptr<const SessionSnapshot> snapshot_ = std::make_shared<SessionSnapshot>();
 };
 

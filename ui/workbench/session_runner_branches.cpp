@@ -19,12 +19,11 @@ Stand SessionRunner::stand_at(std::uint32_t number, const JobControl& control) {
   const ScanState here = session_->state();
   const PlanningConfig planning = session_->planning();
   const auto come_back = [&] { session_->restore(here, planning); };
-  SeenSurface seen = nearest.seen;
   const std::size_t notices = tree_->saved()->notices.size();
   try {
     session_->restore(*nearest.state, nearest.planning);
     const auto taken = [&](std::uint32_t step) {
-      seen.follow(*session_);
+      const auto seen = std::make_shared<SeenSurface>(*nearest.seen);
       tree_->set_stand(step, stand_as_saved(*session_, seen, *tree_->saved(), step));
     };
     if (!take_again(*session_, *tree_->saved(), missing, taken, control.progress, control.stop)) throw Stopped();
@@ -35,6 +34,7 @@ Stand SessionRunner::stand_at(std::uint32_t number, const JobControl& control) {
   come_back();
   const auto& stand = tree_->stand(number);
   if (!stand) throw std::runtime_error(tree_->saved()->notices.at(notices));
+  tell_notices(*tree_->saved(), notices);
   return *stand;
 }
 
@@ -68,7 +68,12 @@ void SessionRunner::begin_branch(const std::string& name) {
 }
 
 void SessionRunner::rename_branch(const std::string& name, const std::string& to) {
+  const std::shared_ptr<const Comparison> compared = snapshot_->compared;
   change_branches([&](Branches& branches) { branches.rename(name, to); });
+  if (!compared || compared->branch != name) return;
+  SessionSnapshot next = *snapshot_;
+  next.compared = std::make_shared<const Comparison>(Comparison{to, compared->snapshot});
+  publish(std::move(next));
 }
 
 void SessionRunner::remove_branch(const std::string& name) {
@@ -130,11 +135,11 @@ SessionSnapshot SessionRunner::snapshot_of(const Stand& stand) {
   const ScanState here = session_->state();
   const PlanningConfig planning = session_->planning();
   const TerminationConfig termination = session_->configuration().termination;
-  const SeenSurface seen = std::exchange(*seen_, stand.seen);
+  const auto seen = std::exchange(seen_, stand.seen);
   const auto come_back = [&] {
     session_->restore(here, planning);
     session_->set_termination(termination);
-    *seen_ = seen;
+    seen_ = seen;
   };
   SessionSnapshot there = *snapshot_;
   there.compared = nullptr;

@@ -39,28 +39,46 @@ void SessionRunner::open_session(const std::filesystem::path& folder, const JobC
       std::make_shared<Session>(began_with(saved), std::move(parts), part(control.progress, 0.0, 0.2), control.stop);
   session->recognise_fitted();
   const std::shared_ptr<KeptSession> kept = kept_of(saved, *session);
-  SeenSurface seen(*session);
-  const auto tree = std::make_shared<StepTree>(stand_of(*session, seen), session->camera());
+  const SeenSurface nothing_seen(*session);
+  const auto seen = [&] { return std::make_shared<SeenSurface>(nothing_seen); };
+  const auto tree = std::make_shared<StepTree>(stand_of(*session, seen()), session->camera());
   if (saved.journal) tree->add(shared);
   const auto taken = [&](std::uint32_t number) {
-    seen.follow(*session);
-    if (!tree->has(number)) return static_cast<void>(tree->step(number, stand_of(*session, seen)));
-    tree->set_stand(number, stand_as_saved(*session, seen, saved, number));
+    if (!tree->has(number)) return static_cast<void>(tree->step(number, stand_of(*session, seen())));
+    tree->set_stand(number, stand_as_saved(*session, seen(), saved, number));
     tree->at = number;
   };
-  if (restore_kept(*session, saved, kept->record()))
+  if (restore_kept(*session, saved, kept->record())) {
+    std::vector<std::uint32_t> numbers;
+    for (const JournalStep& step : saved.journal->line()) numbers.push_back(step.number);
+    tree->take_pictures(numbers, session->state());
     look_at_each_view(*session, saved, taken, control);
-  else if (!restore(*session, saved, kept->record(), taken, part(control.progress, 0.2, 1.0), control.stop))
+  } else if (!restore(*session, saved, kept->record(), taken, part(control.progress, 0.2, 1.0), control.stop))
     throw Stopped();
-  tree->set_stand(tree->at, stand_of(*session, seen));  // the planner may have changed since
+  tree->set_stand(tree->at, stand_of(*session, seen()));  // the planner may have changed since
   adopt_opened(session, kept, tree);
-  for (const std::string& notice : saved.notices)
-    if (notice_) notice_(folder.string() + ": " + notice);
+  if (control.shown) control.shown();
+  compare_what_is_shown();
+  tell_notices(saved, 0);
+}
+
+void SessionRunner::compare_what_is_shown() {
+  seen_->compare(session_->scans());
+  SessionSnapshot next = *snapshot_;
+  ++next.map;
+  next.cloud = seen_->cloud();
+  next.missed = seen_->missed();
+  publish(std::move(next));
+}
+
+void SessionRunner::tell_notices(const SavedSession& saved, std::size_t first) const {
+  for (std::size_t k = first; notice_ && k < saved.notices.size(); ++k)
+    notice_(saved.folder.string() + ": " + saved.notices[k]);
 }
 
 /// With the end that was set there, too.
-Stand SessionRunner::stand_as_saved(const Session& session, SeenSurface seen, const SavedSession& saved,
-                                    std::uint32_t number) {
+Stand SessionRunner::stand_as_saved(const Session& session, std::shared_ptr<SeenSurface> seen,
+                                    const SavedSession& saved, std::uint32_t number) {
   Stand stand = stand_of(session, std::move(seen));
   stand.termination = settings_at(saved, number).termination;
   return stand;
@@ -84,6 +102,10 @@ std::shared_ptr<KeptSession> SessionRunner::kept_of(SavedSession& saved, const S
 /// As if its views had been taken here.
 void SessionRunner::adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
                                  const std::shared_ptr<StepTree>& tree) {
+  struct Later {
+    bool& later;
+    ~Later() { later = false; }
+  } const compares{compares_later_ = true};
   const auto entry = [&](std::uint32_t number) {
     return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number), kept->cameras()};
   };
@@ -99,17 +121,21 @@ void SessionRunner::adopt_opened(const std::shared_ptr<Session>& session, const 
 
 /// Each is made of the one before. Where there is no room for one there is none for those after it.
 bool SessionRunner::catch_up(const std::stop_token& stop) {
-  const std::vector<std::uint32_t> steps = std::exchange(put_off_, {});
-  for (auto step = steps.begin(); step != steps.end(); ++step) {
-    if (!tree_ || !tree_->has(*step)) return false;  // another session is open by now
-    const auto& stand = tree_->stand(*step);
-    if (!stand || stand->state->has_maps) continue;
-    ScanHistory::bring_back_maps(*session_, *tree_, *step, *stand, {}, stop);
-    history_.keep_within(ScanHistory::limit(session_->configuration()), tree_->stand(tree_->at)->state.get());
-    if (stand->state->has_maps) put_off_.assign(step + 1, steps.end());
+  if (std::exchange(sight_put_off_, false)) {
+    if (session_->known_object()) session_->known_object()->sight({}, stop);
     return is_behind();
   }
-  return false;
+  const std::vector<std::uint32_t> steps = std::exchange(put_off_, {});
+  if (steps.empty() || !tree_ || !tree_->has(steps.front())) return false;  // another session is open by now
+  const auto& stand = tree_->stand(steps.front());
+  if (stand) tree_->follow_seen(steps.front());
+  if (stand && !stand->state->has_maps) {
+    ScanHistory::bring_back_maps(*session_, *tree_, steps.front(), *stand, {}, stop);
+    history_.keep_within(ScanHistory::limit(session_->configuration()), tree_->stand(tree_->at)->state.get());
+    if (!stand->state->has_maps) return false;
+  }
+  put_off_.assign(steps.begin() + 1, steps.end());
+  return is_behind();
 }
 
 }  // namespace nextview

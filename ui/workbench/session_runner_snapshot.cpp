@@ -94,7 +94,8 @@ void SessionRunner::fill_map(SessionSnapshot& next) {
   next.records = session_->records();
   next.finished = session_->finished();
   next.scans = session_->scans();
-  seen_->follow(*session_);
+  seen_->follow(session_->scans());
+  if (!compares_later_) seen_->compare(session_->scans());
   next.cloud = seen_->cloud();
   next.missed = seen_->missed();
   next.orders = nullptr;

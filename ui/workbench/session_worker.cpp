@@ -254,7 +254,16 @@ void SessionWorker::execute(const SessionRequest& request) {
 SessionRunner::JobControl SessionWorker::job_control() {
   const std::lock_guard lock(mutex_);
   return {[this](double fraction, std::string_view what) { report_progress(fraction, what); },
-          [this](const SamplerDiagnostics& so_far) { report_sampler(so_far); }, job_.get_token()};
+          [this](const SamplerDiagnostics& so_far) { report_sampler(so_far); }, job_.get_token(),
+          [this] { show_meanwhile(); }};
+}
+
+void SessionWorker::show_meanwhile() {
+  {
+    const std::lock_guard lock(mutex_);
+    snapshot_ = runner_.snapshot();
+  }
+  news();
 }
 
 void SessionWorker::report_progress(double fraction, std::string_view what) {

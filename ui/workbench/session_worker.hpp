@@ -67,6 +67,7 @@ class SessionWorker {
   void report_progress(double fraction, std::string_view what);
   void report_sampler(const SamplerDiagnostics& so_far);
   SessionRunner::JobControl job_control();
+  void show_meanwhile();
   std::string ask(std::string question, std::vector<std::string> answers,
                   std::shared_ptr<const DoubtfulScan> about = nullptr);
   void offer(const UnfinishedSession& session);

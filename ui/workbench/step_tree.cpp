@@ -1,5 +1,7 @@
 #include "ui/workbench/step_tree.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "core/session/step_outcome.hpp"
@@ -68,6 +70,23 @@ void StepTree::set_stand(std::uint32_t number, Stand stand) {
           std::make_shared<const DepthCells>(thumbnail(*stand.state->scans.back(), record.T_world_camera, camera_));
   }
   node.stand = std::move(stand);
+}
+
+void StepTree::follow_seen(std::uint32_t number) {
+  const Node& node = nodes_.at(number);
+  const auto& before = nodes_.at(node.after).stand;
+  SeenSurface& seen = *node.stand->seen;
+  if (seen.scans() == 0 && before) seen = *before->seen;
+  seen.follow(node.stand->state->scans);
+  seen.compare(node.stand->state->scans);
+}
+
+void StepTree::take_pictures(std::span<const std::uint32_t> numbers, const ScanState& state) {
+  tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t k) {
+    Node& node = nodes_.at(numbers[k]);
+    const Pose& T_world_camera = state.records[k]->T_world_camera;
+    node.picture = std::make_shared<const DepthCells>(thumbnail(*state.scans[k], T_world_camera, camera_));
+  });
 }
 
 std::vector<std::uint32_t> StepTree::line(std::uint32_t number) const {

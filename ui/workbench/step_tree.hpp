@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/journal/branches.hpp"
@@ -18,7 +19,7 @@ struct Stand {
   PlanningConfig planning;
   PolicyNeeds needs;                 ///< of its planner
   std::shared_ptr<ScanState> state;  ///< never null; its maps may have been dropped
-  SeenSurface seen;
+  std::shared_ptr<SeenSurface> seen;  ///< never null; it may have fewer scans than the state
 };
 
 /// Every step that a session has taken, those that it went back from among them, by number; 0 is where nothing was
@@ -37,6 +38,10 @@ class StepTree {
   bool step(std::uint32_t number, Stand stand);
   /// What there is to come back to at a step that is known.
   void set_stand(std::uint32_t number, Stand stand);
+  /// The pictures of the steps that lead to a state, known by number, side by side.
+  void take_pictures(std::span<const std::uint32_t> numbers, const ScanState& state);
+  /// Brings what was seen up to a step, from what was seen before it. @pre it has a stand
+  void follow_seen(std::uint32_t number);
   const std::optional<Stand>& stand(std::uint32_t number) const { return nodes_.at(number).stand; }
   bool has(std::uint32_t number) const { return nodes_.contains(number); }
   std::uint32_t last_number() const { return nodes_.rbegin()->first; }

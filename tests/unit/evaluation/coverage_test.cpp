@@ -33,7 +33,7 @@ TEST(SurfaceCoverage, AgreesWithAllPairs) {
                    second = on_sphere(3, 500, 0.02f);
   const auto visible = every_third(samples.size());
   for (const double d_reg : {0.0005, 0.005, 0.02, 0.3, 1.0}) {
-    SurfaceCoverage coverage(samples, visible, d_reg);
+    SurfaceCoverage coverage(samples, d_reg);
     EXPECT_EQ(coverage.of_all(), 0.0);
     PointCloud cloud;
     for (const PointCloud& view : {first, second}) {
@@ -49,7 +49,7 @@ TEST(SurfaceCoverage, AgreesWithAllPairs) {
         seeable += i % 3 == 0;
       }
       EXPECT_DOUBLE_EQ(coverage.of_all(), double(all) / double(samples.size()));
-      EXPECT_DOUBLE_EQ(coverage.of_visible(), double(seen) / double(seeable));
+      EXPECT_DOUBLE_EQ(coverage.of(visible), double(seen) / double(seeable));
     }
     EXPECT_GT(coverage.of_all(), 0.0) << d_reg;
   }
@@ -58,22 +58,21 @@ TEST(SurfaceCoverage, AgreesWithAllPairs) {
 TEST(SurfaceCoverage, AFlatSurfaceAndASinglePointWork) {
   PointCloud plane;
   for (int i = 0; i < 100; ++i) plane.emplace_back(0.01f * float(i % 10), 0.0f, 0.01f * float(i / 10));
-  SurfaceCoverage flat(plane, std::vector<std::uint8_t>(100, 1), 0.001);
+  SurfaceCoverage flat(plane, 0.001);
   flat.add({{0.05f, 0.0005f, 0.05f}, {0.05f, 0.0015f, 0.06f}, {9e9f, -9e9f, 9e9f}});
   EXPECT_DOUBLE_EQ(flat.of_all(), 0.01);
 
-  SurfaceCoverage single(PointCloud{{1, 2, 3}}, std::vector<std::uint8_t>{0}, 0.5);
+  SurfaceCoverage single(PointCloud{{1, 2, 3}}, 0.5);
   single.add({});
   EXPECT_EQ(single.of_all(), 0.0);
   single.add({{1.0f, 2.0f, 3.5f}});  // exactly at d_reg: within
   EXPECT_EQ(single.of_all(), 1.0);
-  EXPECT_EQ(single.of_visible(), 0.0);  // none is visible
+  EXPECT_EQ(single.of(std::vector<std::uint8_t>{0}), 0.0);  // none counts
 }
 
 TEST(SurfaceCoverage, DoesNotDependOnTheNumberOfThreads) {
   const PointCloud samples = on_sphere(4, 20000, 0.0f), points = on_sphere(5, 50000, 0.003f);
-  const auto visible = every_third(samples.size());
-  SurfaceCoverage many(samples, visible, 0.002), one(samples, visible, 0.002);
+  SurfaceCoverage many(samples, 0.002), one(samples, 0.002);
   many.add(points);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   one.add(points);
@@ -82,11 +81,9 @@ TEST(SurfaceCoverage, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(SurfaceCoverage, BadInputIsRefused) {
   const PointCloud two = {{0, 0, 0}, {1, 1, 1}};
-  const std::vector<std::uint8_t> mask = {1, 1};
-  EXPECT_THROW(SurfaceCoverage({}, {}, 0.1), std::invalid_argument);
-  EXPECT_THROW(SurfaceCoverage(two, std::vector<std::uint8_t>{1}, 0.1), std::invalid_argument);
+  EXPECT_THROW(SurfaceCoverage({}, 0.1), std::invalid_argument);
   for (const double d_reg : {0.0, -1.0, double(NAN), double(INFINITY)})
-    EXPECT_THROW(SurfaceCoverage(two, mask, d_reg), std::invalid_argument);
+    EXPECT_THROW(SurfaceCoverage(two, d_reg), std::invalid_argument);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/export/scan_files.hpp"
 #include "core/session/recording_setup.hpp"
 #include "core/session/session.hpp"
+#include "core/session/session_folder.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -181,6 +182,25 @@ TEST_F(RecordedSession, ItsConfigurationRepeatsIt) {
   EXPECT_EQ(to_toml(first.configuration()), to_toml(second.configuration()));
   EXPECT_TRUE(same_maps(first.map(), second.map()));
   fs::remove(out);
+}
+
+/// A journal may have been written for another recording, or by anyone.
+TEST_F(RecordedSession, AFrameThatIsNotThereIsLeftOut) {
+  const fs::path path = fs::path(folder_.string() + "_session");
+  {
+    Session session(replay());
+    SessionFolder folder = SessionFolder::begin(OutputFolder(path, {}), session);
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE(folder.step(session));
+    folder.keep_state(session);
+  }
+  SavedSession saved = read_session(path);
+  saved.journal->steps.at(2).wanted.frame = 1000;
+  fs::remove(path / "state");
+  Session again(saved.configuration);
+  ASSERT_TRUE(restore(again, saved, nullptr));
+  EXPECT_EQ(again.records().size(), 2u);
+  EXPECT_THAT(saved.notices, testing::ElementsAre(testing::HasSubstr("it is of frame 1001, and the recording has")));
+  fs::remove_all(path);
 }
 
 TEST_F(RecordedSession, GoesBackToAnyView) {

@@ -8,6 +8,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
+#include "core/map/octree_file.hpp"
 #include "core/session/session_folder.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/session/small_scan.hpp"
@@ -140,6 +141,19 @@ TEST_F(StateFile, OfAnythingElseIsNotUsed) {
   saved.configuration.planner.gain = "random";
   Session other(saved.configuration);
   EXPECT_FALSE(restore_kept(other, saved, nullptr)) << "it is planned otherwise";
+}
+
+TEST_F(StateFile, AfterItsStartMapHasChangedIsNotUsed) {
+  Configuration c = small_scan();
+  c.map.start = (folder_ / "start.ot").string();
+  Session before(small_scan());
+  ASSERT_TRUE(before.step());
+  write_octree(before.map(), c.map.start);
+  scan(c, 1);
+  ASSERT_TRUE(opened());
+  ASSERT_TRUE(before.step());
+  write_octree(before.map(), c.map.start);
+  EXPECT_FALSE(opened());
 }
 
 TEST_F(StateFile, WrittenTwiceIsTheSame) {

@@ -142,6 +142,9 @@ TEST_F(SessionBranches, AreComparedAtTheirEnds) {
   ASSERT_TRUE(now().compared);
   EXPECT_EQ(now().compared->branch, "branch 2") << "the two change places";
   EXPECT_EQ(now().compared->snapshot->configuration.planner.gain, "rear-side-voxel");
+  runner_.rename_branch("branch 2", "other");
+  ASSERT_TRUE(now().compared);
+  EXPECT_EQ(now().compared->branch, "other") << "it goes by its new name";
   runner_.compare("", job_control());
   EXPECT_FALSE(now().compared);
 }
