@@ -38,6 +38,8 @@ class VoxelBricks {
       return measured(i) ? std::uint16_t{0} : static_cast<std::uint16_t>(numbers_[i]);
     }
     float entropy(std::size_t i) const { return told_.empty() ? belief(log_odds(i)).entropy : told_[i].entropy; }
+    /// Whether probability and entropy follow from the log-odds, as in an occupancy map.
+    bool follows_from_log_odds() const { return told_.empty(); }
     std::size_t measured_count() const;
 
     void set_measured(std::size_t i, float log_odds, VoxelClass voxel_class) {
