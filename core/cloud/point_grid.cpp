@@ -1,0 +1,142 @@
+#include "core/cloud/point_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace nextview {
+namespace {
+
+constexpr std::size_t most_cells = std::size_t{1} << 22;
+constexpr double margin = 0.05;          // around most of the points, as a share of their extent
+constexpr std::size_t looked_at = 4096;  // points that say where most of them are
+
+/// Where most of the points are. Empty if there are none, or some are no points.
+Eigen::AlignedBox3f middle_box(const PointCloud& points) {
+  const std::size_t stride = points.size() / looked_at + 1;
+  std::array<std::vector<float>, 3> along;
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    for (int axis = 0; axis < 3; ++axis) along[axis].push_back(points[i][axis]);
+  Eigen::Vector3f lower, upper;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<float>& values = along[axis];
+    if (values.empty() || !std::ranges::all_of(values, [](float v) { return std::isfinite(v); })) return {};
+    const auto outliers = std::ptrdiff_t(values.size() / 100);
+    std::ranges::sort(values);
+    lower[axis] = values[std::size_t(outliers)], upper[axis] = *(values.end() - 1 - outliers);
+  }
+  const Eigen::Vector3f around = Eigen::Vector3f::Constant(float(margin) * (upper - lower).maxCoeff());
+  return {lower - around, upper + around};
+}
+
+/// An edge of cells with which the `wanted` nearest ones of most points lie in the cells around it: on a surface, a
+/// circle as wide as a cell and its neighbours has them.
+double edge_for(const std::vector<std::uint32_t>& counts, double edge, std::size_t wanted) {
+  double points = 0.0, squares = 0.0;
+  for (const std::uint32_t count : counts) points += count, squares += double(count) * count;
+  const double in_cell = squares / std::max(points, 1.0);  // of a point's own cell, on average
+  return edge * std::sqrt(0.45 * double(wanted) / std::max(in_cell, 1e-3));
+}
+
+}  // namespace
+
+Eigen::Vector3i PointGrid::cell(const Eigen::Vector3f& point) const {
+  return ((point - lower_) / edge_).array().floor().cast<int>().min(size_.array() - 1).max(0);
+}
+
+PointGrid::PointGrid(const PointCloud& points, std::size_t wanted) {
+  const Eigen::AlignedBox3f box = middle_box(points);
+  if (box.isEmpty() || !(box.sizes().maxCoeff() > 0.0f)) return;
+  lower_ = box.min(), upper_ = box.max();
+  rounding_ = 1e-6f * std::max(lower_.cwiseAbs().maxCoeff(), upper_.cwiseAbs().maxCoeff());
+  std::vector<std::uint32_t> inside;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (box.contains(points[i])) inside.push_back(i);
+  holds_all_ = inside.size() == points.size();
+  const auto set_edge = [&](double edge) {  // no finer than there is room for
+    const Eigen::Vector3d extent = box.sizes().cast<double>();
+    const auto cells = [&](double e) { return ((extent / e).array().floor() + 1.0).prod(); };
+    while (cells(edge) > double(most_cells)) edge *= 1.1;
+    edge_ = float(edge);
+    size_ = (extent / double(edge_)).array().floor().cast<int>() + 1;
+  };
+  set_edge(box.sizes().maxCoeff() / 64.0);
+  std::vector<std::uint32_t> counts(std::size_t(size_.prod()));
+  for (const std::uint32_t i : inside) {
+    const Eigen::Vector3i c = cell(points[i]);
+    ++counts[index(c.x(), c.y(), c.z())];
+  }
+  set_edge(edge_for(counts, edge_, wanted));
+  sort_into_cells(points, inside);
+}
+
+void PointGrid::sort_into_cells(const PointCloud& points, const std::vector<std::uint32_t>& inside) {
+  std::vector<std::uint32_t> cells(inside.size());
+  begins_.assign(std::size_t(size_.x()) * size_.y() * size_.z() + 1, 0);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const Eigen::Vector3i c = cell(points[inside[i]]);
+    cells[i] = std::uint32_t(index(c.x(), c.y(), c.z()));
+    ++begins_[cells[i] + 1];
+  }
+  std::inclusive_scan(begins_.begin(), begins_.end(), begins_.begin());
+  std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
+  points_.resize(inside.size());
+  numbers_.resize(inside.size());
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const std::uint32_t at = next[cells[i]]++;
+    points_[at] = points[inside[i]];
+    numbers_[at] = inside[i];
+  }
+}
+
+/// Calls `take(begin, end)` for the points of the cells that are `ring` cells from the middle one along some axis, and
+/// no farther along the others.
+template <class Take>
+void PointGrid::visit_ring(const Eigen::Vector3i& middle, int ring, Take take) const {
+  const Eigen::Vector3i first = (middle.array() - ring).max(0), last = (middle.array() + ring).min(size_.array() - 1);
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const bool whole_row = std::abs(z - middle.z()) == ring || std::abs(y - middle.y()) == ring;
+      if (whole_row) {
+        take(begins_[index(first.x(), y, z)], begins_[index(last.x(), y, z) + 1]);
+        continue;
+      }
+      for (const int x : {middle.x() - ring, middle.x() + ring})
+        if (x >= 0 && x < size_.x()) take(begins_[index(x, y, z)], begins_[index(x, y, z) + 1]);
+    }
+}
+
+bool PointGrid::nearest(std::size_t i, std::size_t wanted, std::vector<float>& squared) const {
+  const Eigen::Vector3f& point = points_[i];
+  const Eigen::Vector3i middle = cell(point);
+  const float safety = 1.0f - 1e-4f;  // far more than single precision rounds
+  const float to_outside =
+      std::max(0.0f, safety * std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff()) - rounding_);
+  const Eigen::Vector3f in_cell = point - (lower_ + edge_ * middle.cast<float>());
+  const float to_face = std::max(0.0f, std::min(in_cell.minCoeff(), edge_ - in_cell.maxCoeff()));
+  squared.clear();
+  for (int ring = 0;; ++ring) {
+    visit_ring(middle, ring, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t k = begin; k < end; ++k) {
+        const Eigen::Vector3f way = point - points_[k];
+        squared.push_back(way.x() * way.x() + way.y() * way.y() + way.z() * way.z());
+      }
+    });
+    const bool is_all = ring >= std::max({(middle.array()).maxCoeff(), (size_ - middle).maxCoeff()});
+    if (ring == 0 && !is_all) continue;  // its own cell is never enough
+    // Whatever is nearer than that was looked at, however coordinates round.
+    const float covered = std::max(0.0f, safety * (float(ring) * edge_ + to_face) - rounding_);
+    if (squared.size() >= wanted)
+      std::nth_element(squared.begin(), squared.begin() + std::ptrdiff_t(wanted) - 1, squared.end());
+    const float farthest = squared.size() >= wanted ? squared[wanted - 1] : std::numeric_limits<float>::infinity();
+    if (!is_all && !(farthest < covered * covered)) continue;
+    if (!holds_all_ && !(farthest < to_outside * to_outside)) return false;
+    squared.resize(std::min(squared.size(), wanted));
+    std::ranges::sort(squared);
+    return true;
+  }
+}
+
+}  // namespace nextview
