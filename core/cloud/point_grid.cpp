@@ -1,5 +1,7 @@
 #include "core/cloud/point_grid.hpp"
 
+#include <hwy/contrib/sort/vqsort.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,24 +12,27 @@ namespace nextview {
 namespace {
 
 constexpr std::size_t most_cells = std::size_t{1} << 22;
-constexpr double margin = 0.05;          // around most of the points, as a share of their extent
+constexpr float margin = 0.2f;           // around most of the points, as a share of their extent
+constexpr float far_off = 2.0f;          // points make everything so much larger than it is without them
 constexpr std::size_t looked_at = 4096;  // points that say where most of them are
 
-/// Where most of the points are. Empty if there are none, or some are no points.
-Eigen::AlignedBox3f middle_box(const PointCloud& points) {
+/// Where the points are, or most of them where others lie far off. Empty if there are none, or some are no points.
+Eigen::AlignedBox3f box_of_most(const PointCloud& points) {
+  Eigen::AlignedBox3f all;
+  for (const Eigen::Vector3f& p : points) all.extend(p);
   const std::size_t stride = points.size() / looked_at + 1;
-  std::array<std::vector<float>, 3> along;
-  for (std::size_t i = 0; i < points.size(); i += stride)
-    for (int axis = 0; axis < 3; ++axis) along[axis].push_back(points[i][axis]);
-  Eigen::Vector3f lower, upper;
+  Eigen::Vector3f lower = all.min(), upper = all.max();
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<float>& values = along[axis];
-    if (values.empty() || !std::ranges::all_of(values, [](float v) { return std::isfinite(v); })) return {};
-    const auto outliers = std::ptrdiff_t(values.size() / 100);
-    std::ranges::sort(values);
-    lower[axis] = values[std::size_t(outliers)], upper[axis] = *(values.end() - 1 - outliers);
+    std::vector<float> along;
+    for (std::size_t i = 0; i < points.size(); i += stride) along.push_back(points[i][axis]);
+    if (!std::ranges::all_of(along, [](float v) { return std::isfinite(v); })) return {};
+    std::ranges::sort(along);
+    const std::size_t outliers = along.size() / 100;
+    lower[axis] = along[outliers], upper[axis] = along[along.size() - 1 - outliers];
   }
-  const Eigen::Vector3f around = Eigen::Vector3f::Constant(float(margin) * (upper - lower).maxCoeff());
+  const float extent = (upper - lower).maxCoeff();
+  if (all.sizes().maxCoeff() <= far_off * extent) return all;
+  const Eigen::Vector3f around = Eigen::Vector3f::Constant(margin * extent);
   return {lower - around, upper + around};
 }
 
@@ -47,7 +52,8 @@ Eigen::Vector3i PointGrid::cell(const Eigen::Vector3f& point) const {
 }
 
 PointGrid::PointGrid(const PointCloud& points, std::size_t wanted) {
-  const Eigen::AlignedBox3f box = middle_box(points);
+  if (points.empty()) return;
+  const Eigen::AlignedBox3f box = box_of_most(points);
   if (box.isEmpty() || !(box.sizes().maxCoeff() > 0.0f)) return;
   lower_ = box.min(), upper_ = box.max();
   rounding_ = 1e-6f * std::max(lower_.cwiseAbs().maxCoeff(), upper_.cwiseAbs().maxCoeff());
@@ -117,6 +123,7 @@ bool PointGrid::nearest(std::size_t i, std::size_t wanted, std::vector<float>& s
   const Eigen::Vector3f in_cell = point - (lower_ + edge_ * middle.cast<float>());
   const float to_face = std::max(0.0f, std::min(in_cell.minCoeff(), edge_ - in_cell.maxCoeff()));
   squared.clear();
+  thread_local const hwy::Sorter sorter;  // in vector registers; it allocates
   for (int ring = 0;; ++ring) {
     visit_ring(middle, ring, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t k = begin; k < end; ++k) {
@@ -128,13 +135,11 @@ bool PointGrid::nearest(std::size_t i, std::size_t wanted, std::vector<float>& s
     if (ring == 0 && !is_all) continue;  // its own cell is never enough
     // Whatever is nearer than that was looked at, however coordinates round.
     const float covered = std::max(0.0f, safety * (float(ring) * edge_ + to_face) - rounding_);
-    if (squared.size() >= wanted)
-      std::nth_element(squared.begin(), squared.begin() + std::ptrdiff_t(wanted) - 1, squared.end());
+    sorter(squared.data(), squared.size(), hwy::SortAscending());
     const float farthest = squared.size() >= wanted ? squared[wanted - 1] : std::numeric_limits<float>::infinity();
     if (!is_all && !(farthest < covered * covered)) continue;
     if (!holds_all_ && !(farthest < to_outside * to_outside)) return false;
     squared.resize(std::min(squared.size(), wanted));
-    std::ranges::sort(squared);
     return true;
   }
 }
