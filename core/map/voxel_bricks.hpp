@@ -143,6 +143,8 @@ class VoxelBricks {
 
   /// What the bricks take that hold anything [bytes].
   std::size_t bytes() const;
+  /// Whether they are copies, and neither was changed since.
+  bool shares_all_with(const VoxelBricks& other) const { return table_.shares_with(other.table_); }
   /// What of it `other`, of the same size, does not share [bytes].
   std::size_t bytes_beside(const VoxelBricks& other) const;
 
