@@ -97,50 +97,44 @@ void PointGrid::sort_into_cells(const PointCloud& points, const std::vector<std:
   }
 }
 
-/// Calls `take(begin, end)` for the points of the cells that are `ring` cells from the middle one along some axis, and
-/// no farther along the others.
-template <class Take>
-void PointGrid::visit_ring(const Eigen::Vector3i& middle, int ring, Take take) const {
+/// The squared distances, under `limit`, of the points in the cells that are at most `ring` from the middle one along
+/// each axis.
+void PointGrid::gather_within(const Eigen::Vector3f& point, const Eigen::Vector3i& middle, int ring, float limit,
+                              std::vector<float>& squared) const {
   const Eigen::Vector3i first = (middle.array() - ring).max(0), last = (middle.array() + ring).min(size_.array() - 1);
+  std::size_t count = 0;
   for (int z = first.z(); z <= last.z(); ++z)
     for (int y = first.y(); y <= last.y(); ++y) {
-      const bool whole_row = std::abs(z - middle.z()) == ring || std::abs(y - middle.y()) == ring;
-      if (whole_row) {
-        take(begins_[index(first.x(), y, z)], begins_[index(last.x(), y, z) + 1]);
-        continue;
+      const std::uint32_t begin = begins_[index(first.x(), y, z)], end = begins_[index(last.x(), y, z) + 1];
+      if (squared.size() < count + (end - begin)) squared.resize(2 * (count + (end - begin)));
+      for (std::uint32_t k = begin; k < end; ++k) {
+        const Eigen::Vector3f way = point - points_[k];
+        squared[count] = way.x() * way.x() + way.y() * way.y() + way.z() * way.z();
+        count += squared[count] < limit;
       }
-      for (const int x : {middle.x() - ring, middle.x() + ring})
-        if (x >= 0 && x < size_.x()) take(begins_[index(x, y, z)], begins_[index(x, y, z) + 1]);
     }
+  squared.resize(count);
 }
 
 bool PointGrid::nearest(std::size_t i, std::size_t wanted, std::vector<float>& squared) const {
+  thread_local const hwy::Sorter sorter;  // in vector registers; it allocates
   const Eigen::Vector3f& point = points_[i];
   const Eigen::Vector3i middle = cell(point);
   const float safety = 1.0f - 1e-4f;  // far more than single precision rounds
-  const float to_outside =
-      std::max(0.0f, safety * std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff()) - rounding_);
   const Eigen::Vector3f in_cell = point - (lower_ + edge_ * middle.cast<float>());
   const float to_face = std::max(0.0f, std::min(in_cell.minCoeff(), edge_ - in_cell.maxCoeff()));
-  squared.clear();
-  thread_local const hwy::Sorter sorter;  // in vector registers; it allocates
-  for (int ring = 0;; ++ring) {
-    visit_ring(middle, ring, [&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t k = begin; k < end; ++k) {
-        const Eigen::Vector3f way = point - points_[k];
-        squared.push_back(way.x() * way.x() + way.y() * way.y() + way.z() * way.z());
-      }
-    });
-    const bool is_all = ring >= std::max({(middle.array()).maxCoeff(), (size_ - middle).maxCoeff()});
-    if (ring == 0 && !is_all) continue;  // its own cell is never enough
-    // Whatever is nearer than that was looked at, however coordinates round.
-    const float covered = std::max(0.0f, safety * (float(ring) * edge_ + to_face) - rounding_);
+  const int last_ring = std::max(middle.maxCoeff(), (size_ - middle).maxCoeff());
+  for (int ring = 1;; ring = std::min(2 * ring, last_ring)) {
+    // Whatever is nearer than this lies in the block of cells, however coordinates round.
+    float covered = std::max(0.0f, safety * (float(ring) * edge_ + to_face) - rounding_);
+    if (ring >= last_ring) covered = std::numeric_limits<float>::infinity();
+    gather_within(point, middle, ring, covered * covered, squared);
+    if (squared.size() < wanted && ring < last_ring) continue;
     sorter(squared.data(), squared.size(), hwy::SortAscending());
-    const float farthest = squared.size() >= wanted ? squared[wanted - 1] : std::numeric_limits<float>::infinity();
-    if (!is_all && !(farthest < covered * covered)) continue;
-    if (!holds_all_ && !(farthest < to_outside * to_outside)) return false;
     squared.resize(std::min(squared.size(), wanted));
-    return true;
+    const float to_outside = std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff());
+    const float inside = std::max(0.0f, safety * to_outside - rounding_);
+    return holds_all_ || (squared.size() == wanted && squared.back() < inside * inside);
   }
 }
 

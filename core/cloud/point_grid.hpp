@@ -25,8 +25,8 @@ class PointGrid {
   Eigen::Vector3i cell(const Eigen::Vector3f& point) const;
   std::size_t index(int x, int y, int z) const { return (std::size_t(z) * size_.y() + y) * size_.x() + x; }
   void sort_into_cells(const PointCloud& points, const std::vector<std::uint32_t>& inside);
-  template <class Take>
-  void visit_ring(const Eigen::Vector3i& middle, int ring, Take take) const;
+  void gather_within(const Eigen::Vector3f& point, const Eigen::Vector3i& middle, int ring, float limit,
+                     std::vector<float>& squared) const;
 
   Eigen::Vector3f lower_ = Eigen::Vector3f::Zero(), upper_ = Eigen::Vector3f::Zero();
   float edge_ = 1.0f;
