@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <limits>
 #include <string_view>
@@ -102,20 +103,29 @@ struct Setup {
   }
 };
 
+/// The least of several rounds [ms].
+struct Least {
+  double waited = std::numeric_limits<double>::infinity();
+  double processor = waited;  ///< of all threads
+
+  void keep(const std::function<void()>& work) {
+    const std::clock_t processor_start = std::clock();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    waited =
+        std::min(waited, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    processor = std::min(processor, 1e3 * double(std::clock() - processor_start) / CLOCKS_PER_SEC);
+  }
+};
+
 /// Something timed, and what it is compared with.
 struct Line {
   std::string_view name;
   std::function<void()> product;
   std::string_view peer = {};
   std::function<void()> theirs = {};
-  double milliseconds = std::numeric_limits<double>::infinity(), peer_milliseconds = milliseconds;
+  Least ours = {}, peers = {};
 };
-
-void keep_least(double& least, const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  least = std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-}
 
 std::vector<Line> lines(Setup& s) {
   const auto step = [&s] {
@@ -141,21 +151,23 @@ std::vector<Line> lines(Setup& s) {
 }
 
 void print(const std::vector<Line>& table, const Setup& s) {
-  fmt::print("{:<24}{:>10}  {:<42}{:>10}{:>9}\n", "", "ms", "peer", "ms", "ratio");
+  fmt::print("{:<22}{:>8}{:>10}  {:<42}{:>8}{:>10}{:>8}{:>10}\n", "[ms]", "waited", "processor", "peer", "waited",
+             "processor", "ratio", "per core");
   for (const Line& line : table) {
-    fmt::print("{:<24}{:>10.1f}  {:<42}", line.name, line.milliseconds, line.peer);
-    if (std::isfinite(line.peer_milliseconds))
-      fmt::print("{:>10.1f}{:>9.1f}", line.peer_milliseconds, line.peer_milliseconds / line.milliseconds);
+    fmt::print("{:<22}{:>8.1f}{:>10.1f}  {:<42}", line.name, line.ours.waited, line.ours.processor, line.peer);
+    if (std::isfinite(line.peers.waited))
+      fmt::print("{:>8.1f}{:>10.1f}{:>8.1f}{:>10.1f}", line.peers.waited, line.peers.processor,
+                 line.peers.waited / line.ours.waited, line.peers.processor / line.ours.processor);
     fmt::print("\n");
   }
   const double rays = double(s.scan.hits.size() + s.scan.misses.size());
   fmt::print("\n{:.0f} rays inserted, {:.0f} scored over {:.1f} million voxels that could matter\n", rays,
              double(s.candidates.size() * s.bundle.directions.size()), 1e-6 * double(s.voxel_steps));
-  const Line& step = table.back();
-  if (std::isfinite(step.peer_milliseconds))
+  const Least &ours = table.back().ours, &peers = table.back().peers;
+  if (std::isfinite(peers.waited))
     fmt::print(
         "\nA planning step is {:.1f} times faster than composed of OctoMap's calls ({:.1f} ms against {:.1f} ms).\n",
-        step.peer_milliseconds / step.milliseconds, step.milliseconds, step.peer_milliseconds);
+        peers.waited / ours.waited, ours.waited, peers.waited);
 }
 
 int run(int rounds, bool with_peers) {
@@ -165,8 +177,8 @@ int run(int rounds, bool with_peers) {
   for (int round = 0; round < rounds; ++round)
     for (Line& line : table) {
       // What is fast gets more turns: its least is then as sure as the other's.
-      for (int turn = 0; turn < (with_peers ? 5 : 1); ++turn) keep_least(line.milliseconds, line.product);
-      if (with_peers && line.theirs) keep_least(line.peer_milliseconds, line.theirs);
+      for (int turn = 0; turn < (with_peers ? 10 : 1); ++turn) line.ours.keep(line.product);
+      if (with_peers && line.theirs) line.peers.keep(line.theirs);
     }
   print(table, setup);
   return EXIT_SUCCESS;
