@@ -2,16 +2,13 @@
 #include <pcl/common/common.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_types.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <limits>
 #include <memory>
-#include <nanoflann.hpp>
 #include <stdexcept>
 
+#include "core/cloud/neighbour_distances.hpp"
 #include "core/cloud/point_cloud.hpp"
-#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -23,55 +20,6 @@ std::shared_ptr<PclCloud> to_pcl(const PointCloud& points) {
   cloud->reserve(points.size());
   for (const auto& p : points) cloud->emplace_back(p.x(), p.y(), p.z());
   return cloud;
-}
-
-/// The points as nanoflann asks for them. Building the tree is one call that asks all the time, so that is where a stop
-/// gets through; searching asks from many threads, and has its own.
-class TreePoints {
- public:
-  TreePoints(const PointCloud& points, const std::stop_token& stop) : points_(points), stop_(stop) {}
-
-  std::size_t kdtree_get_point_count() const { return points_.size(); }
-  float kdtree_get_pt(std::size_t point, std::size_t axis) const {
-    if (building_ && ++asked_ % (1 << 16) == 0) throw_if_stopped(stop_);
-    return points_[point][Eigen::Index(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-  void built() { building_ = false; }
-
- private:
-  const PointCloud& points_;
-  const std::stop_token& stop_;
-  bool building_ = true;
-  mutable std::size_t asked_ = 0;
-};
-
-/// Mean distance of each point to its nearest neighbours [m]; missing neighbours count as 0, as in PCL.
-std::vector<float> neighbour_distances(const PointCloud& points, int neighbours, const std::stop_token& stop) {
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>, TreePoints, 3,
-                                                   std::uint32_t>;
-  constexpr std::size_t largest_leaf = 15;  // PCL's
-  TreePoints tree_points(points, stop);
-  const Tree tree(3, tree_points, {largest_leaf});
-  tree_points.built();
-  std::vector<float> distances(points.size());
-  const auto wanted = static_cast<std::size_t>(neighbours) + 1;  // one more: the point finds itself first
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1024), [&](const auto& range) {
-    if (stop.stop_requested()) return;
-    std::vector<std::uint32_t> indices(wanted);
-    std::vector<float> squared(wanted);
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const std::size_t found = tree.knnSearch(points[i].data(), wanted, indices.data(), squared.data());
-      double sum = 0.0;
-      for (std::size_t k = 1; k < found; ++k) sum += std::sqrt(static_cast<double>(squared[k]));
-      distances[i] = static_cast<float>(sum / neighbours);
-    }
-  });
-  throw_if_stopped(stop);
-  return distances;
 }
 
 /// Keeps what pcl::StatisticalOutlierRemoval keeps, with its rounding. PCL's filter searches on one thread, and neither

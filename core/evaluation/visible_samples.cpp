@@ -1,5 +1,7 @@
 #include "core/evaluation/visible_samples.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,10 +15,12 @@ double resolved_range(const PinholeCamera& camera, double cosine, double d_reg) 
   return std::min(camera.fx, camera.fy) * 2.0 * d_reg / std::sqrt(1.0 + 1.0 / (cosine * cosine));
 }
 
-std::vector<std::uint32_t> visible_samples(const SampledSurface& surface, const MeshRayCaster& scene,
-                                           const DepthCamera& camera, const Pose& T_world_camera,
-                                           std::span<const std::uint32_t> asked, double d_reg,
-                                           const std::stop_token& stop) {
+namespace {
+
+/// Those of some samples.
+std::vector<std::uint32_t> visible_of(const SampledSurface& surface, const MeshRayCaster& scene,
+                                      const DepthCamera& camera, const Pose& T_world_camera,
+                                      std::span<const std::uint32_t> asked, double d_reg) {
   const DepthCameraConfig& config = camera.config();
   const Eigen::Vector3f origin = T_world_camera.translation().cast<float>();
   const Pose T_camera_world = T_world_camera.inverse();
@@ -25,10 +29,7 @@ std::vector<std::uint32_t> visible_samples(const SampledSurface& surface, const 
   std::vector<std::uint32_t> in_image;
   std::vector<Eigen::Vector3f> directions;
   std::vector<float> ranges;
-  constexpr std::size_t between_looks = 1 << 14;  // at the stop token
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (i % between_looks == 0) throw_if_stopped(stop);
-    const std::uint32_t s = asked[i];
+  for (const std::uint32_t s : asked) {
     const Eigen::Vector3f to_sample = surface.points[s] - origin;
     const float range = to_sample.norm();
     const Vector3 in_camera = T_camera_world * surface.points[s].cast<double>();
@@ -50,6 +51,25 @@ std::vector<std::uint32_t> visible_samples(const SampledSurface& surface, const 
   std::vector<std::uint32_t> seen;
   for (std::size_t i = 0; i < in_image.size(); ++i)
     if (hits[i].range > ranges[i] - tolerance) seen.push_back(in_image[i]);
+  return seen;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> visible_samples(const SampledSurface& surface, const MeshRayCaster& scene,
+                                           const DepthCamera& camera, const Pose& T_world_camera,
+                                           std::span<const std::uint32_t> asked, double d_reg,
+                                           const std::stop_token& stop) {
+  constexpr std::size_t at_once = 4096;
+  std::vector<std::vector<std::uint32_t>> parts((asked.size() + at_once - 1) / at_once);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    if (stop.stop_requested()) return;
+    const auto some = asked.subspan(part * at_once, std::min(at_once, asked.size() - part * at_once));
+    parts[part] = visible_of(surface, scene, camera, T_world_camera, some, d_reg);
+  });
+  throw_if_stopped(stop);
+  std::vector<std::uint32_t> seen;
+  for (const auto& part : parts) seen.insert(seen.end(), part.begin(), part.end());
   return seen;
 }
 

@@ -8,32 +8,37 @@
 namespace nextview {
 namespace {
 
-bool is_unknown(const RayVoxel& v) { return v.voxel_class == VoxelClass::unknown; }  // unmeasured ones are, at p = 0.5
-bool is_occupied(const RayVoxel& v) { return v.voxel_class == VoxelClass::occupied; }
-bool is_behind_surface(const RayVoxel& v) { return !v.measured && v.occlusion_distance > 0; }
+bool is_unknown(const Voxel& v) { return v.voxel_class == VoxelClass::unknown; }  // unmeasured ones are, at p = 0.5
+bool is_occupied(const Voxel& v) { return v.voxel_class == VoxelClass::occupied; }
+bool is_behind_surface(const Voxel& v) { return !v.measured && v.occlusion_distance > 0; }
 
 /// Most gains are their first sum.
 GainValue plain_sum(const GainSums& s) { return {s.sum[0], {1.0, 0.0, 0.0}}; }
 
 /// Below, pi_i is the visibility of voxel v_i on a ray, H its entropy [nats], v_N the voxel that ends the ray; sums are
 /// over the voxels of all rays of a view. Each gain: `ray` calls add(voxel's place on the ray, which sum, how much).
-/// Occlusion aware (Isler et al. 2016): sum of pi_i H(p_i).
-struct OcclusionAware {
+/// Of gains that are what each voxel is worth, whatever else is on the ray: rays in lanes add these up (ray_lanes.hpp).
+template <class G, bool weighs>
+struct SumOfVoxels {
+  static constexpr bool weighs_visibility = weighs;
   template <class Add>
   static void ray(const Ray& ray, GainSums&, Add add) {
-    for (std::size_t i = 0; i < ray.voxels.size(); ++i) add(i, 0, ray.visibility[i] * ray.voxels[i].entropy);
+    for (std::size_t i = 0; i < ray.voxels.size(); ++i) {
+      const double worth = G::worth(ray.voxels[i], ray.occlusion_reach);
+      add(i, 0, weighs ? ray.visibility[i] * worth : worth);
+    }
   }
   static constexpr auto value = plain_sum;
 };
 
+/// Occlusion aware (Isler et al. 2016): sum of pi_i H(p_i).
+struct OcclusionAware : SumOfVoxels<OcclusionAware, true> {
+  static double worth(const Voxel& v, double) { return v.entropy; }
+};
+
 /// Unobserved voxel (Isler et al. 2016): sum of pi_i H(p_i) over unknown voxels.
-struct UnobservedVoxel {
-  template <class Add>
-  static void ray(const Ray& ray, GainSums&, Add add) {
-    for (std::size_t i = 0; i < ray.voxels.size(); ++i)
-      if (is_unknown(ray.voxels[i])) add(i, 0, ray.visibility[i] * ray.voxels[i].entropy);
-  }
-  static constexpr auto value = plain_sum;
+struct UnobservedVoxel : SumOfVoxels<UnobservedVoxel, true> {
+  static double worth(const Voxel& v, double) { return is_unknown(v) ? v.entropy : 0.0; }
 };
 
 /// Rear side voxel (Isler et al. 2016): the number of occupied v_i whose v_(i-1) is unknown.
@@ -59,13 +64,10 @@ struct RearSideEntropy {
 };
 
 /// Proximity count (Isler et al. 2016): sum of d_max - d(v_i) over unmeasured v_i at d behind a surface.
-struct ProximityCount {
-  template <class Add>
-  static void ray(const Ray& ray, GainSums&, Add add) {
-    for (std::size_t i = 0; i < ray.voxels.size(); ++i)
-      if (is_behind_surface(ray.voxels[i])) add(i, 0, ray.occlusion_reach - ray.voxels[i].occlusion_distance);
+struct ProximityCount : SumOfVoxels<ProximityCount, false> {
+  static double worth(const Voxel& v, double occlusion_reach) {
+    return is_behind_surface(v) ? occlusion_reach - v.occlusion_distance : 0.0;
   }
-  static constexpr auto value = plain_sum;
 };
 
 /// Area factor (Vasquez-Gomez et al. 2014): f(n_o/n; 0.2) + f(n_p/n; 0.8), of n ray ends n_o occupied, n_p occluded.
@@ -128,13 +130,20 @@ struct AverageEntropy {
 
 /// Gibbs (Eqs. 10-11): sum of H(p_i), p the posterior: every voxel counts in full, as the ray ends where the posterior
 /// says 'occupied'.
-struct Gibbs {
-  template <class Add>
-  static void ray(const Ray& ray, GainSums&, Add add) {
-    for (std::size_t i = 0; i < ray.voxels.size(); ++i) add(i, 0, ray.voxels[i].entropy);
-  }
-  static constexpr auto value = plain_sum;
+struct Gibbs : SumOfVoxels<Gibbs, false> {
+  static double worth(const Voxel& v, double) { return v.entropy; }
 };
+
+template <class G>
+constexpr auto worth_in() -> double (*)(const Voxel&, double) {
+  if constexpr (requires { G::weighs_visibility; }) return G::worth;
+  return nullptr;
+}
+template <class G>
+constexpr bool weighs_visibility() {
+  if constexpr (requires { G::weighs_visibility; }) return G::weighs_visibility;
+  return false;
+}
 
 template <class G>
 constexpr Gain make(std::string_view name, std::string_view unit, std::string_view summary,
@@ -144,6 +153,8 @@ constexpr Gain make(std::string_view name, std::string_view unit, std::string_vi
           summary,
           needs_occlusion,
           needs_posterior,
+          worth_in<G>(),
+          weighs_visibility<G>(),
           [](const Ray& ray, GainSums& sums) {
             G::ray(ray, sums, [&sums](std::size_t, int k, double amount) { sums.sum[k] += amount; });
           },

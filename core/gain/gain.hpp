@@ -43,6 +43,10 @@ struct Gain {
   bool needs_occlusion;      ///< wants OccupancyMap::mark_occlusions
   bool needs_posterior;      ///< is of the Gibbs map, and has published semantics only
 
+  /// What a voxel adds to the first sum, where it takes nothing but the voxel to tell; else null, as is the rest.
+  double (*worth)(const Voxel& voxel, double occlusion_reach);
+  bool weighs_visibility;  ///< ... times how likely the ray gets there
+
   /// Adds one ray to the sums of its view.
   void (*add_ray)(const Ray& ray, GainSums& sums);
   /// The value of a view whose rays have been added.

@@ -1,5 +1,6 @@
 #include "core/gain/map_rays.hpp"
 
+#include "core/gain/state_field.hpp"
 #include "core/map/traversal.hpp"
 
 namespace nextview {
@@ -21,6 +22,12 @@ void MapRays::cast(const Vector3& origin, const Vector3& direction, std::vector<
     return !(voxel.measured && voxel.probability >= occupancy_threshold_);
   });
   visited.resize(next - visited.data());
+}
+
+std::optional<WorthOfMap> MapRays::worth_of_map(const Gain& gain, double occlusion_reach) const {
+  std::optional<StateField> field = state_field(grid_, voxels_, occupancy_threshold_, gain, occlusion_reach);
+  if (!field) return std::nullopt;
+  return WorthOfMap{grid_, max_range_, *std::move(field)};
 }
 
 }  // namespace nextview

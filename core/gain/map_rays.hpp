@@ -12,6 +12,7 @@ class MapRays : public RayCaster {
  public:
   MapRays(const VoxelGrid& grid, VoxelBricks voxels, double occupancy_threshold, double max_range);
   void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const override;
+  std::optional<WorthOfMap> worth_of_map(const Gain& gain, double occlusion_reach) const override;
 
  private:
   VoxelGrid grid_;

@@ -15,14 +15,13 @@ constexpr double square_centimetres = 1e4;  // in a square metre
 constexpr double negligible = 1e-3;         // reach at which a ray is given up
 
 /// Calls `visit(x, y, z, reach, found)` for the voxels of the field on a ray: how likely it gets there, and how likely
-/// it finds new surface there.
+/// it finds new surface there. What find_along_rays does for many rays at once, as it is meant to be read.
 template <class Visit>
 void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& direction, double length, Visit visit) {
   const VoxelGrid& grid = field.grid();
-  const std::size_t row = grid.size.x(), layer = row * grid.size.y();
   double reach = 1.0;
   walk_ray_segments(grid, origin, direction, length, [&](int x, int y, int z, double enter, double exit) {
-    const float chance = field.at(z * layer + y * row + x);
+    const float chance = field.at(x, y, z);
     if (chance == 0.0f) return true;
     const double found = reach * std::abs(chance), range = 0.5 * (enter + exit);
     visit(x, y, z, reach, found * range * range);
@@ -34,29 +33,55 @@ void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& 
 }  // namespace
 
 NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model)
-    : grid_(evidence.grid()), chances_(grid_.voxel_count()) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chances_.size(), 4096), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) chances_[i] = model.chance(evidence, i);
+    : grid_(evidence.grid()), chances_(places_with_margin(grid_), ChanceField::outside) {
+  const std::size_t rows = std::size_t(grid_.size.y()) * grid_.size.z();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, 32), [&](const auto& range) {
+    for (std::size_t row = range.begin(); row != range.end(); ++row) {
+      const int y = static_cast<int>(row % grid_.size.y()), z = static_cast<int>(row / grid_.size.y());
+      float* const chances = &chances_[place_with_margin(grid_, 0, y, z)];
+      for (int x = 0; x < grid_.size.x(); ++x) chances[x] = model.chance(evidence, grid_.index({x, y, z}));
+    }
   });
 }
 
 namespace {
 
-/// The new surface that one view is expected to see [cm^2]. `visit(x, y, z, area)` gets the area across a ray [m^2].
-template <class Visit>
+/// The new surface that one view is expected to see [cm^2], and where, if `finds` is not null.
 double area_of_view(const NewSurfaceField& field, const Pose& view, const RayBundle& bundle,
-                    const NewSurfaceOptions& options, Visit visit) {
+                    const NewSurfaceOptions& options, Finds* finds) {
+  std::vector<Vector3> directions;
+  for (const Vector3& direction : bundle.directions) directions.emplace_back(view.linear() * direction);
+  std::vector<double> of_rays(directions.size());
+  find_along_rays({field.grid(), view.translation(), directions, options.ray_length}, {field.chances(), negligible},
+                  of_rays, finds);
   double area = 0.0;
-  for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
-    double of_ray = 0.0;
-    follow(field, view.translation(), view.linear() * bundle.directions[i], options.ray_length,
-           [&](int x, int y, int z, double, double found) {
-             of_ray += found;
-             visit(x, y, z, found * bundle.solid_angles[i]);
-           });
-    area += of_ray * bundle.solid_angles[i];
-  }
+  for (std::size_t i = 0; i < of_rays.size(); ++i) area += of_rays[i] * bundle.solid_angles[i];
   return square_centimetres * options.slant * area;
+}
+
+/// The map's part in which each voxel lies, by its place with margin, and how many parts there are.
+struct Parts {
+  std::vector<std::uint32_t> of_place;
+  std::size_t count;
+};
+Parts parts_of(const VoxelGrid& grid) {
+  const Eigen::Vector3i parts = (grid.size + Eigen::Vector3i::Constant(7)) / 8;
+  std::vector<std::uint32_t> of_place(places_with_margin(grid));
+  tbb::parallel_for(0, grid.size.z(), [&](int z) {
+    for (int y = 0; y < grid.size.y(); ++y)
+      for (int x = 0; x < grid.size.x(); ++x)
+        of_place[place_with_margin(grid, x, y, z)] =
+            std::uint32_t(((z >> 3) * parts.y() + (y >> 3)) * parts.x() + (x >> 3));
+  });
+  return {std::move(of_place), static_cast<std::size_t>(parts.prod())};
+}
+
+/// Adds up, ray by ray, how much of a view's new surface lies in each part.
+void add_to_parts(const Finds& finds, const RayBundle& bundle, double worth, const Parts& parts,
+                  std::vector<float>& areas) {
+  for (std::size_t ray = 0; ray < finds.begins.size(); ++ray)
+    for (std::size_t i = finds.begins[ray]; i < finds.ends[ray]; ++i)
+      areas[parts.of_place[finds.finds[i].place]] += float(worth * (finds.finds[i].area * bundle.solid_angles[ray]));
 }
 
 }  // namespace
@@ -66,7 +91,7 @@ std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span
                                          std::stop_token stop) {
   std::vector<double> areas(views.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
-    if (!stop.stop_requested()) areas[v] = area_of_view(field, views[v], bundle, options, [](int, int, int, double) {});
+    if (!stop.stop_requested()) areas[v] = area_of_view(field, views[v], bundle, options, nullptr);
   });
   return areas;
 }
@@ -74,17 +99,16 @@ std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span
 NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
                                         const RayBundle& bundle, const NewSurfaceOptions& options,
                                         std::stop_token stop) {
-  const Eigen::Vector3i parts = (field.grid().size + Eigen::Vector3i::Constant(7)) / 8;
+  const Parts parts = parts_of(field.grid());
   NewSurfaceForecast forecast;
-  forecast.part_count = static_cast<std::size_t>(parts.prod());
+  forecast.part_count = parts.count;
   forecast.areas.assign(views.size(), 0.0);
   forecast.parts.assign(views.size(), std::vector<float>(forecast.part_count, 0.0f));
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
-    const double worth = square_centimetres * options.slant;
-    forecast.areas[v] = area_of_view(field, views[v], bundle, options, [&](int x, int y, int z, double area) {
-      forecast.parts[v][std::size_t(((z >> 3) * parts.y() + (y >> 3)) * parts.x() + (x >> 3))] += float(worth * area);
-    });
+    Finds finds;
+    forecast.areas[v] = area_of_view(field, views[v], bundle, options, &finds);
+    add_to_parts(finds, bundle, square_centimetres * options.slant, parts, forecast.parts[v]);
   });
   for (std::size_t part = 0; part < forecast.part_count; ++part) {
     float most = 0.0f;

@@ -5,6 +5,7 @@
 
 #include "core/gain/new_surface_model.hpp"
 #include "core/gain/ray.hpp"
+#include "core/gain/ray_lanes.hpp"
 #include "core/gain/view_score.hpp"
 
 namespace nextview {
@@ -14,12 +15,18 @@ class NewSurfaceField {
  public:
   NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model);
 
-  const VoxelGrid& grid() const { return grid_; }                ///< no surface is expected outside
-  float at(std::size_t voxel) const { return chances_[voxel]; }  ///< NewSurfaceModel::chance
+  const VoxelGrid& grid() const { return grid_; }  ///< no surface is expected outside
+  /// NewSurfaceModel::chance
+  float at(int x, int y, int z) const { return chances_[place_with_margin(grid_, x, y, z)]; }
+  float at(std::size_t voxel) const {
+    const Eigen::Vector3i cell = grid_.cell(static_cast<std::uint32_t>(voxel));
+    return at(cell.x(), cell.y(), cell.z());
+  }
+  std::span<const float> chances() const { return chances_; }  ///< as ChanceField has them
 
  private:
   VoxelGrid grid_;
-  std::vector<float> chances_;
+  std::vector<float> chances_;  ///< with margin
 };
 
 /// How far rays are followed, and what an area across them is worth.

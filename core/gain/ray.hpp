@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/gain/ray_lanes.hpp"
 #include "core/map/occupancy.hpp"
 #include "core/view/pinhole_camera.hpp"
 
@@ -19,6 +20,15 @@ struct RayVoxel : Voxel {
   std::array<std::int16_t, 3> lattice{};  ///< voxel n spans [n, n+1) * resolution along each axis
 };
 
+struct Gain;
+
+/// What the voxels of a map are worth to a gain, and how far rays go in it.
+struct WorthOfMap {
+  VoxelGrid grid;
+  double max_range;  ///< [m]
+  StateField field;
+};
+
 /// Tells which voxels a ray visits: v_0 ... v_N, up to the first measured voxel with p >= the occupancy threshold, or
 /// to the maximum range.
 class RayCaster {
@@ -26,6 +36,9 @@ class RayCaster {
   virtual ~RayCaster() = default;
   /// `direction` is of unit length. `visited` is overwritten. Safe to call from several threads.
   virtual void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const = 0;
+  /// The same rays through what the voxels are worth to a gain (Gain::worth), for rays in lanes; none where they must
+  /// be cast one by one.
+  virtual std::optional<WorthOfMap> worth_of_map(const Gain&, double /*occlusion_reach*/) const { return std::nullopt; }
 };
 
 /// The rays that score a view: unit directions in the camera frame, through a regular grid of its pixels.

@@ -12,7 +12,7 @@ namespace nextview {
 struct ViewScore {
   std::vector<double> gains;  ///< in the order of the gains asked for
   std::size_t rays = 0;
-  std::size_t voxels = 0;     ///< visited, over all rays
+  std::size_t voxels = 0;     ///< visited, over all rays; without those that could change nothing any more
   double milliseconds = 0.0;  ///< how long this view took; the only field that differs from run to run
 };
 

@@ -221,6 +221,7 @@ void mark_rays(const RayBatch& batch) {
       bool any = false;
       for (int row = 0; row < rows; ++row) any |= advance(walks[row], places + row * lanes);
       if (!any) break;
+#pragma GCC unroll 32
       for (std::size_t i = 0; i < rows * lanes; ++i) leave_mark(batch.marks[places[i]]);
     }
   }

@@ -38,6 +38,8 @@ class VoxelBricks {
       return measured(i) ? std::uint16_t{0} : static_cast<std::uint16_t>(numbers_[i]);
     }
     float entropy(std::size_t i) const { return told_.empty() ? belief(log_odds(i)).entropy : told_[i].entropy; }
+    /// Whether probability and entropy follow from the log-odds, as in an occupancy map.
+    bool follows_from_log_odds() const { return told_.empty(); }
     std::size_t measured_count() const;
 
     void set_measured(std::size_t i, float log_odds, VoxelClass voxel_class) {
@@ -141,6 +143,8 @@ class VoxelBricks {
 
   /// What the bricks take that hold anything [bytes].
   std::size_t bytes() const;
+  /// Whether they are copies, and neither was changed since.
+  bool shares_all_with(const VoxelBricks& other) const { return table_.shares_with(other.table_); }
   /// What of it `other`, of the same size, does not share [bytes].
   std::size_t bytes_beside(const VoxelBricks& other) const;
 

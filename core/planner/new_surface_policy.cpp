@@ -51,12 +51,30 @@ double promise_kept(std::span<const TakenView> taken) {
   return kept;
 }
 
+std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowledge& known) const {
+  const auto is_of = [&](const Seen& seen) {
+    return seen.planned_on.shares_all_with(known.planning_voxels()) &&
+           seen.occlusions.shares_all_with(known.map.voxels());
+  };
+  {
+    const std::scoped_lock lock(seeing_);
+    if (last_seen_ && is_of(*last_seen_)) return last_seen_;
+  }
+  SurfaceEvidence evidence = surface_evidence(known);
+  NewSurfaceField field(evidence, model_);
+  auto seen = std::make_shared<const Seen>(
+      Seen{known.planning_voxels(), known.map.voxels(), std::move(evidence), std::move(field)});
+  const std::scoped_lock lock(seeing_);
+  last_seen_ = seen;
+  return seen;
+}
+
 Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
                                    std::stop_token stop) const {
   std::vector<Pose> views;
   for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
   NewSurfaceForecast forecast =
-      forecast_new_surface({surface_evidence(state.known), model_}, views, state.bundle, options(state), stop);
+      forecast_new_surface(see(state.known)->field, views, state.bundle, options(state), stop);
   const double seen = state.known.scanned ? model_.square_centimetres(state.known.scanned->area()) : 0.0;
   if (!(seen > 0.0)) return std::move(forecast.areas);
   SetCover few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
@@ -67,20 +85,20 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {
   std::string text = short_text(value) + " cm² of new surface";
   if (!(value > 0.0)) return text;
-  const SurfaceEvidence evidence = surface_evidence(state.known);
-  const std::string where =
-      side(explanation(evidence, state, T_world_camera), evidence.object().center(), evidence.grid().resolution);
+  const std::shared_ptr<const Seen> seen = see(state.known);
+  const std::string where = side(explanation(*seen, state, T_world_camera), seen->evidence.object().center(),
+                                 seen->evidence.grid().resolution);
   return where.empty() ? text : text + ", most of it " + where;
 }
 
 std::optional<ScoreExplanation> NewSurfacePolicy::explain(const PlanningState& state,
                                                           const Pose& T_world_camera) const {
-  return explanation(surface_evidence(state.known), state, T_world_camera);
+  return explanation(*see(state.known), state, T_world_camera);
 }
 
-ScoreExplanation NewSurfacePolicy::explanation(const SurfaceEvidence& evidence, const PlanningState& state,
+ScoreExplanation NewSurfacePolicy::explanation(const Seen& seen, const PlanningState& state,
                                                const Pose& T_world_camera) const {
-  return explain_new_surface({evidence, model_}, state.known.map.grid(), state.known.planning_voxels(), T_world_camera,
+  return explain_new_surface(seen.field, state.known.map.grid(), state.known.planning_voxels(), T_world_camera,
                              state.bundle, options(state));
 }
 

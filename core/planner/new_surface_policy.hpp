@@ -1,4 +1,7 @@
 #pragma once
+#include <memory>
+#include <mutex>
+
 #include "core/gain/new_surface.hpp"
 #include "core/planner/policy.hpp"
 
@@ -25,14 +28,23 @@ class NewSurfacePolicy : public Policy {
   std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
 
  private:
-  ScoreExplanation explanation(const SurfaceEvidence& evidence, const PlanningState& state,
-                               const Pose& T_world_camera) const;
+  /// What maps say, and of which voxels.
+  struct Seen {
+    VoxelBricks planned_on, occlusions;
+    SurfaceEvidence evidence;
+    NewSurfaceField field;
+  };
+  /// Made once for maps that are asked about several times in a row. From any thread.
+  std::shared_ptr<const Seen> see(const Knowledge& known) const;
+  ScoreExplanation explanation(const Seen& seen, const PlanningState& state, const Pose& T_world_camera) const;
   NewSurfaceOptions options(const PlanningState& state) const {
     return {state.config.ray_length, promise_kept(state.taken) * model_.slant};
   }
 
   NewSurfaceModel model_;
   bool on_posterior_;  ///< what is occupied, free or unknown is taken from the Gibbs map
+  mutable std::mutex seeing_;
+  mutable std::shared_ptr<const Seen> last_seen_;
 };
 
 }  // namespace nextview

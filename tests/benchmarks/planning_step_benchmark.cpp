@@ -1,16 +1,21 @@
-// A whole planning step (sense at 640 x 480, insert, score 48 candidates at 950 rays each by one gain), and the same
-// step composed of OctoMap's own calls, in one run; then each stage alone with its rays and voxel steps per second.
-//   build/release/planning_step_benchmark                          both, on all threads
-//   build/release/planning_step_benchmark --benchmark_filter=Step  the two whole steps only
-#include <benchmark/benchmark.h>
+// A whole planning step (sense at 640 x 480, insert, score 48 candidates at 950 rays each by one gain) and its stages,
+// against the same composed of OctoMap's own calls. What is compared takes turns in one run, and the least of the
+// rounds counts: ratios then say something on a machine that does other things too.
+//   build/release/planning_step_benchmark [ROUNDS]     3 of them
+//   build/release/planning_step_benchmark --product    one round without OctoMap: whether it runs
 #include <fmt/format.h>
 #include <octomap/OcTree.h>
 
-#include <map>
-#include <memory>
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <string_view>
 
 #include "core/config/configuration.hpp"
 #include "core/gain/map_rays.hpp"
+#include "core/gain/new_surface.hpp"
 #include "core/gain/view_score.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/mesh/mesh_file.hpp"
@@ -22,7 +27,7 @@ namespace {
 constexpr double max_range = 1.5;
 constexpr int views_before = 5;  // the map is neither empty nor done
 
-/// The default scan's parts, and a map after a few views; as OctoMap's tree, too, once fill_tree() was called.
+/// The default scan's parts, and a map after a few views; as OctoMap's trees, too, once fill_trees() was called.
 struct Setup {
   Configuration configuration;
   TriangleMesh mesh = load_mesh(default_object());
@@ -31,33 +36,45 @@ struct Setup {
   std::vector<Pose> candidates = candidate_views(configuration.views, Vector3::Zero());
   RayBundle bundle = RayBundle::regular(camera.camera());
   OccupancyMap map{region_of_interest(Vector3::Zero(), 1.28, 0.01), InverseSensorModel{}};
-  octomap::OcTree tree{0.01};
-  const Gain* gain = &nextview::gain("occlusion-aware");
+  octomap::OcTree tree{0.01}, discretised_tree{0.01};
+  Scan scan = sense(20);
+  std::size_t voxel_steps = 0;
 
   Setup() {
     for (int v = 0; v < views_before; ++v) map.insert(sense(9 * v));
   }
-  /// It takes long, and only the step of OctoMap's calls needs it.
-  void fill_tree() {
-    if (tree.size() > 0) return;
-    for (int v = 0; v < views_before; ++v) insert_into_tree(sense(9 * v));
+  /// It takes long, and only OctoMap's calls need them.
+  void fill_trees() {
+    for (int v = 0; v < views_before; ++v) {
+      insert_into(tree, sense(9 * v), false);
+      insert_into(discretised_tree, sense(9 * v), true);
+    }
   }
   Scan sense(int view) const {
     return back_project(camera.sense(scene, candidates[view], 1, view), candidates[view], max_range);
   }
-  void insert_into_tree(const Scan& scan) {
+  /// `discretised`: one ray for all points in a voxel, which misses some voxels, and inner nodes updated at the end.
+  void insert_into(octomap::OcTree& into, const Scan& from, bool discretised) const {
     octomap::Pointcloud cloud;
-    const Eigen::Vector3f origin = scan.origin.cast<float>();
-    for (const auto& p : scan.hits) cloud.push_back(p.x(), p.y(), p.z());
-    for (const auto& p : scan.misses) {  // a little beyond the range, so that they carve and do not hit
+    const Eigen::Vector3f origin = from.origin.cast<float>();
+    for (const auto& p : from.hits) cloud.push_back(p.x(), p.y(), p.z());
+    for (const auto& p : from.misses) {  // a little beyond the range, so that they carve and do not hit
       const Eigen::Vector3f q = origin + 1.01f * (p - origin);
       cloud.push_back(q.x(), q.y(), q.z());
     }
-    tree.insertPointCloud(cloud, octomap::point3d(origin.x(), origin.y(), origin.z()), max_range);
+    into.insertPointCloud(cloud, octomap::point3d(origin.x(), origin.y(), origin.z()), max_range, discretised,
+                          discretised);
+    if (discretised) into.updateInnerOccupancy();
   }
-  std::vector<ViewScore> score() const {
+  void score() {
+    const Gain* const gain = &nextview::gain("occlusion-aware");
     const MapRays rays(map.grid(), map.voxels(), map.model().occupancy_threshold, max_range);
-    return score_views(rays, candidates, bundle, std::span(&gain, 1));
+    voxel_steps = 0;
+    for (const ViewScore& view : score_views(rays, candidates, bundle, {&gain, 1})) voxel_steps += view.voxels;
+  }
+  void score_new_surface() const {
+    const SurfaceEvidence evidence(map.grid(), map.voxels(), map.voxels(), map.model().occupancy_threshold);
+    forecast_new_surface({evidence, NewSurfaceModel::fitted()}, candidates, bundle, {});
   }
   double score_with_octomap() const {
     double best = 0.0;
@@ -86,89 +103,92 @@ struct Setup {
   }
 };
 
-Setup& setup() {
-  static Setup instance;
-  return instance;
-}
+/// The least of several rounds [ms].
+struct Least {
+  double waited = std::numeric_limits<double>::infinity();
+  double processor = waited;  ///< of all threads
 
-void Step_Nextview(benchmark::State& state) {
-  Setup& s = setup();
-  for (auto _ : state) {
-    const Scan scan = s.sense(20);
-    s.map.insert(scan);
-    benchmark::DoNotOptimize(s.score());
+  void keep(const std::function<void()>& work) {
+    const std::clock_t processor_start = std::clock();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    waited =
+        std::min(waited, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    processor = std::min(processor, 1e3 * double(std::clock() - processor_start) / CLOCKS_PER_SEC);
   }
-}
-
-void Step_OctoMap(benchmark::State& state) {
-  Setup& s = setup();
-  s.fill_tree();
-  for (auto _ : state) {
-    const Scan scan = s.sense(20);
-    s.insert_into_tree(scan);
-    benchmark::DoNotOptimize(s.score_with_octomap());
-  }
-}
-
-void Stage_Sense(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(setup().camera.sense(setup().scene, setup().candidates[20], 1, 20));
-  state.counters["rays/s"] = benchmark::Counter(640.0 * 480.0, benchmark::Counter::kIsIterationInvariantRate);
-}
-
-void Stage_Insert(benchmark::State& state) {
-  Setup& s = setup();
-  const Scan scan = s.sense(20);
-  for (auto _ : state) s.map.insert(scan);
-  state.counters["rays/s"] =
-      benchmark::Counter(double(scan.hits.size() + scan.misses.size()), benchmark::Counter::kIsIterationInvariantRate);
-}
-
-void Stage_Score(benchmark::State& state) {
-  Setup& s = setup();
-  double rays = 0.0, voxels = 0.0;
-  for (const ViewScore& v : s.score()) {
-    rays += double(v.rays);
-    voxels += double(v.voxels);
-  }
-  for (auto _ : state) benchmark::DoNotOptimize(s.score());
-  state.counters["rays/s"] = benchmark::Counter(rays, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["voxel steps/s"] = benchmark::Counter(voxels, benchmark::Counter::kIsIterationInvariantRate);
-}
-
-// Real time: what a user waits for, on all threads. The median of repetitions that take turns with the other step's.
-BENCHMARK(Step_Nextview)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
-BENCHMARK(Step_OctoMap)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
-BENCHMARK(Stage_Sense)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(Stage_Insert)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(Stage_Score)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-/// Prints as always, and keeps the medians for the ratio.
-class RatioReporter : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs)
-      if (run.aggregate_name == "median") median_[run.run_name.function_name] = run.GetAdjustedRealTime();
-  }
-  void print_ratio() const {
-    const auto ours = median_.find("Step_Nextview"), octomap = median_.find("Step_OctoMap");
-    if (ours == median_.end() || octomap == median_.end()) return;
-    fmt::print(
-        "\nA planning step is {:.1f} times faster than composed of OctoMap's calls ({:.1f} ms against {:.1f} ms, "
-        "medians).\n",
-        octomap->second / ours->second, ours->second, octomap->second);
-  }
-
- private:
-  std::map<std::string, double> median_;
 };
+
+/// Something timed, and what it is compared with.
+struct Line {
+  std::string_view name;
+  std::function<void()> product;
+  std::string_view peer = {};
+  std::function<void()> theirs = {};
+  Least ours = {}, peers = {};
+};
+
+std::vector<Line> lines(Setup& s) {
+  const auto step = [&s] {
+    s.scan = s.sense(20);
+    s.map.insert(s.scan);
+    s.score();
+  };
+  const auto octomap_step = [&s] {
+    s.scan = s.sense(20);
+    s.insert_into(s.tree, s.scan, false);
+    s.score_with_octomap();
+  };
+  const auto insert = [&s] { s.map.insert(s.scan); };
+  return {
+      {"sense, back-project", [&s] { s.scan = s.sense(20); }},
+      {"insert", insert, "OctoMap: insertPointCloud", [&s] { s.insert_into(s.tree, s.scan, false); }},
+      {"insert", insert, "... discretised and lazy", [&s] { s.insert_into(s.discretised_tree, s.scan, true); }},
+      {"score, occlusion-aware", [&s] { s.score(); }, "OctoMap: castRay, computeRayKeys, search",
+       [&s] { s.score_with_octomap(); }},
+      {"score, new-surface", [&s] { s.score_new_surface(); }},
+      {"whole step", step, "composed of OctoMap's calls", octomap_step},
+  };
+}
+
+void print(const std::vector<Line>& table, const Setup& s) {
+  fmt::print("{:<22}{:>8}{:>10}  {:<42}{:>8}{:>10}{:>8}{:>10}\n", "[ms]", "waited", "processor", "peer", "waited",
+             "processor", "ratio", "per core");
+  for (const Line& line : table) {
+    fmt::print("{:<22}{:>8.1f}{:>10.1f}  {:<42}", line.name, line.ours.waited, line.ours.processor, line.peer);
+    if (std::isfinite(line.peers.waited))
+      fmt::print("{:>8.1f}{:>10.1f}{:>8.1f}{:>10.1f}", line.peers.waited, line.peers.processor,
+                 line.peers.waited / line.ours.waited, line.peers.processor / line.ours.processor);
+    fmt::print("\n");
+  }
+  const double rays = double(s.scan.hits.size() + s.scan.misses.size());
+  fmt::print("\n{:.0f} rays inserted, {:.0f} scored over {:.1f} million voxels that could matter\n", rays,
+             double(s.candidates.size() * s.bundle.directions.size()), 1e-6 * double(s.voxel_steps));
+  const Least &ours = table.back().ours, &peers = table.back().peers;
+  if (std::isfinite(peers.waited))
+    fmt::print(
+        "\nA planning step is {:.1f} times faster than composed of OctoMap's calls ({:.1f} ms against {:.1f} ms).\n",
+        peers.waited / ours.waited, ours.waited, peers.waited);
+}
+
+int run(int rounds, bool with_peers) {
+  Setup setup;
+  if (with_peers) setup.fill_trees();
+  std::vector<Line> table = lines(setup);
+  for (int round = 0; round < rounds; ++round)
+    for (Line& line : table) {
+      // What is fast gets more turns: its least is then as sure as the other's.
+      for (int turn = 0; turn < (with_peers ? 10 : 1); ++turn) line.ours.keep(line.product);
+      if (with_peers && line.theirs) line.peers.keep(line.theirs);
+    }
+  print(table, setup);
+  return EXIT_SUCCESS;
+}
 
 }  // namespace
 }  // namespace nextview
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  nextview::RatioReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  reporter.print_ratio();
+  const std::string_view argument = argc > 1 ? argv[1] : "";
+  if (argument == "--product") return nextview::run(1, false);
+  return nextview::run(argument.empty() ? 3 : std::max(1, std::atoi(argv[1])), true);
 }

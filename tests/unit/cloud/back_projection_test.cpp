@@ -50,5 +50,27 @@ TEST(BackProjection, BeyondRangePassesAtMaximumRangeAndInvalidSaysNothing) {
   EXPECT_NEAR(image.camera.project(in_camera).x(), 2.0, 1e-4);
 }
 
+// Rows are done side by side; the order is the image's.
+TEST(BackProjection, PointsStandInTheOrderOfPixels) {
+  DepthImage image = image_of(23, 19, 0.5f);
+  for (std::size_t i = 0; i < image.range.size(); ++i) {
+    if (i * i % 7 < 3) image.range[i] = DepthImage::beyond_range;
+    if (i * i % 11 < 3) image.range[i] = DepthImage::invalid;
+  }
+  const Scan scan = back_project(image, tilted_pose(), 1.25);
+  std::size_t hits = 0, misses = 0;
+  for (std::size_t i = 0; i < image.range.size(); ++i) {
+    const Vector3 along = tilted_pose().linear() * image.camera.direction(double(i % 23), double(i / 23));
+    if (DepthImage::is_range(image.range[i])) {
+      EXPECT_EQ(scan.hits.at(hits++), (scan.origin + 0.5 * along).cast<float>());
+    } else if (DepthImage::is_beyond_range(image.range[i])) {
+      EXPECT_EQ(scan.misses.at(misses++), (scan.origin + 1.25 * along).cast<float>());
+    }
+  }
+  EXPECT_EQ(scan.hits.size(), hits);
+  EXPECT_EQ(scan.misses.size(), misses);
+  EXPECT_GT(std::min(hits, misses), 50u);
+}
+
 }  // namespace
 }  // namespace nextview

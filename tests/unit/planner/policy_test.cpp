@@ -70,6 +70,34 @@ TEST_F(Policies, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
   EXPECT_EQ(names.size(), gains().size() + 10);
 }
 
+// It remembers what the last map said: not of another, nor of the same after a scan.
+TEST_F(Policies, NewSurfaceIsOfTheMapThatIsAskedAbout) {
+  const auto scanned_from = [](double x) {
+    Scan scan{{x, 0.3, 0.2}, {}, {}, 3.0};
+    for (int i = 0; i < 40; ++i) scan.hits.emplace_back(0.01f * float(i % 8), 0.01f * float(i / 8), 0.0f);
+    return scan;
+  };
+  const auto with = [&](std::initializer_list<double> scans) {
+    Knowledge some;
+    some.map = OccupancyMap(region_of_interest(Vector3::Zero(), 0.4, 0.02));
+    for (const double x : scans) some.map.insert(scanned_from(x));
+    return some;
+  };
+  const auto remembering = made("new-surface");
+  const Knowledge one = with({0.5}), two = with({0.5, -0.5});
+  std::set<std::vector<double>> different;
+  for (const Knowledge& next : {one, two, one, one, with({}), two}) {
+    known = next;
+    const std::vector<double> fresh = values(*made("new-surface"));
+    EXPECT_EQ(values(*remembering), fresh);
+    EXPECT_EQ(remembering->explain(state(), candidates[1].T_world_camera)->value, fresh[0]);
+    different.insert(fresh);
+  }
+  known.map.insert(scanned_from(0.1));
+  EXPECT_EQ(values(*remembering), values(*made("new-surface")));
+  EXPECT_EQ(different.size(), 3u) << "they tell nothing apart";
+}
+
 TEST_F(Policies, UnknownOnesAreRefusedWithTheNamesThereAre) {
   for (const char* bad : {"", "oracel", "Random"}) try {
       made(bad);

@@ -1,0 +1,246 @@
+// Compiled once for each instruction set (Highway's foreach_target); the processor's best is chosen when it runs.
+#include "core/gain/ray_lanes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/gain/ray_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/gain/ray_entries-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace nextview::HWY_NAMESPACE {
+constexpr std::size_t rows = 4;  // of lanes, walked side by side: a step waits for the one before it
+
+/// Rays on their way, one a lane.
+struct Walk {
+  Vector next[3];         ///< distance at which the next face across each axis is met [m]
+  Vector delta[3];        ///< from face to face
+  IntegerVector place;    ///< of the voxel that each ray is in
+  IntegerVector step[3];  ///< what a step along each axis adds to the place
+  Vector enter;           ///< where it was entered [m]
+  Vector left;            ///< how likely the ray gets there; 0 of rays that have ended
+  Vector sum;
+  Mask live;
+  std::array<std::int64_t, most_lanes> ray;  ///< -1: none
+};
+
+/// Takes each ray one voxel on, as VoxelWalk::advance does; those that have ended stay where they are.
+HWY_INLINE void advance(Walk& w) {
+  const Mask x_before_y = hn::Lt(w.next[0], w.next[1]);
+  const Mask along_x = hn::And(x_before_y, hn::Lt(w.next[0], w.next[2]));
+  const Mask along_y = hn::AndNot(x_before_y, hn::Lt(w.next[1], w.next[2]));
+  const IntegerVector step = pick(along_x, w.step[0], pick(along_y, w.step[1], w.step[2]));
+  w.place = hn::Add(w.place, hn::BitCast(integers, hn::IfThenElseZero(w.live, hn::BitCast(doubles, step))));
+  w.next[0] = hn::IfThenElse(along_x, hn::Add(w.next[0], w.delta[0]), w.next[0]);
+  w.next[1] = hn::IfThenElse(along_y, hn::Add(w.next[1], w.delta[1]), w.next[1]);
+  w.next[2] = hn::IfThenElse(hn::Or(along_x, along_y), w.next[2], hn::Add(w.next[2], w.delta[2]));
+}
+
+/// Rays on their way through a field: `Field::visit(walk, row, exit)` adds what they find in the voxels that they are
+/// in, and says which go no farther; `Field::ended(lane, ray)` hears of each ray at its end.
+template <class Field>
+class Follower {
+ public:
+  Follower(const RaysThroughGrid& rays, Field& field, std::span<double> sums)
+      : field_(field), sums_(sums), entries_(entries_of(rays)), max_range_(hn::Set(doubles, rays.max_range)) {
+    for (Walk& w : walks_) {
+      for (int axis = 0; axis < 3; ++axis)
+        w.next[axis] = w.delta[axis] = hn::Zero(doubles), w.step[axis] = hn::Zero(integers);
+      w.enter = w.left = w.sum = hn::Zero(doubles);
+      w.place = hn::Zero(integers);
+      w.live = hn::Lt(hn::Zero(doubles), hn::Zero(doubles));
+      w.ray.fill(-1);
+    }
+  }
+
+  void run() {
+    for (Walk& w : walks_) refill(w);
+    for (bool any = !entries_.entering.empty(); any;) {
+      any = false;
+      for (Walk& w : walks_) {
+        if (live_count(w) <= few() && !refill(w)) continue;
+        any = true;
+        const Vector exit = hn::Min(hn::Min(w.next[0], w.next[1]), w.next[2]);
+        const Mask ends = hn::Or(field_.visit(w, &w - walks_, exit), hn::Ge(exit, max_range_));
+        w.live = hn::AndNot(ends, w.live);
+        w.left = hn::IfThenElseZero(w.live, w.left);
+        advance(w);
+      }
+    }
+  }
+
+ private:
+  std::size_t live_count(const Walk& w) const { return hn::CountTrue(doubles, w.live); }
+  /// So few lanes at work are worth the trouble of giving the others new rays.
+  std::size_t few() const { return taken_ < entries_.entering.size() ? hn::Lanes(doubles) / 2 : 0; }
+
+  /// Writes down what rays have found that have ended, and puts others in their lanes. Whether any is on its way.
+  bool refill(Walk& w) {
+    HWY_ALIGN std::int64_t fresh[most_lanes], which[most_lanes];
+    HWY_ALIGN double found[most_lanes];
+    hn::Store(w.sum, doubles, found);
+    const unsigned live = bits_of(w.live);
+    for (std::size_t lane = 0; lane < hn::Lanes(doubles); ++lane) {
+      fresh[lane] = which[lane] = 0;
+      if (live >> lane & 1) continue;
+      if (w.ray[lane] >= 0) {
+        sums_[std::size_t(w.ray[lane])] = found[lane];
+        field_.ended((&w - walks_) * most_lanes + lane, std::size_t(w.ray[lane]));
+      }
+      w.ray[lane] = -1;
+      if (taken_ == entries_.entering.size()) continue;
+      which[lane] = w.ray[lane] = entries_.entering[taken_++];
+      fresh[lane] = -1;
+    }
+    const Mask is_fresh = mask_of(hn::Load(integers, fresh));
+    begin(w, is_fresh, hn::Load(integers, which));
+    return !hn::AllFalse(doubles, w.live);
+  }
+
+  void begin(Walk& w, Mask fresh, IntegerVector which) {
+    const auto take = [&](const std::vector<double>& part, Vector& into) {
+      into = hn::IfThenElse(fresh, hn::GatherIndex(doubles, part.data(), which), into);
+    };
+    const auto take_whole = [&](const std::vector<std::int64_t>& part, IntegerVector& into) {
+      into = pick(fresh, hn::GatherIndex(integers, part.data(), which), into);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      take(entries_.parts[Entries::next + axis], w.next[axis]);
+      take(entries_.parts[Entries::delta + axis], w.delta[axis]);
+      take_whole(entries_.whole_parts[Entries::step + axis], w.step[axis]);
+    }
+    take(entries_.parts[Entries::enter], w.enter);
+    take_whole(entries_.whole_parts[Entries::place], w.place);
+    w.left = hn::IfThenElse(fresh, hn::Set(doubles, 1.0), w.left);
+    w.sum = hn::IfThenElse(fresh, hn::Zero(doubles), w.sum);
+    w.live = hn::Or(fresh, w.live);
+  }
+
+  Field& field_;
+  std::span<double> sums_;
+  Entries entries_;
+  Vector max_range_;
+  std::size_t taken_ = 0;  ///< of those that enter
+  Walk walks_[rows];
+};
+
+struct States {
+  const StateField& field;
+  std::size_t looked_at = 0;
+
+  HWY_INLINE Mask visit(Walk& w, std::size_t, Vector) {
+    const auto* const bytes = reinterpret_cast<const std::int64_t*>(field.states.data());
+    const IntegerVector state =
+        hn::And(hn::GatherOffset(integers, bytes, w.place), hn::Set(integers, std::int64_t{0xff}));
+    w.sum = hn::Add(w.sum, hn::Mul(w.left, hn::GatherIndex(doubles, field.worth.data(), state)));
+    w.left = hn::Mul(w.left, hn::GatherIndex(doubles, field.passes.data(), state));
+    const Mask inside = mask_of(hn::BitCast(
+        integers, hn::VecFromMask(integers, hn::Lt(state, hn::Set(integers, std::int64_t{StateField::outside})))));
+    looked_at += hn::CountTrue(doubles, hn::And(inside, w.live));
+    // What is less than half of the sum's last place is lost when it is added.
+    const Mask lost =
+        hn::Lt(hn::Mul(w.left, hn::Set(doubles, field.most_worth)), hn::Mul(w.sum, hn::Set(doubles, 0x1p-54)));
+    return hn::Or(
+        lost, mask_of(hn::BitCast(
+                  integers,
+                  hn::VecFromMask(integers, hn::Gt(state, hn::Set(integers, std::int64_t{StateField::ends} - 1))))));
+  }
+  void ended(std::size_t, std::size_t) {}
+};
+
+std::size_t sum_states(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums) {
+  States states{field};
+  Follower<States>(rays, states, sums).run();
+  return states.looked_at;
+}
+
+/// `finds` may be null.
+struct Chances {
+  const ChanceField& field;
+  Finds* finds;
+  std::size_t longest;  ///< voxels that a ray may visit
+  std::vector<Finds::Find> of_lane = {};
+  std::array<std::size_t, rows * most_lanes> count{};
+
+  HWY_INLINE Mask visit(Walk& w, std::size_t row, Vector to) {
+    const hn::Rebind<float, Doubles> floats;
+    const hn::Rebind<std::int32_t, Doubles> indices;
+    const auto narrow =
+        hn::TruncateTo(hn::Rebind<std::uint32_t, Doubles>(), hn::BitCast(hn::RebindToUnsigned<Doubles>(), w.place));
+    const Vector chance =
+        hn::PromoteTo(doubles, hn::GatherIndex(floats, field.chances.data(), hn::BitCast(indices, narrow)));
+    const Mask outside = hn::Gt(chance, hn::Set(doubles, 1.5));
+    // A ray that hardly moves along an axis may be a rounding beyond its face there, and meet it long ago.
+    const Vector exit = hn::Max(to, w.enter);
+    const Vector range = hn::Mul(hn::Set(doubles, 0.5), hn::Add(w.enter, exit));
+    const Vector found = hn::IfThenZeroElse(outside, hn::Mul(w.left, hn::Abs(chance)));
+    const Vector area = hn::Mul(hn::Mul(found, range), range);
+    if (finds) note(hn::Gt(found, hn::Zero(doubles)), w.place, area, row);
+    w.sum = hn::Add(w.sum, area);
+    w.left = hn::Sub(w.left, found);
+    w.enter = exit;
+    const Mask negligible = hn::Le(w.left, hn::Set(doubles, field.negligible));
+    return hn::Or(hn::Or(outside, negligible), hn::Lt(chance, hn::Zero(doubles)));
+  }
+  HWY_INLINE void note(Mask found, IntegerVector place, Vector area, std::size_t row) {
+    unsigned bits = bits_of(found);
+    if (bits == 0) return;
+    HWY_ALIGN std::int64_t places[most_lanes];
+    HWY_ALIGN double areas[most_lanes];
+    hn::Store(place, integers, places);
+    hn::Store(area, doubles, areas);
+    for (; bits != 0; bits &= bits - 1) {
+      const std::size_t lane = std::countr_zero(bits), at = row * most_lanes + lane;
+      of_lane[at * longest + count[at]++] = {static_cast<std::uint32_t>(places[lane]), areas[lane]};
+    }
+  }
+  void ended(std::size_t lane, std::size_t ray) {
+    if (!finds) return;
+    const auto begin = of_lane.begin() + std::ptrdiff_t(lane * longest);
+    finds->begins[ray] = finds->finds.size();
+    finds->finds.insert(finds->finds.end(), begin, begin + std::ptrdiff_t(count[lane]));
+    finds->ends[ray] = finds->finds.size();
+    count[lane] = 0;
+  }
+};
+
+void find_chances(const RaysThroughGrid& rays, const ChanceField& field, std::span<double> sums, Finds* finds) {
+  Chances chances{field, finds, std::size_t(rays.grid.size.sum()) + 3};
+  if (finds) chances.of_lane.resize(rows * most_lanes * chances.longest);
+  Follower<Chances>(rays, chances, sums).run();
+}
+
+}  // namespace nextview::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nextview {
+namespace {
+
+HWY_EXPORT(sum_states);
+HWY_EXPORT(find_chances);
+
+}  // namespace
+
+std::size_t sum_along_rays(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums) {
+  std::ranges::fill(sums, 0.0);
+  return rays.grid.voxel_count() == 0 ? 0 : HWY_DYNAMIC_DISPATCH(sum_states)(rays, field, sums);
+}
+
+void find_along_rays(const RaysThroughGrid& rays, const ChanceField& field, std::span<double> sums, Finds* finds) {
+  std::ranges::fill(sums, 0.0);
+  if (finds) {
+    finds->finds.clear();
+    finds->begins.assign(rays.directions.size(), 0);
+    finds->ends.assign(rays.directions.size(), 0);
+  }
+  if (rays.grid.voxel_count() > 0) HWY_DYNAMIC_DISPATCH(find_chances)(rays, field, sums, finds);
+}
+
+}  // namespace nextview
+#endif

@@ -1,0 +1,68 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/map/voxel_grid.hpp"
+
+namespace nextview {
+
+/// Rays of one camera through the voxels of a grid.
+struct RaysThroughGrid {
+  const VoxelGrid& grid;
+  Vector3 origin;                       ///< [m, world]
+  std::span<const Vector3> directions;  ///< of unit length, world
+  double max_range;                     ///< [m]
+};
+
+/// Where a voxel of a grid stands in an array that has a margin of one voxel around the grid, so that rays in lanes
+/// learn there that they have left it.
+inline std::size_t place_with_margin(const VoxelGrid& grid, int x, int y, int z) {
+  return (std::size_t(z + 1) * (grid.size.y() + 2) + (y + 1)) * (grid.size.x() + 2) + (x + 1);
+}
+inline std::size_t places_with_margin(const VoxelGrid& grid) {
+  return std::size_t(grid.size.x() + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);
+}
+
+/// Voxels that are one of few states, a byte each, and what a ray finds in each state.
+struct StateField {
+  static constexpr std::uint8_t ends = 0x80;      ///< a ray goes no farther than here
+  static constexpr std::uint8_t outside = 0xff;   ///< the margin
+  static constexpr std::size_t most_states = 64;  ///< of voxels that rays pass, and of those that end them
+  static constexpr std::size_t read_beyond = 8;   ///< bytes behind the last state, which are read along with it
+
+  std::vector<std::uint8_t> states;  ///< by place_with_margin
+  std::array<double, 256> worth{};   ///< what a voxel adds, times the ray's visibility
+  std::array<double, 256> passes{};  ///< what share of the visibility goes on; 1 - p
+  double most_worth = 0.0;           ///< of any state, where passes are at most 1
+};
+
+/// The sum of visibility times worth of each ray, voxel by voxel up to the one that ends it: to the last bit what the
+/// plain walk (walk_ray) adds up, on any instruction set. A ray is given up where nothing that it might still add can
+/// change its sum. Returns how many voxels were looked at.
+std::size_t sum_along_rays(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums);
+
+/// What rays find on their way, ray after ray.
+struct Finds {
+  struct Find {
+    std::uint32_t place;  ///< with margin
+    double area;          ///< across the ray, per solid angle [m^2]
+  };
+  std::vector<Find> finds;
+  std::vector<std::size_t> begins;  ///< of each ray's
+  std::vector<std::size_t> ends;
+};
+
+/// Voxels as NewSurfaceField has them, a chance each, with a margin of `outside`.
+struct ChanceField {
+  static constexpr float outside = 2.0f;  ///< is no probability
+  std::span<const float> chances;         ///< by place_with_margin
+  double negligible;                      ///< reach at which a ray is given up
+};
+
+/// New surface that each ray is expected to find, range^2 reach |chance|, as the plain walk (walk_ray_segments) adds it
+/// up, to the last bit. `finds`, if not null, is overwritten by where.
+void find_along_rays(const RaysThroughGrid& rays, const ChanceField& field, std::span<double> sums, Finds* finds);
+
+}  // namespace nextview
