@@ -47,7 +47,9 @@ void fit_lengths(Configuration& configuration, double longest_side) {
   const auto fit = [&](const std::string& key, double length) {
     Setting& setting = find_setting(all, key);
     if (is_given(configuration, setting, find_setting(unset, key))) return;
-    *std::get<double*>(setting.value) = six_digits(length);
+    // What nobody asked for must not be refused: an object may be very small or large.
+    const Bounds& bounds = *setting.bounds;
+    *std::get<double*>(setting.value) = std::clamp(six_digits(length), bounds.low, bounds.high);
     configuration.fitted[key] = setting.text();
   };
   const double longest = six_digits(longest_side);

@@ -7,7 +7,7 @@ namespace nextview {
 
 std::vector<Setting> settings(MapConfig& c) {
   std::vector<Setting> all = {
-      {"map.resolution", "m", "voxel edge", &c.resolution, from_to(1e-4, 1)},
+      {"map.resolution", "m", "voxel edge", &c.resolution, from_to(1e-5, 1)},
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
       {"map.region", "m", "region of interest as a box, x y z of two opposite corners; empty: a cube of region_edge",
        &c.region},

@@ -109,7 +109,7 @@ std::vector<Setting> settings(CandidateViewsConfig& c) {
       {"views.layout", "", "how candidate views are laid out",
        choice(c.layout, {"hemisphere", "sphere", "rings", "fibonacci", "file", "adaptive"})},
       {"views.count", "", "number of candidate views", &c.count, from_to(1, 10000)},
-      {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(0.01, 100)},
+      {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(1e-3, 100)},
       {"views.rings", "", "number of rings (layout rings)", &c.rings, from_to(1, 10000)},
       {"views.file", "",
        "views file (layout file): a count or none, then x y z qx qy qz qw a line; or a file or folder of 3 x 4 "

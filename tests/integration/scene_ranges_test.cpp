@@ -58,7 +58,7 @@ TEST_F(SceneRanges, UtilitiesAreThoseOfTheCandidatesThatAreLeft) {
 }
 
 TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
-  user_.run("step\ncloud-colour height\n");
+  user_.run("step\ntoggle-cloud\ncloud-colour height\n");
   const auto heights = [&] {
     const auto& points = user_.session().cloud->points;
     const auto [low, high] =

@@ -106,6 +106,24 @@ TEST(Window, ATooltipAppearsBesideAPointerThatRests) {
   }
 }
 
+TEST(Window, ATooltipGoesWithAKeyUntilThePointerMoves) {
+  User user(small_scan());
+  const Layout layout = user.window().layout();
+  const Image before = user.look();
+  const Point step = step_button(layout);
+  const auto changed = [&] {
+    user.wait();
+    rest(user);
+    return differences(user.look(), before, layout.left);
+  };
+  user.move(step.x, step.y);
+  EXPECT_GT(changed(), 1000) << "there is none";
+  user.type(Key::escape);
+  EXPECT_LT(changed(), 100) << "it lies on the panel while somebody types";
+  user.move(step.x + 2, step.y);
+  EXPECT_GT(changed(), 1000) << "it does not come back";
+}
+
 TEST(Window, AViewThatIsLookedThroughHidesItsOwnPyramid) {
   User user(small_scan());
   user.run("step\nselect-next\ntoggle-region\ntoggle-rays\n");

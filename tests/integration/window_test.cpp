@@ -73,6 +73,31 @@ TEST(Window, DrawsTheSceneOnlyWhenItChanged) {
   EXPECT_EQ(user.look(), drawn) << "framing what is framed already moved the camera";
 }
 
+TEST(Window, PanelsTellOfANewMapAFrameBeforeTheScene) {
+  User user(small_scan());
+  Interface& window = user.window();
+  const std::size_t drawings = window.scene_drawings();
+  const std::string title = window.title();
+  window.ask(parse_script("step\n").front());
+  while (window.title() == title) window.draw(1.0 / 60);
+  EXPECT_EQ(window.scene_drawings(), drawings);
+  user.wait();
+  EXPECT_EQ(window.scene_drawings(), drawings + 2) << "at once with rough edges, then with smooth ones";
+}
+
+TEST(Window, TheMissedSurfaceIsTheSameWheneverItIsShown) {
+  User user(small_scan());
+  user.run("step\ntoggle-octree\ntoggle-missed\n");
+  EXPECT_FALSE(user.window().scene().layers().mesh().visible()) << "the object lies in its own missed surface";
+  const Image at_first = user.look();
+  user.run("toggle-missed\ntoggle-octree\n");
+  EXPECT_NE(user.look(), at_first);
+  user.run("toggle-missed\n");
+  EXPECT_EQ(user.look(), at_first);
+  user.run("step\n");
+  EXPECT_NE(user.look(), at_first) << "it is another one now";
+}
+
 TEST(Window, KeysSwitchLayers) {
   User user(small_scan());
   user.type(key('S'));

@@ -55,5 +55,21 @@ TEST(CoarseClouds, OfFewPointsKeepThemAll) {
   EXPECT_GT(covered(drawn(900, true)), few) << "squares cover more than balls";
 }
 
+/// A section that comes while one of the two is drawn, and what the other looks like then.
+Image cut(bool coarse_before, bool coarse) {
+  return draw_scene(320, 240, [&](Scene& scene) {
+    scene.cloud().show(ball(20'000));
+    scene.frame();
+    scene.cloud().set_coarse(coarse_before);
+    scene.cut(Section{0, 0.0});
+    scene.cloud().set_coarse(coarse);
+  });
+}
+
+TEST(CoarseClouds, AreCutWhicheverIsDrawnThen) {
+  EXPECT_LT(covered(cut(false, false)), 0.8 * covered(drawn(20'000, false)));
+  for (const bool coarse : {false, true}) EXPECT_EQ(cut(!coarse, coarse), cut(coarse, coarse)) << coarse;
+}
+
 }  // namespace
 }  // namespace nextview

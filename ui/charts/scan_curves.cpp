@@ -61,7 +61,7 @@ ChartContent recorded_coverage_chart(const ScanCourse& course) {
 }
 
 ChartContent coverage_chart(const ScanCourse& course) {
-  const std::string title = fmt::format("Surface within {:g} mm of a point [%]", 1e3 * course.d_reg);
+  const std::string title = fmt::format("Surface within {:.3g} mm of a point [%]", 1e3 * course.d_reg);
   ChartContent content{title, "view", "", "coverage", "%", {}, 100.0, true};
   add_series(content, course,
              {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }},

@@ -132,8 +132,10 @@ CloudLayer::CloudLayer(vtkRenderer& renderer)
       full_(vtkSmartPointer<vtkPolyDataMapper>::New()),
       thin_(vtkSmartPointer<vtkPolyDataMapper>::New()),
       actor_(vtkSmartPointer<vtkActor>::New()) {
-  for (vtkPolyDataMapper* mapper : {full_.Get(), thin_.Get()})
+  for (vtkPolyDataMapper* mapper : {full_.Get(), thin_.Get()}) {
     mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
+    add_instead(*mapper);
+  }
   actor_->SetMapper(full_);
   actor_->GetProperty()->SetRenderPointsAsSpheres(true);
   actor_->GetProperty()->SetAmbient(0.5);

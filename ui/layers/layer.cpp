@@ -34,16 +34,17 @@ void Layer::set_scale(double scale) {
 }
 
 void Layer::set_section(const std::optional<Section>& section) {
-  for (auto& prop : props_) {
-    auto* actor = vtkActor::SafeDownCast(prop);
-    if (!actor || !actor->GetMapper()) continue;
-    actor->GetMapper()->RemoveAllClippingPlanes();
-    if (!section) continue;
+  const auto cut = [&](vtkMapper& mapper) {
+    mapper.RemoveAllClippingPlanes();
+    if (!section) return;
     vtkNew<vtkPlane> plane;
     plane->SetOrigin(section->origin().data());
     plane->SetNormal(section->inward().data());
-    actor->GetMapper()->AddClippingPlane(plane);
-  }
+    mapper.AddClippingPlane(plane);
+  };
+  for (auto& prop : props_)
+    if (auto* actor = vtkActor::SafeDownCast(prop); actor && actor->GetMapper()) cut(*actor->GetMapper());
+  for (auto& mapper : instead_) cut(*mapper);
 }
 
 void Layer::add(vtkProp& prop) {
@@ -51,6 +52,8 @@ void Layer::add(vtkProp& prop) {
   props_.emplace_back(&prop);
   renderer_->AddViewProp(&prop);
 }
+
+void Layer::add_instead(vtkMapper& mapper) { instead_.emplace_back(&mapper); }
 
 void Layer::describe(std::vector<Vector3> outline, std::vector<Legend> legends, std::vector<Label> labels) {
   outline_ = std::move(outline);

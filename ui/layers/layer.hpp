@@ -9,6 +9,7 @@
 #include "ui/appearance/legend.hpp"
 #include "ui/appearance/section.hpp"
 
+class vtkMapper;
 class vtkProp;
 class vtkProperty;
 class vtkRenderer;
@@ -42,6 +43,8 @@ class Layer {
 
  protected:
   void add(vtkProp& prop);
+  /// What an actor draws at times instead of what it draws now: a section cuts that, too.
+  void add_instead(vtkMapper& mapper);
   double scale() const { return scale_; }
   bool dark() const { return dark_; }
   /// A colour that stands out from the ground, or a map of such.
@@ -54,6 +57,7 @@ class Layer {
  private:
   vtkSmartPointer<vtkRenderer> renderer_;
   std::vector<vtkSmartPointer<vtkProp>> props_;
+  std::vector<vtkSmartPointer<vtkMapper>> instead_;
   std::vector<Vector3> outline_;
   std::vector<Legend> legends_;
   std::vector<Label> labels_;

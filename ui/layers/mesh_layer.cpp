@@ -124,10 +124,14 @@ Legend legend_of(const MeshPaint& paint) {
 
 MeshLayer::MeshLayer(vtkRenderer& renderer)
     : Layer(renderer),
-      mapper_(vtkSmartPointer<vtkOpenGLPolyDataMapper>::New()),
+      full_(vtkSmartPointer<vtkOpenGLPolyDataMapper>::New()),
+      coarse_(vtkSmartPointer<vtkOpenGLPolyDataMapper>::New()),
       actor_(vtkSmartPointer<vtkActor>::New()) {
-  mapper_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
-  actor_->SetMapper(mapper_);
+  for (vtkOpenGLPolyDataMapper* mapper : {full_.Get(), coarse_.Get()}) {
+    mapper->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
+    add_instead(*mapper);
+  }
+  actor_->SetMapper(full_);
   actor_->GetProperty()->SetInterpolationToPhong();
   actor_->GetProperty()->SetAmbient(0.28);
   actor_->GetProperty()->SetDiffuse(0.85);
@@ -136,16 +140,15 @@ MeshLayer::MeshLayer(vtkRenderer& renderer)
 }
 
 void MeshLayer::take(vtkSmartPointer<vtkPolyData> polydata) {
-  full_ = std::move(polydata);
-  coarse_ = full_->GetNumberOfPolys() > many_triangles ? coarse(*full_, coarse_cells) : nullptr;
-  mapper_->SetInputDataObject(full_);
+  has_coarse_ = polydata->GetNumberOfPolys() > many_triangles;
+  coarse_->SetInputDataObject(has_coarse_ ? coarse(*polydata, coarse_cells) : vtkSmartPointer<vtkPolyData>::New());
+  full_->SetInputDataObject(polydata);
   set_coarse(wants_coarse_);
 }
 
 void MeshLayer::set_coarse(bool wants_coarse) {
   wants_coarse_ = wants_coarse;
-  if (!coarse_) return;
-  mapper_->SetInputDataObject(wants_coarse ? coarse_ : full_);
+  actor_->SetMapper(wants_coarse && has_coarse_ ? coarse_ : full_);
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, MeshStyle style) {
@@ -175,8 +178,9 @@ void MeshLayer::show(const TriangleMesh& mesh, const MeshClasses& classes) {
 void MeshLayer::paint_with(const std::string& attribute, const std::string& vertex_shader,
                            const std::string& fragment_shader) {
   set_style(MeshStyle::solid);
-  mapper_->MapDataArrayToVertexAttribute(attribute.c_str(), attribute.c_str(), vtkDataObject::FIELD_ASSOCIATION_POINTS,
-                                         -1);
+  for (vtkOpenGLPolyDataMapper* mapper : {full_.Get(), coarse_.Get()})
+    mapper->MapDataArrayToVertexAttribute(attribute.c_str(), attribute.c_str(), vtkDataObject::FIELD_ASSOCIATION_POINTS,
+                                          -1);
   actor_->GetProperty()->SetSpecular(0.0);  // a gleam would look like another value
   vtkShaderProperty& shaders = *actor_->GetShaderProperty();
   shaders.AddVertexShaderReplacement("//VTK::Normal::Dec", true, "//VTK::Normal::Dec\n" + load_shader(vertex_shader),
@@ -197,7 +201,7 @@ void MeshLayer::on_scale() {
 void MeshLayer::set_style(MeshStyle style) {
   vtkProperty& property = *actor_->GetProperty();
   vtkShaderProperty& shaders = *actor_->GetShaderProperty();
-  mapper_->RemoveAllVertexAttributeMappings();
+  for (vtkOpenGLPolyDataMapper* mapper : {full_.Get(), coarse_.Get()}) mapper->RemoveAllVertexAttributeMappings();
   shaders.ClearAllVertexShaderReplacements();
   shaders.ClearAllFragmentShaderReplacements();
   shaders.GetFragmentCustomUniforms()->RemoveAllUniforms();

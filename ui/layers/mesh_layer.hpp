@@ -62,10 +62,10 @@ class MeshLayer : public Layer {
   void take(vtkSmartPointer<vtkPolyData> polydata);
 
   ShadedPolydata shaded_;
-  vtkSmartPointer<vtkOpenGLPolyDataMapper> mapper_;
+  /// Each keeps on the graphics card what it draws. The second has nothing where the first has few triangles.
+  vtkSmartPointer<vtkOpenGLPolyDataMapper> full_, coarse_;
   vtkSmartPointer<vtkActor> actor_;
-  vtkSmartPointer<vtkPolyData> full_, coarse_;  ///< the second is null where the first has few triangles
-  bool wants_coarse_ = false;
+  bool has_coarse_ = false, wants_coarse_ = false;
 };
 
 }  // namespace nextview

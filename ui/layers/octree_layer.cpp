@@ -147,16 +147,24 @@ void OctreeLayer::show_coarse(const VoxelGrid& grid, std::span<const VoxelFace> 
   show_parts(coarse_, coarse_solid.grid, coarse_solid.faces, coarse_free.faces, cells, voxels);
 }
 
-void OctreeLayer::show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter,
-                       VoxelColouring colouring, std::span<const float> values) {
-  if (!values.empty() && values.size() != grid.voxel_count())
-    throw std::invalid_argument("values: their number is not that of the voxels");
+OctreeFaces octree_faces(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter) {
   VoxelFilter solid_filter = filter, free_filter = filter;
   solid_filter.free = false;
   free_filter.occupied = free_filter.unknown = free_filter.uncertain = false;
   free_filter.free = filter.free && !filter.uncertain;
-  const std::vector<VoxelFace> solid = exposed_faces(grid, voxels, solid_filter);
-  const std::vector<VoxelFace> free = exposed_faces(grid, voxels, free_filter);
+  return {exposed_faces(grid, voxels, solid_filter), exposed_faces(grid, voxels, free_filter)};
+}
+
+void OctreeLayer::show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter,
+                       VoxelColouring colouring, std::span<const float> values) {
+  show(octree_faces(grid, voxels, filter), grid, voxels, filter, colouring, values);
+}
+
+void OctreeLayer::show(const OctreeFaces& found, const VoxelGrid& grid, std::span<const Voxel> voxels,
+                       const VoxelFilter& filter, VoxelColouring colouring, std::span<const float> values) {
+  if (!values.empty() && values.size() != grid.voxel_count())
+    throw std::invalid_argument("values: their number is not that of the voxels");
+  const auto& [solid, free] = found;
   std::vector<std::uint32_t> cells;
   Eigen::AlignedBox3d box;
   for (const auto* faces : {&solid, &free})

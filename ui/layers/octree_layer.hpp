@@ -9,6 +9,13 @@ namespace nextview {
 
 class SideActor;
 
+/// The faces of voxels that are drawn.
+struct OctreeFaces {
+  std::vector<VoxelFace> solid, free;
+};
+/// @throws as exposed_faces
+OctreeFaces octree_faces(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter);
+
 /// The map's voxels as cubes with crisp edges, darker in nooks; only exposed faces are drawn. Free voxels, if shown,
 /// are a translucent shell.
 class OctreeLayer : public Layer {
@@ -20,6 +27,9 @@ class OctreeLayer : public Layer {
   /// @throws std::invalid_argument if the number of voxels or values is not the grid's, or the slice's axis is none.
   void show(const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter = {},
             VoxelColouring colouring = VoxelColouring::by_class, std::span<const float> values = {});
+  /// The same with faces that were found before, by octree_faces of the same voxels and filter.
+  void show(const OctreeFaces& faces, const VoxelGrid& grid, std::span<const Voxel> voxels, const VoxelFilter& filter,
+            VoxelColouring colouring, std::span<const float> values = {});
   /// Another colouring, or other values, of what is shown; much cheaper than showing it anew.
   /// @throws std::invalid_argument if the number of values is not that of the shown grid's voxels.
   void set_colouring(VoxelColouring colouring, std::span<const float> values = {});

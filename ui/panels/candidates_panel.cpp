@@ -26,6 +26,8 @@ struct Largest {
       utility = std::max(utility, std::abs(c.utility));
     }
   }
+  /// Around a small part all ways are short: in metres they would be 0.00.
+  bool costs_in_mm() const { return cost > 0 && cost < 0.1; }
 };
 
 /// A number at the right of its cell over a bar; negative values have a paler bar.
@@ -68,7 +70,8 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
   const Colour colour = is_proposed(s, candidate) ? theme::chosen : theme::series[0];
   number_cell(context, readable(c.gain), c.gain, largest.gain, colour);
   ImGui::TableNextColumn();
-  number_cell(context, fmt::format("{:.2f}", c.cost), c.cost, largest.cost, theme::muted);
+  number_cell(context, fmt::format("{:.2f}", (largest.costs_in_mm() ? 1e3 : 1.0) * c.cost), c.cost, largest.cost,
+              theme::muted);
   ImGui::TableNextColumn();
   number_cell(context, fmt::format("{:.4f}", c.utility), c.utility, largest.utility, colour);
 }
@@ -177,17 +180,16 @@ void draw_table(const PanelContext& context, float height) {
   ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(64));
   for (const auto& [name, weight] : {std::pair{"gain", 1.2f}, {"cost", 1.0f}, {"utility", 1.05f}})
     ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, weight);
+  const std::vector<Candidate> none;
+  const std::vector<Candidate>& candidates = s.records.empty() ? none : s.records.back().candidates;
+  const Largest largest(candidates);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   draw_header(context, CandidateColumn::view, "candidate");
   draw_header(context, CandidateColumn::gain, s.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", s.gain_unit));
-  draw_header(context, CandidateColumn::cost, "cost [m]");
+  draw_header(context, CandidateColumn::cost, largest.costs_in_mm() ? "cost [mm]" : "cost [m]");
   draw_header(context, CandidateColumn::utility, "utility");
-  if (!s.records.empty()) {
-    const std::vector<Candidate>& candidates = s.records.back().candidates;
-    const Largest largest(candidates);
-    for (const std::size_t i : sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))
-      draw_row(context, i, largest);
-  }
+  for (const std::size_t i : sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))
+    draw_row(context, i, largest);
   ImGui::EndTable();
 }
 

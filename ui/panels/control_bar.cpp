@@ -62,7 +62,7 @@ std::string job_text(const WorkerProgress& progress) {
   std::string text = progress.paused ? "paused: " + progress.what : progress.what;
   if (text.empty()) text = "between two views";
   if (progress.waiting > 0) text += fmt::format(", {} more to do", progress.waiting);
-  if (progress.seconds_left) text += fmt::format(", about {:.0f} s left", *progress.seconds_left);
+  if (progress.seconds_left.value_or(0) >= 1) text += fmt::format(", about {:.0f} s left", *progress.seconds_left);
   return text;
 }
 
@@ -88,8 +88,10 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   if (bar < style.px(min_bar)) return;  // the buttons have a Cancel then
   ImGui::PushFont(style.small);
   ImGui::SetCursorPos({left, y - style.px(6)});
-  ImGui::TextUnformatted(shortened(job_text(progress), right - left).c_str());
+  const std::string text = job_text(progress), shown = shortened(text, bar);
+  ImGui::TextUnformatted(shown.c_str());
   ImGui::PopFont();
+  if (shown != text) tooltip(text);
   ImGui::SetCursorPos({left, y + style.px(17)});
   ImGui::ProgressBar(float(progress.fraction), {bar, style.px(7)}, "");
   ImGui::SetCursorPos({left + bar + style.px(12), y - style.px(2)});

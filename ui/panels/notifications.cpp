@@ -14,6 +14,7 @@ constexpr std::size_t max_notes = 3;
 }  // namespace
 
 double Notifications::seconds_left() const {
+  if (shrinks_) return 0;
   double least = std::numeric_limits<double>::infinity();
   for (const Note& note : notes_) least = std::min(least, note.seconds_left);
   return least;
@@ -21,7 +22,7 @@ double Notifications::seconds_left() const {
 
 void Notifications::draw(const PanelContext& context, const Rectangle& scene, std::size_t count, double seconds) {
   for (Note& note : notes_) note.seconds_left -= seconds;
-  std::erase_if(notes_, [](const Note& note) { return note.seconds_left <= 0; });
+  shrinks_ = std::erase_if(notes_, [](const Note& note) { return note.seconds_left <= 0; }) > 0;
   const auto& log = context.log;
   for (std::size_t back = std::min(count - std::min(seen_, count), log.size()); back > 0; --back) {
     const LogEntry& entry = log[log.size() - back];

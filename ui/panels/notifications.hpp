@@ -20,6 +20,7 @@ class Notifications {
   };
   std::vector<Note> notes_;
   std::size_t seen_ = 0;  ///< log entries
+  bool shrinks_ = false;  ///< some were taken away: ImGui gives the window its new height a frame later
 };
 
 }  // namespace nextview

@@ -77,16 +77,30 @@ std::string shortened(const std::string& text, float width) {
   return result + ellipsis;
 }
 
-bool tooltip_is_due(const ImGuiContext& imgui) {
-  // Who has clicked knows what it does: until the pointer was elsewhere, nothing is to be said of it.
+namespace {
+
+/// Who has clicked knows what it does, and who types looks elsewhere: until the pointer moves on, nothing is said,
+/// whatever comes and goes above it.
+bool wants_no_tooltip(const ImGuiContext& imgui) {
   static ImGuiID clicked = 0;
-  if (imgui.HoveredId != clicked) clicked = 0;
-  if (imgui.IO.MouseDown[ImGuiMouseButton_Left]) clicked = imgui.HoveredId;
-  return imgui.HoveredId != 0 && imgui.HoveredId != clicked && imgui.HoveredIdTimer >= tooltip_delay;
+  static ImVec2 acted_at(-1, -1);
+  const ImGuiIO& io = imgui.IO;
+  const auto rests = [&] { return io.MousePos.x == acted_at.x && io.MousePos.y == acted_at.y; };
+  if (imgui.HoveredId != clicked && !rests()) clicked = 0;
+  const bool presses = io.MouseDown[ImGuiMouseButton_Left];
+  if (presses) clicked = imgui.HoveredId;
+  if (presses || std::ranges::find(io.KeysDown, true) != std::end(io.KeysDown)) acted_at = io.MousePos;
+  return imgui.HoveredId == 0 || imgui.HoveredId == clicked || rests();
+}
+
+}  // namespace
+
+bool tooltip_is_due(const ImGuiContext& imgui) {
+  return !wants_no_tooltip(imgui) && imgui.HoveredIdTimer >= tooltip_delay;
 }
 
 double seconds_to_tooltip(const ImGuiContext& imgui) {
-  if (imgui.HoveredId == 0 || tooltip_is_due(imgui)) return std::numeric_limits<double>::infinity();
+  if (wants_no_tooltip(imgui) || tooltip_is_due(imgui)) return std::numeric_limits<double>::infinity();
   return tooltip_delay - imgui.HoveredIdTimer;
 }
 

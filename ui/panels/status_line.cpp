@@ -12,7 +12,8 @@ std::string last_step(const SessionSnapshot& s, bool with_seconds) {
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
   const std::string text =
-      fmt::format("View {}: {} points, {:.0f} cm² of new surface", r.step, r.points, r.new_surface);
+      fmt::format("View {}: {} points, {} cm² of new surface", r.step, r.points,
+                  r.new_surface < 1 ? fmt::format("{:.2g}", r.new_surface) : fmt::format("{:.0f}", r.new_surface));
   return with_seconds ? fmt::format("{}, {:.2f} s", text, seconds + r.seconds.refine) : text;
 }
 

@@ -63,6 +63,7 @@ Scene::Scene()
       rays_(std::make_unique<RaysLayer>(*renderer_)),
       region_(std::make_unique<RegionLayer>(*renderer_)),
       fit_(std::make_unique<FitLayer>(*renderer_)),
+      missed_(std::make_unique<MeshLayer>(*renderer_)),
       surface_(std::make_unique<MeshLayer>(*renderer_)),
       section_(std::make_unique<SectionLayer>(*renderer_)),
       overlay_(std::make_unique<Overlay>()) {
@@ -93,15 +94,14 @@ void Scene::attach(RenderTarget& target, const Viewport& viewport) {
   software_ = target.draws_in_software();
 }
 
-std::array<Layer*, 9> Scene::layers() const {
-  return {views_.get(), rays_.get(),   octree_.get(), cloud_.get(),  surface_.get(),
-          mesh_.get(),  region_.get(), fit_.get(),    section_.get()};
+std::array<Layer*, 10> Scene::layers() const {
+  return {views_.get(), rays_.get(),   octree_.get(), cloud_.get(), surface_.get(),
+          mesh_.get(),  missed_.get(), region_.get(), fit_.get(),   section_.get()};
 }
 
 void Scene::cut(const std::optional<Section>& section) {
-  for (Layer* layer :
-       {static_cast<Layer*>(mesh_.get()), static_cast<Layer*>(surface_.get()), static_cast<Layer*>(cloud_.get())})
-    layer->set_section(section);
+  for (MeshLayer* layer : {mesh_.get(), missed_.get(), surface_.get()}) layer->set_section(section);
+  cloud_->set_section(section);
 }
 
 void Scene::set_dark(bool dark) {
@@ -143,10 +143,11 @@ void Scene::set_scale(double scale) {
 
 /// Of a coarse picture's pixels lines and points take half as many.
 void Scene::scale_layers() {
-  const bool coarse = quality_ == DrawingQuality::moving && software_;
+  const bool coarse = quality_ >= DrawingQuality::coarse && software_;
+  const bool moving = quality_ == DrawingQuality::moving, still = quality_ == DrawingQuality::still;
   renderer_->set_coarse(coarse);
   // Where nothing moves it is seen that voxels change their size.
-  octree_->set_coarse(coarse || (quality_ == DrawingQuality::quick && software_ && octree_->face_count() > 120'000));
+  octree_->set_coarse(software_ && (moving || (!still && octree_->face_count() > 120'000)));
   for (Layer* layer : layers()) layer->set_scale(overlay_->item->scale * (coarse ? 0.5 : 1.0));
 }
 

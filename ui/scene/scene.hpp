@@ -25,7 +25,8 @@ class SceneRenderer;
 enum class DrawingQuality {
   still,   ///< smooth edges
   quick,   ///< rough edges: where a processor draws, it takes a third of the time
-  moving,  ///< and where a processor draws, half of the pixels each way, and fewer voxels if there are many: a fifth
+  coarse,  ///< and where a processor draws, half of the pixels each way
+  moving,  ///< and fewer voxels, if there are many: a fifth
 };
 
 /// Where the camera looks from, seen from what it looks at.
@@ -54,6 +55,7 @@ class Scene {
   RaysLayer& rays() { return *rays_; }
   RegionLayer& region() { return *region_; }
   FitLayer& fit() { return *fit_; }
+  MeshLayer& missed() { return *missed_; }    ///< the object, painted by what was seen of it; instead of mesh()
   MeshLayer& surface() { return *surface_; }  ///< reconstructed
   SectionLayer& section() { return *section_; }
 
@@ -108,7 +110,7 @@ class Scene {
   vtkRenderer& renderer();
 
  private:
-  std::array<Layer*, 9> layers() const;  ///< in the order of their legends
+  std::array<Layer*, 10> layers() const;  ///< in the order of their legends
   bool has_room_for_legends() const;
   void scale_layers();
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
@@ -126,7 +128,7 @@ class Scene {
   std::unique_ptr<RaysLayer> rays_;
   std::unique_ptr<RegionLayer> region_;
   std::unique_ptr<FitLayer> fit_;
-  std::unique_ptr<MeshLayer> surface_;
+  std::unique_ptr<MeshLayer> missed_, surface_;
   std::unique_ptr<SectionLayer> section_;
   std::unique_ptr<Overlay> overlay_;
 };

@@ -70,9 +70,9 @@ bool ComparedScene::share(SceneView& view, const Rectangle& place, const std::sh
   return true;
 }
 
-bool ComparedScene::show(const std::shared_ptr<const SessionSnapshot>& session, const WindowState& window,
-                         std::shared_ptr<const FoundSurface> surface) {
-  if (!beside_) return false;
+SceneChange ComparedScene::show(const std::shared_ptr<const SessionSnapshot>& session, const WindowState& window,
+                                std::shared_ptr<const FoundSurface> surface) {
+  if (!beside_) return SceneChange::none;
   window_.dark = window.dark;
   window_.orthographic = window.orthographic;
   if (session->compared) {

@@ -14,9 +14,9 @@ class ComparedScene {
   /// Shows it beside `view` in this part of the target, or gives `view` all of it. Returns whether that has changed.
   bool share(SceneView& view, const Rectangle& place, const std::shared_ptr<const SessionSnapshot>& session,
              const WindowState& window);
-  /// Returns whether its picture changed.
-  bool show(const std::shared_ptr<const SessionSnapshot>& session, const WindowState& window,
-            std::shared_ptr<const FoundSurface> surface);
+  /// Returns how much its picture changed.
+  SceneChange show(const std::shared_ptr<const SessionSnapshot>& session, const WindowState& window,
+                   std::shared_ptr<const FoundSurface> surface);
   void set_quality(DrawingQuality quality);
   void set_scale(double scale);
   /// The camera that both share shows what lies in either.

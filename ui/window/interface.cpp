@@ -18,6 +18,8 @@ namespace {
 constexpr double longest_wait_while_busy = 1.0;
 /// Of what moves by itself [s].
 constexpr double frame_time = 1.0 / 60;
+/// How often it is asked whether what the scene waits for is there [s].
+constexpr double scene_wait = 0.003;
 
 }  // namespace
 
@@ -102,12 +104,13 @@ double Interface::seconds_to_next_frame() const {
   if (time_passes && (!p.rested || (shown.due > 0 && shown.holds()))) return 0.0;
   double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
   if (time_passes) wait = std::min(wait, frame_time);
+  if (p.scene_waits) wait = std::min(wait, scene_wait);
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
 }
 
 // What runs is asked first: it may end meanwhile, and then there is something to draw.
-bool Interface::is_still() const { return !parts_->works() && seconds_to_next_frame() > 0.0; }
+bool Interface::is_still() const { return !parts_->works() && !parts_->scene_waits && seconds_to_next_frame() > 0.0; }
 bool Interface::is_drawn_well() const { return parts_->motion_left <= 0; }
 
 std::string Interface::title() const {

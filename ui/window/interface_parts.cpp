@@ -27,6 +27,12 @@ void Interface::Parts::take_news() {
       now.surface != news.surface || now.surface_progress != news.surface_progress ||
       now.progress.busy != news.progress.busy || now.progress.question != news.progress.question)
     settling = frames_to_settle;
+  // The panels tell of a new map first, and the scene a frame later: both in one would hold up the hand.
+  const bool new_map = now.snapshot->session == news.snapshot->session && now.snapshot->map != news.snapshot->map;
+  if (new_map && by_hand() && view.shows(*news.snapshot)) {
+    scene_waits = true;
+    if (state.layers.octree) faces.ask({now.snapshot, state.layers.map, state.layers.shown_voxels()});
+  }
   news = std::move(now);
 }
 

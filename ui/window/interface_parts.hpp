@@ -76,12 +76,15 @@ struct Interface::Parts {
   bool scripted = false;                                           ///< what was done in this frame
   bool camera_moved = false;                                       ///< by the user, since it was framed
   CameraMotion framing = camera_motion::Frame{};                   ///< the last one that framed something
-  double motion_left = 0;              ///< until what was drawn with less care is drawn well [s]; 0: it is
-  double motion_began = 0;             ///< in the operator's time [s]
-  bool dragged = false;                ///< by the pointer, since it was at rest
-  std::optional<CameraCourse> course;  ///< of the flight that is under way
-  bool rested = false;                 ///< nothing ran at the begin of the last frame
+  double motion_left = 0;                          ///< until what was drawn with less care is drawn well [s]; 0: it is
+  double motion_began = 0;                         ///< in the operator's time [s]
+  bool dragged = false;                            ///< by the pointer, since it was at rest
+  std::optional<CameraCourse> course;              ///< of the flight that is under way
+  bool rested = false;                             ///< nothing ran at the begin of the last frame
+  DrawingQuality quality = DrawingQuality::still;  ///< that the scene is drawn with
   bool scene_is_old = true;
+  bool scene_waits = false;  ///< for the faces of a new map, and for a frame at least
+  FacesAhead faces;
   std::size_t scene_drawings = 0;
   int settling = frames_to_settle;
 
@@ -120,6 +123,7 @@ struct Interface::Parts {
   void bring_to_rest();
   void ask_inspector();
   void ask_surface();
+  bool by_hand() const;
   bool draw_scene();
   /// Of the session's worker, or of the turntable that is drawn.
   WorkerProgress progress() const;

@@ -58,6 +58,7 @@ void SceneView::set_quality(DrawingQuality quality) {
   scene_.set_quality(quality);
   scene_.cloud().set_coarse(fast);
   scene_.mesh().set_coarse(fast);
+  scene_.missed().set_coarse(fast);
   scene_.surface().set_coarse(fast);
 }
 

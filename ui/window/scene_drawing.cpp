@@ -24,17 +24,19 @@ void Interface::Parts::follow_pointer(const PanelContext& context, double second
 }
 
 /// Until nothing changes for a moment, the picture takes less care, so that it follows at once.
-void Interface::Parts::draw_fast(DrawingQuality quality) {
+void Interface::Parts::draw_fast(DrawingQuality wanted) {
   scene_is_old = true;
   motion_left = rest;
+  quality = wanted;
   view.set_quality(quality);
   compared.set_quality(quality);
 }
 
 void Interface::Parts::bring_to_rest() {
   motion_left = 0;
-  view.set_quality(DrawingQuality::still);
-  compared.set_quality(DrawingQuality::still);
+  quality = DrawingQuality::still;
+  view.set_quality(quality);
+  compared.set_quality(quality);
   scene_is_old = true;
 }
 
@@ -45,25 +47,32 @@ void Interface::Parts::move_camera() {
                    !std::holds_alternative<camera_motion::LookFrom>(motion);
     if (!camera_moved) framing = motion;
     if (!scripted && !state.picture)
-      draw_fast(camera_moved ? DrawingQuality::moving : DrawingQuality::quick);
+      draw_fast(camera_moved ? DrawingQuality::moving : DrawingQuality::coarse);
     else
       bring_to_rest();
   }
   state.camera_motions.clear();
 }
 
+bool Interface::Parts::by_hand() const { return script.done() && !state.presentation.demo && !state.picture; }
+
 /// Returns whether it was drawn anew. Who works by hand sees at once what came of it; what a script makes is for
 /// pictures.
 bool Interface::Parts::draw_scene() {
-  bool changed = false;
+  if (scene_waits) {
+    scene_waits = faces.busy();
+    view.take_faces(faces.found());
+    return false;
+  }
+  SceneChange changed = SceneChange::none;
   // A frame that waits for its own loops must not help the session with its long ones.
   tbb::this_task_arena::isolate([&] {
     changed = view.show(news.snapshot, state, news.inspection, news.progress.doubtful, news.surface);
-    changed |= compared.show(news.snapshot, state, news.surface);
+    changed = std::max(changed, compared.show(news.snapshot, state, news.surface));
   });
-  if (changed && script.done() && !state.presentation.demo && !state.picture && motion_left <= 0)
-    draw_fast(DrawingQuality::quick);
-  scene_is_old |= changed;
+  const auto enough = changed == SceneChange::much ? DrawingQuality::coarse : DrawingQuality::quick;
+  if (changed != SceneChange::none && by_hand() && (motion_left <= 0 || quality < enough)) draw_fast(enough);
+  scene_is_old |= changed != SceneChange::none;
   if (!scene_is_old) return false;
   compared.share_depth(view);
   target.render();

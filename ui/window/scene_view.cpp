@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "ui/layers/ray_segments.hpp"
-#include "ui/workbench/chosen_voxels.hpp"
 
 namespace nextview {
 namespace {
 
-/// Points drawn at most: more do not show, and a software renderer feels each.
-constexpr std::size_t max_points = 60'000;
 /// Enough to tell where the view's rays go and what they are worth, few enough to see what is behind them.
 constexpr std::size_t rays_shown = 60;
 /// Candidates that may be taken next, for all that anybody needs to see of them.
@@ -75,13 +73,13 @@ void SceneView::place(const Rectangle& rectangle) {
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 
-bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
-                     std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful,
-                     std::shared_ptr<const FoundSurface> surface) {
+SceneChange SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
+                            std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful,
+                            std::shared_ptr<const FoundSurface> surface) {
   const bool new_ground = dark_ != window.dark, new_projection = orthographic_ != window.orthographic;
   if (new_ground) scene_.set_dark(dark_ = window.dark);
   if (new_projection) scene_.set_orthographic(orthographic_ = window.orthographic, pivot_);
-  if (!snapshot->loaded()) return new_ground;
+  if (!snapshot->loaded()) return new_ground ? SceneChange::much : SceneChange::none;
   const LayerChoice& choice = window.layers;
   const auto explanation = explanation_of(*snapshot, window.selection, *inspection);
   const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
@@ -94,27 +92,31 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   const bool new_session = !shown_ || shown_->session != snapshot->session;
   const bool new_surface = surface != surface_ || new_session || choice.surface != choice_.surface ||
                            choice.surface_colouring != choice_.surface_colouring;
-  if (!new_selection && !new_ground && !new_projection && !new_surface && !new_snapshot && !new_choice && !new_rays &&
-      !new_custom_view && !new_doubt && eye == eye_)
-    return false;
+  const bool much = new_ground || new_projection || new_surface || new_snapshot || new_choice || new_doubt;
+  const bool new_views = new_selection || new_custom_view || eye != eye_;
+  if (!much && !new_rays && !new_views) return SceneChange::none;
 
   const SessionSnapshot& s = *snapshot;
   const bool new_map = new_session || shown_->map != s.map;
   if (new_session) scene_.region().show({s.grid.lower(), s.grid.upper()});
-  if (new_session || new_ground || choice.object_style != choice_.object_style || choice.missed != choice_.missed ||
-      (choice.missed && new_map))
-    show_mesh(s, choice);
-  if (new_map || choice.cloud_colouring != choice_.cloud_colouring || choice.ranges_locked != choice_.ranges_locked)
-    show_cloud(s, choice);
+  if (new_session || new_ground || choice.object_style != choice_.object_style)
+    scene_.mesh().show(s.mesh ? *s.mesh : TriangleMesh{}, choice.object_style);
+  if (choice.missed && (new_ground || s.missed != missed_)) show_missed(s);
+  cloud_is_old_ |=
+      new_map || choice.cloud_colouring != choice_.cloud_colouring || choice.ranges_locked != choice_.ranges_locked;
+  if (choice.cloud && std::exchange(cloud_is_old_, false)) show_cloud(s, choice);
   const bool new_section = choice.section != choice_.section;
-  const bool new_voxels = new_map || choice.map != choice_.map || choice.voxels != choice_.voxels || new_section;
+  voxels_are_old_ |= new_map || choice.map != choice_.map || choice.voxels != choice_.voxels || new_section;
+  colours_are_old_ |= voxels_are_old_ || choice.colouring != choice_.colouring;
   surface_ = std::move(surface);
   if (new_surface) show_surface(s, choice);
   if (new_section) scene_.cut(choice.section);
   if (new_section || new_surface || new_session || new_ground ||
       (choice.object || choice.missed) != (choice_.object || choice_.missed))
     show_section(s, choice);
-  if (new_voxels || choice.colouring != choice_.colouring) show_voxels(s, choice, new_voxels);
+  if (choice.octree && std::exchange(colours_are_old_, false)) show_voxels(s, choice);
+  const bool other_views = new_views || new_snapshot || new_ground || choice.ranges_locked != choice_.ranges_locked ||
+                           choice.all_candidates != choice_.all_candidates;
   explanation_ = explanation;
   keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
@@ -122,7 +124,7 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   if (const auto pose = selected_view_pose(s, window.selection); new_rays || new_snapshot || new_ground)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
-  show_views(s, window);
+  if (other_views) show_views(s, window);
   doubtful_ = std::move(doubtful);
   set_visible(s, choice);
   shown_ = std::move(snapshot);
@@ -130,55 +132,7 @@ bool SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const Wind
   if (new_session) move(camera_motion::Frame{});
   if (new_doubt && doubtful_) show_doubtful(s);
   renderer().ResetCameraClippingRange();
-  return true;
-}
-
-void SceneView::show_mesh(const SessionSnapshot& s, const LayerChoice& choice) {
-  if (choice.missed && s.missed) {
-    scene_.mesh().show(
-        *s.missed->mesh,
-        MeshClasses{s.missed->observed, {{"missed so far", theme::missed}, {"measured", theme::object}}, "surface"});
-  } else {
-    scene_.mesh().show(s.mesh ? *s.mesh : TriangleMesh{}, choice.object_style);
-  }
-}
-
-void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) {
-  const SeenCloud& cloud = *s.cloud;
-  const std::size_t stride = cloud.points.size() / max_points + 1;
-  SeenCloud thin;
-  for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
-    thin.points.push_back(cloud.points[i]);
-    thin.views.push_back(cloud.views[i]);
-    if (!cloud.normals.empty()) thin.normals.push_back(cloud.normals[i]);
-    if (!cloud.distances.empty()) thin.distances.push_back(cloud.distances[i]);
-  }
-  CloudPicture picture{thin.points, thin.views, thin.distances, choice.cloud_colouring};
-  picture.normals = thin.normals;
-  picture.farthest = s.configuration.evaluation.d_reg;
-  if (thin.distances.empty() && choice.cloud_colouring == CloudColouring::by_distance)
-    picture.colouring = CloudColouring::single;  // there is no truth
-  if (choice.ranges_locked && choice_.ranges_locked && heights_.first < heights_.second) {
-    picture.heights = heights_;
-  } else if (!thin.points.empty()) {
-    const auto [low, high] = std::minmax_element(thin.points.begin(), thin.points.end(),
-                                                 [](const auto& a, const auto& b) { return a.z() < b.z(); });
-    heights_ = {low->z(), high->z()};
-    if (choice.ranges_locked && heights_.first < heights_.second) picture.heights = heights_;
-  }
-  scene_.cloud().show(picture);
-}
-
-void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice, bool new_voxels) {
-  const auto values = chosen_values(s, choice);
-  const bool needs_values =
-      choice.colouring == VoxelColouring::by_difference || choice.colouring == VoxelColouring::by_error;
-  const auto colouring = needs_values && values.empty() ? VoxelColouring::by_class : choice.colouring;
-  if (new_voxels) {
-    scene_.octree().show(s.grid, chosen_voxels(s, choice.map), choice.shown_voxels(), colouring, values);
-  } else {
-    scene_.octree().set_colouring(colouring, values);
-  }
+  return much ? SceneChange::much : SceneChange::little;
 }
 
 void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) {
@@ -253,7 +207,9 @@ void SceneView::show_rays(const SessionSnapshot& s, const ScoreExplanation* expl
 
 void SceneView::set_visible(const SessionSnapshot& s, const LayerChoice& choice) {
   const bool usual = !doubtful_;
-  scene_.mesh().set_visible(usual && ((choice.object && s.mesh) || (choice.missed && s.missed)));
+  const bool missed = choice.missed && s.missed;
+  scene_.mesh().set_visible(usual && choice.object && s.mesh && !missed);
+  scene_.missed().set_visible(usual && missed);
   scene_.surface().set_visible(usual && shown_surface());
   scene_.section().set_visible(usual && choice.section);
   scene_.cloud().set_visible(usual && choice.cloud);

@@ -5,6 +5,7 @@
 #include "ui/render_target/drawn_apart.hpp"
 #include "ui/scene/scene.hpp"
 #include "ui/window/box_handles.hpp"
+#include "ui/window/faces_ahead.hpp"
 #include "ui/workbench/found_surface.hpp"
 #include "ui/workbench/inspection.hpp"
 #include "ui/workbench/session_snapshot.hpp"
@@ -17,6 +18,13 @@ struct Picked {
   std::optional<std::uint32_t> voxel;
 };
 
+/// How much of a scene is another one than before.
+enum class SceneChange {
+  none,
+  little,  ///< what is looked at, beside what is there
+  much     ///< what there is, or is shown of it
+};
+
 /// The 3D part of the window: a scene that follows snapshots and does again only what changed.
 class SceneView {
  public:
@@ -25,15 +33,19 @@ class SceneView {
   /// In the target as it is now; call it again when its size changed.
   void place(const Rectangle& rectangle);
   void set_scale(double scale);
-  /// Returns whether the picture changed. While a scan is doubtful, it is shown with those before it, and nothing else.
-  bool show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
-            std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful = nullptr,
-            std::shared_ptr<const FoundSurface> surface = nullptr);
+  /// Returns how much the picture changed. While a scan is doubtful, it is shown with those before it, and nothing
+  /// else.
+  SceneChange show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
+                   std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful = nullptr,
+                   std::shared_ptr<const FoundSurface> surface = nullptr);
+  /// Of the map that is shown next, if they are: it need not look for them then.
+  void take_faces(std::shared_ptr<const FoundFaces> faces) { faces_ = std::move(faces); }
   void move(const CameraMotion& motion);
   /// Unless it is still, objects and surfaces of many triangles have fewer, too.
   void set_quality(DrawingQuality quality);
 
   const Rectangle& rectangle() const { return rectangle_; }
+  bool shows(const SessionSnapshot& snapshot) const { return shown_.get() == &snapshot; }
   vtkRenderer& renderer() { return scene_.renderer(); }
   /// Where a point of the world is in the window, unless it is behind the camera [px from the upper left corner].
   std::optional<Eigen::Vector2d> project(const Vector3& point);
@@ -57,9 +69,9 @@ class SceneView {
   Pose camera_pose();
 
  private:
-  void show_mesh(const SessionSnapshot& snapshot, const LayerChoice& choice);
+  void show_missed(const SessionSnapshot& snapshot);
   void show_cloud(const SessionSnapshot& snapshot, const LayerChoice& choice);
-  void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice, bool new_voxels);
+  void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice);
   void show_views(const SessionSnapshot& snapshot, const WindowState& window);
   void show_surface(const SessionSnapshot& snapshot, const LayerChoice& choice);
   void show_section(const SessionSnapshot& snapshot, const LayerChoice& choice);
@@ -87,6 +99,10 @@ class SceneView {
   std::vector<RaySegment> rays_;
   std::vector<bool> hidden_;  ///< of each candidate: it is not drawn
   std::shared_ptr<const DoubtfulScan> doubtful_;
+  // What is not seen is not made.
+  bool cloud_is_old_ = true, voxels_are_old_ = true, colours_are_old_ = true;
+  std::shared_ptr<const FoundFaces> faces_;      ///< null: none were found yet
+  std::shared_ptr<const MissedPicture> missed_;  ///< that its layer has
   std::shared_ptr<const FoundSurface> surface_;  ///< null, or another session's: there is none
   bool dark_ = false, orthographic_ = false;
   Scene::Stand stand_before_;  ///< of the camera, before it was shown

@@ -55,6 +55,18 @@ TEST(ObjectLengths, VoxelsAreOneTwoOrFiveTimesAPowerOfTen) {
   }
 }
 
+TEST(ObjectLengths, OfVerySmallAndVeryLargeObjectsAreAllowed) {
+  for (const double longest : {0.0005, 0.003, 80.0}) {
+    Configuration c;
+    fit_lengths(c, longest);
+    EXPECT_NO_THROW(c.validate()) << longest;
+  }
+  Configuration c;
+  fit_lengths(c, 0.003);
+  EXPECT_DOUBLE_EQ(c.map.resolution, 0.00005);
+  EXPECT_LT(c.views.radius, c.sensor.max_range) << "nothing would be seen";
+}
+
 TEST(ObjectLengths, WhatIsGivenStays) {
   Configuration c;
   give(c, "map.resolution", "0.01", "--resolution");  // as it is by default

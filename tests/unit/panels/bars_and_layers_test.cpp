@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <utility>
+
 #include "tests/unit/panels/made_scan.hpp"
 #include "tests/unit/panels/seen.hpp"
 
@@ -88,6 +90,19 @@ TEST_F(Bars, SaysWhatRunsWhatWaitsAndForHowLong) {
   EXPECT_THAT(control_bar(), HasSubstr("between two views"));
 }
 
+TEST_F(Bars, WhatRunsEndsWhereItsCancelBegins) {
+  desk_.progress.busy = true;
+  desk_.progress.what =
+      "casting rays of sight, voxel by voxel, through all of the region that nobody has seen yet, again";
+  desk_.progress.waiting = 2;
+  desk_.progress.seconds_left = 0;
+  EXPECT_THAT(control_bar(), Not(HasSubstr("left"))) << "0 s are not worth a word, and others are cut";
+  const auto all = seen_texts();
+  const SeenText *text = find_text(all, "casting", "Control bar"), *cancel = find_text(all, "Cancel", "Control bar");
+  ASSERT_TRUE(text && cancel);
+  EXPECT_LT(text->to.x, cancel->from.x);
+}
+
 TEST_F(Bars, PlayAndPauseAreOneButtonAndStepWaitsWhilePlaying) {
   desk_.frames();
   EXPECT_EQ(text_of(click_on(desk_, "Play", "Control bar")), "play");
@@ -106,6 +121,9 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   const Eigen::Vector3i n = scan_->grid.size;
   EXPECT_THAT(status(), HasSubstr(fmt::format("sphere · {} triangles · {} × {} × {} voxels of 40 mm",
                                               scan_->mesh->triangles.size(), n.x(), n.y(), n.z())));
+  const double usual = std::exchange(scan_->records.back().new_surface, 0.0612);
+  EXPECT_THAT(status(), HasSubstr("0.061 cm² of new surface")) << "of a small part all are less than 1";
+  scan_->records.back().new_surface = usual;
   desk_.window.pointed_at = Vector3(0.0125, -0.2, 0.31);
   EXPECT_THAT(status(), HasSubstr("x 12.5  y -200.0  z 310.0 mm"));
   desk_.window.pointed_at = Vector3(1.25, -0.2, 0.31);

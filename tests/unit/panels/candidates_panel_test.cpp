@@ -49,6 +49,12 @@ TEST_F(CandidatesPanel, EachNumberStandsInItsColumnWithItsUnit) {
   EXPECT_THAT(panel(), HasSubstr("candidate gain cost [m] utility"));
 }
 
+TEST_F(CandidatesPanel, WaysAroundASmallPartAreInMillimetres) {
+  for (Candidate& candidate : scan_->records.back().candidates) candidate.cost *= 0.01;
+  EXPECT_THAT(panel(), HasSubstr("cost [mm]"));
+  EXPECT_THAT(rows().front(), HasSubstr("160 7.50 0.2000"));
+}
+
 TEST_F(CandidatesPanel, TheFormulaHasTheWeightsOfThePlanner) {
   scan_->configuration.planner.weights = {1, 0.3};
   EXPECT_THAT(panel(), HasSubstr("U = gain share − 0.3 cost share (Eq. 13)"));
