@@ -127,13 +127,22 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
       Touches touches{};
       touches_of(brick, touches);
       if (touches == Touches{}) continue;  // and it stays shared
+      const auto log_odds_after = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
+        const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
+        return std::clamp(voxels.log_odds(i) + change, lowest, highest);
+      };
+      const auto changes = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
+        return touches[i] != untouched && (!voxels.measured(i) || log_odds_after(voxels, i) != voxels.log_odds(i));
+      };
+      std::size_t i = 0;
+      while (i < touches.size() && !changes(*bricks[brick], i)) ++i;
+      if (i == touches.size()) continue;  // all at their clamps: it stays shared, too
       VoxelBricks::Brick& voxels = bricks[brick].change();
       float last = 0.0f;  // neighbours often have the same log-odds
       VoxelClass last_class = class_of(last);
-      for (std::size_t i = 0; i < touches.size(); ++i) {
+      for (; i < touches.size(); ++i) {
         if (touches[i] == untouched) continue;
-        const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
-        const float log_odds = std::clamp(voxels.log_odds(i) + change, lowest, highest);
+        const float log_odds = log_odds_after(voxels, i);
         if (log_odds != last) last = log_odds, last_class = class_of(log_odds);
         voxels.set_measured(i, log_odds, last_class);
       }

@@ -56,8 +56,7 @@ void Session::follow_views(ScanSetup& setup, const std::stop_token& stop) const 
   const auto same = [](const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); };
   if (setup.sight && std::ranges::equal(poses, setup.sight->candidates, same)) return;
   const bool as_it_began = std::ranges::equal(poses, setup.truth->candidates(), same);
-  setup.sight =
-      as_it_began ? nullptr : std::make_shared<const CandidateSight>(setup.truth->sight_of(poses, {}, stop));
+  setup.sight = as_it_began ? nullptr : std::make_shared<const CandidateSight>(setup.truth->sight_of(poses, {}, stop));
 }
 
 void Session::set_planning(const PlanningConfig& config, const Progress& progress, const std::stop_token& stop) {

@@ -200,7 +200,9 @@ ScanState state_in(ByteReader& reader, const Session& session, std::span<const J
   each_next(reader, state.next);
   if (state.next.candidate.value_or(0) >= std::max<std::size_t>(1, state.candidates.size()))
     throw std::runtime_error("it is of other candidates");
-  const auto is_of_the_recording = [&](const View& view) { return view.frame.value_or(0) < setup.source.frames.size(); };
+  const auto is_of_the_recording = [&](const View& view) {
+    return view.frame.value_or(0) < setup.source.frames.size();
+  };
   if (session.recording() && !(std::ranges::all_of(state.known.taken, is_of_the_recording, &TakenView::wanted) &&
                                is_of_the_recording(state.next.view)))
     throw std::runtime_error("it is of other frames");

@@ -1,5 +1,5 @@
-// What a user waits for around a scan of 20 views: until its session is shown against reading the files that were made of
-// it, going back a view against taking one. Ratios in one run: build/release/session_benchmark
+// What a user waits for around a scan of 20 views: until its session is shown against reading the files that were made
+// of it, going back a view against taking one. Ratios in one run: build/release/session_benchmark
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 

@@ -70,9 +70,7 @@ class KilledSessions : public SessionFolders, public testing::WithParamInterface
   std::string scan(const std::string& name) const {
     return "scan " + (GetParam() ? source() : "box " + camera) + "--views 3 " + quick + "--out " + in(name);
   }
-  std::string resumed() const {
-    return "scan --resume " + in("killed") + " --no-pictures --no-surfaces " + source();
-  }
+  std::string resumed() const { return "scan --resume " + in("killed") + " --no-pictures --no-surfaces " + source(); }
   /// What a user does after the scan into "killed" was ended, and that it comes to what a whole one gives.
   void goes_on_to_the_same() const {
     const bool has_begun = fs::exists(in("killed/journal")) && fs::file_size(in("killed/journal")) > 0;

@@ -118,7 +118,7 @@ class SessionRunner {
   std::shared_ptr<Session> session_;
   std::unique_ptr<GibbsState> refinement_;  ///< the window's own; null if the planner has one, or none was asked for
   std::vector<std::shared_ptr<const Scan>> refined_scans_;  ///< that it holds
-  std::shared_ptr<SeenSurface> seen_;  ///< null without a session
+  std::shared_ptr<SeenSurface> seen_;                       ///< null without a session
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
   ScanHistory history_;
   std::uint64_t change_when_gone_ = 0;                    ///< the last one when the timeline was gone along

@@ -89,7 +89,7 @@ void SessionRunner::fill_map(SessionSnapshot& next) {
   next.planned_on_posterior = session_->planner().needs().posterior;
   next.configuration = session_->configuration();
   next.state = session_->state();
-  next.voxels = std::make_shared<const std::vector<Voxel>>(session_->map().voxels().dense());
+  next.voxels = LaidOutVoxels(session_->map().voxels());
   next.candidates = session_->candidates();
   next.records = session_->records();
   next.finished = session_->finished();
@@ -108,7 +108,7 @@ void SessionRunner::fill_map(SessionSnapshot& next) {
 
 void SessionRunner::show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement) {
   ++snapshot.map;
-  auto voxels = std::make_shared<const std::vector<Voxel>>(refinement.voxels().dense());
+  LaidOutVoxels voxels(refinement.voxels());
   const MapChange change = map_change(*snapshot.voxels, *voxels);
   snapshot.gibbs = std::make_shared<const GibbsMap>(GibbsMap{session_->scans().size(), refinement.shared_posterior(),
                                                              std::move(voxels), refinement.shared_measurements(),

@@ -14,6 +14,7 @@
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/session/camera_bookmarks.hpp"
 #include "core/session/scan_state.hpp"
+#include "ui/workbench/laid_out_voxels.hpp"
 #include "ui/workbench/timeline.hpp"
 
 namespace nextview {
@@ -39,7 +40,7 @@ MapChange map_change(std::span<const Voxel> conventional, std::span<const Voxel>
 struct GibbsMap {
   std::size_t views = 0;  ///< that it is made of; fewer than were taken: it is out of date
   std::shared_ptr<const GibbsPosterior> posterior;
-  std::shared_ptr<const std::vector<Voxel>> voxels;       ///< the posterior as the scene and the gains see it
+  LaidOutVoxels voxels;                                   ///< the posterior as the scene and the gains see it
   std::shared_ptr<const RangeMeasurements> measurements;  ///< what it was sampled from
   PosteriorSamplerConfig config;
   MapChange change;  ///< against the conventional map of the same views
@@ -89,7 +90,7 @@ struct SessionSnapshot {
   std::vector<std::string> notes;                       ///< Session::notes
   std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, as the next
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread
-  std::shared_ptr<const std::vector<Voxel>> voxels;     ///< the conventional map, one per voxel; null without a session
+  LaidOutVoxels voxels;                                 ///< the conventional map; null without a session
   std::shared_ptr<const SeenCloud> cloud;
   std::shared_ptr<const GibbsMap> gibbs;     ///< null if there is none
   std::shared_ptr<const GroundTruth> truth;  ///< null without evaluation; so is the next

@@ -17,8 +17,8 @@ namespace nextview {
 struct Stand {
   TerminationConfig termination;
   PlanningConfig planning;
-  PolicyNeeds needs;                 ///< of its planner
-  std::shared_ptr<ScanState> state;  ///< never null; its maps may have been dropped
+  PolicyNeeds needs;                  ///< of its planner
+  std::shared_ptr<ScanState> state;   ///< never null; its maps may have been dropped
   std::shared_ptr<SeenSurface> seen;  ///< never null; it may have fewer scans than the state
 };
 

@@ -201,6 +201,21 @@ TEST(OccupancyMap, AFirstHitIsNotYetOccupied) {
   EXPECT_EQ(map.voxels()[voxel].voxel_class, VoxelClass::occupied);
 }
 
+/// Most of what a later view passes is as free as it can be.
+TEST(OccupancyMap, WhatIsAtItsClampsStaysShared) {
+  const Scan scan = scans(0.01, 600, 1.5, 100).front();
+  OccupancyMap map(region(0.01), {});
+  for (int k = 0; k < 3; ++k) map.insert(scan);
+  OccupancyMap before = map;
+  map.insert(scan);
+  EXPECT_GT(map.voxels().bytes_beside(before.voxels()), 0u);
+  for (int k = 0; k < 8; ++k) map.insert(scan);
+  before = map;
+  map.insert(scan);
+  EXPECT_EQ(map.voxels().bytes_beside(before.voxels()), 0u);
+  EXPECT_TRUE(same_bytes(map, before));
+}
+
 TEST(OccupancyMap, RejectsModelsThatMakeNoSense) {
   const auto rejects = [](auto change) {
     InverseSensorModel model;

@@ -82,7 +82,7 @@ class InspectedVoxel : public InspectorPanel {
   InspectedVoxel() {
     auto voxels = *scan_->voxels;
     voxels[voxel_] = {0.75f, 0.5625f, VoxelClass::occupied, true, 0};
-    scan_->voxels = std::make_shared<const std::vector<Voxel>>(voxels);
+    scan_->voxels = LaidOutVoxels(voxels);
     auto truth = *scan_->truth;
     truth.touch[voxel_] = truth.centre[voxel_] = 0;
     truth.surface_distance[voxel_] = 3;
@@ -130,7 +130,7 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   std::vector<Voxel> voxels = *scan_->voxels;
   voxels[voxel_] = {0.25f, 0.4375f, VoxelClass::unknown, true, 0};
   gibbs.posterior = std::make_shared<const GibbsPosterior>();
-  gibbs.voxels = std::make_shared<const std::vector<Voxel>>(voxels);
+  gibbs.voxels = LaidOutVoxels(voxels);
   scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
   FullConditional f;
   f.probability = {0.875, 0.125};
@@ -147,7 +147,7 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   text = panel();
   EXPECT_THAT(text, HasSubstr("free 0.5000 level 1 0.2500 level 2 0.2500"));
   voxels[voxel_].measured = false;
-  gibbs.voxels = std::make_shared<const std::vector<Voxel>>(voxels);
+  gibbs.voxels = LaidOutVoxels(voxels);
   scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
   EXPECT_THAT(panel(), HasSubstr("Gibbs not informed"));
 }

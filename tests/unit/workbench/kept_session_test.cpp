@@ -98,8 +98,8 @@ TEST_F(KeptSessionTest, WhatIsExportedIsASession) {
   EXPECT_EQ(read_journal(folder_ / "out").line().size(), 3u);
 }
 
-// What is put off when a session is opened (what candidates see, then a piece a view) is done while nothing is asked for,
-// as far as there is room.
+// What is put off when a session is opened (what candidates see, then a piece a view) is done while nothing is asked
+// for, as far as there is room.
 TEST_F(KeptSessionTest, GoingBackInAnOpenedSessionMakesNoMapsAgain) {
   for (const double memory : {1.0, 0.0}) {
     Configuration c = small_scan();
