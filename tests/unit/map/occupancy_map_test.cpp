@@ -212,7 +212,8 @@ TEST(OccupancyMap, WhatIsAtItsClampsStaysShared) {
   for (int k = 0; k < 8; ++k) map.insert(scan);
   before = map;
   map.insert(scan);
-  EXPECT_EQ(map.voxels().bytes_beside(before.voxels()), 0u);
+  EXPECT_LE(map.voxels().bytes_beside(before.voxels()), map.voxels().brick_count() * sizeof(void*))
+      << "the table alone";
   EXPECT_TRUE(same_bytes(map, before));
 }
 

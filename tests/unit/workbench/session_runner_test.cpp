@@ -24,7 +24,7 @@ TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
   EXPECT_GT(sampler_reports, 0);
   EXPECT_EQ(first->views, 2u);
   EXPECT_EQ(first->voxels->size(), now().voxels->size());
-  EXPECT_EQ(now().voxels, before->voxels) << "the conventional map is another";
+  EXPECT_EQ(&*now().voxels, &*before->voxels) << "the conventional map is another";
   EXPECT_EQ(now().records.size(), 2u);
   EXPECT_NE(now().map, before->map);
   steps(1);

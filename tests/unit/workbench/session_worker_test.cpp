@@ -245,7 +245,7 @@ TEST_F(SessionWorkerTest, TakesTheViewThatAPersonChose) {
   EXPECT_EQ(chosen->next_candidate, other);
   EXPECT_EQ(chosen->proposal(), before->proposal());
   EXPECT_EQ(chosen->map, before->map) << "choosing a view measures nothing";
-  EXPECT_EQ(chosen->voxels, before->voxels);
+  EXPECT_EQ(&*chosen->voxels, &*before->voxels);
   EXPECT_TRUE(chosen->next_view.isApprox(chosen->candidates[other]));
   worker_.post(request::Step{});
   wait_until_idle();
