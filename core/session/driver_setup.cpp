@@ -1,10 +1,8 @@
 #include "core/session/driver_setup.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <tuple>
 
@@ -13,15 +11,15 @@
 #include "core/driver/driver_scanner.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/captures_folder.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
 namespace {
 
-/// Of its own for each connection: captures of two must not meet.
-std::filesystem::path captures_folder() {
-  static std::atomic<int> count = 0;
-  return std::filesystem::temp_directory_path() / fmt::format("nextview-captures-{}-{}", ::getpid(), ++count);
+std::filesystem::path new_captures_folder() {
+  static CapturesFolder folder(std::filesystem::temp_directory_path());
+  return folder.next();
 }
 
 std::string text(const Eigen::AlignedBox3d& box) {
@@ -128,7 +126,7 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const Scanne
   options.timeout = c.driver.timeout;
   options.working_volume = c.driver.volume();
   options.T_flange_camera = c.driver.T_flange_camera();
-  options.folder = captures_folder();
+  options.folder = new_captures_folder();
   options.confirm = wishes.confirm;
   options.log = wishes.log;
   auto connection = std::make_shared<DriverConnection>(std::move(options), stop);
