@@ -58,10 +58,27 @@ void heading(const Style& style, const char* text) {
   ImGui::PopFont();
 }
 
+namespace {
+
+/// With its lines broken at spaces alone. ImGui breaks them behind points, too: "1.19 m" came apart.
+std::string broken_at_spaces(std::string text, float width) {
+  std::size_t line = 0, space = std::string::npos;  // where it begins, and could be broken
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    if (i < text.size() && text[i] != ' ' && text[i] != '\n') continue;
+    const bool fits = ImGui::CalcTextSize(&text[line], &text[i]).x <= width;
+    if (!fits && space != std::string::npos) text[space] = '\n', line = space + 1;
+    space = i;
+    if (i < text.size() && text[i] == '\n') line = i + 1, space = std::string::npos;
+  }
+  return text;
+}
+
+}  // namespace
+
 void small_text(const Style& style, const std::string& text, const Colour& colour) {
   ImGui::PushFont(style.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
-  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::TextWrapped("%s", broken_at_spaces(text, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }
