@@ -57,6 +57,24 @@ TEST_F(WindowExport, TheScenesPictureHasItsSizeAndLeavesTheWindowAsItWas) {
   EXPECT_EQ(picture("after.png"), picture("before.png"));
 }
 
+TEST_F(WindowExport, TheWindowsPictureHasAnySizeAndLeavesTheWindowAsItWas) {
+  User user(small_scan());
+  user.run("step\nsave-picture " + file("before.png") + "\n");
+  user.run("save-picture " + file("large.png") + " 2000x1300\nsave-picture " + file("least.png") +
+           " 16x16\nsave-picture " + file("after.png") + "\n");
+  const Image before = picture("before.png"), large = picture("large.png");
+  EXPECT_EQ(large.width, 2000);
+  EXPECT_EQ(large.height, 1300);
+  EXPECT_EQ(picture("least.png").width, 16);
+  EXPECT_EQ(picture("after.png"), before);
+  User wide(small_scan(), 2000, 1300);
+  wide.run("step\nsave-picture " + file("wide.png") + "\n");
+  const Image in_such_a_window = picture("wide.png");
+  const auto menus = std::size_t(large.width) * 4 * 30;
+  EXPECT_TRUE(std::equal(large.rgba.begin(), large.rgba.begin() + std::ptrdiff_t(menus), in_such_a_window.rgba.begin()))
+      << "the menu's pixels are those of a window of that size";
+}
+
 /// The picture is that part of the window, where no panel's notices lie on it, to the pixel.
 TEST_F(WindowExport, TheScenesPictureIsWhatTheWindowShows) {
   User user(small_scan());

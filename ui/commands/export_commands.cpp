@@ -95,4 +95,18 @@ const CommandOf<std::string, std::optional<int>, std::optional<std::string>, std
           draw(t, ExportKind::turntable, PictureRequest::Of::turntable, folder, pixels, behind, frames.value_or(36));
         }};
 
+const CommandOf<std::string, std::optional<std::string>> command::save_picture{
+    {.name = "save-picture",
+     .menu = "File",
+     .text = "Save a picture…",
+     .help = "Writes the window as a PNG picture, with the settings that made it.",
+     .writes = true},
+    argument::file("file", "a file that ends in .png", argument::fixed({"window.png"})),
+    size(),
+    [](CommandTarget& t, const std::string& file, const auto& wanted_size) {
+      PictureRequest picture{PictureRequest::Of::window, file};
+      if (wanted_size) picture.size = picture_size(*wanted_size, "save-picture: SIZE");
+      t.window.picture = picture;
+    }};
+
 }  // namespace nextview

@@ -16,7 +16,8 @@ extern const CommandOf<std::string, std::optional<SurfaceSource>, std::optional<
 extern const CommandOf<std::string, std::optional<std::string>, std::optional<Background>> export_curves,
     export_picture;  ///< size, as "1920x1080"
 extern const CommandOf<std::string, std::optional<int>, std::optional<std::string>, std::optional<Background>>
-    export_turntable;  ///< number of frames, and their size
+    export_turntable;                                                          ///< number of frames, and their size
+extern const CommandOf<std::string, std::optional<std::string>> save_picture;  ///< of the window; likewise
 
 }  // namespace command
 }  // namespace nextview

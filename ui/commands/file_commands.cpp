@@ -180,17 +180,6 @@ const CommandOf<std::string> command::export_scan{
     argument::file("folder", "a folder; it is made if it is not there", argument::fixed({"scan"})),
     [](CommandTarget& t, const std::string& folder) { t.worker.post(request::Export{folder}); }};
 
-const CommandOf<std::string> command::save_picture{
-    {.name = "save-picture",
-     .menu = "File",
-     .text = "Save a picture…",
-     .help = "Writes the window as a PNG picture, with the settings that made it.",
-     .writes = true},
-    argument::file("file", "a file that ends in .png", argument::fixed({"window.png"})),
-    [](CommandTarget& t, const std::string& file) {
-      t.window.picture = PictureRequest{PictureRequest::Of::window, file};
-    }};
-
 const CommandOf<std::string> command::save_script{
     {.name = "save-script",
      .menu = "File",

@@ -8,7 +8,7 @@ extern const CommandOf<std::string> open;              ///< a file, or a known o
 extern const CommandOf<std::string, std::string> set;  ///< a setting's key, and its value as a file has it
 extern const CommandOf<std::string> reset_setting;     ///< its key
 extern const CommandOf<> reset_settings, quit;
-extern const CommandOf<std::string> export_scan, save_picture, save_script;  ///< where to
+extern const CommandOf<std::string> export_scan, save_script;  ///< where to
 
 }  // namespace nextview::command
 

@@ -54,7 +54,8 @@ struct PictureRequest {
   std::string file;                      ///< of a turntable: its folder
   std::optional<PictureSize> size = {};  ///< none: as it is in the window
   bool transparent = false;              ///< without a background; not of the window
-  int frames = 1, drawn = 0;             ///< of a turntable: how many, and how many of them so far
+  int frames = 1, drawn = 0;  ///< of a turntable: how many, and how many of them so far; of a window of another size
+                              ///< how many frames were drawn of it to let it settle
 
   bool operator==(const PictureRequest&) const = default;
 };

@@ -78,18 +78,23 @@ void RenderTarget::render() {
 }
 
 Image RenderTarget::read_back() {
-  using ReadPixels = void (*)(int, int, int, int, unsigned int, unsigned int, void*);
   make_current();
   vtkOpenGLState* state = window_->GetState();
   state->PushReadFramebufferBinding();
   state->vtkglBindFramebuffer(gl_read_framebuffer, 0);
   state->vtkglReadBuffer(gl_back);
+  Image image = read_pixels();
+  state->PopReadFramebufferBinding();
+  return image;
+}
+
+Image RenderTarget::read_pixels() {
+  using ReadPixels = void (*)(int, int, int, int, unsigned int, unsigned int, void*);
   Image image{width(), height(), {}};
   const std::size_t row = std::size_t(image.width) * 4;
   std::vector<std::uint8_t> pixels(row * image.height);
   reinterpret_cast<ReadPixels>(gl_function("glReadPixels"))(0, 0, image.width, image.height, gl_rgba, gl_unsigned_byte,
                                                             pixels.data());
-  state->PopReadFramebufferBinding();
   image.rgba.resize(pixels.size());
   for (int y = 0; y < image.height; ++y) {
     std::copy_n(&pixels[(image.height - 1 - y) * row], row, &image.rgba[y * row]);

@@ -36,6 +36,9 @@ class RenderTarget {
   /// What the last rendering, and whoever drew over it, left in the back buffer. Alpha is 255 everywhere.
   Image read_back();
 
+  /// The same of the framebuffer that is bound to be read.
+  Image read_pixels();
+
   /// The first OpenGL error since the last call, 0 if there was none.
   unsigned int gl_error();
 

@@ -1,13 +1,13 @@
 // Pictures that the window writes: of itself, of its scene from one side or from all around, of the curves.
 #include <fmt/format.h>
 #include <imgui.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 
 #include "core/config/configuration.hpp"
 #include "core/export/frame_folder.hpp"
 #include "core/file/atomic_file.hpp"
 #include "ui/charts/chart_page.hpp"
 #include "ui/commands/export_commands.hpp"
-#include "ui/commands/file_commands.hpp"
 #include "ui/panels/curves_panel.hpp"
 #include "ui/window/interface_parts.hpp"
 #include "ui/window/panels_alone.hpp"
@@ -106,16 +106,34 @@ void Interface::Parts::picture_failed(const std::string& reason) {
 Image Interface::Parts::draw_window() {
   PanelsAlone alone(*ImGui::GetDrawData());
   composer.compose(alone.data(), std::nullopt, false);
-  composer.fill_back_buffer();
-  Image picture = target.read_back();
+  Image picture = composer.read();
   composer.compose(*ImGui::GetDrawData(), std::nullopt, false);
   composer.fill_back_buffer();
   return picture;
 }
 
+/// A picture of another size is drawn as in a window of that size; those frames are shown to nobody.
+void Interface::Parts::take_picture_size() {
+  if (!state.picture || state.picture->of != Of::window || !state.picture->size) return;
+  const PictureSize before{target.width(), target.height()}, &size = *state.picture->size;
+  if (size == before) return;
+  size_before = before;  // each frame anew: the target of a window follows that
+  target.window().SetSize(size.width, size.height);
+}
+
+void Interface::Parts::leave_picture_size() {
+  if (!size_before) return;
+  target.window().SetSize(size_before->width, size_before->height);
+  size_before.reset();
+  scene_is_old = true;
+  composer.forget();
+}
+
 void Interface::Parts::write_window_picture() {
   if (!state.picture || state.picture->of != Of::window) return;
+  if (size_before && state.picture->drawn++ < frames_to_settle) return;
   const Image picture = draw_window();
+  leave_picture_size();
   const std::string file = state.picture->file;
   try {
     write_wanted(picture, file);

@@ -240,4 +240,15 @@ void FrameComposer::fill_back_buffer() {
   state.PopReadFramebufferBinding();
 }
 
+Image FrameComposer::read() {
+  target_.make_current();
+  vtkOpenGLState& state = *target_.window().GetState();
+  state.PushReadFramebufferBinding();
+  frame_->Bind(gl_read_framebuffer);
+  frame_->ActivateReadBuffer(0);
+  Image image = target_.read_pixels();
+  state.PopReadFramebufferBinding();
+  return image;
+}
+
 }  // namespace nextview

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ui/panels/layout.hpp"
+#include "ui/render_target/image.hpp"
 
 class vtkOpenGLFramebufferObject;
 struct ImDrawData;
@@ -55,6 +56,8 @@ class FrameComposer {
   bool compose(ImDrawData& panels, const std::optional<Rectangle>& new_scene, bool new_pictures);
   /// Gives the back buffer the last frame again: after it was shown nobody knows what it has.
   void fill_back_buffer();
+  /// The last frame, also where it is larger than the back buffer.
+  Image read();
   /// That were drawn again for the last frame.
   const PixelBoxes& drawn() const { return damage_; }
 

@@ -127,6 +127,8 @@ bool Interface::draw(double seconds) {
   p.target.make_current();
   p.settling = std::max(p.settling - 1, 0);
   const bool wants_picture = p.state.picture.has_value();  // since a frame: what it was asked from is gone
+  p.take_picture_size();
+  const bool for_picture_alone = p.size_before.has_value();
   p.take_news();
   p.follow_session();
   p.take_input();
@@ -143,7 +145,7 @@ bool Interface::draw(double seconds) {
   const auto new_scene = p.draw_scene() ? std::optional(p.layout.scene) : std::nullopt;
   const bool new_frame = p.composer.compose(*ImGui::GetDrawData(), new_scene, p.pictures.uploads() != pictures);
   if (wants_picture) p.write_window_picture();
-  return new_frame || wants_picture;
+  return !for_picture_alone && (new_frame || wants_picture);
 }
 
 }  // namespace nextview

@@ -87,6 +87,7 @@ struct Interface::Parts {
   FacesAhead faces;
   std::size_t scene_drawings = 0;
   int settling = frames_to_settle;
+  std::optional<PictureSize> size_before;  ///< of the target, while a picture of the window is drawn in another size
 
   News latest() const {
     return {worker.snapshot(),      worker.progress(),   inspector.answer(),
@@ -128,6 +129,8 @@ struct Interface::Parts {
   /// Of the session's worker, or of the turntable that is drawn.
   WorkerProgress progress() const;
   void draw_wanted_picture();
+  void take_picture_size();
+  void leave_picture_size();
   void write_window_picture();
 
  private:
