@@ -15,11 +15,16 @@ std::shared_ptr<const StepRecord> without_candidates(StepRecord record) {
   return std::make_shared<const StepRecord>(std::move(record));
 }
 
+std::shared_ptr<const DepthCells> picture_of(const Scan& scan, const Pose& T_world_camera,
+                                             const PinholeCamera& camera) {
+  return std::make_shared<const DepthCells>(thumbnail(scan, T_world_camera, camera));
+}
+
 std::shared_ptr<const DepthCells> picture_of(const JournalStep& step, const std::filesystem::path& folder,
                                              const PinholeCamera& camera) {
   try {
     const Scan scan = to_scan(read_capture(step, folder), nullptr).scan;
-    return std::make_shared<const DepthCells>(thumbnail(scan, step.T_world_camera, camera));
+    return picture_of(scan, step.T_world_camera, camera);
   } catch (const std::runtime_error&) {
     return nullptr;  // who goes there hears of it
   }
@@ -65,9 +70,7 @@ void StepTree::set_stand(std::uint32_t number, Stand stand) {
   if (number > 0) {
     const StepRecord& record = *stand.state->records.back();
     node.record = without_candidates(record);
-    if (!node.picture)
-      node.picture =
-          std::make_shared<const DepthCells>(thumbnail(*stand.state->scans.back(), record.T_world_camera, camera_));
+    if (!node.picture) node.picture = picture_of(*stand.state->scans.back(), record.T_world_camera, camera_);
   }
   node.stand = std::move(stand);
 }
@@ -83,9 +86,7 @@ void StepTree::follow_seen(std::uint32_t number) {
 
 void StepTree::take_pictures(std::span<const std::uint32_t> numbers, const ScanState& state) {
   tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t k) {
-    Node& node = nodes_.at(numbers[k]);
-    const Pose& T_world_camera = state.records[k]->T_world_camera;
-    node.picture = std::make_shared<const DepthCells>(thumbnail(*state.scans[k], T_world_camera, camera_));
+    nodes_.at(numbers[k]).picture = picture_of(*state.scans[k], state.records[k]->T_world_camera, camera_);
   });
 }
 
