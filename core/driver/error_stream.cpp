@@ -14,12 +14,12 @@
 namespace nextview {
 namespace {
 
-constexpr int look_every = 50;              // for the end [ms]
+constexpr int poll_interval = 50;           // for the end [ms]
 constexpr std::size_t longest_line = 4096;  // longer ones are broken
 constexpr std::size_t read_at_once = 4096;
 constexpr int most_at_end = 16;  // reads of what a full pipe holds
 /// A program that has ended may have children that keep its standard error open.
-constexpr auto patience = std::chrono::milliseconds(200);
+constexpr auto last_words_wait = std::chrono::milliseconds(200);
 
 }  // namespace
 
@@ -36,7 +36,7 @@ ErrorStream::~ErrorStream() {
 
 std::string ErrorStream::last_line() {
   std::unique_lock lock(mutex_);
-  ended_.wait_for(lock, patience, [&] { return at_end_; });
+  ended_.wait_for(lock, last_words_wait, [&] { return at_end_; });
   return last_;
 }
 
@@ -44,7 +44,7 @@ void ErrorStream::run(const std::stop_token& stop) {
   for (int left = most_at_end; left > 0;) {
     pollfd waiting = {pipe_.get(), POLLIN, 0};
     const bool stopping = stop.stop_requested();
-    const int ready = ::poll(&waiting, 1, stopping ? 0 : look_every);
+    const int ready = ::poll(&waiting, 1, stopping ? 0 : poll_interval);
     left -= stopping;
     if (ready > 0 ? !read_some() : stopping) break;
   }

@@ -32,7 +32,7 @@ struct Element {
   }
 };
 
-struct Header {
+struct ClaimedHeader {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
   std::string_view body;
@@ -47,7 +47,7 @@ std::size_t type_size(std::string_view type) {
   return type == "double" || type == "float64" ? 8 : 0;
 }
 
-bool read_format(std::istringstream& words, Header& header) {
+bool read_format(std::istringstream& words, ClaimedHeader& header) {
   std::string format;
   words >> format;
   header.encoding = format == "binary_little_endian" ? Encoding::little_endian
@@ -56,7 +56,7 @@ bool read_format(std::istringstream& words, Header& header) {
   return header.encoding != Encoding::text || format == "ascii";
 }
 
-bool read_element(std::istringstream& words, Header& header) {
+bool read_element(std::istringstream& words, ClaimedHeader& header) {
   Element element;
   std::string count;
   words >> element.name >> count;
@@ -65,7 +65,7 @@ bool read_element(std::istringstream& words, Header& header) {
   return error == std::errc() && end == count.data() + count.size() && !count.empty();
 }
 
-bool read_property(std::istringstream& words, Header& header) {
+bool read_property(std::istringstream& words, ClaimedHeader& header) {
   std::string type, count_type;
   words >> type;
   const bool list = type == "list";
@@ -77,7 +77,7 @@ bool read_property(std::istringstream& words, Header& header) {
 }
 
 /// @return what is wrong, or an empty string
-std::string read_header(std::string_view bytes, Header& header) {
+std::string read_header(std::string_view bytes, ClaimedHeader& header) {
   if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r")) return "does not begin with 'ply'";
   for (std::size_t end; (end = bytes.find('\n')) != std::string_view::npos;) {
     const std::string line(bytes.substr(0, end));
@@ -166,7 +166,7 @@ bool skip_element(Body& body, const Element& element, Encoding encoding) {
 }  // namespace
 
 std::string false_ply_claim(std::string_view bytes) {
-  Header header;
+  ClaimedHeader header;
   if (std::string reason = read_header(bytes, header); !reason.empty()) return reason;
   Body body(header.body, header.encoding);
   for (const Element& element : header.elements)

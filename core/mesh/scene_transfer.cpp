@@ -9,7 +9,7 @@ namespace nextview {
 namespace {
 
 /// Comes first. Then the message, or the vertices and the triangles.
-struct Header {
+struct TransferHeader {
   std::uint64_t out_of_memory = 0, message = 0, vertices = 0, triangles = 0;
 };
 constexpr std::uint64_t longest_message = 1 << 12;  // [bytes]
@@ -53,24 +53,24 @@ bool has_valid_indices(const ImportedTriangles& scene) {
 }  // namespace
 
 void send_scene(int pipe, const ImportedTriangles& scene) {
-  const Header header = {0, 0, scene.vertices.size(), scene.triangles.size()};
+  const TransferHeader header = {0, 0, scene.vertices.size(), scene.triangles.size()};
   send(pipe, &header, sizeof(header)) && send(pipe, scene.vertices) && send(pipe, scene.triangles);
 }
 
 void send_message(int pipe, std::string_view message) {
   message = message.substr(0, longest_message);
-  const Header header = {0, message.size(), 0, 0};
+  const TransferHeader header = {0, message.size(), 0, 0};
   send(pipe, &header, sizeof(header)) && send(pipe, message.data(), message.size());
 }
 
 void send_out_of_memory(int pipe) {
-  const Header header = {1, 0, 0, 0};
+  const TransferHeader header = {1, 0, 0, 0};
   send(pipe, &header, sizeof(header));
 }
 
 ReceivedScene receive_scene(ReadingProcess& process) {
   using Kind = ReceivedScene::Kind;
-  Header header;
+  TransferHeader header;
   if (!process.receive(&header, sizeof(header))) return {};
   ReceivedScene received;
   if (header.out_of_memory) {

@@ -9,7 +9,7 @@ namespace nextview {
 namespace {
 
 /// Few: what a straight edge has, which is about half, with a margin.
-constexpr double few = 0.6;
+constexpr double edge_share = 0.6;
 
 /// Sparse points of one voxel.
 struct Edge {
@@ -20,7 +20,7 @@ struct Edge {
 std::vector<Edge> edges_of(const Knowledge& known) {
   const VoxelGrid& grid = known.map.grid();
   std::map<std::uint32_t, Edge> edges;
-  for (const Eigen::Vector3f& point : known.scanned->sparse_points(few)) {
+  for (const Eigen::Vector3f& point : known.scanned->sparse_points(edge_share)) {
     const Eigen::Vector3i cell = grid.cell_at(point.cast<double>());
     if (!grid.contains(cell)) continue;
     Edge& edge = edges[grid.index(cell)];

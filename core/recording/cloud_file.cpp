@@ -53,7 +53,7 @@ void take_line(PcdHeader& header, const std::string& line) {
   if (keyword == "DATA") words >> header.encoding;
 }
 
-PcdHeader parse_header(std::string_view bytes) {
+PcdHeader parse_pcd_header(std::string_view bytes) {
   constexpr std::size_t longest_header = 1 << 16;
   PcdHeader header;
   while (header.encoding.empty()) {
@@ -129,7 +129,7 @@ PointCloud ascii_points(const PcdHeader& header, std::string_view data) {
 }
 
 CloudFile read_pcd(const std::string& bytes) {
-  const PcdHeader header = parse_header(bytes);
+  const PcdHeader header = parse_pcd_header(bytes);
   const std::string_view data = std::string_view(bytes).substr(header.data);
   if (header.encoding == "binary") return {binary_points(header, data), header.viewpoint};
   if (header.encoding == "ascii") return {ascii_points(header, data), header.viewpoint};

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files are small: toml++ takes a table apart by recursion, and a larger one could nest deeper than the stack.
-constexpr std::uintmax_t largest_file = 1 << 15;
+constexpr std::uintmax_t largest_dataset_file = 1 << 15;
 
 const std::vector<std::string> format_names = {"depth-images", "clouds", "stanford", "scan-graph", "scene"};
 constexpr const char* intrinsics_form = "four numbers: fx fy cx cy [px], fx and fy over 0";
@@ -216,7 +216,7 @@ void DatasetDescription::validate() const {
 }
 
 DatasetDescription read_dataset(const fs::path& file) {
-  return DatasetReader(file).read(read_file(file, largest_file));
+  return DatasetReader(file).read(read_file(file, largest_dataset_file));
 }
 
 std::string to_toml(const DatasetDescription& description) {

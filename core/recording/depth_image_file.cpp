@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The greatest image of floats, and a header.
-constexpr std::uintmax_t largest_file = most_image_pixels * 4 + (1 << 20);
+constexpr std::uintmax_t largest_image_file = most_image_pixels * 4 + (1 << 20);
 
 ImageValues decode(std::string_view bytes, const DepthFormat& format) {
   if (is_png(bytes)) return decode_png(bytes);
@@ -76,7 +76,7 @@ std::runtime_error named(const fs::path& file, const std::exception& error) {
 }  // namespace
 
 ImageMask read_mask(const fs::path& file) {
-  const std::string bytes = read_plain_or_gzip(file, largest_file);
+  const std::string bytes = read_plain_or_gzip(file, largest_image_file);
   try {
     if (!is_png(bytes) && !is_pgm(bytes)) throw std::runtime_error("is neither PNG nor PGM (P5)");
     const ImageValues image = is_png(bytes) ? decode_png(bytes) : decode_pgm(bytes);
@@ -96,7 +96,7 @@ ImageMask read_mask(const fs::path& file) {
 
 DepthImage read_depth_image(const fs::path& file, const DepthFormat& format, const PinholeCamera& intrinsics,
                             const ImageMask* mask) {
-  const std::string bytes = read_plain_or_gzip(file, largest_file);
+  const std::string bytes = read_plain_or_gzip(file, largest_image_file);
   try {
     const ImageValues image = decode(bytes, format);
     require_depths(image);

@@ -24,7 +24,7 @@ std::uint32_t big_endian(std::string_view bytes) {
 
 const Bytef* as_bytes(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
-struct Header {
+struct PngHeader {
   int width = 0, height = 0, bits = 0, channels = 0;
 
   std::size_t row_bytes() const {
@@ -34,7 +34,7 @@ struct Header {
   std::size_t pixel_bytes() const { return static_cast<std::size_t>(std::max(1, channels * bits / 8)); }
 };
 
-Header parse_header(std::string_view data) {
+PngHeader parse_png_header(std::string_view data) {
   if (data.size() != 13) throw std::runtime_error("is a damaged PNG: its header has a wrong length");
   const std::int64_t width = big_endian(data), height = big_endian(data.substr(4));
   require_image_size(width, height);
@@ -49,8 +49,8 @@ Header parse_header(std::string_view data) {
 }
 
 /// The header, and the compressed data of all chunks.
-std::pair<Header, std::string> parse_chunks(std::string_view rest) {
-  Header header;
+std::pair<PngHeader, std::string> parse_chunks(std::string_view rest) {
+  PngHeader header;
   std::string data;
   rest.remove_prefix(signature.size());
   for (bool first = true;; first = false) {
@@ -61,7 +61,7 @@ std::pair<Header, std::string> parse_chunks(std::string_view rest) {
     const uLong sum = crc32(crc32(0, nullptr, 0), as_bytes(kind), static_cast<uInt>(4 + length));
     if (sum != big_endian(rest.substr(8 + length))) throw std::runtime_error("is damaged: a checksum does not fit");
     if (first != (kind == "IHDR")) throw std::runtime_error("is a damaged PNG: it does not begin with its header");
-    if (first) header = parse_header(content);
+    if (first) header = parse_png_header(content);
     if (kind == "IDAT") data += content;
     if (kind == "IEND") return {header, std::move(data)};
     rest.remove_prefix(12 + length);
@@ -104,7 +104,7 @@ int predicted(int filter, int left, int above, int above_left) {
 }
 
 /// Rows hold differences to their neighbours, by the filter that their first byte names; undone in place.
-void undo_filters(std::string& pixels, const Header& header) {
+void undo_filters(std::string& pixels, const PngHeader& header) {
   const std::size_t row_bytes = header.row_bytes(), step = header.pixel_bytes();
   const std::string zeros(row_bytes, '\0');
   const char* above = zeros.data();

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 constexpr double rotation_tolerance = 1e-3;
-constexpr double farthest = 1e6;  // [m]
+constexpr double farthest_pose = 1e6;  // [m]
 
 /// A pose as the file holds it, before directions and axes.
 struct FoundPose {
@@ -33,7 +33,8 @@ std::string fault(const Matrix34& m) {
   if (!(error <= rotation_tolerance))
     return fmt::format("the pose's rotation is none: its columns are off length 1 and right angles by {:.3g}", error);
   if (r.determinant() < 0.0) return "the pose mirrors; its rotation must be right-handed";
-  if (m.col(3).cwiseAbs().maxCoeff() > farthest) return fmt::format("the pose lies over {:g} m off", farthest);
+  if (m.col(3).cwiseAbs().maxCoeff() > farthest_pose)
+    return fmt::format("the pose lies over {:g} m off", farthest_pose);
   return "";
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t surface_points = 30'000, few_points = 800, many_points = 10'000;
 constexpr double on_surface = 0.02;   // of the surface's longest side
 constexpr double good_overlap = 0.9;  // is not searched for a better one
-constexpr std::size_t least_points = 100;
+constexpr std::size_t min_points = 100;
 constexpr double settled = 1e-9;  // of a step [rad, longest sides]
 
 /// Points of a surface, and which of them is nearest.
@@ -159,7 +159,7 @@ Vector3 middle(const PointCloud& cloud) {
 }  // namespace
 
 Alignment align(const PointCloud& cloud, const TriangleMesh& surface, const std::stop_token& stop) {
-  if (cloud.size() < least_points)
+  if (cloud.size() < min_points)
     throw std::invalid_argument("too few points to align with a mesh: at least 100 are needed");
   const Aligner aligner(surface);
   const std::vector<Vector3> few = thinned(cloud, few_points);

@@ -19,10 +19,10 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr std::size_t most_points = 4000, least_points = 100;
+constexpr std::size_t max_registered_points = 4000, min_registered_points = 100;
 constexpr double farthest_reach = 8.0, nearest_reach = 2.0;  // of pairs [spacings]
 constexpr int most_iterations = 30;                          // of each reach
-constexpr double settled = 1e-3;                             // a move below this ends it [spacings]
+constexpr double settled_move = 1e-3;                        // a move below this ends it [spacings]
 constexpr double facing_alike = 0.7;                         // cosine between the normals of a pair
 constexpr int neighbours_tried = 5;                          // for one that faces alike
 /// What a direction must do to the mean squared distance to the planes, per squared move, to count as constrained:
@@ -64,10 +64,10 @@ class Target {
   mutable std::vector<float> squared_ = std::vector<float>(neighbours_tried);
 };
 
-/// A scan's points, evenly left out down to `most_points`.
+/// A scan's points, evenly left out down to `max_registered_points`.
 std::vector<OrientedPoint> fewer(const std::vector<OrientedPoint>& points) {
   std::vector<OrientedPoint> kept;
-  const double stride = std::max(1.0, double(points.size()) / double(most_points));
+  const double stride = std::max(1.0, double(points.size()) / double(max_registered_points));
   for (double i = 0.0; i < double(points.size()); i += stride) kept.push_back(points[std::size_t(i)]);
   return kept;
 }
@@ -140,7 +140,7 @@ class Registrar {
   double step(Pose& T, double reach, int& constrained) const {
     const Pairs all = pairs(T, reach);
     constrained = 0;
-    if (all.count() < least_points) return 0.0;
+    if (all.count() < min_registered_points) return 0.0;
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(all.normal_matrix / all.weight);
     const double floor = all.noise_floor();
     Vector6 move = Vector6::Zero();
@@ -193,7 +193,7 @@ ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr
                                const RegistrationLimits& limits, const std::stop_token& stop) {
   ScanRegistration found;
   const auto points = fewer(oriented_points(scan, limits.spacing, stop));
-  if (points.size() < least_points) {
+  if (points.size() < min_registered_points) {
     found.why_not = fmt::format("the scan has too few points with neighbours within {:.3g} m", limits.spacing);
     return found;
   }
@@ -207,7 +207,7 @@ ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr
     for (int i = 0; i < most_iterations; ++i) {
       throw_if_stopped(stop);
       step = registrar.step(T, reach * limits.spacing, found.constrained);
-      if (step < settled * limits.spacing) break;
+      if (step < settled_move * limits.spacing) break;
     }
   const Pairs after = registrar.pairs(T, near);
   found.overlap = registrar.share(after);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view beginning = "nextview-captures-";
+constexpr std::string_view name_beginning = "nextview-captures-";
 constexpr std::time_t long_enough = 60;  ///< for a folder that was just made to be locked [s]
 
 /// Locked as long as this is open. Whoever holds no lock any more is gone, in whatever container it ran.
@@ -31,7 +31,7 @@ Descriptor locked(const fs::path& folder) {
 void remove_abandoned(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (!entry->path().filename().native().starts_with(beginning)) continue;
+    if (!entry->path().filename().native().starts_with(name_beginning)) continue;
     const Descriptor lock = locked(entry->path());
     struct stat status {};
     std::error_code ignored;
@@ -45,7 +45,7 @@ void remove_abandoned(const fs::path& folder) {
 
 CapturesFolder::CapturesFolder(const fs::path& temporary) : owner_(::getpid()) {
   remove_abandoned(temporary);
-  std::string name = (temporary / (std::string(beginning) + "XXXXXX")).string();
+  std::string name = (temporary / (std::string(name_beginning) + "XXXXXX")).string();
   if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), temporary.string());
   path_ = name;
   lock_ = locked(path_);

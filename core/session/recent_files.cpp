@@ -10,13 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kept = 12;
+constexpr std::size_t kept_files = 12;
 constexpr const char* list_name = "recent";  // a path a line
 
 std::vector<fs::path> listed(const fs::path& state) {
   std::vector<fs::path> files;
   std::ifstream stream(state / list_name);
-  for (std::string line; files.size() < kept && std::getline(stream, line);)
+  for (std::string line; files.size() < kept_files && std::getline(stream, line);)
     if (fs::path(line).is_absolute()) files.emplace_back(line);
   return files;
 }
@@ -36,7 +36,7 @@ void add_recent_file(const fs::path& state, const fs::path& file) {
     std::vector<fs::path> files = listed(state);
     std::erase(files, newest);
     files.insert(files.begin(), newest);
-    files.resize(std::min(files.size(), kept));
+    files.resize(std::min(files.size(), kept_files));
     std::string text;
     for (const fs::path& each : files) text += each.string() + '\n';
     fs::create_directories(state);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kept = 10;
+constexpr std::size_t kept_sessions = 10;
 constexpr std::size_t time_length = 19;  // of "2026-01-31 23.59.59"
 
 /// The newest first: their names begin with the time.
@@ -56,7 +56,7 @@ fs::path state_folder() {
 
 fs::path untitled_folder(const fs::path& state, const std::string& name) {
   const std::vector<fs::path> sessions = untitled_sessions(state);
-  for (std::size_t k = kept - 1; k < sessions.size(); ++k) remove_session(sessions[k]);
+  for (std::size_t k = kept_sessions - 1; k < sessions.size(); ++k) remove_session(sessions[k]);
   const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
   return free_folder(state / fmt::format("{:%Y-%m-%d %H.%M.%S} {}", fmt::localtime(now), plain(name)));
 }

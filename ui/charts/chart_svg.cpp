@@ -12,7 +12,7 @@
 namespace nextview {
 namespace {
 
-constexpr double margin = 16, left_room = 62, right_room = 16, top_room = 62, bottom_room = 48;  // [px]
+constexpr double margin = 16, left_margin = 62, right_margin = 16, top_margin = 62, bottom_margin = 48;  // [px]
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -44,10 +44,10 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 class Axes {
  public:
   Axes(const ChartContent& content, double left, double top, double width, double height)
-      : left_(left + left_room),
-        right_(left + width - right_room),
-        top_(top + top_room),
-        bottom_(top + height - bottom_room) {
+      : left_(left + left_margin),
+        right_(left + width - right_margin),
+        top_(top + top_margin),
+        bottom_(top + height - bottom_margin) {
     constexpr double none = std::numeric_limits<double>::infinity();
     double x_low = none, x_high = -none, y_low = 0.0, y_high = content.y_high.value_or(-none);
     for (const ChartSeries& series : content.series)
@@ -79,7 +79,7 @@ class Axes {
   double left_, right_, top_, bottom_;  ///< [px]
 };
 
-std::string line(double x1, double y1, double x2, double y2, const Colour& colour) {
+std::string svg_line(double x1, double y1, double x2, double y2, const Colour& colour) {
   return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2,
                      hex(colour));
 }
@@ -95,18 +95,18 @@ std::string tick_text(double tick) { return fmt::format("{:g}", std::abs(tick) <
 std::string grid(const ChartContent& content, const Axes& axes) {
   std::string svg;
   for (const double tick : axes.y_ticks) {
-    svg += line(axes.left(), axes.y(tick), axes.right(), axes.y(tick), theme::hairline);
+    svg += svg_line(axes.left(), axes.y(tick), axes.right(), axes.y(tick), theme::hairline);
     svg += text(axes.left() - 8, axes.y(tick) + 4, tick_text(tick), theme::small_text, theme::soft_ink, "end");
   }
   for (const double tick : axes.x_ticks) {
-    svg += line(axes.x(tick), axes.top(), axes.x(tick), axes.bottom(), theme::hairline);
+    svg += svg_line(axes.x(tick), axes.top(), axes.x(tick), axes.bottom(), theme::hairline);
     svg += text(axes.x(tick), axes.bottom() + 18, tick_text(tick), theme::small_text, theme::soft_ink, "middle");
   }
-  svg += line(axes.left(), axes.bottom(), axes.right(), axes.bottom(), theme::soft_ink);
-  svg += line(axes.left(), axes.bottom(), axes.left(), axes.top(), theme::soft_ink);
+  svg += svg_line(axes.left(), axes.bottom(), axes.right(), axes.bottom(), theme::soft_ink);
+  svg += svg_line(axes.left(), axes.bottom(), axes.left(), axes.top(), theme::soft_ink);
   svg += text(0.5 * (axes.left() + axes.right()), axes.bottom() + 38, with_unit(content.x_label, content.x_unit),
               theme::small_text, theme::soft_ink, "middle");
-  const double x = axes.left() - left_room + 14, y = 0.5 * (axes.top() + axes.bottom());
+  const double x = axes.left() - left_margin + 14, y = 0.5 * (axes.top() + axes.bottom());
   svg += text(x, y, with_unit(content.y_label, content.y_unit), theme::small_text, theme::soft_ink, "middle",
               fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", x, y));
   return svg;

@@ -10,13 +10,13 @@
 namespace nextview {
 namespace {
 
-constexpr double shortest = 0.05, longest = 600;  // that is waited for [s]; the latter is what `wait` takes
+constexpr double shortest = 0.05, longest_wait = 600;  // that is waited for [s]; the latter is what `wait` takes
 
 /// Lines that wait so long, in hundredths.
 std::string waits(double seconds) {
   std::string lines;
-  for (double left = std::round(100 * seconds) / 100; left >= shortest; left -= longest)
-    lines += fmt::format("wait {:.6g}\n", std::min(left, longest));
+  for (double left = std::round(100 * seconds) / 100; left >= shortest; left -= longest_wait)
+    lines += fmt::format("wait {:.6g}\n", std::min(left, longest_wait));
   return lines;
 }
 

@@ -14,10 +14,10 @@ namespace nextview {
 namespace {
 
 /// The panel in a column (0 to 2) of the upper row, and the table beneath.
-struct Layout {
+struct CalibrationLayout {
   double width, top, table_height, plot_width;
 
-  Layout(double page_width, double rows_top, std::size_t examples)
+  CalibrationLayout(double page_width, double rows_top, std::size_t examples)
       : width(page_width),
         top(rows_top),
         table_height(std::min(0.6 * rows_top, 40.0 * double(examples) + 118.0)),
@@ -143,7 +143,7 @@ Image draw_calibration_figure(const MapCalibration& calibration, int width, int 
                              fmt::format("cross entropy {:.4f} before, {:.4f} after [nats per voxel]",
                                          fit.cross_entropy_before, fit.cross_entropy),
                              fmt::format("Before: {}. After: {}.", numbers(calibration.before), numbers(fit.model)));
-    const Layout layout(width, top, calibration.examples.size());
+    const CalibrationLayout layout(width, top, calibration.examples.size());
     paint_curve_plot(context, layout.plot(0), descent_plot(fit));
     paint_curve_plot(context, layout.plot(1), update_plot(calibration.before, fit.model));
     paint_curve_plot(context, layout.plot(2), reliability_plot(calibration));

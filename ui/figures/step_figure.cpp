@@ -27,11 +27,11 @@ struct Panel {
 };
 
 /// Two 3D views above, the ranking and the two curves beneath, a title line at the top.
-struct Layout {
+struct StepLayout {
   Panel views, map, ranking, entropy, coverage;
   double title_y;
 
-  explicit Layout(const RenderTarget& target) {
+  explicit StepLayout(const RenderTarget& target) {
     constexpr double gap = 16, title = 64;
     const double width = target.width(), height = target.height();
     const double column = std::floor((width - 4 * gap) / 3);
@@ -75,7 +75,7 @@ struct StepFigure::Parts {
   explicit Parts(RenderTarget& where) : target(where), layout(where) {}
 
   RenderTarget& target;
-  Layout layout;
+  StepLayout layout;
   vtkNew<vtkRenderer> sheet_renderer;
   vtkNew<vtkContextActor> sheet_actor;
   vtkNew<Sheet> sheet;

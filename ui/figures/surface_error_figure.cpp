@@ -14,14 +14,14 @@
 namespace nextview {
 namespace {
 
-constexpr double row = 28.0;  // of a table [px]
+constexpr double table_row = 28.0;  // of a table [px]
 constexpr double per_mm = 1e3;
 
 /// One large view and two small ones beneath it, beside them a chart above numbers.
-struct Layout {
+struct SurfaceErrorLayout {
   PageArea large, left, right, chart, numbers;
 
-  Layout(const SurfacePicture& picture, double share_of_numbers, int page_width, int page_height) {
+  SurfaceErrorLayout(const SurfacePicture& picture, double share_of_numbers, int page_width, int page_height) {
     double top = page_height;
     draw_page(page_width, page_height, [&](vtkContext2D& context) {  // what the title needs, only a page can tell
       Painter painter(context);
@@ -66,8 +66,8 @@ struct Number {
 double paint_numbers(Painter& painter, const PageArea& panel, double y, const std::vector<Number>& numbers) {
   const double left = panel.left + page_margin, right = panel.right() - page_margin;
   for (const Number& number : numbers) {
-    y -= row;
-    painter.line(left, y + row - 7, right, y + row - 7, 1, theme::hairline);
+    y -= table_row;
+    painter.line(left, y + table_row - 7, right, y + table_row - 7, 1, theme::hairline);
     painter.text(left, y, number.label, theme::small_text, theme::ink);
     painter.text(right, y, number.value, theme::small_text, theme::ink, TextWeight::semi_bold, TextAlign::right);
   }
@@ -89,8 +89,8 @@ double paint_scores(Painter& painter, const PageArea& panel, double y, const std
   heading(2, "… of all");
   heading(3, "F-score");
   for (const ThresholdScore& score : scores) {
-    y -= row;
-    painter.line(left, y + row - 7, right, y + row - 7, 1, theme::hairline);
+    y -= table_row;
+    painter.line(left, y + table_row - 7, right, y + table_row - 7, 1, theme::hairline);
     painter.text(left, y, fmt::format("{:g} mm", per_mm * score.threshold), theme::small_text, theme::ink);
     cell(0, percent(score.accuracy), theme::ink, TextWeight::semi_bold);
     cell(1, percent(score.completeness_visible), theme::ink, TextWeight::semi_bold);
@@ -206,7 +206,7 @@ Image draw_surface_error_figure(const SurfacePicture& picture, const SurfaceErro
   const double limit = per_mm * error.histogram.limit;
   const MeshPaint paint{values,   surface.seen, ColourMap::deviation(), -limit, limit, "signed distance", "mm",
                         "inside", "outside"};
-  const Layout layout(picture, 0.56, width, height);
+  const SurfaceErrorLayout layout(picture, 0.56, width, height);
   const SurfaceViews views(surface.mesh, paint, "How far it lies from the true surface", layout.large, layout.left,
                            layout.right);
   return draw_page(width, height, [&](vtkContext2D& context) {
@@ -223,7 +223,7 @@ Image draw_surface_figure(const SurfacePicture& picture, int width, int height) 
   const std::vector<float> values = in_mm(surface.uncertainty);
   const UncertaintySpread spread = uncertainty_spread(surface);
   const MeshPaint paint{values, surface.seen, ColourMap::contribution(), 0.0, per_mm * spread.end, "uncertainty", "mm"};
-  const Layout layout(picture, 0.4, width, height);
+  const SurfaceErrorLayout layout(picture, 0.4, width, height);
   const SurfaceViews views(surface.mesh, paint, "How far it may lie off", layout.large, layout.left, layout.right);
   return draw_page(width, height, [&](vtkContext2D& context) {
     Painter painter(context);

@@ -25,9 +25,8 @@
 namespace nextview {
 namespace {
 
-constexpr float no_value = -1.0f;  // instead of a colour, for shaders/voxels_vertex.glsl
-constexpr std::size_t faces_per_task = 4096;
-constexpr int sides = 6;  // of a voxel
+constexpr float no_colour = -1.0f;  // instead of a colour, for shaders/voxels_vertex.glsl
+constexpr int sides = 6;            // of a voxel
 /// More than a software renderer draws while the camera moves.
 constexpr std::size_t many_faces = 40'000;
 
@@ -195,7 +194,7 @@ bool OctreeLayer::colour_part(Part& part, const VoxelPalette& palette, std::span
       const float value = values.empty() ? std::numeric_limits<float>::quiet_NaN() : values[part.cells[f]];
       const auto colour = palette.colour(part.voxels[f], value);
       if (!colour) complete = false;
-      std::fill_n(out, 4, colour ? packed(*colour) : no_value);
+      std::fill_n(out, 4, colour ? packed(*colour) : no_colour);
     }
   });
   auto* polydata = vtkPolyData::SafeDownCast(part.mapper->GetInputDataObject(0, 0));

@@ -9,7 +9,7 @@
 namespace nextview {
 namespace {
 
-constexpr int steps = 512;  // along a colour map: more than the eye tells apart
+constexpr int shades = 512;  // along a colour map: more than the eye tells apart
 
 std::optional<Legend::Range> range_of(VoxelColouring colouring) {
   switch (colouring) {
@@ -50,7 +50,7 @@ const Colour valueless_voxel_stripes = mix(theme::object, theme::ink, 0.4);
 
 VoxelPalette::VoxelPalette(VoxelColouring colouring) : colouring_(colouring), range_(range_of(colouring)) {
   if (range_) {
-    for (int i = 0; i < steps; ++i) colours_.push_back(range_->map.at(i / double(steps - 1)));
+    for (int i = 0; i < shades; ++i) colours_.push_back(range_->map.at(i / double(shades - 1)));
   } else {
     colours_ = {theme::unknown, theme::free, theme::occupied};  // in the order of VoxelClass
   }
@@ -63,7 +63,7 @@ std::optional<Colour> VoxelPalette::colour(const Voxel& voxel, float value) cons
                                                                     : value;
   if (std::isnan(shown)) return {};
   const double place = std::clamp((shown - range_->low) / (range_->high - range_->low), 0.0, 1.0);
-  return colours_[std::size_t(std::lround(place * (steps - 1)))];
+  return colours_[std::size_t(std::lround(place * (shades - 1)))];
 }
 
 Legend VoxelPalette::legend(const VoxelFilter& filter, bool valueless) const {

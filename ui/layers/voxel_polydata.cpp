@@ -16,7 +16,6 @@ namespace nextview {
 namespace {
 
 /// Faces that one task writes: enough to outweigh starting it.
-constexpr std::size_t faces_per_task = 4096;
 
 vtkSmartPointer<vtkFloatArray> float_array(int components, vtkIdType tuples) {
   auto array = vtkSmartPointer<vtkFloatArray>::New();

@@ -12,6 +12,9 @@ namespace nextview {
 /// for shaders/voxels_vertex.glsl; normals follow from it.
 vtkSmartPointer<vtkPolyData> voxel_polydata(const VoxelGrid& grid, std::span<const VoxelFace> faces);
 
+/// What a task takes of a list of faces.
+inline constexpr std::size_t faces_per_task = 4096;
+
 /// What the vertex attribute "voxel_corner" holds.
 float packed_corner(const VoxelFace& face, int corner);
 

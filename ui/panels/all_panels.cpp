@@ -62,8 +62,6 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
 
 namespace {
 
-bool pressed(Key which, bool repeats = false) { return ImGui::IsKeyPressed(static_cast<int>(which), repeats); }
-
 /// Keys that move among the controls, and press the one that has the focus.
 bool moves_focus(Key which) {
   return which == Key::space || which == Key::enter || (which >= Key::left && which <= Key::down);

@@ -24,8 +24,6 @@ bool names_folder(const Command& command) { return command.arguments().front().n
 
 int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 
-bool pressed(Key key, bool repeats = false) { return ImGui::IsKeyPressed(static_cast<int>(key), repeats); }
-
 }  // namespace
 
 void FileDialog::write(std::string text) {

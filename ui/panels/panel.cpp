@@ -52,6 +52,8 @@ std::string help_of(const PanelContext& context, const Command& command) {
   return reason.empty() ? text : text + "\nNot now: " + reason + ".";
 }
 
+bool pressed(Key key, bool repeats) { return ImGui::IsKeyPressed(static_cast<int>(key), repeats); }
+
 void heading(const Style& style, const char* text) {
   ImGui::PushFont(style.semi_bold);
   ImGui::TextUnformatted(text);

@@ -47,6 +47,9 @@ class Panel {
   Panel& operator=(const Panel&) = delete;
 };
 
+/// Since the last frame, or again and again while it is held.
+bool pressed(Key key, bool repeats = false);
+
 /// A panel's or a group's caption.
 void heading(const Style& style, const char* text);
 /// Secondary text in the smaller font.

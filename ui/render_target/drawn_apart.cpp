@@ -9,12 +9,11 @@
 #include <algorithm>
 
 #include "core/memory/available_memory.hpp"
+#include "ui/render_target/gl_constants.hpp"
 
 namespace nextview {
 namespace {
 
-constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA9, gl_color_buffer_bit = 0x4000,
-                       gl_nearest = 0x2600, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401;
 /// With four samples each, of colour and depth, and the copies on the way to a file [bytes].
 constexpr std::uint64_t bytes_a_pixel = 64;
 

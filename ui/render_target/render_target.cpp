@@ -11,13 +11,11 @@
 #include <string_view>
 
 #include "ui/drawing/shader_file.hpp"
+#include "ui/render_target/gl_constants.hpp"
 #include "ui/render_target/vtk_messages.hpp"
 
 namespace nextview {
 namespace {
-
-constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_back = 0x0405, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401,
-                       gl_point_sprite_coord_origin = 0x8CA0, gl_upper_left = 0x8CA2, gl_renderer = 0x1F01;
 
 void answer_vtk(vtkObject*, unsigned long event, void* target_pointer, void* answer) {
   auto& target = *static_cast<RenderTarget*>(target_pointer);

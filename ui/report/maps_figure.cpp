@@ -8,7 +8,6 @@
 namespace nextview {
 namespace {
 
-constexpr double margin = 16, gap = 12, heading = 64;         // [px]
 constexpr double width = 224, height = 180, magnified = 168;  // of panels [px]
 
 /// A box around an opening, and where it is looked at from: through it, a little from the side.
@@ -65,34 +64,34 @@ struct Columns {
 void draw_row(VectorDrawing& d, double top, double row_height, const Columns& columns, const FigurePaper& paper,
               const ViewDirection& direction, std::span<const Vector3> points) {
   for (int i = 0; i < 4; ++i)
-    draw_scene_panel(d, {margin + i * (width + gap), top, width, row_height}, columns.at(i), columns.layers[i], paper,
-                     direction, points);
+    draw_scene_panel(d, {panel_margin + i * (width + panel_gap), top, width, row_height}, columns.at(i),
+                     columns.layers[i], paper, direction, points);
 }
 
 }  // namespace
 
 VectorDrawing maps_figure(std::span<ReportScan> scans, const FigurePaper& paper) {
   std::vector<std::shared_ptr<const ReportMaps>> all;
-  double bottom = heading;
+  double bottom = panel_top;
   for (ReportScan& scan : scans) {
     all.push_back(scan.maps());
-    bottom += height + gap + (openings_of(*all.back()).empty() ? 0.0 : magnified + gap) + 30;
+    bottom += height + panel_gap + (openings_of(*all.back()).empty() ? 0.0 : magnified + panel_gap) + 30;
   }
-  VectorDrawing d(2 * margin + 4 * width + 3 * gap, bottom - 14, paper.look);
+  VectorDrawing d(2 * panel_margin + 4 * width + 3 * panel_gap, bottom - 14, paper.look);
   draw_title(d, "Objects and the maps of their scans");
-  double top = heading + 22;
+  double top = panel_top + 22;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Columns columns(scans[i], all[i]->refinement);
     const char* names[] = {"mesh", "conventional octree", "Gibbs octree", "aligned cloud"};
     for (int k = 0; k < 4; ++k)
-      draw_heading(d, {margin + k * (width + gap), top, width, height},
+      draw_heading(d, {panel_margin + k * (width + panel_gap), top, width, height},
                    k == 0 ? fmt::format("{}, {}", scans[i].name, counted(all[i]->job.scans.size(), "view")) : names[k]);
     draw_row(d, top, height, columns, paper, {}, points_around(columns.picture, false));
-    top += height + gap;
+    top += height + panel_gap;
     if (const auto openings = openings_of(*all[i]); !openings.empty()) {
       const Magnified view = magnify(shown_opening(openings), columns.picture.object->bounding_box().center());
       draw_row(d, top, magnified, columns, paper, view.direction, view.points);
-      top += magnified + gap;
+      top += magnified + panel_gap;
     }
     top += 30;
   }

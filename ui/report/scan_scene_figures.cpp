@@ -10,16 +10,15 @@
 namespace nextview {
 namespace {
 
-constexpr double margin = 16, gap = 12, heading = 64;  // [px]
-
 /// Two scenes beside each other, with headings.
 struct TwoPanels {
   static constexpr double width = 440, height = 360;
   VectorDrawing drawing;
-  DrawingArea left{margin, heading, width, height}, right{margin + width + gap, heading, width, height};
+  DrawingArea left{panel_margin, panel_top, width, height},
+      right{panel_margin + width + panel_gap, panel_top, width, height};
 
   TwoPanels(const FigurePaper& paper, const std::string& title)
-      : drawing(2 * (margin + width) + gap, heading + height + margin, paper.look) {
+      : drawing(2 * (panel_margin + width) + panel_gap, panel_top + height + panel_margin, paper.look) {
     draw_title(drawing, title);
   }
 };
@@ -79,8 +78,8 @@ VectorDrawing strategy_figure(std::span<ReportScan> scans, const FigurePaper& pa
   constexpr double width = 168, height = 140, label = 92;
   ReportScan& scan = scans.front();
   const std::vector<int> columns = columns_of(scan, paper);
-  VectorDrawing drawing(margin + label + double(columns.size()) * (width + gap), heading + 3 * (height + gap) + 4,
-                        paper.look);
+  VectorDrawing drawing(panel_margin + label + double(columns.size()) * (width + panel_gap),
+                        panel_top + 3 * (height + panel_gap) + 4, paper.look);
   draw_title(drawing, fmt::format("{}: {} view by view", scan.name, scan.session->configuration().planner.gain));
   SceneLayers layers[3] = {no_layers, no_layers, no_layers};
   layers[0].object = layers[0].rays = layers[0].views = true;
@@ -88,13 +87,14 @@ VectorDrawing strategy_figure(std::span<ReportScan> scans, const FigurePaper& pa
   layers[2].map = true;
   const char* names[] = {"ray casting", "cloud", "octree"};
   for (int row = 0; row < 3; ++row)
-    drawing.text(margin, heading + row * (height + gap) + 0.5 * height, names[row], theme::small_text, paper.look.ink);
+    drawing.text(panel_margin, panel_top + row * (height + panel_gap) + 0.5 * height, names[row], theme::small_text,
+                 paper.look.ink);
   for (std::size_t column = 0; column < columns.size(); ++column) {
     StepPicture picture = picture_after(scan, std::size_t(columns[column]));
     picture.point_size = 1.5;
     for (int row = 0; row < 3; ++row) {
-      const DrawingArea area{margin + label + double(column) * (width + gap), heading + row * (height + gap), width,
-                             height};
+      const DrawingArea area{panel_margin + label + double(column) * (width + panel_gap),
+                             panel_top + row * (height + panel_gap), width, height};
       if (row == 0) draw_heading(drawing, area, fmt::format("iteration {}", columns[column]));
       draw_scene_panel(drawing, area, picture, layers[row], paper, {}, points_around(picture, row == 0));
       if (row == 0 && !picture.chosen)

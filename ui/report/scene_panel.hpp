@@ -8,6 +8,9 @@ namespace nextview {
 /// Layers by name: nothing else is shown.
 inline constexpr SceneLayers no_layers{false, false, false, false, false, false, false, false};
 
+/// Around panels, between them, and above them for a figure's title [px].
+inline constexpr double panel_margin = 16, panel_gap = 12, panel_top = 64;
+
 /// A scene in a drawing. Where the object is not known its cloud stands in for it. With `points` [m, world] it shows
 /// what is around these.
 void draw_scene_panel(VectorDrawing& drawing, const DrawingArea& area, const StepPicture& picture,

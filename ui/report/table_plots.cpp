@@ -11,7 +11,7 @@
 namespace nextview {
 namespace {
 
-constexpr double heading = 44;  // [px]
+constexpr double title_height = 44;  // [px]
 
 double widest(const std::vector<std::string>& names) {
   double width = 0.0;
@@ -42,7 +42,7 @@ void draw_dot_plot(VectorDrawing& d, const DrawingArea& area, const DotPlot& plo
   for (const auto& [at, name] : plot.marks) low = std::min(low, at), high = std::max(high, at);
   const std::vector<double> ticks = round_ticks(low, std::max(high, low + 1e-9), 6, false);
   const double left = area.left + 28 + widest(names), right = area.right() - 64;
-  const double top = area.top + heading + 20, bottom = area.bottom() - 48;
+  const double top = area.top + title_height + 20, bottom = area.bottom() - 48;
   const auto x = [&](double v) { return left + (v - ticks.front()) / (ticks.back() - ticks.front()) * (right - left); };
   for (const double tick : ticks) {
     d.line(x(tick), top, x(tick), bottom, look.hairline);
@@ -76,7 +76,7 @@ void draw_matrix(VectorDrawing& d, const DrawingArea& area, const MatrixPlot& pl
       if (value) low = std::min(low, *value), high = std::max(high, *value);
   low = plot.low.value_or(low), high = plot.high.value_or(high);
   const double left = area.left + 28 + widest(plot.rows), right = area.right() - 16;
-  const double top = area.top + heading + 26, bottom = area.bottom() - 36;
+  const double top = area.top + title_height + 26, bottom = area.bottom() - 36;
   const double width = (right - left) / std::max<double>(1.0, double(plot.columns.size()));
   const double height = (bottom - top) / std::max<double>(1.0, double(plot.rows.size()));
   // Long names of narrow columns stand in two heights.

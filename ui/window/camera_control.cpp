@@ -14,8 +14,7 @@ namespace {
 
 constexpr double turn_per_pixel = 0.006;  // [rad]
 constexpr double zoom_per_step = 1.12;
-constexpr double steepest = 89.0 * std::numbers::pi / 180;  // straight from above, the z axis would be no direction
-constexpr double nearest = 1e-3, farthest = 1000.0;         // [m]
+constexpr double nearest_distance = 1e-3, farthest_distance = 1000.0;  // [m]
 
 Vector3 forward_of(vtkCamera& camera) { return Vector3(camera.GetDirectionOfProjection()).normalized(); }
 
@@ -29,7 +28,7 @@ void stand(vtkRenderer& renderer, const Vector3& position, const Vector3& focus)
 /// How high the picture is where a point lies [m].
 double height_at(vtkCamera& camera, const Vector3& point) {
   if (camera.GetParallelProjection()) return 2 * camera.GetParallelScale();
-  const double depth = std::max((point - Vector3(camera.GetPosition())).dot(forward_of(camera)), nearest);
+  const double depth = std::max((point - Vector3(camera.GetPosition())).dot(forward_of(camera)), nearest_distance);
   return 2 * depth * std::tan(camera.GetViewAngle() * std::numbers::pi / 360);
 }
 
@@ -49,7 +48,7 @@ void turn(vtkRenderer& renderer, const Vector3& pivot, double by_azimuth, double
   const Vector3 forward = forward_of(camera);
   const Vector3 right = forward.cross(Vector3(camera.GetViewUp())).normalized();
   const double now = std::asin(std::clamp(-forward.z(), -1.0, 1.0));
-  const double elevation = std::clamp(now + by_elevation, -steepest, steepest);
+  const double elevation = std::clamp(now + by_elevation, -max_elevation, max_elevation);
   const Eigen::Matrix3d R =
       (Eigen::AngleAxisd(by_azimuth, Vector3::UnitZ()) * Eigen::AngleAxisd(now - elevation, right)).toRotationMatrix();
   const auto turned = [&](const Vector3& point) -> Vector3 { return pivot + R * (point - pivot); };
@@ -70,13 +69,14 @@ void zoom(vtkRenderer& renderer, const Vector3& pivot, double steps) {
   const Vector3 position(camera.GetPosition()), focus(camera.GetFocalPoint());
   if (camera.GetParallelProjection()) {
     const double now = camera.GetParallelScale(),
-                 then = std::clamp(now / std::pow(zoom_per_step, steps), nearest, farthest);
+                 then = std::clamp(now / std::pow(zoom_per_step, steps), nearest_distance, farthest_distance);
     camera.SetParallelScale(then);
     const Vector3 aside = pivot - position - (pivot - position).dot(forward_of(camera)) * forward_of(camera);
     return shift(renderer, (1 - then / now) * aside);
   }
   const double distance = (position - pivot).norm();
-  const double scale = std::clamp(distance / std::pow(zoom_per_step, steps), nearest, farthest) / distance;
+  const double scale =
+      std::clamp(distance / std::pow(zoom_per_step, steps), nearest_distance, farthest_distance) / distance;
   stand(renderer, pivot + scale * (position - pivot), pivot + scale * (focus - pivot));
 }
 
@@ -100,7 +100,7 @@ void look_through(vtkRenderer& renderer, const Pose& T_world_camera, const Vecto
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 position = T_world_camera.translation(), forward = T_world_camera.linear().col(2);
   // The target may lie behind it.
-  const double min_distance = std::max(0.1 * (target - position).norm(), nearest);
+  const double min_distance = std::max(0.1 * (target - position).norm(), nearest_distance);
   const Vector3 focus = position + std::max((target - position).dot(forward), min_distance) * forward;
   const Vector3 up = -T_world_camera.linear().col(1);
   camera.SetPosition(position.data());

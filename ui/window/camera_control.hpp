@@ -1,4 +1,6 @@
 #pragma once
+#include <numbers>
+
 #include "core/view/pose.hpp"
 
 class vtkRenderer;
@@ -7,6 +9,9 @@ namespace nextview {
 
 /// How a pointer moves the camera of a scene in which z is up, with vanishing points or without. Lengths in pixels, x
 /// to the right, y downwards.
+
+/// Straight from above, the z axis would be no direction [rad].
+inline constexpr double max_elevation = 89 * std::numbers::pi / 180;
 
 /// Turns around a point, which stays where it is in the picture, as if the scene were grasped there.
 void orbit(vtkRenderer& renderer, const Vector3& pivot, double x, double y);

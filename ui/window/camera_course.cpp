@@ -7,11 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/window/camera_control.hpp"
+
 namespace nextview {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
-constexpr double steepest = 89 * radians;  // z stays up
 
 /// The short way round.
 double near_to(double angle, double other) { return other + std::remainder(angle - other, 2 * std::numbers::pi); }
@@ -34,7 +35,7 @@ CameraCourse::CameraCourse(SceneView& view, const CameraFlight& flight)
     : end_(view.layers().stand()), from_(place_of(view)), to_(from_) {
   if (flight.relative) {
     to_.azimuth += flight.azimuth * radians;
-    to_.elevation = std::clamp(to_.elevation + flight.elevation * radians, -steepest, steepest);
+    to_.elevation = std::clamp(to_.elevation + flight.elevation * radians, -max_elevation, max_elevation);
     return;
   }
   const Scene::Stand start = end_;
@@ -50,7 +51,8 @@ CameraCourse::CameraCourse(SceneView& view, const CameraFlight& flight)
 CameraFlight CameraCourse::flight_to_here(SceneView& view) {
   const Scene::Stand start = view.layers().stand();
   const Place here = place_of(view);
-  const double azimuth = here.azimuth / radians, elevation = std::clamp(here.elevation, -steepest, steepest) / radians;
+  const double azimuth = here.azimuth / radians,
+               elevation = std::clamp(here.elevation, -max_elevation, max_elevation) / radians;
   view.move(camera_motion::LookFrom{azimuth, elevation});
   const double framed = place_of(view).distance;
   view.layers().restore(start);

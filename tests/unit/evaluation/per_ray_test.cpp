@@ -11,8 +11,8 @@
 namespace nextview {
 namespace {
 
-constexpr double max_range = 1.5;  // [m]
-constexpr double doubt = 1e-5;     // chords shorter than this may round to either side [m]
+constexpr double longest_ray = 1.5;  // [m]
+constexpr double doubt = 1e-5;       // chords shorter than this may round to either side [m]
 
 /// Length of the ray's way through the voxel between its origin and `length` [m]; negative if it misses the voxel.
 double chord(const VoxelGrid& grid, std::uint32_t voxel, const Vector3& origin, const Vector3& direction,
@@ -36,13 +36,13 @@ struct BruteForce {
 void take(BruteForce& voxel, const VoxelGrid& grid, std::uint32_t index, const Vector3& origin, const Vector3& point,
           bool is_return) {
   const double length = (point - origin).norm();
-  const bool in_range = length <= max_range;
-  const double walked = std::min(length, max_range);
+  const bool in_range = length <= longest_ray;
+  const double walked = std::min(length, longest_ray);
   const Vector3 direction = (point - origin) / length, end = origin + walked * direction;
   const Vector3 from_centre = (end - grid.centre(index)).cwiseAbs();
   const double outside = from_centre.maxCoeff() - 0.5 * grid.resolution;  // of the end, negative: in the voxel
   const double way = chord(grid, index, origin, direction, walked);
-  voxel.doubtful |= std::abs(outside) < doubt || std::abs(way) < doubt || std::abs(length - max_range) < doubt;
+  voxel.doubtful |= std::abs(outside) < doubt || std::abs(way) < doubt || std::abs(length - longest_ray) < doubt;
   double factor = 1.0;
   if (outside < 0.0) {
     if (!is_return || !in_range) return;  // the voxel of a way's end is not carved
@@ -66,7 +66,7 @@ TEST(PerRayMap, AgreesWithABruteForceOverAllRaysAndVoxels) {
       scan.hits.push_back((reach * random_scans::direction(random)).cast<float>());
     }
     random_scans::add_passes(scan, random, 100);
-    scan.max_range = max_range;  // passes end within it, clear of its rounding
+    scan.max_range = longest_ray;  // passes end within it, clear of its rounding
     scans.push_back(scan);
   }
 

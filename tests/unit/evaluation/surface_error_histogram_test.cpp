@@ -9,8 +9,6 @@
 namespace nextview {
 namespace {
 
-constexpr double mm = 1e-3;
-
 /// The share of the area of a cube of edge 0.1 m, shifted by `shift` along x, that lies off by a distance from `low` to
 /// `high` [m] (the distance 0 apart).
 double share_of_shifted_cube(double shift, double low, double high) {

@@ -3,6 +3,8 @@
 
 namespace nextview {
 
+inline constexpr double mm = 1e-3;
+
 /// A surface of which everything has been seen.
 inline Surface seen_surface(const TriangleMesh& mesh) {
   Surface surface;

@@ -13,8 +13,6 @@
 namespace nextview {
 namespace {
 
-constexpr double mm = 1e-3;
-
 /// The distance of the plane of the sphere's nearest face from its centre, as a share of its radius.
 double flattest_face(const TriangleMesh& sphere, double radius) {
   double nearest = radius;

@@ -13,14 +13,16 @@
 namespace nextview {
 namespace {
 
-const VoxelGrid grid{0.05, {-8, -8, -8}, {16, 16, 16}};  // 0.8 m around the origin
-constexpr double threshold = 0.5;
+const VoxelGrid around_origin{0.05, {-8, -8, -8}, {16, 16, 16}};  // 0.8 m around the origin
+constexpr double undecided = 0.5;
 const PinholeCamera camera = PinholeCamera::from_field_of_view(90, 60, 1.0);
 
 Voxel known(double p) { return voxel(p, true); }
 
 /// The box of voxels whose centres lie within `half` of the origin.
-bool in_box(std::uint32_t v, const Vector3& half) { return (grid.centre(v).array().abs() < half.array()).all(); }
+bool in_box(std::uint32_t v, const Vector3& half) {
+  return (around_origin.centre(v).array().abs() < half.array()).all();
+}
 
 /// Ray number i of a view, in the world.
 Vector3 direction(const Pose& pose, int columns, int rows, std::size_t i) {
@@ -31,15 +33,15 @@ Vector3 direction(const Pose& pose, int columns, int rows, std::size_t i) {
 
 TEST(ExpectedView, SeesABoxWhereItsFacesAre) {
   const Vector3 half(0.2, 0.15, 0.1);
-  std::vector<Voxel> voxels(grid.voxel_count(), known(0.12));
+  std::vector<Voxel> voxels(around_origin.voxel_count(), known(0.12));
   for (std::uint32_t v = 0; v < voxels.size(); ++v)
     if (in_box(v, half)) voxels[v] = known(0.97);
-  const MapRays rays(grid, {grid.size, voxels}, threshold, 3.0);
+  const MapRays rays(around_origin, {around_origin.size, voxels}, undecided, 3.0);
   std::mt19937 random(3);
   std::size_t met = 0, missed = 0;
   for (int view = 0; view < 30; ++view) {
     const Pose pose = look_at(0.9 * random_scans::direction(random), random_scans::point_in_box(random, 0.1));
-    const ExpectedView seen = expected_view(rays, pose, camera, 45, 30, grid.resolution, threshold);
+    const ExpectedView seen = expected_view(rays, pose, camera, 45, 30, around_origin.resolution, undecided);
     ASSERT_EQ(seen.columns, 45);
     ASSERT_EQ(seen.rows, 30);
     ASSERT_EQ(seen.depth.size(), 45u * 30u);
@@ -62,42 +64,43 @@ TEST(ExpectedView, SeesABoxWhereItsFacesAre) {
 }
 
 TEST(ExpectedView, ADepthIsAlongTheOpticalAxis) {
-  std::vector<Voxel> voxels(grid.voxel_count(), known(0.12));
+  std::vector<Voxel> voxels(around_origin.voxel_count(), known(0.12));
   for (std::uint32_t v = 0; v < voxels.size(); ++v)
-    if (grid.cell(v).x() == 0) voxels[v] = known(0.97);  // the wall at x = -0.4 .. -0.35
+    if (around_origin.cell(v).x() == 0) voxels[v] = known(0.97);  // the wall at x = -0.4 .. -0.35
   const Pose pose = look_at(Vector3(0.3, 0.0, 0.0), Vector3::Zero());
-  const ExpectedView seen =
-      expected_view(MapRays(grid, {grid.size, voxels}, threshold, 3.0), pose, camera, 9, 6, 0.05, threshold);
+  const ExpectedView seen = expected_view(MapRays(around_origin, {around_origin.size, voxels}, undecided, 3.0), pose,
+                                          camera, 9, 6, 0.05, undecided);
   for (const float depth : seen.depth) EXPECT_NEAR(depth, 0.65, 1e-6) << "a wall across the view has one depth";
 }
 
 // Each ray against the slab test of every voxel.
 TEST(ExpectedView, AgreesWithTheSlabTestOfAllVoxels) {
   std::mt19937 random(5);
-  std::vector<Voxel> voxels(grid.voxel_count());
+  std::vector<Voxel> voxels(around_origin.voxel_count());
   for (Voxel& v : voxels) {
     const auto kind = random() % 40;
-    v = kind == 0 ? known(0.9) : kind == 1 ? known(threshold) : kind < 4 ? Voxel(unmeasured()) : known(0.3);
+    v = kind == 0 ? known(0.9) : kind == 1 ? known(undecided) : kind < 4 ? Voxel(unmeasured()) : known(0.3);
   }
-  const MapRays rays(grid, {grid.size, voxels}, threshold, 0.9);
+  const MapRays rays(around_origin, {around_origin.size, voxels}, undecided, 0.9);
   std::size_t stopped = 0, crossed_unknown = 0, both = 0;
   for (int view = 0; view < 12; ++view) {
     const Pose pose = look_at(view % 3 == 0 ? random_scans::point_in_box(random, 0.3)  // inside the region
                                             : Vector3(0.8 * random_scans::direction(random)),
                               random_scans::point_in_box(random, 0.3));
-    const ExpectedView seen = expected_view(rays, pose, camera, 12, 8, grid.resolution, threshold);
+    const ExpectedView seen = expected_view(rays, pose, camera, 12, 8, around_origin.resolution, undecided);
     for (std::size_t i = 0; i < seen.depth.size(); ++i) {
       const Vector3 origin = pose.translation(), along = direction(pose, 12, 8, i);
       double stop = 0.9;
       bool stops = false;
       for (std::uint32_t v = 0; v < voxels.size(); ++v) {
-        const auto at = slab_test::overlap(grid, v, 0.0, origin, along, 0.9);
-        if (at.length() < 1e-9 || !voxels[v].measured || voxels[v].probability < float(threshold)) continue;
+        const auto at = slab_test::overlap(around_origin, v, 0.0, origin, along, 0.9);
+        if (at.length() < 1e-9 || !voxels[v].measured || voxels[v].probability < float(undecided)) continue;
         if (at.enter < stop) stop = at.enter, stops = true;
       }
       bool unknown = false;
       for (std::uint32_t v = 0; v < voxels.size(); ++v)
-        unknown |= !voxels[v].measured && slab_test::overlap(grid, v, 0.0, origin, along, stop).length() > 1e-9;
+        unknown |=
+            !voxels[v].measured && slab_test::overlap(around_origin, v, 0.0, origin, along, stop).length() > 1e-9;
       if (stops)
         ASSERT_NEAR(seen.depth[i], stop * along.dot(pose.linear().col(2)), 1e-6);
       else
@@ -112,27 +115,27 @@ TEST(ExpectedView, AgreesWithTheSlabTestOfAllVoxels) {
 }
 
 TEST(ExpectedView, AnEmptyMapShowsNothingAndAllOfItUnknown) {
-  const std::vector<Voxel> voxels(grid.voxel_count());
-  const MapRays rays(grid, {grid.size, voxels}, threshold, 3.0);
+  const std::vector<Voxel> voxels(around_origin.voxel_count());
+  const MapRays rays(around_origin, {around_origin.size, voxels}, undecided, 3.0);
   const ExpectedView towards =
-      expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3::Zero()), camera, 3, 3, 0.05, threshold);
+      expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3::Zero()), camera, 3, 3, 0.05, undecided);
   const ExpectedView away =
-      expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3(2, 0, 0)), camera, 3, 3, 0.05, threshold);
+      expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3(2, 0, 0)), camera, 3, 3, 0.05, undecided);
   EXPECT_TRUE(std::ranges::all_of(towards.depth, [](float d) { return d < 0.0f; }));
   EXPECT_TRUE(std::ranges::all_of(away.depth, [](float d) { return d < 0.0f; }));
   EXPECT_TRUE(std::ranges::all_of(towards.unknown, [](auto u) { return u == 1; }));
   EXPECT_TRUE(std::ranges::all_of(away.unknown, [](auto u) { return u == 0; })) << "these rays miss the region";
-  EXPECT_THROW(expected_view(rays, Pose::Identity(), camera, 0, 3, 0.05, threshold), std::invalid_argument);
+  EXPECT_THROW(expected_view(rays, Pose::Identity(), camera, 0, 3, 0.05, undecided), std::invalid_argument);
 }
 
 TEST(ExpectedView, TheSameOnOneThreadAndTwo) {
   std::mt19937 random(7);
-  std::vector<Voxel> voxels(grid.voxel_count());
+  std::vector<Voxel> voxels(around_origin.voxel_count());
   for (Voxel& v : voxels) v = random() % 30 == 0 ? known(0.9) : random() % 30 == 0 ? Voxel(unmeasured()) : known(0.2);
-  const MapRays rays(grid, {grid.size, voxels}, threshold, 3.0);
+  const MapRays rays(around_origin, {around_origin.size, voxels}, undecided, 3.0);
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return expected_view(rays, look_at(Vector3(0.7, 0.5, 0.3), Vector3::Zero()), camera, 80, 60, 0.05, threshold);
+    return expected_view(rays, look_at(Vector3(0.7, 0.5, 0.3), Vector3::Zero()), camera, 80, 60, 0.05, undecided);
   };
   const ExpectedView one = run(1), two = run(2);
   EXPECT_EQ(one.depth, two.depth);

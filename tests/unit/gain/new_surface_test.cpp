@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3i;
 using evidence_maps::MadeMap;
 
-RayBundle bundle(int columns = 11, int rows = 8, double field_of_view = 0.6) {
+RayBundle small_bundle(int columns = 11, int rows = 8, double field_of_view = 0.6) {
   return RayBundle::regular(PinholeCamera::from_field_of_view(110, 80, field_of_view), columns, rows);
 }
 
@@ -81,10 +81,10 @@ TEST(NewSurface, AgreesWithTheSlabTestOfAllVoxels) {
     const NewSurfaceField field(made.evidence(), model_of(unmeasured, -3.0, -0.5));
     const std::vector<Pose> views = views_around(random, 10);
     for (const NewSurfaceOptions& options : {NewSurfaceOptions{1.5, 1.7}, NewSurfaceOptions{0.58, 1.0}}) {
-      const auto found = expected_new_surface(field, views, bundle(), options);
+      const auto found = expected_new_surface(field, views, small_bundle(), options);
       ASSERT_EQ(found.size(), views.size());
       for (std::size_t v = 0; v < views.size(); ++v) {
-        const Bounds expected = twin_of(field, views[v], bundle(), options);
+        const Bounds expected = twin_of(field, views[v], small_bundle(), options);
         EXPECT_LE(found[v], expected.value * (1 + 1e-7) + 1e-12) << v;
         EXPECT_GE(found[v], expected.value * (1 - 1e-7) - expected.negligible - 1e-12) << v;
         EXPECT_LE(expected.negligible, 0.05 * expected.value) << "too little is told";
@@ -101,7 +101,7 @@ TEST(NewSurface, IsTheMeanOverWorlds) {
   const MadeMap made = evidence_maps::random_map(random, {11, 12, 10}, 0.05, 0.6);
   const NewSurfaceField field(made.evidence(), model_of(0.0, -2.5, -0.5));
   const NewSurfaceOptions options{1.5, 1.3};
-  const RayBundle rays = bundle();
+  const RayBundle rays = small_bundle();
   for (const Pose& view : views_around(random, 3)) {
     std::vector<std::vector<Met>> met;
     for (const Vector3& direction : rays.directions)
@@ -139,7 +139,7 @@ TEST(NewSurface, OfAWallIsItsAreaTimesItsChance) {
   MadeMap made({40, 60, 60}, 0.01);
   made.set_box({20, 10, 15}, {20, 49, 44}, 1.0);                          // 40 x 30 cm, 0.5 cm behind the origin
   const Pose view = look_at(Vector3(-1.195, 0.0, 0.0), Vector3::Zero());  // 1.2 m from its middle
-  const RayBundle rays = bundle(330, 240, 0.5);
+  const RayBundle rays = small_bundle(330, 240, 0.5);
   // Rays aside see more of the wall than lies across them: the mean cosine, over the wall.
   double cosine = 0.0;
   for (int y = -20; y < 20; ++y)
@@ -160,7 +160,8 @@ TEST(NewSurface, BehindAnOccupiedVoxelThereIsNone) {
   made.set_box({25, 10, 10}, {25, 49, 49}, 1.0);  // as large, and hidden
   const Pose view = look_at(Vector3(-1.0, 0.0, 0.0), Vector3::Zero());
   const NewSurfaceField field(made.evidence(), of_occupied_alone(0.3));
-  for (const auto& ray : explain_new_surface(field, made.map.grid(), made.map.voxels(), view, bundle(), {}).rays) {
+  for (const auto& ray :
+       explain_new_surface(field, made.map.grid(), made.map.voxels(), view, small_bundle(), {}).rays) {
     std::size_t occupied = 0;
     for (const auto& voxel : ray.voxels) occupied += voxel.measured;
     EXPECT_LE(occupied, 1u);
@@ -174,12 +175,12 @@ TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
   const NewSurfaceOptions options{1.4, 1.6};
   const VoxelGrid& whole = made.map.grid();
   for (const Pose& view : views_around(random, 8)) {
-    const ScoreExplanation why = explain_new_surface(field, whole, made.map.voxels(), view, bundle(), options);
-    EXPECT_EQ(why.value, expected_new_surface(field, {&view, 1}, bundle(), options)[0]);
-    ASSERT_EQ(why.rays.size(), bundle().directions.size());
+    const ScoreExplanation why = explain_new_surface(field, whole, made.map.voxels(), view, small_bundle(), options);
+    EXPECT_EQ(why.value, expected_new_surface(field, {&view, 1}, small_bundle(), options)[0]);
+    ASSERT_EQ(why.rays.size(), small_bundle().directions.size());
     double sum = 0.0;
     for (std::size_t i = 0; i < why.rays.size(); ++i) {
-      EXPECT_LT((why.rays[i].direction - view.linear() * bundle().directions[i]).norm(), 1e-12);
+      EXPECT_LT((why.rays[i].direction - view.linear() * small_bundle().directions[i]).norm(), 1e-12);
       const auto met = met_by(field.grid(), view.translation(), why.rays[i].direction, options.ray_length);
       double reach = 1.0, of_ray = 0.0;
       std::size_t next = 0;
@@ -193,7 +194,7 @@ TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
         EXPECT_EQ(voxel.probability, made.map.voxels().at(cell.x(), cell.y(), cell.z()).probability);
         EXPECT_NEAR(voxel.visibility, reach, 1e-9);
         const double range = met[next].range, q = std::abs(field.at(number));
-        EXPECT_NEAR(voxel.contribution, 1e4 * 1.6 * range * range * bundle().solid_angles[i] * reach * q, 1e-7);
+        EXPECT_NEAR(voxel.contribution, 1e4 * 1.6 * range * range * small_bundle().solid_angles[i] * reach * q, 1e-7);
         reach *= 1.0 - q;
         of_ray += voxel.contribution;
         ++next;
@@ -210,8 +211,8 @@ TEST(NewSurface, AForecastIsThatOfEachViewPartByPart) {
   const MadeMap made = evidence_maps::random_map(random, {30, 28, 31}, 0.03, 0.7);
   const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
   const std::vector<Pose> views = views_around(random, 12);
-  const auto forecast = forecast_new_surface(field, views, bundle(), {});
-  EXPECT_EQ(forecast.areas, expected_new_surface(field, views, bundle(), {}));
+  const auto forecast = forecast_new_surface(field, views, small_bundle(), {});
+  EXPECT_EQ(forecast.areas, expected_new_surface(field, views, small_bundle(), {}));
   ASSERT_EQ(forecast.part_count, 4u * 4u * 4u);
   double all = 0.0;
   for (std::size_t part = 0; part < forecast.part_count; ++part) {
@@ -223,7 +224,8 @@ TEST(NewSurface, AForecastIsThatOfEachViewPartByPart) {
   for (std::size_t v = 0; v < views.size(); ++v) {
     // What lies in a part is what the rays say of the voxels there.
     std::vector<double> of_part(forecast.part_count, 0.0);
-    for (const auto& ray : explain_new_surface(field, made.map.grid(), made.map.voxels(), views[v], bundle(), {}).rays)
+    for (const auto& ray :
+         explain_new_surface(field, made.map.grid(), made.map.voxels(), views[v], small_bundle(), {}).rays)
       for (const auto& voxel : ray.voxels) {
         const Vector3i p = (Vector3i(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) - field.grid().first) / 8;
         of_part[std::size_t((p.z() * 4 + p.y()) * 4 + p.x())] += voxel.contribution;
@@ -238,7 +240,7 @@ TEST(NewSurface, ViewsAlongAnAxisAreLikeTheirNeighbours) {
   std::mt19937 random(8);
   const MadeMap made = evidence_maps::random_map(random, {30, 30, 30}, 0.03, 0.8);
   const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
-  const RayBundle rays = bundle(19, 13);  // one ray in the middle
+  const RayBundle rays = small_bundle(19, 13);  // one ray in the middle
   for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, -1, 0), Vector3(-1, 1, 0), Vector3(1, 1e-17, -1e-17)}) {
     const Pose along = look_at(0.9 * axis, Vector3::Zero());
     const Pose beside = look_at(0.9 * axis + Vector3(1e-4, 1e-4, 1e-4), Vector3(1e-4, 1e-4, 1e-4));
@@ -255,11 +257,11 @@ TEST(NewSurface, OfAMapWithNothingOccupiedIsZero) {
   std::mt19937 random(5);
   std::vector<Pose> views = views_around(random, 12);
   views.push_back(look_at(Vector3(1, 0, 0), Vector3::Zero()));  // along an axis
-  for (const double area : expected_new_surface(field, views, bundle(), {})) EXPECT_EQ(area, 0.0);
-  const auto why = explain_new_surface(field, made.map.grid(), made.map.voxels(), views[0], bundle(), {});
+  for (const double area : expected_new_surface(field, views, small_bundle(), {})) EXPECT_EQ(area, 0.0);
+  const auto why = explain_new_surface(field, made.map.grid(), made.map.voxels(), views[0], small_bundle(), {});
   EXPECT_EQ(why.value, 0.0);
-  EXPECT_EQ(why.rays.size(), bundle().directions.size());
-  EXPECT_TRUE(expected_new_surface(field, {}, bundle(), {}).empty());
+  EXPECT_EQ(why.rays.size(), small_bundle().directions.size());
+  EXPECT_TRUE(expected_new_surface(field, {}, small_bundle(), {}).empty());
 }
 
 TEST(NewSurface, TheSameBytesOnOneThreadAndTwo) {
@@ -268,13 +270,13 @@ TEST(NewSurface, TheSameBytesOnOneThreadAndTwo) {
   const std::vector<Pose> views = views_around(random, 40);
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return expected_new_surface({made.evidence(), NewSurfaceModel::fitted()}, views, bundle(), {});
+    return expected_new_surface({made.evidence(), NewSurfaceModel::fitted()}, views, small_bundle(), {});
   };
   const auto one = run(1);
   EXPECT_EQ(one, run(2));
   const NewSurfaceField field(made.evidence(), NewSurfaceModel::fitted());
   for (std::size_t v = 0; v < views.size(); v += 7)
-    EXPECT_EQ(expected_new_surface(field, {&views[v], 1}, bundle(), {})[0], one[v]) << "alone as in company";
+    EXPECT_EQ(expected_new_surface(field, {&views[v], 1}, small_bundle(), {})[0], one[v]) << "alone as in company";
 }
 
 TEST(NewSurface, AStopLeavesTheRestAtZero) {
@@ -284,8 +286,8 @@ TEST(NewSurface, AStopLeavesTheRestAtZero) {
   stop.request_stop();
   const std::vector<Pose> views(20, look_at(Vector3(0.5, 0, 0), Vector3::Zero()));
   const NewSurfaceField field(made.evidence(), NewSurfaceModel::fitted());
-  EXPECT_GT(expected_new_surface(field, views, bundle(), {})[0], 0.0);
-  EXPECT_EQ(expected_new_surface(field, views, bundle(), {}, stop.get_token()), std::vector<double>(20, 0.0));
+  EXPECT_GT(expected_new_surface(field, views, small_bundle(), {})[0], 0.0);
+  EXPECT_EQ(expected_new_surface(field, views, small_bundle(), {}, stop.get_token()), std::vector<double>(20, 0.0));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace nextview {
 namespace {
 
-constexpr double resolution = 0.02, margin = 1e-5;
+constexpr double voxel_edge = 0.02, margin = 1e-5;
 
 /// The voxels behind a return up to `distance`, on the lattice, without the return's own and the one of the end: sorts
 /// where the line meets any plane of the lattice and looks where the middles between lie. Nothing if rounding could
@@ -19,9 +19,9 @@ std::optional<std::vector<Eigen::Vector3i>> voxels_behind(const Vector3& from, c
                                                           double distance) {
   std::vector<double> crossings = {0.0, distance};
   for (int k = 0; k < 3; ++k)
-    for (double plane = std::ceil((from[k] - distance) / resolution); plane * resolution <= from[k] + distance;
+    for (double plane = std::ceil((from[k] - distance) / voxel_edge); plane * voxel_edge <= from[k] + distance;
          ++plane) {
-      const double t = (plane * resolution - from[k]) / direction[k];
+      const double t = (plane * voxel_edge - from[k]) / direction[k];
       if (t > -margin && t < distance + margin) crossings.push_back(t);
     }
   std::sort(crossings.begin(), crossings.end());
@@ -29,7 +29,7 @@ std::optional<std::vector<Eigen::Vector3i>> voxels_behind(const Vector3& from, c
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     if (crossings[i] - crossings[i - 1] < margin) return std::nullopt;
     const Vector3 middle = from + 0.5 * (crossings[i - 1] + crossings[i]) * direction;
-    voxels.push_back((middle / resolution).array().floor().cast<int>());
+    voxels.push_back((middle / voxel_edge).array().floor().cast<int>());
   }
   if (voxels.size() < 2) return std::vector<Eigen::Vector3i>();
   return std::vector<Eigen::Vector3i>(voxels.begin() + 1, voxels.end() - 1);
@@ -59,7 +59,7 @@ struct Twin {
 };
 
 Scan clear_scan(std::mt19937& random, const Vector3& origin, double distance, int count) {
-  Scan scan = random_scans::scan(random, origin, resolution, count);
+  Scan scan = random_scans::scan(random, origin, voxel_edge, count);
   std::erase_if(scan.hits, [&](const Eigen::Vector3f& p) {
     const Vector3 ray = p.cast<double>() - scan.origin;
     return (ray.array().abs() < 1e-3).any() || std::abs(ray.norm() - 1.5) < margin ||
@@ -71,7 +71,7 @@ Scan clear_scan(std::mt19937& random, const Vector3& origin, double distance, in
 TEST(MarkOcclusions, AgreesWithSortedPlaneCrossings) {
   std::mt19937 random(5);
   for (const double distance : {0.3, 0.1, 0.021}) {
-    const VoxelGrid grid = region_of_interest(Vector3(0.02, 0.01, 0), 0.64, resolution);
+    const VoxelGrid grid = region_of_interest(Vector3(0.02, 0.01, 0), 0.64, voxel_edge);
     OccupancyMap map(grid, {});
     Twin twin(grid);
     for (const Vector3& origin : random_scans::origins()) {
@@ -94,7 +94,7 @@ TEST(MarkOcclusions, AgreesWithSortedPlaneCrossings) {
 }
 
 TEST(MarkOcclusions, CountsStepsBehindTheSurface) {
-  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
+  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, voxel_edge), {});
   const Scan scan{Vector3(-0.25, 0.01, 0.01), {{-0.05f, 0.01f, 0.01f}}, {}, 1.5};
   map.insert(scan);
   map.mark_occlusions(scan, 0.1);
@@ -111,8 +111,8 @@ TEST(MarkOcclusions, CountsStepsBehindTheSurface) {
 
 TEST(MarkOcclusions, ChangesNeitherProbabilitiesNorWhatIsMeasured) {
   std::mt19937 random(6);
-  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
-  const Scan scan = random_scans::scan(random, Vector3(0.8, 0.2, 0.1), resolution, 1000);
+  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, voxel_edge), {});
+  const Scan scan = random_scans::scan(random, Vector3(0.8, 0.2, 0.1), voxel_edge, 1000);
   map.insert(scan);
   const OccupancyMap before = map;
   map.mark_occlusions(scan, 0.3);
@@ -124,7 +124,7 @@ TEST(MarkOcclusions, ChangesNeitherProbabilitiesNorWhatIsMeasured) {
 }
 
 TEST(MarkOcclusions, HitsOutOfRangeMarkNothing) {
-  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, resolution), {});
+  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, voxel_edge), {});
   const Scan scan{Vector3(-0.25, 0.01, 0.01), {{0.05f, 0.01f, 0.01f}}, {{0.09f, 0.03f, 0.01f}}, 0.2};
   map.mark_occlusions(scan, 0.3);
   for (const Voxel& v : map.voxels()) ASSERT_EQ(v.occlusion_distance, 0);

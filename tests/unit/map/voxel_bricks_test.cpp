@@ -22,10 +22,11 @@ void number(VoxelBricks& bricks, int x, int y, int z, std::uint32_t number) {
   bricks.change_brick_of(place).set_measured(place % VoxelBricks::brick_voxels, float(number), VoxelClass::unknown);
 }
 
-const std::vector<Eigen::Vector3i> sizes = {{0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {9, 7, 17}, {16, 8, 24}, {3, 41, 10}};
+const std::vector<Eigen::Vector3i> brick_sizes = {{0, 0, 0},  {1, 1, 1},   {8, 8, 8},
+                                                  {9, 7, 17}, {16, 8, 24}, {3, 41, 10}};
 
 TEST(VoxelBricks, HoldWhatTheyAreMadeOfInTheGridsOrder) {
-  for (const Eigen::Vector3i& size : sizes) {
+  for (const Eigen::Vector3i& size : brick_sizes) {
     std::vector<Voxel> voxels(std::size_t(size.prod()));
     for (std::uint32_t v = 0; v < voxels.size(); ++v) voxels[v] = numbered(v + 1);
     const VoxelBricks bricks(size, voxels);

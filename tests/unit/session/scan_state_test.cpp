@@ -8,7 +8,7 @@
 namespace nextview {
 namespace {
 
-Configuration with_gain(const std::string& gain) {
+Configuration planned_by(const std::string& gain) {
   Configuration c = small_scan();
   c.planner.gain = gain;
   if (gain == "gibbs") c.gibbs.view_sweeps = 4;
@@ -41,7 +41,7 @@ const std::vector<std::string> gains = {"proximity-count", "occlusion-aware", "g
 
 TEST(ScanState, GoingOnFromAnyStateIsAsTheFirstTime) {
   for (const std::string& gain : gains) {
-    Session session(with_gain(gain));
+    Session session(planned_by(gain));
     const std::vector<ScanState> states = states_of(session);
     for (std::size_t k = states.size(); k-- > 0;) {
       session.restore(states[k]);
@@ -53,7 +53,7 @@ TEST(ScanState, GoingOnFromAnyStateIsAsTheFirstTime) {
 }
 
 TEST(ScanState, AStepLeavesTheStateBeforeItAsItWas) {
-  Session session(with_gain("gibbs")), other(with_gain("gibbs"));
+  Session session(planned_by("gibbs")), other(planned_by("gibbs"));
   session.step();
   other.step();
   const ScanState kept = session.state();
@@ -64,7 +64,7 @@ TEST(ScanState, AStepLeavesTheStateBeforeItAsItWas) {
 
 TEST(ScanState, IsMadeAgainFromItsScans) {
   for (const std::string& gain : gains) {
-    Session session(with_gain(gain));
+    Session session(planned_by(gain));
     const std::vector<ScanState> states = states_of(session);
     for (std::size_t from = 0; from < states.size(); ++from) {
       ScanState last = states.back();
@@ -80,7 +80,7 @@ TEST(ScanState, IsMadeAgainFromItsScans) {
 }
 
 TEST(ScanState, AbsorbingIsAPureFunctionOnAnyThread) {
-  Session session(with_gain("gibbs"));
+  Session session(planned_by("gibbs"));
   session.step();
   SimulatedSource source(
       std::make_shared<SimulatedWorld>(std::make_shared<PlacedMesh>(load_placed_mesh(session.object_file(), {0.5})),

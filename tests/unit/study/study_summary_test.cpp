@@ -12,7 +12,7 @@
 namespace nextview {
 namespace {
 
-constexpr const char* text = R"(
+constexpr const char* study_text = R"(
 [[planning]]
 objects = ["sphere", "box", "slotted_plate"]
 policies = ["random", "oracle", "farthest"]
@@ -89,7 +89,7 @@ class Summary : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  Study study_ = read_study(folder_.write("study.toml", text));
+  Study study_ = read_study(folder_.write("study.toml", study_text));
   StudyKeys keys_ = keys_of(study_);
   std::vector<RunResult> results_;
 };

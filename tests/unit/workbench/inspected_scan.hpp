@@ -4,17 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/unit/workbench/job_control.hpp"
 #include "tests/unit/workbench/small_scan.hpp"
 #include "ui/workbench/inspector.hpp"
-#include "ui/workbench/session_runner.hpp"
 
 namespace nextview {
-
-inline SessionRunner::JobControl job_control() {
-  return {[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
-}
-
-inline Pose custom_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
 
 inline Configuration scan_by(const std::string& gain, Semantics semantics = Semantics::published) {
   Configuration c = small_scan();

@@ -2,16 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/map/in_temporary_folder.hpp"
+#include "tests/unit/workbench/job_control.hpp"
 #include "tests/unit/workbench/small_scan.hpp"
-#include "ui/workbench/session_runner.hpp"
 
 namespace nextview {
-
-inline SessionRunner::JobControl job_control() {
-  return {[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
-}
-
-inline Pose custom_view() { return look_at(Vector3(0.31, -0.62, 0.47), Vector3(0.02, 0.01, -0.03)); }
 
 inline bool same_candidates(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Candidate& x, const Candidate& y) {
