@@ -129,34 +129,69 @@ class Follower {
   Walk walks_[rows];
 };
 
+HWY_INLINE Mask where(hn::Mask<Integers> mask) {
+  return mask_of(hn::BitCast(integers, hn::VecFromMask(integers, mask)));
+}
+
+/// What rays find in the voxels that they are in.
+struct Found {
+  Vector worth, passes;
+  Mask inside, ends;  ///< whether the voxels are the grid's; whether rays go no farther
+};
+
+/// Of voxels that are kept as numbers of states.
+template <class State>
+HWY_INLINE Found look_up(const StateField& field, const std::vector<State>& states, IntegerVector place) {
+  constexpr std::int64_t bits = (std::int64_t{1} << (8 * sizeof(State))) - 1;
+  const auto* const begin = reinterpret_cast<const std::int64_t*>(states.data());
+  const IntegerVector offset = hn::ShiftLeft<sizeof(State) / 2>(place);
+  const IntegerVector state = hn::And(hn::GatherOffset(integers, begin, offset), hn::Set(integers, bits));
+  const IntegerVector number = hn::ShiftRight<1>(state), one = hn::Set(integers, std::int64_t{1});
+  return {hn::GatherIndex(doubles, field.worth.data(), number), hn::GatherIndex(doubles, field.passes.data(), number),
+          where(hn::Ne(state, hn::Set(integers, std::int64_t{StateField::outside}))),
+          where(hn::Eq(hn::And(state, one), one))};
+}
+
+/// Of voxels that are all different.
+HWY_INLINE Found look_up(const StateField& field, IntegerVector place) {
+  const Vector passes = hn::GatherIndex(doubles, field.passes.data(), place), size = hn::Abs(passes);
+  return {hn::GatherIndex(doubles, field.worth.data(), place), size, hn::Le(size, hn::Set(doubles, 1.0)),
+          where(hn::Lt(hn::BitCast(integers, passes), hn::Zero(integers)))};
+}
+
+/// `LookUp(field, place)` is one of these.
+template <class LookUp>
 struct States {
   const StateField& field;
+  LookUp look_up;
   std::size_t looked_at = 0;
 
   HWY_INLINE Mask visit(Walk& w, std::size_t, Vector) {
-    const auto* const bytes = reinterpret_cast<const std::int64_t*>(field.states.data());
-    const IntegerVector state =
-        hn::And(hn::GatherOffset(integers, bytes, w.place), hn::Set(integers, std::int64_t{0xff}));
-    w.sum = hn::Add(w.sum, hn::Mul(w.left, hn::GatherIndex(doubles, field.worth.data(), state)));
-    w.left = hn::Mul(w.left, hn::GatherIndex(doubles, field.passes.data(), state));
-    const Mask inside = mask_of(hn::BitCast(
-        integers, hn::VecFromMask(integers, hn::Lt(state, hn::Set(integers, std::int64_t{StateField::outside})))));
-    looked_at += hn::CountTrue(doubles, hn::And(inside, w.live));
+    const Found found = look_up(field, w.place);
+    w.sum = hn::Add(w.sum, hn::Mul(w.left, found.worth));
+    w.left = hn::Mul(w.left, found.passes);
+    looked_at += hn::CountTrue(doubles, hn::And(found.inside, w.live));
     // What is less than half of the sum's last place is lost when it is added.
     const Mask lost =
         hn::Lt(hn::Mul(w.left, hn::Set(doubles, field.most_worth)), hn::Mul(w.sum, hn::Set(doubles, 0x1p-54)));
-    return hn::Or(
-        lost, mask_of(hn::BitCast(
-                  integers,
-                  hn::VecFromMask(integers, hn::Gt(state, hn::Set(integers, std::int64_t{StateField::ends} - 1))))));
+    return hn::Or(lost, found.ends);
   }
   void ended(std::size_t, std::size_t) {}
 };
 
-std::size_t sum_states(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums) {
-  States states{field};
-  Follower<States>(rays, states, sums).run();
+template <class LookUp>
+std::size_t sum_by(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums, LookUp look_up) {
+  States<LookUp> states{field, look_up};
+  Follower<States<LookUp>>(rays, states, sums).run();
   return states.looked_at;
+}
+
+std::size_t sum_states(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums) {
+  if (!field.bytes.empty())
+    return sum_by(rays, field, sums, [](const StateField& f, IntegerVector at) { return look_up(f, f.bytes, at); });
+  if (!field.shorts.empty())
+    return sum_by(rays, field, sums, [](const StateField& f, IntegerVector at) { return look_up(f, f.shorts, at); });
+  return sum_by(rays, field, sums, [](const StateField& f, IntegerVector at) { return look_up(f, at); });
 }
 
 /// `finds` may be null.

@@ -25,17 +25,22 @@ inline std::size_t places_with_margin(const VoxelGrid& grid) {
   return std::size_t(grid.size.x() + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);
 }
 
-/// Voxels that are one of few states, a byte each, and what a ray finds in each state.
+/// What a ray finds in the voxels of a grid. Voxels in few states, as those of an occupancy map, are kept as numbers of
+/// these: a byte each where that is enough, else two. Where every voxel differs (a Gibbs map) `worth` and `passes` have
+/// one entry a place instead.
 struct StateField {
-  static constexpr std::uint8_t ends = 0x80;      ///< a ray goes no farther than here
-  static constexpr std::uint8_t outside = 0xff;   ///< the margin
-  static constexpr std::size_t most_states = 64;  ///< of voxels that rays pass, and of those that end them
-  static constexpr std::size_t read_beyond = 8;   ///< bytes behind the last state, which are read along with it
+  static constexpr std::size_t outside = 1;      ///< state of the margin
+  static constexpr std::size_t read_beyond = 8;  ///< bytes behind the last state, which are read along with it
 
-  std::vector<std::uint8_t> states;  ///< by place_with_margin
-  std::array<double, 256> worth{};   ///< what a voxel adds, times the ray's visibility
-  std::array<double, 256> passes{};  ///< what share of the visibility goes on; 1 - p
-  double most_worth = 0.0;           ///< of any state, where passes are at most 1
+  /// Twice the number of the state, and 1 if a ray goes no farther; by place_with_margin. At most one is not empty.
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint16_t> shorts;
+  /// What a voxel adds, times the ray's visibility. By the state's number, 0 for the margin; without states by place.
+  std::vector<double> worth;
+  /// What share of the visibility goes on; 1 - p. Without states its sign bit says that a ray goes no farther, and the
+  /// margin has -2.
+  std::vector<double> passes;
+  double most_worth = 0.0;  ///< of any voxel, where passes are at most 1
 };
 
 /// The sum of visibility times worth of each ray, voxel by voxel up to the one that ends it: to the last bit what the

@@ -21,68 +21,123 @@ std::uint64_t key_of(const Brick& brick, std::size_t i, bool with_distance) {
   return std::uint64_t{std::bit_cast<std::uint32_t>(number)} << 8 | brick.states()[i];
 }
 
+/// Whose rays are added up, and how.
+struct Scoring {
+  const Gain& gain;
+  double occupancy_threshold, occlusion_reach;
+
+  double worth(const Voxel& voxel) const { return gain.worth(voxel, occlusion_reach); }
+  double passes(const Voxel& voxel) const { return gain.weighs_visibility ? 1.0 - double(voxel.probability) : 1.0; }
+  bool ends(const Voxel& voxel) const { return voxel.measured && voxel.probability >= occupancy_threshold; }
+};
+
 /// Numbers the states that there are, as they are met. Which number a state gets decides nothing.
 class Numbering {
  public:
-  Numbering(StateField& field, const Gain& gain, double threshold, double reach)
-      : field_(field), gain_(gain), threshold_(threshold), reach_(reach) {}
+  /// `most`: how many states there may be, the margin's among them.
+  Numbering(StateField& field, const Scoring& scoring, std::size_t most)
+      : field_(field), scoring_(scoring), most_(most) {
+    field_.worth.assign(1, 0.0);
+    field_.passes.assign(1, 0.0);
+  }
 
-  std::uint8_t number(std::uint64_t key, const Voxel& voxel) {
+  std::uint16_t state(std::uint64_t key, const Voxel& voxel) {
     const std::scoped_lock lock(mutex_);
-    if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
-    const bool ends = voxel.measured && voxel.probability >= threshold_;
-    std::size_t& count = counts_[ends];
-    if (count == StateField::most_states) {
+    if (const auto known = states_.find(key); known != states_.end()) return known->second;
+    if (field_.worth.size() == most_) {
       too_many_ = true;
       return 0;
     }
-    const auto number = static_cast<std::uint8_t>(count++ + (ends ? StateField::ends : 0));
-    field_.worth[number] = gain_.worth(voxel, reach_);
-    field_.passes[number] = gain_.weighs_visibility ? 1.0 - double(voxel.probability) : 1.0;
-    return numbers_[key] = number;
+    const auto state = static_cast<std::uint16_t>(2 * field_.worth.size() + scoring_.ends(voxel));
+    field_.worth.push_back(scoring_.worth(voxel));
+    field_.passes.push_back(scoring_.passes(voxel));
+    return states_[key] = state;
   }
   bool too_many() const { return too_many_; }
 
  private:
   StateField& field_;
-  const Gain& gain_;
-  double threshold_, reach_;
+  const Scoring& scoring_;
+  std::size_t most_;
   std::mutex mutex_;
-  std::unordered_map<std::uint64_t, std::uint8_t> numbers_;
-  std::array<std::size_t, 2> counts_{};
+  std::unordered_map<std::uint64_t, std::uint16_t> states_;
   std::atomic<bool> too_many_ = false;
 };
 
-/// The numbers that a thread knows already.
-class KnownNumbers {
+/// The states that a thread knows already.
+class KnownStates {
  public:
-  explicit KnownNumbers(Numbering& all) : all_(all) { keys_.fill(~std::uint64_t{0}); }
-  std::uint8_t operator()(const Brick& brick, std::size_t i, bool with_distance) {
+  explicit KnownStates(Numbering& all) : all_(all) { keys_.fill(~std::uint64_t{0}); }
+  std::uint16_t operator()(const Brick& brick, std::size_t i, bool with_distance) {
     const std::uint64_t key = key_of(brick, i, with_distance);
     const std::size_t slot = key * 0x9e3779b97f4a7c15u >> (64 - 8);
     if (keys_[slot] != key) {
-      numbers_[slot] = all_.number(key, brick[i]);
+      states_[slot] = all_.state(key, brick[i]);
       keys_[slot] = key;
     }
-    return numbers_[slot];
+    return states_[slot];
   }
 
  private:
   Numbering& all_;
   std::array<std::uint64_t, 256> keys_;
-  std::array<std::uint8_t, 256> numbers_{};
+  std::array<std::uint16_t, 256> states_{};
 };
 
-/// Writes the states of a brick to where they stand in the field.
-void number_brick(const VoxelGrid& grid, const Brick& brick, const Eigen::Vector3i& first, bool with_distance,
-                  KnownNumbers& number, std::vector<std::uint8_t>& states) {
+/// Calls `visit(place, brick, number)` for each voxel of the grid that is in a brick: where it stands in a field, and
+/// in the brick.
+template <class Visit>
+void for_each_voxel(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t b, Visit visit) {
+  const Brick& brick = *voxels.bricks()[b];
+  const Eigen::Vector3i first = voxels.cell(b * VoxelBricks::brick_voxels);
   const Eigen::Vector3i size = (grid.size - first).cwiseMin(VoxelBricks::edge);
   for (int z = 0; z < size.z(); ++z)
     for (int y = 0; y < size.y(); ++y) {
-      std::uint8_t* const row = &states[place_with_margin(grid, first.x(), first.y() + y, first.z() + z)];
+      const std::size_t row = place_with_margin(grid, first.x(), first.y() + y, first.z() + z);
       const std::size_t in_brick = std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge;
-      for (int x = 0; x < size.x(); ++x) row[x] = number(brick, in_brick + std::size_t(x), with_distance);
+      for (int x = 0; x < size.x(); ++x) visit(row + std::size_t(x), brick, in_brick + std::size_t(x));
     }
+}
+
+/// Calls `work(bricks)` for ranges of all bricks, several at once.
+template <class Work>
+void for_ranges_of_bricks(const VoxelBricks& voxels, Work work) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), work);
+}
+
+/// Fills `states`, one of the field's, with what the voxels are kept as. Whether there were few enough of them.
+template <class State>
+bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring& scoring, StateField& field,
+                   std::vector<State>& states) {
+  states.assign(places_with_margin(grid) + StateField::read_beyond / sizeof(State), StateField::outside);
+  Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
+  for_ranges_of_bricks(voxels, [&](const auto& range) {
+    KnownStates state(numbering);
+    for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b)
+      for_each_voxel(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t i) {
+        states[place] = static_cast<State>(state(brick, i, scoring.gain.needs_occlusion));
+      });
+  });
+  if (numbering.too_many()) states.clear();
+  return !states.empty();
+}
+
+/// The field of voxels that are all different.
+void fill_places(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring& scoring, StateField& field) {
+  field.worth.assign(places_with_margin(grid), 0.0);
+  field.passes.assign(places_with_margin(grid), -2.0);
+  for_ranges_of_bricks(voxels, [&](const auto& range) {
+    for (std::size_t b = range.begin(); b != range.end(); ++b)
+      for_each_voxel(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t i) {
+        const Voxel voxel = brick[i];
+        field.worth[place] = scoring.worth(voxel);
+        field.passes[place] = scoring.ends(voxel) ? -scoring.passes(voxel) : scoring.passes(voxel);
+      });
+  });
+}
+
+bool follows_from_log_odds(const VoxelBricks& voxels) {
+  return std::ranges::all_of(voxels.bricks(), [](const auto& brick) { return brick->follows_from_log_odds(); });
 }
 
 }  // namespace
@@ -91,19 +146,10 @@ std::optional<StateField> state_field(const VoxelGrid& grid, const VoxelBricks& 
                                       const Gain& gain, double occlusion_reach) {
   if (!gain.worth) return std::nullopt;
   StateField field;
-  field.states.assign(places_with_margin(grid) + StateField::read_beyond, StateField::outside);
-  Numbering numbering(field, gain, occupancy_threshold, occlusion_reach);
-  std::atomic<bool> is_told = false;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
-    KnownNumbers number(numbering);
-    for (std::size_t b = range.begin(); b != range.end(); ++b) {
-      const Brick& brick = *voxels.bricks()[b];
-      if (!brick.follows_from_log_odds()) is_told = true;
-      if (is_told || numbering.too_many()) return;
-      number_brick(grid, brick, voxels.cell(b * VoxelBricks::brick_voxels), gain.needs_occlusion, number, field.states);
-    }
-  });
-  if (is_told || numbering.too_many()) return std::nullopt;
+  const Scoring scoring{gain, occupancy_threshold, occlusion_reach};
+  if (!follows_from_log_odds(voxels) || (!number_states(grid, voxels, scoring, field, field.bytes) &&
+                                         !number_states(grid, voxels, scoring, field, field.shorts)))
+    fill_places(grid, voxels, scoring, field);
   // Without visibility nothing is too small to count.
   field.most_worth =
       gain.weighs_visibility ? *std::ranges::max_element(field.worth) : std::numeric_limits<double>::infinity();

@@ -6,8 +6,7 @@
 
 namespace nextview {
 
-/// What the voxels are worth to a gain, where that is a function of the voxel and the voxels are in few states, as
-/// those of an occupancy map whose updates do not depend on the range. None otherwise.
+/// What the voxels are worth to a gain, where that is a function of the voxel. None otherwise.
 std::optional<StateField> state_field(const VoxelGrid& grid, const VoxelBricks& voxels, double occupancy_threshold,
                                       const Gain& gain, double occlusion_reach);
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,23 +15,9 @@ class BitMask {
   std::size_t memory() const { return words_.size() * sizeof(std::uint64_t); }  ///< [bytes]
   bool operator[](std::size_t i) const { return words_[i / 64] >> (i % 64) & 1; }
   /// Sets those that are not 0 in `bytes`, one each. @pre bytes.size() == size()
-  void add(std::span<const std::uint8_t> bytes) {
-    for (std::size_t w = 0; w < words_.size(); ++w) {
-      const std::size_t first = 64 * w, count = std::min<std::size_t>(64, size_ - first);
-      std::uint64_t word = 0;
-      for (std::size_t i = 0; i < count; ++i) word |= std::uint64_t{bytes[first + i] != 0} << i;
-      words_[w] |= word;
-    }
-  }
+  void add(std::span<const std::uint8_t> bytes);
   /// 0 or 1 each.
-  std::vector<std::uint8_t> bytes() const {
-    std::vector<std::uint8_t> bytes(size_);
-    for (std::size_t w = 0; w < words_.size(); ++w) {
-      const std::size_t first = 64 * w, count = std::min<std::size_t>(64, size_ - first);
-      for (std::size_t i = 0; i < count; ++i) bytes[first + i] = words_[w] >> i & 1;
-    }
-    return bytes;
-  }
+  std::vector<std::uint8_t> bytes() const;
   bool operator==(const BitMask&) const = default;
 
  private:

@@ -1,6 +1,9 @@
 #include "core/session/scan_loop.hpp"
 
-#include <numbers>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <functional>
 
 #include "core/evaluation/entropy.hpp"
 #include "core/progress/part.hpp"
@@ -20,13 +23,17 @@ void report(const Progress& progress, const std::stop_token& stop, double fracti
 
 /// How many voxels a map has measured that an earlier state of it had not.
 std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) {
-  std::size_t count = 0;
-  for (std::size_t brick = 0; brick < after.brick_count(); ++brick) {
-    const auto &was = before.bricks()[brick], &is = after.bricks()[brick];
-    if (was.shares_with(is)) continue;
-    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) count += is->measured(i) && !was->measured(i);
-  }
-  return count;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, after.brick_count(), 64), std::size_t{0},
+      [&](const auto& range, std::size_t count) {
+        for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
+          const auto &was = before.bricks()[brick], &is = after.bricks()[brick];
+          if (was.shares_with(is)) continue;
+          for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) count += is->measured(i) && !was->measured(i);
+        }
+        return count;
+      },
+      std::plus<>());
 }
 
 FusionConfig fusion(const ScanSetup& setup) {

@@ -180,14 +180,58 @@ TEST(RayLanes, AreTheSameOnAnyNumberOfThreads) {
   for (const std::size_t threads : {2, 5}) EXPECT_EQ(run(threads), expected) << threads;
 }
 
-TEST(RayLanes, AMapOfManyStatesIsLeftToRaysOneByOne) {
+/// That a map's voxels are in as many states as `kept` says, and are scored as rays one by one score them.
+void expect_same_scores(const VoxelGrid& grid, const VoxelBricks& voxels, std::vector<std::uint8_t> StateField::*bytes,
+                        std::vector<std::uint16_t> StateField::*shorts, std::mt19937& random) {
+  const MapRays rays(grid, voxels, 0.5, 1.5);
+  const std::vector<Pose> views = some_views(random);
+  for (const Gain& g : gains()) {
+    if (!g.worth) continue;
+    const StateField field = rays.worth_of_map(g, 60.0)->field;
+    EXPECT_EQ((field.*(bytes ? bytes : &StateField::bytes)).empty(), bytes == nullptr) << g.name;
+    EXPECT_EQ((field.*(shorts ? shorts : &StateField::shorts)).empty(), shorts == nullptr) << g.name;
+    const Gain* const one = &g;
+    const auto in_lanes = score_views(rays, views, bundle(13, 9), {&one, 1});
+    const auto one_by_one = score_views(OneByOne(rays), views, bundle(13, 9), {&one, 1});
+    for (std::size_t v = 0; v < views.size(); ++v) EXPECT_EQ(in_lanes[v].gains, one_by_one[v].gains) << g.name << v;
+    EXPECT_GT(in_lanes[0].gains[0], 0.0) << g.name;
+  }
+}
+
+/// Measured voxels in `count` states, and unmeasured ones.
+MadeMap map_in_states(std::mt19937& random, const Vector3i& size, int count) {
+  MadeMap made(size);
+  MadeMap::for_each(Vector3i::Zero(), size - Vector3i::Ones(), [&](const Vector3i& cell) {
+    const int state = int(random() % std::uint32_t(count));
+    if (random() % 5 != 0) made.set(cell, state < count / 10 ? 0.01 * (state + 1) : -3.0 * (state + 1) / count);
+  });
+  for (const Vector3& from : random_scans::origins())
+    made.map.mark_occlusions(random_scans::scan(random, from, 0.02, 300), 0.3);
+  return made;
+}
+
+// A byte a voxel, two, or a place of its own: a map that was seen often is in more states than a new one.
+TEST_P(RayLanesOn, HoweverManyStatesVoxelsAreIn) {
   std::mt19937 random(8);
-  const MadeMap made = evidence_maps::random_map(random, {20, 20, 20}, 0.1, 0.2);
-  const MapRays rays(made.map.grid(), made.map.voxels(), 0.5, 1.5);
-  EXPECT_FALSE(rays.worth_of_map(gain("occlusion-aware"), 60.0));
-  const Pose view = look_at(Vector3(0.8, 0.3, -0.4), Vector3::Zero());
-  const Gain* const one = &gain("occlusion-aware");
-  EXPECT_GT(score_views(rays, {&view, 1}, bundle(9, 9), {&one, 1})[0].gains[0], 0.0);
+  const MadeMap few = map_in_states(random, {20, 20, 20}, 80), many = map_in_states(random, {20, 20, 20}, 1000),
+                most = map_in_states(random, {48, 48, 48}, 100'000);
+  expect_same_scores(few.map.grid(), few.map.voxels(), &StateField::bytes, nullptr, random);
+  expect_same_scores(many.map.grid(), many.map.voxels(), nullptr, &StateField::shorts, random);
+  expect_same_scores(most.map.grid(), most.map.voxels(), nullptr, nullptr, random);
+}
+
+// As of a Gibbs map, whose probabilities and entropies follow from nothing.
+TEST_P(RayLanesOn, VoxelsThatAreToldAsTheyAre) {
+  std::mt19937 random(9);
+  const MadeMap made = map_in_states(random, {20, 25, 30}, 50);
+  std::vector<Voxel> voxels = made.map.voxels().dense();
+  std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+  for (Voxel& voxel : voxels) {
+    if (!voxel.measured) continue;
+    voxel.probability = random() % 9 == 0 ? 1.0f : 0.6f * uniform(random);
+    voxel.entropy = uniform(random);
+  }
+  expect_same_scores(made.map.grid(), {made.map.grid().size, voxels}, nullptr, nullptr, random);
 }
 
 }  // namespace

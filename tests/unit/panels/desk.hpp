@@ -110,7 +110,7 @@ inline void open_all_ways(Desk& desk) {
   auto timeline = std::make_shared<Timeline>(*s->timeline);
   timeline->branches.all.push_back({"other", 2, 1});
   timeline->at = 1;
-  s->compared = std::make_shared<const Comparison>(Comparison{"other", s});
+  s->compared = std::make_shared<const Comparison>(Comparison{"other", std::make_shared<SessionSnapshot>(*s)});
   s->timeline = std::move(timeline);
   s->cameras = std::make_shared<const std::vector<CameraBookmark>>(1, CameraBookmark{"here"});
   desk.snapshot = s;

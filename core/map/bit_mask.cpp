@@ -1,0 +1,38 @@
+#include "core/map/bit_mask.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace nextview {
+namespace {
+
+/// Calls `visit(word, first, count)` for each word of `size` flags, with its first flag and how many it holds.
+template <class Visit>
+void for_each_word(std::size_t size, Visit visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (size + 63) / 64, 1024), [&](const auto& range) {
+    for (std::size_t w = range.begin(); w != range.end(); ++w)
+      visit(w, 64 * w, std::min<std::size_t>(64, size - 64 * w));
+  });
+}
+
+}  // namespace
+
+void BitMask::add(std::span<const std::uint8_t> bytes) {
+  for_each_word(size_, [&](std::size_t w, std::size_t first, std::size_t count) {
+    std::uint64_t word = 0;
+    for (std::size_t i = 0; i < count; ++i) word |= std::uint64_t{bytes[first + i] != 0} << i;
+    words_[w] |= word;
+  });
+}
+
+std::vector<std::uint8_t> BitMask::bytes() const {
+  std::vector<std::uint8_t> bytes(size_);
+  for_each_word(size_, [&](std::size_t w, std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) bytes[first + i] = words_[w] >> i & 1;
+  });
+  return bytes;
+}
+
+}  // namespace nextview
