@@ -1,7 +1,5 @@
 #include "core/cloud/point_grid.hpp"
 
-#include <hwy/contrib/sort/vqsort.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,6 +41,29 @@ double edge_for(const std::vector<std::uint32_t>& counts, double edge, std::size
   for (const std::uint32_t count : counts) points += count, squares += double(count) * count;
   const double in_cell = squares / std::max(points, 1.0);  // of a point's own cell, on average
   return edge * std::sqrt(0.45 * double(wanted) / std::max(in_cell, 1e-3));
+}
+
+/// Puts the `wanted` least of `values` in front, ascending, and drops the others. Squared distances of points on a surface
+/// are spread evenly: buckets that hold one or two each leave next to nothing to compare.
+void keep_least(std::vector<float>& values, std::size_t wanted) {
+  constexpr std::size_t buckets = 128;
+  const float most = values.empty() ? 0.0f : std::ranges::max(values), scale = float(buckets - 1) / most;
+  if (values.size() < 8 || !std::isnormal(scale)) {
+    std::ranges::sort(values);
+    values.resize(std::min(values.size(), wanted));
+    return;
+  }
+  const auto bucket = [&](float value) { return std::size_t(value * scale); };
+  std::array<std::uint32_t, buckets + 1> ends{};
+  for (const float value : values) ++ends[bucket(value)];
+  std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
+  thread_local std::vector<float> sorted;
+  sorted.resize(values.size());
+  std::array<std::uint32_t, buckets + 1> begins = ends;
+  for (const float value : values) sorted[--begins[bucket(value)]] = value;
+  for (std::size_t b = 0; b < buckets && begins[b] < wanted; ++b)
+    if (ends[b] - begins[b] > 1) std::sort(sorted.begin() + begins[b], sorted.begin() + ends[b]);
+  values.assign(sorted.begin(), sorted.begin() + std::ptrdiff_t(std::min(values.size(), wanted)));
 }
 
 }  // namespace
@@ -117,7 +138,6 @@ void PointGrid::gather_within(const Eigen::Vector3f& point, const Eigen::Vector3
 }
 
 bool PointGrid::nearest(std::size_t i, std::size_t wanted, std::vector<float>& squared) const {
-  thread_local const hwy::Sorter sorter;  // in vector registers; it allocates
   const Eigen::Vector3f& point = points_[i];
   const Eigen::Vector3i middle = cell(point);
   const float safety = 1.0f - 1e-4f;  // far more than single precision rounds
@@ -130,8 +150,7 @@ bool PointGrid::nearest(std::size_t i, std::size_t wanted, std::vector<float>& s
     if (ring >= last_ring) covered = std::numeric_limits<float>::infinity();
     gather_within(point, middle, ring, covered * covered, squared);
     if (squared.size() < wanted && ring < last_ring) continue;
-    sorter(squared.data(), squared.size(), hwy::SortAscending());
-    squared.resize(std::min(squared.size(), wanted));
+    keep_least(squared, wanted);
     const float to_outside = std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff());
     const float inside = std::max(0.0f, safety * to_outside - rounding_);
     return holds_all_ || (squared.size() == wanted && squared.back() < inside * inside);

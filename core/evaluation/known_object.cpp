@@ -89,9 +89,8 @@ std::vector<std::uint8_t> KnownObject::seen_from_any_pose(const Progress& progre
 void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                            const std::stop_token& stop) const {
   const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
-  std::vector<std::uint8_t> visited(truth_.grid.voxel_count());
-  mark_visited(truth_.grid, back_project(ideal, T_world_camera, camera_.config().max_range, stop), visited, stop);
-  state.visited_voxels.add(visited);
+  const Scan scan = back_project(ideal, T_world_camera, camera_.config().max_range, stop);
+  mark_visited(truth_.grid, scan, state.visited_voxels, stop);
   for (const std::uint32_t s : samples_seen(T_world_camera, stop)) state.seen[s] = 1;
   state.coverage.add(points, stop);
   state.coverage_paper.add(points, stop);

@@ -5,6 +5,8 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,18 +28,21 @@ Terms terms_of(double p, bool occupied) {
           std::min<std::size_t>(9, static_cast<std::size_t>(p * 10.0))};
 }
 
-/// Neighbours often have the same probability, and logarithms are expensive.
-class LastTerms {
+/// Voxels often have the same probability, and logarithms are expensive.
+class KnownTerms {
  public:
   const Terms& of(float p, bool occupied) {
-    if (p != p_ || occupied != occupied_) terms_ = terms_of(p, occupied), p_ = p, occupied_ = occupied;
-    return terms_;
+    Known& known = known_[(std::bit_cast<std::uint32_t>(p) * 0x9e3779b1u >> 25) * 2 + occupied];
+    if (known.p != p) known = {p, terms_of(p, occupied)};
+    return known.terms;
   }
 
  private:
-  float p_ = -1.0f;
-  bool occupied_ = false;
-  Terms terms_{};
+  struct Known {
+    float p = -1.0f;
+    Terms terms{};
+  };
+  std::array<Known, 256> known_{};
 };
 
 struct Sums {
@@ -109,39 +114,66 @@ void check_lengths(std::size_t probabilities, const GroundTruth& truth, ScoredSe
         "map quality: the scored set '{}' needs a mask of {} visited voxels, not of {}", name(set), voxels, visited));
 }
 
-}  // namespace
-
-std::vector<MapQuality> map_quality(std::span<const float> probabilities, const GroundTruth& truth,
-                                    TruthConvention convention, std::span<const ScoredSet> sets,
-                                    std::span<const std::uint8_t> visited) {
-  for (const ScoredSet set : sets) check_lengths(probabilities.size(), truth, set, visited.size());
+/// `from(i)`: points at the probability of a voxel, and those of the next ones. `visited(i)`: whether it was.
+template <class From, class Visited>
+std::vector<MapQuality> qualities(const GroundTruth& truth, TruthConvention convention, std::span<const ScoredSet> sets,
+                                  From from, Visited visited) {
   using SumsOfSets = std::array<Sums, scored_sets>;
-  const auto add = [&](SumsOfSets& sums, std::size_t i, LastTerms& last) {
+  const auto add = [&](SumsOfSets& sums, std::size_t i, auto& probability, KnownTerms& known) {
     const bool in_band = truth.surface_distance[i] <= band_width;
-    const auto counts = [&](ScoredSet set) { return (!of_visited(set) || visited[i]) && (!of_band(set) || in_band); };
+    const auto counts = [&](ScoredSet set) { return (!of_visited(set) || visited(i)) && (!of_band(set) || in_band); };
     if (std::ranges::none_of(sets, counts)) return;
     const VoxelTruth voxel = voxel_truth(truth, i, convention);
     if (voxel == VoxelTruth::hidden) return;
     const bool occupied = voxel == VoxelTruth::occupied;
-    const Terms& terms = last.of(probabilities[i], occupied);
+    const float p = *probability;
+    const Terms& terms = known.of(p, occupied);
     for (const ScoredSet set : sets)
-      if (counts(set)) sums[static_cast<std::size_t>(set)].add(probabilities[i], occupied, in_band, terms);
+      if (counts(set)) sums[static_cast<std::size_t>(set)].add(p, occupied, in_band, terms);
   };
   // Split and joined in the same places on any number of threads, so that the sums round alike.
   const SumsOfSets all = tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, probabilities.size(), 1 << 15), SumsOfSets(),
+      tbb::blocked_range<std::size_t>(0, truth.grid.voxel_count(), 1 << 15), SumsOfSets(),
       [&](const auto& range, SumsOfSets part) {
-        LastTerms last;
-        for (std::size_t i = range.begin(); i != range.end(); ++i) add(part, i, last);
+        KnownTerms known;
+        auto probability = from(range.begin());
+        for (std::size_t i = range.begin(); i != range.end(); ++i, ++probability) add(part, i, probability, known);
         return part;
       },
       [](SumsOfSets a, const SumsOfSets& b) {
         for (std::size_t s = 0; s < a.size(); ++s) a[s] += b[s];
         return a;
       });
-  std::vector<MapQuality> qualities;
-  for (const ScoredSet set : sets) qualities.push_back(means(all[static_cast<std::size_t>(set)]));
-  return qualities;
+  std::vector<MapQuality> result;
+  for (const ScoredSet set : sets) result.push_back(means(all[static_cast<std::size_t>(set)]));
+  return result;
+}
+
+/// Walks the probabilities of a map's voxels in the grid's order.
+struct ProbabilityIterator {
+  VoxelBricks::Iterator voxel;
+
+  float operator*() const { return (*voxel).probability; }
+  void operator++() { ++voxel; }
+};
+
+}  // namespace
+
+std::vector<MapQuality> map_quality(std::span<const float> probabilities, const GroundTruth& truth,
+                                    TruthConvention convention, std::span<const ScoredSet> sets,
+                                    std::span<const std::uint8_t> visited) {
+  for (const ScoredSet set : sets) check_lengths(probabilities.size(), truth, set, visited.size());
+  return qualities(
+      truth, convention, sets, [&](std::size_t i) { return probabilities.begin() + std::ptrdiff_t(i); },
+      [&](std::size_t i) { return visited[i] != 0; });
+}
+
+std::vector<MapQuality> map_quality(const VoxelBricks& voxels, const GroundTruth& truth, TruthConvention convention,
+                                    std::span<const ScoredSet> sets, const BitMask& visited) {
+  for (const ScoredSet set : sets) check_lengths(voxels.size(), truth, set, visited.size());
+  return qualities(
+      truth, convention, sets, [&](std::size_t i) { return ProbabilityIterator{voxels.from(i)}; },
+      [&](std::size_t i) { return visited[i]; });
 }
 
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "core/evaluation/truth_convention.hpp"
+#include "core/map/bit_mask.hpp"
 #include "core/map/occupancy.hpp"
+#include "core/map/voxel_bricks.hpp"
 
 namespace nextview {
 
@@ -53,5 +55,8 @@ MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& 
 std::vector<MapQuality> map_quality(std::span<const float> probabilities, const GroundTruth& truth,
                                     TruthConvention convention, std::span<const ScoredSet> sets,
                                     std::span<const std::uint8_t> visited = {});
+/// The same of a map's voxels as they are kept.
+std::vector<MapQuality> map_quality(const VoxelBricks& voxels, const GroundTruth& truth, TruthConvention convention,
+                                    std::span<const ScoredSet> sets, const BitMask& visited);
 
 }  // namespace nextview

@@ -1,16 +1,12 @@
 #include "core/evaluation/visited_voxels.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <limits>
 
 #include "core/map/ray_marks.hpp"
 
 namespace nextview {
 
-void mark_visited(const VoxelGrid& grid, const Scan& ideal, std::span<std::uint8_t> visited,
-                  const std::stop_token& stop) {
+void mark_visited(const VoxelGrid& grid, const Scan& ideal, BitMask& visited, const std::stop_token& stop) {
   RayMarks marks(grid);
   for (const PointCloud* ends : {&ideal.hits, &ideal.misses})
     marks.pass(ideal.origin.cast<float>(), *ends, std::numeric_limits<double>::infinity(), stop);
@@ -19,13 +15,11 @@ void mark_visited(const VoxelGrid& grid, const Scan& ideal, std::span<std::uint8
       const Eigen::Vector3i last = grid.cell_at(end.cast<double>());
       if (grid.contains(last)) marks.set(last, 1);
     }
-  tbb::parallel_for(0, grid.size.z(), [&](int z) {
-    for (int y = 0; y < grid.size.y(); ++y) {
-      const std::uint8_t* const of_row = marks.row(0, y, z);
-      std::uint8_t* const row = &visited[grid.index({0, y, z})];
-      for (int x = 0; x < grid.size.x(); ++x) row[x] |= of_row[x];
-    }
-  });
+  const auto row = [&](std::size_t number) {
+    const int y = int(number % std::size_t(grid.size.y())), z = int(number / std::size_t(grid.size.y()));
+    return marks.row(0, y, z);
+  };
+  visited.add_rows(std::size_t(grid.size.x()), row);
 }
 
 }  // namespace nextview

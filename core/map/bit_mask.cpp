@@ -17,13 +17,27 @@ void for_each_word(std::size_t size, Visit visit) {
   });
 }
 
+/// At most 64 bytes, a bit each.
+std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < count; ++i) word |= std::uint64_t{bytes[i] != 0} << i;
+  return word;
+}
+
 }  // namespace
 
 void BitMask::add(std::span<const std::uint8_t> bytes) {
+  for_each_word(
+      size_, [&](std::size_t w, std::size_t first, std::size_t count) { words_[w] |= packed(&bytes[first], count); });
+}
+
+void BitMask::add_rows(std::size_t length, const std::function<const std::uint8_t*(std::size_t number)>& row) {
   for_each_word(size_, [&](std::size_t w, std::size_t first, std::size_t count) {
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < count; ++i) word |= std::uint64_t{bytes[first + i] != 0} << i;
-    words_[w] |= word;
+    for (std::size_t done = 0; done < count;) {  // a word may reach over several rows
+      const std::size_t in_row = (first + done) % length, part = std::min(count - done, length - in_row);
+      words_[w] |= packed(row((first + done) / length) + in_row, part) << done;
+      done += part;
+    }
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ class BitMask {
   bool operator[](std::size_t i) const { return words_[i / 64] >> (i % 64) & 1; }
   /// Sets those that are not 0 in `bytes`, one each. @pre bytes.size() == size()
   void add(std::span<const std::uint8_t> bytes);
+  /// The same where the bytes lie in rows of so many, `row(number)` each. @pre size() is a multiple of it
+  void add_rows(std::size_t length, const std::function<const std::uint8_t*(std::size_t number)>& row);
   /// 0 or 1 each.
   std::vector<std::uint8_t> bytes() const;
   bool operator==(const BitMask&) const = default;

@@ -67,9 +67,8 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   if (!setup.any_pose.empty()) record.coverage_any_pose = evaluation->coverage.of(setup.any_pose);
   record.coverage_paper = evaluation->coverage_paper.of_all();
   const GroundTruth& truth = setup.truth->truth();
-  const std::vector<std::uint8_t> visited = evaluation->visited_voxels.bytes();
   const auto quality = [&](const VoxelBricks& voxels, std::initializer_list<ScoredSet> sets) {
-    return map_quality(probabilities(voxels), truth, TruthConvention::touch, sets, visited);
+    return map_quality(voxels, truth, TruthConvention::touch, sets, evaluation->visited_voxels);
   };
   const auto qualities = quality(state.known.map.voxels(), {ScoredSet::visited, ScoredSet::visited_band});
   record.quality = qualities[0];

@@ -62,7 +62,9 @@ EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const E
   camera.outliers = sensor.outliers;
   camera.max_range = sensor.max_range;
   SimulatedViews simulated = simulate_views(placed.mesh, camera, views);
-  for (const Scan& ideal : simulated.ideal) mark_visited(result.grid, ideal, result.truth.visited);
+  BitMask visited(result.grid.voxel_count());
+  for (const Scan& ideal : simulated.ideal) mark_visited(result.grid, ideal, visited);
+  result.truth.visited = visited.bytes();
   result.scans = std::move(simulated.scans);
   return result;
 }

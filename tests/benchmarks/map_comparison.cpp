@@ -121,7 +121,9 @@ class Comparison {
     camera_.outliers = options.outliers;
     views_ = simulate_views(*truth.mesh, camera_, views);
     truth_ = truth;
-    for (const Scan& ideal : views_.ideal) mark_visited(grid_, ideal, truth_->visited);
+    BitMask visited(grid_.voxel_count());
+    for (const Scan& ideal : views_.ideal) mark_visited(grid_, ideal, visited);
+    truth_->visited = visited.bytes();
   }
 
   void run() {

@@ -23,6 +23,14 @@ TEST(BitMask, HoldsWhatWasAdded) {
     EXPECT_EQ(mask.bytes(), expected);
     for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(mask[i], expected[i] != 0);
     EXPECT_LE(mask.memory(), size / 8 + 8);
+    for (std::size_t length = 1; length <= size; ++length) {  // in rows that lie apart
+      if (size % length != 0) continue;
+      std::vector<std::uint8_t> apart(2 * size);
+      for (std::size_t i = 0; i < size; ++i) apart[i / length * 2 * length + i % length] = expected[i];
+      BitMask by_rows(size);
+      by_rows.add_rows(length, [&](std::size_t row) { return &apart[row * 2 * length]; });
+      EXPECT_EQ(by_rows, mask) << length;
+    }
     BitMask same(size);
     EXPECT_EQ(same == mask, mask.bytes() == std::vector<std::uint8_t>(size));
     same.add(expected);
