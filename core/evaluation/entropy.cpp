@@ -47,8 +47,15 @@ double unmeasured_entropy(const VoxelBricks& voxels) {  // Eq. 18
 
 double total_entropy(const VoxelBricks& voxels) {
   // Where bricks stick out of the grid their voxels are as uncertain as they can be.
-  const VoxelBricks nothing(voxels.edges());
-  return (double(voxels.size()) * double(Voxel().entropy) - realised_gain(nothing, voxels)) / std::numbers::ln2;
+  const double most = double(Voxel().entropy);
+  const double known = sum(voxels.brick_count(), bricks_at_once, [&](std::size_t b) {
+    if (voxels.is_untouched(b)) return 0.0;
+    double change = 0.0;
+    const Brick& brick = *voxels.bricks()[b];
+    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += most - double(brick.entropy(i));
+    return change;
+  });
+  return (double(voxels.size()) * most - known) / std::numbers::ln2;
 }
 
 double realised_gain(const VoxelBricks& before, const VoxelBricks& after) {  // Eq. 12

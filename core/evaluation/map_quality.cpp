@@ -85,6 +85,24 @@ constexpr std::size_t scored_sets = 4;
 bool of_visited(ScoredSet set) { return set == ScoredSet::visited || set == ScoredSet::visited_band; }
 bool of_band(ScoredSet set) { return set == ScoredSet::band || set == ScoredSet::visited_band; }
 
+/// Which of the sets that are scored a voxel belongs to, a bit each.
+class SetsOfVoxel {
+ public:
+  explicit SetsOfVoxel(std::span<const ScoredSet> sets) : needs_visited_(std::ranges::any_of(sets, of_visited)) {
+    for (const bool in_band : {false, true})
+      for (const bool visited : {false, true})
+        for (const ScoredSet set : sets)
+          if ((visited || !of_visited(set)) && (in_band || !of_band(set)))
+            sets_[2 * in_band + visited] |= 1u << static_cast<unsigned>(set);
+  }
+  bool needs_visited() const { return needs_visited_; }
+  unsigned operator()(bool in_band, bool visited) const { return sets_[2 * in_band + visited]; }
+
+ private:
+  bool needs_visited_;
+  std::array<unsigned, 4> sets_{};
+};
+
 MapQuality means(const Sums& sums) {
   MapQuality quality;
   quality.voxels = sums.voxels;
@@ -119,17 +137,18 @@ template <class From, class Visited>
 std::vector<MapQuality> qualities(const GroundTruth& truth, TruthConvention convention, std::span<const ScoredSet> sets,
                                   From from, Visited visited) {
   using SumsOfSets = std::array<Sums, scored_sets>;
+  const SetsOfVoxel sets_of(sets);
   const auto add = [&](SumsOfSets& sums, std::size_t i, auto& probability, KnownTerms& known) {
     const bool in_band = truth.surface_distance[i] <= band_width;
-    const auto counts = [&](ScoredSet set) { return (!of_visited(set) || visited(i)) && (!of_band(set) || in_band); };
-    if (std::ranges::none_of(sets, counts)) return;
+    unsigned counts_in = sets_of(in_band, sets_of.needs_visited() && visited(i));
+    if (counts_in == 0) return;
     const VoxelTruth voxel = voxel_truth(truth, i, convention);
     if (voxel == VoxelTruth::hidden) return;
     const bool occupied = voxel == VoxelTruth::occupied;
     const float p = *probability;
     const Terms& terms = known.of(p, occupied);
-    for (const ScoredSet set : sets)
-      if (counts(set)) sums[static_cast<std::size_t>(set)].add(p, occupied, in_band, terms);
+    for (; counts_in != 0; counts_in &= counts_in - 1)
+      sums[std::countr_zero(counts_in)].add(p, occupied, in_band, terms);
   };
   // Split and joined in the same places on any number of threads, so that the sums round alike.
   const SumsOfSets all = tbb::parallel_deterministic_reduce(

@@ -141,6 +141,8 @@ class VoxelBricks {
   /// All of them, in the grid's order.
   std::vector<Voxel> dense() const;
 
+  /// Whether nothing was ever said of a brick's voxels.
+  bool is_untouched(std::size_t brick) const { return bricks()[brick].shares_with(empty_); }
   /// What the bricks take that hold anything [bytes].
   std::size_t bytes() const;
   /// Whether they are copies, and neither was changed since.
