@@ -1,5 +1,6 @@
 // What a user waits for around a scan of 20 views: until its session is shown against reading the files that were made
-// of it, going back a view against taking one. Ratios in one run: build/release/session_benchmark
+// of it, going back a view against taking one; and what a view adds to memory. Ratios in one run:
+// build/release/session_benchmark
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -100,6 +101,32 @@ void TakeAView(benchmark::State& state) {
   }
 }
 BENCHMARK(TakeAView)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// What a state holds that the one before it does not, and what of it is the map, as a share of the whole map.
+void BytesOfAView(benchmark::State& state) {
+  std::vector<double> megabytes, of_map, map_shares;
+  for (auto _ : state) {
+    Session session{Configuration{}};
+    session.step();
+    while (session.finished().empty()) {
+      const ScanState before = session.state();
+      session.step();
+      megabytes.push_back(1e-6 * double(bytes_of(session.state(), &before)));
+      const VoxelBricks &voxels = session.map().voxels(), &were = before.known.map.voxels();
+      of_map.push_back(1e-6 * double(voxels.bytes_beside(were)));
+      map_shares.push_back(double(voxels.bytes_beside(were)) / double(voxels.bytes()));
+    }
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+  };
+  state.counters["MB"] = median(megabytes);
+  state.counters["map_MB"] = median(of_map);
+  state.counters["map_share"] = median(map_shares);
+  state.counters["largest_map_share"] = map_shares.back();
+}
+BENCHMARK(BytesOfAView)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace nextview
