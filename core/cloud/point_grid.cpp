@@ -43,8 +43,8 @@ double edge_for(const std::vector<std::uint32_t>& counts, double edge, std::size
   return edge * std::sqrt(0.45 * double(wanted) / std::max(in_cell, 1e-3));
 }
 
-/// Puts the `wanted` least of `values` in front, ascending, and drops the others. Squared distances of points on a surface
-/// are spread evenly: buckets that hold one or two each leave next to nothing to compare.
+/// Puts the `wanted` least of `values` in front, ascending, and drops the others. Squared distances of points on a
+/// surface are spread evenly: buckets that hold one or two each leave next to nothing to compare.
 void keep_least(std::vector<float>& values, std::size_t wanted) {
   constexpr std::size_t buckets = 128;
   const float most = values.empty() ? 0.0f : std::ranges::max(values), scale = float(buckets - 1) / most;

@@ -18,7 +18,8 @@ void require_as_many(std::size_t values, const Eigen::Vector3i& size) {
 template <class Scratch, class Visit>
 void for_each_line(const Eigen::Vector3i& size, int axis, Visit visit) {
   const Eigen::Vector3<std::size_t> stride(1, size.x(), std::size_t(size.x()) * size.y());
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  // Lines after one another lie side by side: what one brings into the cache the next ones find there.
+  const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   const std::size_t lines = std::size_t(size[u]) * size[v];
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines, 64), [&](const auto& range) {
     Scratch scratch(size[axis]);
