@@ -10,7 +10,7 @@
 #include "core/file/read_file.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/session/session_folder.hpp"
-#include "ui/workbench/session_runner.hpp"
+#include "tests/unit/workbench/job_control.hpp"
 
 namespace nextview {
 namespace {
@@ -39,10 +39,6 @@ class ScannedFolder {
 fs::path scanned() {
   static const ScannedFolder folder;
   return folder.path();
-}
-
-SessionRunner::JobControl job_control() {
-  return {[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
 }
 
 void ReadFiles(benchmark::State& state) {

@@ -8,13 +8,12 @@
 
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
+#include "ui/render_target/gl_constants.hpp"
 
 namespace nextview {
 namespace {
 
 constexpr double frame = 1.0 / 60;  // [s]
-constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA9, gl_back = 0x0405,
-                       gl_color_buffer_bit = 0x4000, gl_nearest = 0x2600;
 
 /// What the last frame shows, all of it drawn at once: the scene's picture, then every panel. In a framebuffer of its
 /// own, whose rows are in the other order than the back buffer's: a renderer may round otherwise there.

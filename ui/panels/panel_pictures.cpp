@@ -2,14 +2,15 @@
 
 #include <cstdint>
 
+#include "ui/render_target/gl_constants.hpp"
 #include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 namespace {
 
 constexpr unsigned int gl_texture_2d = 0x0DE1, gl_min_filter = 0x2801, gl_mag_filter = 0x2800, gl_wrap_s = 0x2802,
-                       gl_wrap_t = 0x2803, gl_rgba = 0x1908, gl_unsigned_byte = 0x1401;
-constexpr int gl_nearest = 0x2600, gl_clamp_to_edge = 0x812F;
+                       gl_wrap_t = 0x2803;
+constexpr int gl_clamp_to_edge = 0x812F;
 
 template <class Function>
 Function gl(const RenderTarget& target, const char* name) {
@@ -28,7 +29,7 @@ PanelPictures::~PanelPictures() {
 void PanelPictures::upload(unsigned int texture, const Image& image) const {
   gl<void (*)(unsigned int, unsigned int)>(*target_, "glBindTexture")(gl_texture_2d, texture);
   const auto set = gl<void (*)(unsigned int, unsigned int, int)>(*target_, "glTexParameteri");
-  for (const unsigned int filter : {gl_min_filter, gl_mag_filter}) set(gl_texture_2d, filter, gl_nearest);
+  for (const unsigned int filter : {gl_min_filter, gl_mag_filter}) set(gl_texture_2d, filter, int(gl_nearest));
   for (const unsigned int wrap : {gl_wrap_s, gl_wrap_t}) set(gl_texture_2d, wrap, gl_clamp_to_edge);
   gl<void (*)(unsigned int, int, int, int, int, int, unsigned int, unsigned int, const void*)>(
       *target_, "glTexImage2D")(gl_texture_2d, 0, gl_rgba, image.width, image.height, 0, gl_rgba, gl_unsigned_byte,

@@ -6,13 +6,9 @@
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
 
+#include "ui/render_target/gl_constants.hpp"
+
 namespace nextview {
-namespace {
-
-constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA9, gl_color_buffer_bit = 0x4000,
-                       gl_nearest = 0x2600, gl_linear = 0x2601;
-
-}  // namespace
 
 vtkStandardNewMacro(SceneRenderer);
 

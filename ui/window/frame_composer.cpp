@@ -11,13 +11,11 @@
 #include <cstring>
 #include <iterator>
 
+#include "ui/render_target/gl_constants.hpp"
 #include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 namespace {
-
-constexpr unsigned int gl_read_framebuffer = 0x8CA8, gl_draw_framebuffer = 0x8CA9, gl_back = 0x0405,
-                       gl_color_buffer_bit = 0x4000, gl_nearest = 0x2600;
 
 /// Each box costs a blit and draws its windows once more; a pixel too many costs little.
 constexpr std::size_t max_boxes = 8;
