@@ -3,18 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/config/configuration_text.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
+#include "core/file/lower_case.hpp"
 #include "core/file/png_text.hpp"
+#include "core/mesh/mesh_types.hpp"
 
 namespace nextview {
 namespace {
 
+constexpr std::array<std::string_view, 3> recordings = {".graph", ".log", ".txt"};
+constexpr std::array<std::string_view, 3> others = {".toml", ".png", ".pcd"};
+
+template <std::size_t N>
+bool ends_in_one_of(const std::array<std::string_view, N>& endings, const std::filesystem::path& file) {
+  return std::ranges::find(endings, file.extension().string()) != endings.end();
+}
+
 bool is_recording(const std::filesystem::path& input) {
-  constexpr std::array endings = {".graph", ".log", ".txt"};
-  if (std::ranges::find(endings, input.extension().string()) != endings.end()) return true;
+  if (ends_in_one_of(recordings, input)) return true;
   const bool is_name = std::ranges::find(known_objects(), input.string(),
                                          [](const char* name) { return std::string(name); }) != known_objects().end();
   std::error_code ignored;
@@ -37,6 +47,12 @@ Configuration with_input(Configuration configuration, const std::filesystem::pat
   else
     configuration.object.file = input.string();
   return configuration;
+}
+
+std::string not_an_input(const std::filesystem::path& file) {
+  const std::filesystem::path unpacked = file.extension() == ".gz" ? file.stem() : file;
+  if (ends_in_one_of(recordings, file) || ends_in_one_of(others, unpacked)) return "";
+  return not_a_mesh_type(lower_case_extension(unpacked));
 }
 
 }  // namespace nextview

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "core/config/configuration.hpp"
 
@@ -10,5 +11,9 @@ namespace nextview {
 /// (.graph, .log) or scene (.txt); else an object, by file or name. What followed from the object before follows from
 /// this one. @throws std::runtime_error "file:line: reason" for a .toml
 Configuration with_input(Configuration configuration, const std::filesystem::path& input);
+
+/// Why nothing is opened that is called so, and what to do; empty if its name says that it may be. Its content is not
+/// looked at.
+std::string not_an_input(const std::filesystem::path& file);
 
 }  // namespace nextview

@@ -16,7 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double most = std::numeric_limits<double>::max();
 /// How far a matrix may be from a rotation, as one is that was printed with few digits; and how far one is that was
 /// printed with all.
 constexpr double printed_roughly = 1e-4, printed_fully = 1e-12;
@@ -37,7 +36,9 @@ double number_in(const Json& object, const char* key, double least, double large
   if (!value.is_number()) wrong(key, "a number", value);
   const double number = value.get<double>();
   if (!(number >= least && number <= largest))
-    wrong(key, largest == most ? fmt::format("at least {:g}", least) : fmt::format("from {:g} to {:g}", least, largest),
+    wrong(key,
+          largest == DriverAnswer::unlimited ? fmt::format("at least {:g}", least)
+                                             : fmt::format("from {:g} to {:g}", least, largest),
           value);
   return number;
 }
@@ -164,8 +165,8 @@ std::vector<Reach> DriverAnswer::reaches(const char* key, std::size_t count) con
       const std::string reason = excerpt(text_in(entry, "unreachable"));
       reach.unreachable = reason.empty() ? "the driver gives no reason" : reason;
     } else {
-      reach.cost = {number_in(entry, "distance", 0.0, most), number_in(entry, "rotation", 0.0, most),
-                    number_in(entry, "seconds", 0.0, most)};
+      reach.cost = {number_in(entry, "distance", 0.0, unlimited), number_in(entry, "rotation", 0.0, unlimited),
+                    number_in(entry, "seconds", 0.0, unlimited)};
     }
   }
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -23,7 +24,8 @@ class DriverAnswer {
   /// Why it did not do what it was asked; none if it says `ok: true`.
   std::optional<std::string> error() const;
 
-  bool has(const char* key) const;  ///< null counts as nothing
+  static constexpr double unlimited = std::numeric_limits<double>::max();  ///< as the most that a number may be
+  bool has(const char* key) const;                                         ///< null counts as nothing
   double number(const char* key, double least, double most) const;
   int whole_number(const char* key, int least, int most) const;
   std::vector<double> numbers(const char* key, std::size_t count) const;

@@ -15,8 +15,8 @@ namespace {
 using Json = nlohmann::json;
 using Received = DriverProcess::Received;
 
-constexpr double unlimited = std::numeric_limits<double>::max(), longest_wait = 1e6;  // of the second [s]
-constexpr int most_pixels = 1 << 14;                                                  // along an edge
+constexpr double longest_wait = 1e6;  // of the second [s]
+constexpr int most_pixels = 1 << 14;  // along an edge
 
 DriverProcess::Clock::time_point after(double seconds) {
   return DriverProcess::Clock::now() +
@@ -55,8 +55,8 @@ DriverGreeting greeting_of(const DriverAnswer& answer) {
     throw std::invalid_argument(fmt::format("it speaks version {} of the protocol, and this program version {}",
                                             version, driver_protocol_version));
   DriverGreeting greeting{answer.text("name"), answer.texts("abilities"), camera_of(answer),
-                          answer.number("max_range", std::numeric_limits<double>::min(), unlimited),
-                          answer.number("range_noise", 0.0, unlimited)};
+                          answer.number("max_range", std::numeric_limits<double>::min(), DriverAnswer::unlimited),
+                          answer.number("range_noise", 0.0, DriverAnswer::unlimited)};
   if (answer.has("start")) greeting.start = answer.pose("start");
   if (answer.has("region")) greeting.region = region_of(answer);
   if (answer.has("views")) greeting.views = answer.poses("views");
@@ -68,7 +68,8 @@ DriverGreeting greeting_of(const DriverAnswer& answer) {
 
 CapturedFile captured_file_of(const DriverAnswer& answer) {
   CapturedFile captured{answer.pose("pose"), answer.text("file"), 0.0, {}};
-  if (answer.has("scale")) captured.scale = answer.number("scale", std::numeric_limits<double>::min(), unlimited);
+  if (answer.has("scale"))
+    captured.scale = answer.number("scale", std::numeric_limits<double>::min(), DriverAnswer::unlimited);
   if (answer.has("measures")) captured.measures = answer.text("measures");
   return captured;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/lower_case.hpp"
 #include "core/file/printable.hpp"
 #include "core/mesh/file_claims.hpp"
 #include "core/mesh/mesh_types.hpp"
@@ -27,13 +28,6 @@ constexpr double largest_own_size = 1000.0;  // [m]
 /// Readers keep single precision. Its steps may be up to this share of the longest side (50 micrometres on half a
 /// metre).
 constexpr double coarsest_step = 1e-4;
-
-std::string lower_case_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
 
 /// Opening a pipe would wait for someone to write into it; and a link to itself is no missing file.
 void check_kind(const std::filesystem::path& file) {

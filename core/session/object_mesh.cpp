@@ -13,6 +13,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/gzip_file.hpp"
+#include "core/file/lower_case.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/progress/stopped.hpp"
@@ -24,12 +25,6 @@ namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower_case_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
 
 /// Enough of a file for its header.
 std::string beginning(const fs::path& file) {

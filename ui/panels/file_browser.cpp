@@ -6,8 +6,9 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "core/config/opened_input.hpp"
+#include "core/file/lower_case.hpp"
 #include "core/journal/journal.hpp"
-#include "ui/panels/lower_case.hpp"
 
 namespace nextview {
 namespace {
@@ -21,11 +22,12 @@ std::vector<FolderEntry> entries_of(const fs::path& folder, std::error_code& err
   for (fs::directory_iterator at(folder, error), end; !error && at != end && entries.size() < most;
        at.increment(error)) {
     std::error_code ignored;
-    FolderEntry entry{at->path().filename().string(), at->is_directory(ignored)};
+    FolderEntry entry{.name = at->path().filename().string(), .is_folder = at->is_directory(ignored)};
     if (entry.is_folder)
       entry.is_session = has_journal(at->path());
     else if (const auto bytes = at->file_size(ignored); !ignored)
       entry.bytes = bytes;
+    if (!entry.is_folder) entry.not_opened = not_an_input(at->path());
     entries.push_back(std::move(entry));
   }
   std::ranges::sort(entries, {},

@@ -11,8 +11,9 @@ namespace nextview {
 struct FolderEntry {
   std::string name;
   bool is_folder = false;
-  bool is_session = false;   ///< a folder that is opened as a whole
-  std::uintmax_t bytes = 0;  ///< of a file
+  bool is_session = false;      ///< a folder that is opened as a whole
+  std::uintmax_t bytes = 0;     ///< of a file
+  std::string not_opened = {};  ///< why a file is not, by its name; empty: it may be
 };
 
 /// A folder that is looked into, and what is written into the field below it. Knows nothing of how it is drawn.
@@ -25,12 +26,13 @@ class FileBrowser {
   std::string enter(const std::string& written);
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// Folders first, then files, each by name; hidden ones only if what is written begins with a dot.
+  /// Folders first, then files, each by name.
   const std::vector<FolderEntry>& entries() const { return entries_; }
   /// Why there is nothing to be seen; empty if there is.
   const std::string& problem() const { return problem_; }
 
-  /// Those whose names hold what is written, in any case: places in entries().
+  /// Those whose names hold what is written, in any case: places in entries(). Hidden ones only if what is written
+  /// begins with a dot.
   std::vector<std::size_t> matching(std::string_view written) const;
   /// The file that is meant by what is written: a name in this folder, or a path; "~" is the home folder.
   std::filesystem::path meant(const std::string& written) const;

@@ -139,12 +139,16 @@ void FileDialog::draw_entries(const PanelContext& context, const Command& comman
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const std::string name = entry.name + (entry.is_folder && !entry.is_session ? "/" : "");
+    const bool of_no_use = to_read_ && !entry.not_opened.empty();  // who takes it all the same is told why
+    if (of_no_use) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     if (ImGui::Selectable(name.c_str(), i == chosen_,
                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
       chosen_ = i;
       if (!to_read_ && !entry.is_folder) write(entry.name);
       if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accepted = browser_.folder() / entry.name;
     }
+    if (of_no_use) ImGui::PopStyleColor();
+    if (of_no_use) tooltip(entry.not_opened);
     if (i == chosen_ && scroll_) ImGui::SetScrollHereY();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", entry.is_session  ? "session"
@@ -168,8 +172,13 @@ void FileDialog::obey_keys(const PanelContext& context, const Command& command) 
   if (pressed(Key::enter)) accept_written(context, command);
 }
 
-/// Names are parts of what is there while a file is looked for.
-std::vector<std::size_t> FileDialog::shown() const { return browser_.matching(to_read_ ? written_ : ""); }
+/// Names are parts of what is there while a file is looked for; what cannot be opened comes last.
+std::vector<std::size_t> FileDialog::shown() const {
+  std::vector<std::size_t> found = browser_.matching(to_read_ ? written_ : "");
+  if (to_read_)
+    std::ranges::stable_partition(found, [&](std::size_t i) { return browser_.entries()[i].not_opened.empty(); });
+  return found;
+}
 
 void FileDialog::accept_written(const PanelContext& context, const Command& command) {
   if (written_.empty() && std::exchange(entered_, false)) return;  // who writes a folder and Enter wants to see it

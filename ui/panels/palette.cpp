@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/file/lower_case.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/commands/window_commands.hpp"
-#include "ui/panels/lower_case.hpp"
 
 namespace nextview {
 namespace {

@@ -73,6 +73,15 @@ void SceneView::place(const Rectangle& rectangle) {
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 
+/// What is to be drawn anew, and why.
+struct SceneView::Changes {
+  bool ground, projection, session, snapshot, map, choice, section, surface, rays, doubt;
+  bool selection;  ///< of a view, or of where the scene is looked at from, if a view is from there
+
+  bool much() const { return ground || projection || surface || snapshot || choice || doubt; }
+  bool none() const { return !much() && !rays && !selection; }
+};
+
 SceneChange SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, const WindowState& window,
                             std::shared_ptr<const Inspection> inspection, std::shared_ptr<const DoubtfulScan> doubtful,
                             std::shared_ptr<const FoundSurface> surface) {
@@ -80,59 +89,67 @@ SceneChange SceneView::show(std::shared_ptr<const SessionSnapshot> snapshot, con
   if (new_ground) scene_.set_dark(dark_ = window.dark);
   if (new_projection) scene_.set_orthographic(orthographic_ = window.orthographic, pivot_);
   if (!snapshot->loaded()) return new_ground ? SceneChange::much : SceneChange::none;
-  const LayerChoice& choice = window.layers;
-  const auto explanation = explanation_of(*snapshot, window.selection, *inspection);
-  const bool new_snapshot = shown_ != snapshot, new_choice = !same(choice, choice_);
-  const bool new_rays = explanation != explanation_;
-  const bool new_custom_view = selection_.custom_view.has_value() != window.selection.custom_view.has_value();
-  const bool new_doubt = doubtful != doubtful_;
-  if (new_doubt && doubtful_) leave_doubtful();
-  const auto eye = eye_of_a_view(*snapshot, window);
-  const bool new_selection = selection_.candidate() != window.selection.candidate();
-  const bool new_session = !shown_ || shown_->session != snapshot->session;
-  const bool new_surface = surface != surface_ || new_session || choice.surface != choice_.surface ||
-                           choice.surface_colouring != choice_.surface_colouring;
-  const bool much = new_ground || new_projection || new_surface || new_snapshot || new_choice || new_doubt;
-  const bool new_views = new_selection || new_custom_view || eye != eye_;
-  if (!much && !new_rays && !new_views) return SceneChange::none;
-
+  if (doubtful_ && doubtful != doubtful_) leave_doubtful();
   const SessionSnapshot& s = *snapshot;
-  const bool new_map = new_session || shown_->map != s.map;
-  if (new_session) scene_.region().show({s.grid.lower(), s.grid.upper()});
-  if (new_session || new_ground || choice.object_style != choice_.object_style)
-    scene_.mesh().show(s.mesh ? *s.mesh : TriangleMesh{}, choice.object_style);
-  if (choice.missed && (new_ground || s.missed != missed_)) show_missed(s);
-  cloud_is_old_ |=
-      new_map || choice.cloud_colouring != choice_.cloud_colouring || choice.ranges_locked != choice_.ranges_locked;
-  if (choice.cloud && std::exchange(cloud_is_old_, false)) show_cloud(s, choice);
-  const bool new_section = choice.section != choice_.section;
-  voxels_are_old_ |= new_map || choice.map != choice_.map || choice.voxels != choice_.voxels || new_section;
-  colours_are_old_ |= voxels_are_old_ || choice.colouring != choice_.colouring;
+  const LayerChoice& choice = window.layers;
+  const auto explanation = explanation_of(s, window.selection, *inspection);
+  const auto eye = eye_of_a_view(s, window);
+  const bool new_session = !shown_ || shown_->session != s.session;
+  const Changes is_new{.ground = new_ground,
+                       .projection = new_projection,
+                       .session = new_session,
+                       .snapshot = shown_ != snapshot,
+                       .map = new_session || shown_->map != s.map,
+                       .choice = !same(choice, choice_),
+                       .section = choice.section != choice_.section,
+                       .surface = surface != surface_ || new_session || choice.surface != choice_.surface ||
+                                  choice.surface_colouring != choice_.surface_colouring,
+                       .rays = explanation != explanation_,
+                       .doubt = doubtful != doubtful_,
+                       .selection = selection_.candidate() != window.selection.candidate() || eye != eye_ ||
+                                    selection_.custom_view.has_value() != window.selection.custom_view.has_value()};
+  if (is_new.none()) return SceneChange::none;
+
   surface_ = std::move(surface);
-  if (new_surface) show_surface(s, choice);
-  if (new_section) scene_.cut(choice.section);
-  if (new_section || new_surface || new_session || new_ground ||
-      (choice.object || choice.missed) != (choice_.object || choice_.missed))
-    show_section(s, choice);
-  if (choice.octree && std::exchange(colours_are_old_, false)) show_voxels(s, choice);
-  const bool other_views = new_views || new_snapshot || new_ground || choice.ranges_locked != choice_.ranges_locked ||
-                           choice.all_candidates != choice_.all_candidates;
+  show_what_is_there(s, choice, is_new);
+  const bool new_views = is_new.selection || is_new.snapshot || is_new.ground ||
+                         choice.ranges_locked != choice_.ranges_locked ||
+                         choice.all_candidates != choice_.all_candidates;
   explanation_ = explanation;
   keep_ranges_ = choice.ranges_locked && choice_.ranges_locked;
   choice_ = choice;
   eye_ = eye;
-  if (const auto pose = selected_view_pose(s, window.selection); new_rays || new_snapshot || new_ground)
+  if (const auto pose = selected_view_pose(s, window.selection); is_new.rays || is_new.snapshot || is_new.ground)
     show_rays(s, s.finished.empty() && pose ? explanation.get() : nullptr,
               pose ? pose->translation() : Vector3(Vector3::Zero()));
-  if (other_views) show_views(s, window);
+  if (new_views) show_views(s, window);
   doubtful_ = std::move(doubtful);
   set_visible(s, choice);
   shown_ = std::move(snapshot);
   selection_ = window.selection;
-  if (new_session) move(camera_motion::Frame{});
-  if (new_doubt && doubtful_) show_doubtful(s);
+  if (is_new.session) move(camera_motion::Frame{});
+  if (is_new.doubt && doubtful_) show_doubtful(s);
   renderer().ResetCameraClippingRange();
-  return much ? SceneChange::much : SceneChange::little;
+  return is_new.much() ? SceneChange::much : SceneChange::little;
+}
+
+/// The region, the object, and what the scans have made of it.
+void SceneView::show_what_is_there(const SessionSnapshot& s, const LayerChoice& choice, const Changes& is_new) {
+  if (is_new.session) scene_.region().show({s.grid.lower(), s.grid.upper()});
+  if (is_new.session || is_new.ground || choice.object_style != choice_.object_style)
+    scene_.mesh().show(s.mesh ? *s.mesh : TriangleMesh{}, choice.object_style);
+  if (choice.missed && (is_new.ground || s.missed != missed_)) show_missed(s);
+  cloud_is_old_ |=
+      is_new.map || choice.cloud_colouring != choice_.cloud_colouring || choice.ranges_locked != choice_.ranges_locked;
+  if (choice.cloud && std::exchange(cloud_is_old_, false)) show_cloud(s, choice);
+  voxels_are_old_ |= is_new.map || choice.map != choice_.map || choice.voxels != choice_.voxels || is_new.section;
+  colours_are_old_ |= voxels_are_old_ || choice.colouring != choice_.colouring;
+  if (is_new.surface) show_surface(s, choice);
+  if (is_new.section) scene_.cut(choice.section);
+  if (is_new.section || is_new.surface || is_new.session || is_new.ground ||
+      (choice.object || choice.missed) != (choice_.object || choice_.missed))
+    show_section(s, choice);
+  if (choice.octree && std::exchange(colours_are_old_, false)) show_voxels(s, choice);
 }
 
 void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) {

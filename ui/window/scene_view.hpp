@@ -69,6 +69,9 @@ class SceneView {
   Pose camera_pose();
 
  private:
+  struct Changes;
+
+  void show_what_is_there(const SessionSnapshot& snapshot, const LayerChoice& choice, const Changes& is_new);
   void show_missed(const SessionSnapshot& snapshot);
   void show_cloud(const SessionSnapshot& snapshot, const LayerChoice& choice);
   void show_voxels(const SessionSnapshot& snapshot, const LayerChoice& choice);

@@ -1,5 +1,6 @@
 #include "core/config/opened_input.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -38,6 +39,16 @@ TEST(WithInput, ForgetsWhatFollowedFromTheObjectBefore) {
   EXPECT_EQ(c.views.radius, Configuration().views.radius);
   EXPECT_EQ(c.termination.views, Configuration().termination.views);
   EXPECT_EQ(c.map.resolution, 0.003);
+}
+
+TEST(NotAnInput, GoesByTheName) {
+  for (const char* name : {"part.stl", "PART.STL", "a/part.ply.gz", "cloud.pcd", "cloud.pcd.gz", "scan.graph",
+                           "scan.log", "scene.txt", "mine.toml", "figure.png"})
+    EXPECT_EQ(not_an_input(name), "") << name;
+  EXPECT_THAT(not_an_input("part.step"), testing::HasSubstr("export it as STL"));
+  EXPECT_THAT(not_an_input("about.pdf"), testing::HasSubstr("'.pdf'"));
+  EXPECT_THAT(not_an_input("scene.txt.gz"), testing::HasSubstr("'.txt'")) << "is read as it is";
+  EXPECT_NE(not_an_input("README"), "");
 }
 
 TEST(SetUnlessGiven, LeavesWhatSomeoneWants) {

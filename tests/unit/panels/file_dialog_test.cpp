@@ -72,6 +72,22 @@ TEST_F(FileDialogTest, ArrowsChooseAndTabCompletes) {
   EXPECT_EQ(done(), "open " + quoted(path("parts/older/arm.obj")));
 }
 
+TEST_F(FileDialogTest, WhatCannotBeOpenedComesLast) {
+  std::ofstream(folder_ / "parts/about the bracket.pdf") << "12345";
+  begin("open");
+  desk_.type(Key::enter);
+  desk_.frames();
+  desk_.write("brack");
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/bracket.stl")));
+  begin("open");
+  desk_.write("about");
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/about the bracket.pdf"))) << "which says why not";
+}
+
 TEST_F(FileDialogTest, APathThatIsNotThereOpensNothingElse) {
   begin("open");
   desk_.write("gone/brac");
