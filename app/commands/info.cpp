@@ -57,6 +57,7 @@ std::string unit_text(LengthUnit unit) {
 std::string mesh_info(const fs::path& file) {
   ObjectConfig as_it_stands;
   as_it_stands.centred = false;
+  as_it_stands.up = UpAxis::z;
   const PlacedMesh placed = load_object_mesh(file, placement(as_it_stands, file));
   return fmt::format("a mesh of {} and {}; {}\n  {}\n  {}", counted(placed.mesh.triangles.size(), "triangle"),
                      counted(placed.mesh.vertices.size(), "vertex", "vertices"), placed.topology.summary(),

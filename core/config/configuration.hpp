@@ -25,6 +25,7 @@ struct ObjectConfig {
   std::string file;                         ///< mesh or cloud file; empty: the default object
   double longest_side = 0.0;                ///< the mesh is scaled to this [m]; 0 keeps its size
   LengthUnit unit = LengthUnit::automatic;  ///< of its file's coordinates, where it keeps its size
+  UpAxis up = UpAxis::automatic;            ///< of its file's coordinates; of a cloud's, too
   bool centred = true;  ///< its bounding box is centred in the origin; else it stays where its file has it
   bool ground = false;  ///< it stands on a plane that the camera sees and that no coverage counts
 };

@@ -139,6 +139,7 @@ MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::pat
   const bool own = object.longest_side == 0.0 && object.unit == LengthUnit::automatic;
   return {.longest_side = own ? declared_longest_side(file) : object.longest_side,
           .unit = object.unit,
+          .up = object.up,
           .centred = object.centred,
           .ground = object.ground};
 }

@@ -56,6 +56,8 @@ std::vector<Setting> settings(ObjectConfig& c) {
       {"object.longest_side", "m", "scale the object to this; 0 keeps its size", &c.longest_side, zero_or(1e-3, 100)},
       {"object.unit", "", "of its file; auto: the file's own, else mm if it is longer than 10, else m",
        choice(c.unit, {"auto", "m", "mm", "cm", "inch"})},
+      {"object.up", "", "which axis of its file points up; auto: y in glTF and X3D, else z",
+       choice(c.up, {"auto", "z", "y", "x", "-z", "-y", "-x"})},
       {"object.centred", "", "put its middle in the origin; false: it stays where its file has it", &c.centred},
       {"object.ground", "", "a plane under it, seen and mapped, that coverage does not count", &c.ground},
   };

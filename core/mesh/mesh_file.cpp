@@ -97,6 +97,12 @@ void check_precision(const Eigen::AlignedBox3d& box) {
                     farthest, longest));
 }
 
+/// Who wants the file's own axes asks for z.
+UpAxis up_taken(UpAxis asked, const std::string& extension) {
+  if (asked != UpAxis::automatic) return asked;
+  return extension == ".gltf" || extension == ".glb" || extension == ".x3d" ? UpAxis::y : UpAxis::z;
+}
+
 /// Metres per unit at its own size.
 double own_scale(double longest, LengthUnit unit) {
   if (longest * metres_per(unit) > largest_own_size)
@@ -154,7 +160,8 @@ PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options, co
   const bool scaled = options.longest_side > 0.0;
   const LengthUnit unit = scaled ? LengthUnit::automatic : unit_taken(options.unit, extension, longest);
   const MeshPlacement placement{options.centred ? box.center() : Eigen::Vector3d::Zero().eval(),
-                                scaled ? options.longest_side / longest : own_scale(longest, unit)};
+                                scaled ? options.longest_side / longest : own_scale(longest, unit),
+                                up_taken(options.up, extension)};
   TriangleMesh mesh = moved(imported, placement);
   topology.left_out = all - mesh.triangles.size();
   return {std::move(mesh), placement, topology, unit, options.ground, 0};

@@ -4,6 +4,7 @@
 
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/view/length_unit.hpp"
+#include "core/view/up_axis.hpp"
 
 namespace nextview {
 
@@ -11,18 +12,20 @@ struct MeshFileOptions {
   /// Longest side of the bounding box after scaling [m]; 0 keeps the file's own size.
   double longest_side = 0.5;
   LengthUnit unit = LengthUnit::automatic;  ///< of the file's coordinates, where its own size is kept
+  UpAxis up = UpAxis::automatic;            ///< of the file's coordinates
   bool centred = true;  ///< the bounding box has its centre in the origin; else the file's origin stays where it is
   bool ground = false;  ///< PlacedMesh::on_ground
   std::uintmax_t largest_file = 1u << 30;  ///< of all files of a mesh together; beyond it is refused [bytes]
 };
 
-/// How load_mesh moves and scales a file's coordinates: what else is known in them, such as openings, goes the same
-/// way.
+/// How load_mesh moves, turns and scales a file's coordinates: what else is known in them, such as openings, goes the
+/// same way.
 struct MeshPlacement {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< becomes the origin [file's units]
   double scale = 1.0;                                ///< over 0 [m per file's unit]
+  UpAxis up = UpAxis::z;                             ///< of the file
 
-  Eigen::Vector3d operator()(const Eigen::Vector3d& point) const { return (point - centre) * scale; }
+  Eigen::Vector3d operator()(const Eigen::Vector3d& point) const { return with_z_up(up, (point - centre) * scale); }
 };
 
 struct PlacedMesh {

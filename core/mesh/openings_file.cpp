@@ -110,6 +110,8 @@ Opening placed(const Opening& opening, const MeshPlacement& placement) {
   moved.length *= placement.scale;
   moved.depth *= placement.scale;
   moved.centre = placement(opening.centre);
+  moved.axis = with_z_up(placement.up, opening.axis);
+  moved.along = with_z_up(placement.up, opening.along);
   return moved;
 }
 

@@ -234,6 +234,7 @@ AlignedTruth aligned_truth(const Configuration& c, const PointCloud& scanned, co
   AlignedTruth truth{resolve_object(c.recorded.truth), nullptr, {}};
   ObjectConfig as_it_stands = c.object;
   as_it_stands.centred = false;
+  if (as_it_stands.up == UpAxis::automatic) as_it_stands.up = UpAxis::z;  // as the scans, whatever they call up
   auto placed = std::make_shared<PlacedMesh>(load_object_mesh(truth.file, placement(as_it_stands, truth.file), stop));
   try {
     truth.alignment = align(scanned, placed->mesh, stop);

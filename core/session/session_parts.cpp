@@ -121,13 +121,13 @@ std::shared_ptr<const CandidateGenerator> configured_candidates(const Configurat
 ProjectionPlacement projection_placement(const Configuration& c, const PlacedMesh& object) {
   const LengthUnit views = c.views.unit, own = object.unit == LengthUnit::automatic ? c.object.unit : object.unit;
   const MeshPlacement& placed = object.placement;
-  if (views == LengthUnit::automatic) return {placed.centre, placed.scale};
+  if (views == LengthUnit::automatic) return {placed.centre, placed.scale, placed.up};
   if (own == LengthUnit::automatic && !c.views.file.empty())
     throw std::invalid_argument(
         "views.unit says what the projection matrices are in, but not what the object's file is in, which is scaled "
         "whatever that is; set object.unit too, or leave views.unit out");
   const double ratio = metres_per(views) / metres_per(own);  // of the object's units
-  return {placed.centre / ratio, placed.scale * ratio};
+  return {placed.centre / ratio, placed.scale * ratio, placed.up};
 }
 
 ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {

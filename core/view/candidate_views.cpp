@@ -83,7 +83,8 @@ std::vector<Pose> placed_projections(const CandidateViewsConfig& config,
   }
   std::vector<Pose> views = read_projections(config.file, notice);
   for (Pose& view : views) {
-    view.translation() = placement.scale * (view.translation() - placement.centre);
+    view.translation() = with_z_up(placement.up, placement.scale * (view.translation() - placement.centre));
+    for (int axis = 0; axis < 3; ++axis) view.linear().col(axis) = with_z_up(placement.up, view.linear().col(axis));
     if (!(view.translation().norm() <= farthest))
       throw std::runtime_error(
           fmt::format("{}: a camera lies {:.3g} m off, more than {:g} m; views.unit sets the unit of its projection "

@@ -5,6 +5,7 @@
 
 #include "core/setting/setting.hpp"
 #include "core/view/length_unit.hpp"
+#include "core/view/up_axis.hpp"
 #include "core/view/pose.hpp"
 
 namespace nextview {
@@ -23,6 +24,7 @@ enum class ViewLayout {
 struct ProjectionPlacement {
   Vector3 centre = Vector3::Zero();  ///< becomes the origin [unit]
   double scale = 0.0;                ///< [m per unit]; 0: there is no object to say
+  UpAxis up = UpAxis::z;             ///< of the object's file
 };
 
 struct CandidateViewsConfig {

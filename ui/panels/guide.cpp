@@ -13,17 +13,15 @@ void draw_step(const PanelContext& context, const char* number, const char* text
   ImGui::PushFont(context.style.semi_bold);
   ImGui::TextUnformatted(number);
   ImGui::PopFont();
-  ImGui::SameLine(context.style.px(36));
+  ImGui::SameLine(context.style.px(30));
   ImGui::TextWrapped("%s", text);
 }
 
 void draw_steps(const PanelContext& context) {
   if (context.snapshot.loaded()) {
-    draw_step(context, "1",
-              "What is scanned stands in the middle. Open another part with Ctrl+O, or drop its file here.");
+    draw_step(context, "1", "This is what is scanned. Ctrl+O opens your own part, or drop its file here.");
     draw_step(context, "2", "Space takes the next view, P goes on until the surface is complete.");
-    draw_step(context, "3",
-              "The panel at the right says why this view is next; click anything in the scene to ask about it.");
+    draw_step(context, "3", "At the right stands why this view is next. Click anything in the scene to ask about it.");
   } else {
     draw_step(context, "1", "Open a mesh, recorded scans or a kept session: Ctrl+O, or drop it here.");
     draw_step(context, "2", "Then Space takes the first view.");
@@ -38,11 +36,11 @@ void draw_guide(const PanelContext& context, const Rectangle& scene) {
   const bool is_asked = !context.progress.question.empty(), is_opening = context.progress.opening;
   if (!context.window.guide_open || !s.records.empty() || is_asked || (is_opening && !s.loaded())) return;
   const Style& style = context.style;
-  const float margin = style.px(12), width = std::min(style.px(430), float(scene.width) - 2 * margin);
+  const float margin = style.px(12), width = style.px(250);  // of the legends to come: the object is framed beside them
   if (float(scene.width) < style.px(420) || float(scene.height) < style.px(260))
     return;  // the scene needs what room there is
-  ImGui::SetNextWindowPos({float(scene.x + scene.width) - margin, float(scene.y + scene.height) - margin},
-                          ImGuiCond_Always, {1.0f, 1.0f});
+  ImGui::SetNextWindowPos({float(scene.x + scene.width) - margin, float(scene.y) + margin}, ImGuiCond_Always,
+                          {1.0f, 0.0f});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, style.px(6));
@@ -57,7 +55,6 @@ void draw_guide(const PanelContext& context, const Rectangle& scene) {
     command_button(context, command::step, Icon::step, "Take the first view", true);
   else
     command_button(context, command::open, Icon::none, "Open…", true);
-  ImGui::SameLine();
   if (icon_button(style, Icon::none, "Hide this")) context.post(command::guide());
   ImGui::End();
   ImGui::PopStyleVar(2);

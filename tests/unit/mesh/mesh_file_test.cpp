@@ -44,8 +44,10 @@ TEST(MeshFile, everyTypeGivesTheSameShape) {
   for (const auto& [name, bytes] : files::all()) {
     const auto file = folder.write(name, bytes);
     // 3MF has millimetres in its header, yet Assimp hands the numbers on as they are.
-    EXPECT_EQ(shape(load_mesh(file)), shape(expected(0.125f))) << name;
-    EXPECT_EQ(shape(load_mesh(file, {.longest_side = 0.0, .unit = LengthUnit::metres})), shape(expected(1.0f))) << name;
+    EXPECT_EQ(shape(load_mesh(file, {.up = UpAxis::z})), shape(expected(0.125f))) << name;
+    EXPECT_EQ(shape(load_mesh(file, {.longest_side = 0.0, .unit = LengthUnit::metres, .up = UpAxis::z})),
+              shape(expected(1.0f)))
+        << name;
     EXPECT_EQ(load_mesh(file).vertices.size(), 4u) << name << ": corners at one place are one vertex";
     EXPECT_EQ(topology(load_mesh(file)).summary(), "watertight") << name;
   }
@@ -79,6 +81,37 @@ TEST(MeshFile, itStaysWhereTheFileHasItIfAsked) {
   EXPECT_EQ(shape(load_mesh(file, {.centred = false})), shape(as_in_file));
 }
 
+TEST(MeshFile, theAxisThatPointsUpBecomesZ) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("t.obj", files::obj());
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  for (const auto& [up, axis] : {std::pair{UpAxis::automatic, z},
+                                 {UpAxis::z, z},
+                                 {UpAxis::y, y},
+                                 {UpAxis::x, x},
+                                 {UpAxis::minus_z, Vector3(-z)},
+                                 {UpAxis::minus_y, Vector3(-y)},
+                                 {UpAxis::minus_x, Vector3(-x)}}) {
+    const PlacedMesh turned = load_placed_mesh(file, {.longest_side = 0.0, .up = up, .centred = false});
+    const auto& to_world = turned.placement;
+    EXPECT_EQ(to_world(axis), z);
+    EXPECT_EQ(to_world(x).cross(to_world(y)), to_world(z)) << "nothing is mirrored";
+    TriangleMesh by_hand = load_mesh(file, {.longest_side = 0.0, .centred = false});
+    for (Eigen::Vector3f& vertex : by_hand.vertices) vertex = to_world(vertex.cast<double>()).cast<float>();
+    EXPECT_EQ(shape(turned.mesh), shape(by_hand));
+  }
+}
+
+TEST(MeshFile, inGltfAndX3dYIsUpUnlessSomeoneSaysOtherwise) {
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] : files::all()) {
+    const bool by_type = name.ends_with(".gltf") || name.ends_with(".glb") || name.ends_with(".x3d");
+    const auto file = folder.write(name, bytes);
+    EXPECT_EQ(shape(load_mesh(file)), shape(load_mesh(file, {.up = by_type ? UpAxis::y : UpAxis::z}))) << name;
+    EXPECT_NE(shape(load_mesh(file, {.up = UpAxis::y})), shape(load_mesh(file, {.up = UpAxis::z}))) << name;
+  }
+}
+
 TEST(MeshFile, theGroundLiesUnderTheLowestPointAndIsNoPartOfTheMesh) {
   const TemporaryFolder folder;
   const auto file = folder.write("t.obj", files::obj());
@@ -100,7 +133,7 @@ TEST(MeshFile, transformsOfNodesAreJoined) {
   // Two copies: one moved by 10 along x, one mirrored in x. Both below a root that doubles everything.
   const auto file = folder.write("scene.gltf", files::gltf(R"("uri": "buffer.bin", )", R"([
     {"children": [1, 2], "scale": [2, 2, 2]}, {"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0, "scale": [-1, 1, 1]}])"));
-  const TriangleMesh mesh = load_mesh(file, {.longest_side = 0.0});
+  const TriangleMesh mesh = load_mesh(file, {.longest_side = 0.0, .up = UpAxis::z});
   EXPECT_EQ(mesh.triangles.size(), 8u);
   EXPECT_LT((mesh.bounding_box().sizes() - Eigen::Vector3d(2 * (12 + 2), 2 * 3, 2 * 4)).norm(), 1e-5);
   // The mirrored copy is not inside out.

@@ -168,14 +168,16 @@ TEST(PlacedMesh, openingsGoWhereTheirMeshGoes) {
     const auto file = folder.write("moved.ply", ply_bytes(moved.mesh));
     const auto json = folder.write("moved.json", openings_json(moved));
 
-    for (const double longest_side : {0.5, 0.0, 0.8}) {
-      const PlacedMesh loaded = load_placed_mesh(file, {.longest_side = longest_side});
+    for (const auto& [longest_side, up] :
+         {std::pair{0.5, UpAxis::z}, {0.0, UpAxis::z}, {0.8, UpAxis::z}, {0.5, UpAxis::y}, {0.8, UpAxis::minus_x}}) {
+      const MeshFileOptions options{.longest_side = longest_side, .up = up};
+      const PlacedMesh loaded = load_placed_mesh(file, options);
       EXPECT_LT((loaded.placement.centre - offset).norm(), 1e-6);
       EXPECT_NEAR(loaded.placement.scale, longest_side > 0.0 ? longest_side / (0.5 * size) : 1.0, 1e-6);
       std::vector<Opening> openings = read_openings(json);
       for (Opening& opening : openings) opening = placed(opening, loaded.placement);
       expect_rims(openings, loaded.mesh);
-      EXPECT_EQ(load_mesh(file, {.longest_side = longest_side}).vertices, loaded.mesh.vertices);
+      EXPECT_EQ(load_mesh(file, options).vertices, loaded.mesh.vertices);
     }
   }
 }

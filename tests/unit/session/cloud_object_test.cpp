@@ -57,7 +57,9 @@ void expect_placed(const std::vector<Pose>& candidates, const MeshPlacement& pla
     const Pose made = made_projections::camera(i);
     const Vector3 expected = placement(made.translation());
     EXPECT_LT((candidates[i].translation() - expected).norm(), 1e-6 * expected.norm()) << i;
-    EXPECT_LT((candidates[i].linear() - made.linear()).cwiseAbs().maxCoeff(), 1e-6) << i;
+    const Vector3 ahead = placement(made * Vector3::UnitZ()), right = placement(made * Vector3::UnitX());
+    EXPECT_LT((candidates[i].linear().col(2) - (ahead - expected).normalized()).norm(), 1e-6) << i;
+    EXPECT_LT((candidates[i].linear().col(0) - (right - expected).normalized()).norm(), 1e-6) << i;
   }
 }
 
@@ -84,17 +86,21 @@ TEST_F(CloudObject, IsScannedFromItsOwnCameras) {
 
 TEST_F(CloudObject, ViewsFollowWhatIsDoneToTheObject) {
   Configuration scaled = configuration(), in_place = configuration(), in_metres = configuration();
+  Configuration turned = configuration();
+  turned.object.up = UpAxis::minus_y;
   scaled.object.longest_side = 0.5;
   in_place.object.centred = false;
   in_place.map.region_edge = 2.0;
   in_place.map.resolution = 0.02;
   in_metres.object.unit = LengthUnit::centimetres;
   in_metres.views.unit = LengthUnit::millimetres;
-  for (Configuration* c : {&scaled, &in_place, &in_metres}) c->evaluation.enabled = false;
-  const Session big(scaled), there(in_place), other(in_metres);
+  for (Configuration* c : {&scaled, &in_place, &in_metres, &turned}) c->evaluation.enabled = false;
+  const Session big(scaled), there(in_place), other(in_metres), up(turned);
   EXPECT_NEAR(big.mesh()->bounding_box().sizes().maxCoeff(), 0.5, 1e-6);
   expect_placed(big.candidates(), big.object().placement);
   expect_placed(there.candidates(), {Vector3::Zero(), 0.001});
+  expect_placed(up.candidates(), up.object().placement);
+  EXPECT_EQ(up.object().placement.up, UpAxis::minus_y);
   const Vector3 centre = other.object().placement.centre;  // [cm]
   EXPECT_NEAR(
       (other.candidates()[0].translation() - 0.01 * (0.1 * made_projections::camera(0).translation() - centre)).norm(),
