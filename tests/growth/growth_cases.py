@@ -5,9 +5,9 @@ import typing
 
 import growth_inputs as make
 
-SETTINGS = {"--object.longest_side": "0.5", "--sensor.width": "160", "--sensor.height": "120", "--map.resolution": "0.02",
-            "--views.count": "24", "--planner.ray_columns": "16", "--planner.ray_rows": "12",
-            "--evaluation.surface_samples": "2000", "--termination.surface_left": "0"}
+SETTINGS = {"--object.longest_side": "0.5", "--sensor.width": "160", "--sensor.height": "120",
+            "--map.resolution": "0.02", "--views.count": "24", "--planner.ray_columns": "16",
+            "--planner.ray_rows": "12", "--evaluation.surface_samples": "2000", "--termination.surface_left": "0"}
 PLAIN = ["--no-pictures", "--no-surfaces"]
 
 
@@ -26,13 +26,17 @@ class Case:
 def scan(views, out, *more, object="sphere"):
     """A small scan; of two settings of a key the last one counts."""
     settings = {**SETTINGS, **dict(zip(more[::2], more[1::2]))}
-    return ["scan", object, *[word for pair in settings.items() for word in pair], *PLAIN, "--termination.views", str(views),
-            "--out", str(out)]
+    given = [word for pair in settings.items() for word in pair]
+    return ["scan", object, *given, *PLAIN, "--termination.views", str(views), "--out", str(out)]
+
+
+def sized(words, size):
+    return [str(size) if word == "SIZE" else word for word in words]
 
 
 def session(views, *more):
     """To be run before: a session in the folder `scan`, of so many views; 0: of as many as the size says."""
-    return lambda at, n: [scan(views or n, at / "scan", *(str(n) if word == "SIZE" else word for word in more))]
+    return lambda at, n: [scan(views or n, at / "scan", *sized(more, n))]
 
 
 def steps_of_a_scan():
@@ -43,20 +47,23 @@ def steps_of_a_scan():
     return [
         # Each view costs the same: nothing is gone through again from the first view on.
         Case("scan", "views", [25, 50, 100, 200], lambda at, n: scan(n, at / "out", "--views.count", "210"), 1.25, 1.2),
-        # Rays cross as many voxels as the edge has, but free space, and distances in the object's box, are of each voxel.
+        # Rays cross as many as the edge has, but free space, and distances in the object's box, are of each voxel.
         Case("scan", "voxels along an edge", [64, 128, 256],
              lambda at, n: scan(3, at / "out", "--map.resolution", str(1.28 / n)), 3.2, 3.2),
         # A tree of boxes over them: n log n.
-        Case("scan", "triangles", [50000, 200000, 800000], lambda at, n: scan(3, at / "out", object=str(at / "part.ply")),
-             1.3, 1.2, lambda at, n: make.sphere(at / "part.ply", n)),
+        Case("scan", "triangles", [50000, 200000, 800000],
+             lambda at, n: scan(3, at / "out", object=str(at / "part.ply")), 1.3, 1.2,
+             lambda at, n: make.sphere(at / "part.ply", n)),
         Case("scan", "candidates", [50, 400, 3200], six_views("--views.count"), 1.25, 1.2),
         Case("scan", "rows of rays", [25, 100, 400],
-             lambda at, n: scan(6, at / "out", "--planner.ray_columns", "200", "--planner.ray_rows", str(n)), 1.25, 1.2),
+             lambda at, n: scan(6, at / "out", "--planner.ray_columns", "200", "--planner.ray_rows", str(n)),
+             1.25, 1.2),
         # Pixels are edge by edge.
         Case("scan", "pixels along an edge", [320, 640, 1280, 2560],
              lambda at, n: scan(3, at / "out", "--sensor.width", str(n), "--sensor.height", str(n)), 2.2, 2.2),
-        Case("scan", "samples of the truth", [40000, 160000, 640000], six_views("--evaluation.surface_samples"), 1.3, 1.2),
-        Case("scan", "plans tried out", [64, 512, 4096], six_views("--planner.simulations"), 1.2, 1.2),
+        Case("scan", "samples of the truth", [40000, 160000, 640000], six_views("--evaluation.surface_samples"),
+             1.3, 1.2),
+        Case("scan", "plans tried out", [1024, 8192, 65536], six_views("--planner.simulations"), 1.2, 1.2),
     ]
 
 
@@ -88,8 +95,7 @@ def of_maps():
     plain = [*PLAIN, "--gibbs.until_stationary", "false", "--gibbs.chains", "2"]
 
     def refine(*more):
-        return lambda at, n: ["refine", str(at / "scan"), *plain, *(str(n) if word == "SIZE" else word for word in more),
-                              "--out", str(at / "out")]
+        return lambda at, n: ["refine", str(at / "scan"), *plain, *sized(more, n), "--out", str(at / "out")]
 
     return [
         Case("refine", "views", [8, 16, 32], refine("--gibbs.sweeps", "40", "--gibbs.ray_spacing", "0"), 1.3, 1.2,
@@ -115,32 +121,35 @@ def of_maps():
 def of_results():
     """What writes, draws and tells."""
     def export(*what):
-        return lambda at, n: ["export", str(at / "scan"), *(str(n) if w == "SIZE" else w.format(at=at, n=n) for w in what)]
+        return lambda at, n: ["export", str(at / "scan"), *(word.format(at=at, n=n) for word in what)]
 
     return [
-        Case("export cloud", "views", [50, 100, 200], export("cloud", "{at}/out.ply"), 1.3, 1.2, session(0, "--views.count", "210")),
-        Case("export surface --of cloud", "views", [12, 24, 48], export("surface", "{at}/out.ply", "--of", "cloud"), 1.3, 1.2,
-             session(0, "--views.count", "60")),
+        Case("export cloud", "views", [50, 100, 200], export("cloud", "{at}/out.ply"), 1.3, 1.2,
+             session(0, "--views.count", "210")),
+        Case("export surface --of cloud", "views", [12, 24, 48], export("surface", "{at}/out.ply", "--of", "cloud"),
+             1.3, 1.2, session(0, "--views.count", "60")),
         # The cells that a surface goes through are looked for in all of the map.
         Case("export surface", "voxels along an edge", [64, 128, 256], export("surface", "{at}/out.ply"), 3.2, 3.2,
              lambda at, n: [scan(3, at / "scan", "--map.resolution", str(1.28 / n))]),
         Case("export turntable", "frames", [8, 32, 128],
-             export("turntable", "{at}/out", "--frames", "SIZE", "--size", "320x240"), 1.2, 1.2, session(4)),
+             export("turntable", "{at}/out", "--frames", "{n}", "--size", "320x240"), 1.2, 1.2, session(4)),
         # Pixels are edge by edge, here as in the next.
-        Case("export picture", "pixels along an edge", [1024, 2048, 4096], export("picture", "{at}/out.png", "--size", "{n}x{n}"),
-             2.2, 2.2, session(4)),
+        Case("export picture", "pixels along an edge", [1024, 2048, 4096],
+             export("picture", "{at}/out.png", "--size", "{n}x{n}"), 2.2, 2.2, session(4)),
         Case("figure", "pixels along an edge", [1024, 2048, 4096],
-             lambda at, n: ["figure", "strategy", str(at / "scan"), "--views", "1,2", "--size", f"{n}x{n}", "--out", str(at / "out")],
+             lambda at, n: ["figure", "strategy", str(at / "scan"), "--views", "1,2", "--size", f"{n}x{n}",
+                            "--out", str(at / "out")],
              2.2, 2.2, session(4)),
         Case("demo", "frames", [40, 80, 160],
-             lambda at, n: ["demo", str(at / "d.nextview"), "--fps", "10", "--size", "320x180", "--out", str(at / "out")],
+             lambda at, n: ["demo", str(at / "d.nextview"), "--fps", "10", "--size", "320x180",
+                            "--out", str(at / "out")],
              1.2, 1.2, lambda at, n: make.demo(at / "d.nextview", n // 10)),
         Case("info SESSION", "views", [50, 100, 200], lambda at, n: ["info", str(at / "scan")], 1.2, 1.2,
              session(0, "--views.count", "210")),
-        Case("info MESH", "triangles", [100000, 400000, 1600000], lambda at, n: ["info", str(at / "part.ply")], 1.3, 1.2,
-             lambda at, n: make.sphere(at / "part.ply", n)),
-        Case("info CLOUD", "points", [400000, 1600000, 6400000], lambda at, n: ["info", str(at / "part.ply")], 1.3, 1.2,
-             lambda at, n: make.cloud(at / "part.ply", n)),
+        Case("info MESH", "triangles", [100000, 400000, 1600000], lambda at, n: ["info", str(at / "part.ply")],
+             1.3, 1.2, lambda at, n: make.sphere(at / "part.ply", n)),
+        Case("info CLOUD", "points", [400000, 1600000, 6400000], lambda at, n: ["info", str(at / "part.ply")],
+             1.3, 1.2, lambda at, n: make.cloud(at / "part.ply", n)),
     ]
 
 
@@ -154,7 +163,8 @@ def of_studies():
         Case("study", "runs", [16, 64, 256], lambda at, n: ["study", str(at / "study.toml"), "--out", str(at / "out")],
              1.2, 1.2, lambda at, n: make.study(at / "study.toml", n)),
         Case("study --merge", "runs", [64, 256, 1024],
-             lambda at, n: ["study", "--merge", str(at / "done"), "--out", str(at / "out")], 1.2, 1.2, studied_before),
+             lambda at, n: ["study", "--merge", str(at / "done"), "--out", str(at / "out")], 1.2, 1.2,
+             studied_before),
     ]
 
 

@@ -59,7 +59,8 @@ def requests(file, captures, folder):
     """To a scanner's driver: a capture a line, all from one place."""
     folder.mkdir(exist_ok=True)
     lines = ['{"id": 1, "request": "hello", "protocol": 1}']
-    lines += [f'{{"id": {i + 2}, "request": "capture", "step": {i}, "seed": {i}, "folder": "{folder}"}}' for i in range(captures)]
+    capture = '{{"id": {0}, "request": "capture", "step": {0}, "seed": {0}, "folder": "{1}"}}'
+    lines += [capture.format(number + 2, folder) for number in range(captures)]
     file.write_text("\n".join(lines + ['{"id": 0, "request": "bye"}']) + "\n")
 
 

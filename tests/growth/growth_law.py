@@ -39,8 +39,9 @@ def last_exponent(sizes, values, start):
 def check():
     """Laws that are known, a twentieth of noise on each: what is linear passes where what is quadratic does not."""
     sizes, noise = [10, 20, 40, 80], [1.05, 0.95, 1.0, 1.05]
-    for law, low, high in ((lambda n: 5 + n, 0.7, 1.3), (lambda n: 100 + n * n / 10, 1.6, 2.4),
-                           (lambda n: 50 + n / 100, 0, 0), (lambda n: n**3, 2.7, 3.3), (lambda n: 20 + n + n * n / 20, 1.4, 2)):
+    laws = ((lambda n: 5 + n, 0.7, 1.3), (lambda n: 100 + n * n / 10, 1.6, 2.4), (lambda n: 50 + n / 100, 0, 0),
+            (lambda n: n**3, 2.7, 3.3), (lambda n: 20 + n + n * n / 20, 1.4, 2))
+    for law, low, high in laws:
         found = exponent(sizes, [law(n) * factor for n, factor in zip(sizes, noise)])
         assert low <= found <= high, f"a law was fitted by {found}, not from {low} to {high}"
     for law, power in ((lambda n: max(500, 9 * n), 1), (lambda n: max(500, n * n), 2)):

@@ -104,7 +104,8 @@ class Calls:
 
     def camera(self):
         self.add(f"turn {self.random.randint(-90, 90)} 5", "zoom 1", "zoom -1", "toggle-orthographic",
-                 "keep-camera here", f"look-from {self.random.randint(0, 359)} 20", "go-to-camera here", "remove-camera here",
+                 "keep-camera here", f"look-from {self.random.randint(0, 359)} 20", "go-to-camera here",
+                 "remove-camera here",
                  "toggle-orthographic", "frame")
 
     def selection(self):
