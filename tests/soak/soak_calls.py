@@ -90,7 +90,7 @@ class Calls:
     def acts(self):
         return [self.layers, self.choices, self.camera, self.selection, self.settings, self.timeline, self.panels,
                 self.sheets, self.files, self.history, self.gibbs, self.recording, self.measuring, self.playing,
-                self.scanner]
+                self.scanner, self.cutting, self.presenting]
 
     def layers(self):
         for layer in self.random.sample(LAYERS, 3):
@@ -133,7 +133,7 @@ class Calls:
         for command in self.random.sample(pairs, 3):
             self.add(command, command)
         self.add("manual planning", "manual", "text-size bigger", "text-size usual", "file-dialog export",
-                 "file-dialog")
+                 "file-dialog", "forget-runs", "panel-sizes 200 200 150")
 
     def files(self):
         for command in self.random.sample(sorted(FILES), 3):
@@ -152,6 +152,14 @@ class Calls:
         self.add(f'record "{self.folder}/recorded.nextview"', "turn 10 0", 'caption "Why? {reason}"', 'caption ""',
                  "record-stop")
 
+    def cutting(self):
+        self.add("section-axis z", "section-at 0.01", "flip-section", "section-axis none", "slice-axis y",
+                 "slice-at 0.05", "slice-at 0 0.1", "slice-axis none")
+
+    def presenting(self):
+        self.add("title Title Subtitle 0.1", "highlight view 0.1", "orbit 10 0.1 5", "fly-to 20 30 0.1 1.2",
+                 "wait until done", f"assert views = {self.views}", "panel candidates")
+
     def measuring(self):
         self.add("measure", "measure-point 0 0 0.1", "measure-point 0.1 0 0.1", "measure bore", "measure",
                  "edit-region", "edit-region", "clear-selection")
@@ -160,7 +168,8 @@ class Calls:
         if self.views + 2 > MOST_VIEWS:
             return
         self.views += 2
-        self.add(f"set termination.views {self.views}", "speed 0", "play", "set termination.views 100")
+        self.add(f"set termination.views {self.views}", "speed 0", "play",
+                 "set termination.views 1", "continue", "set termination.views 100")
 
     def scanner(self):
         settings = "--sensor.width 80 --sensor.height 60"
