@@ -1,7 +1,7 @@
 """How fast something grows with a size: the exponent of a fixed part and a power of the size."""
 import math
 
-FLAT = 0.12  # a growth by less than this share, over all sizes, is none
+FLAT = 0.3  # a growth by less than this share, over all sizes, is none: as much is noise
 
 
 def fitted(sizes, values, power):
