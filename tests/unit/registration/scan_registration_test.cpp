@@ -85,9 +85,9 @@ INSTANTIATE_TEST_SUITE_P(Objects, Accuracies,
 
 TEST(RegisterScan, ATargetThatIsBroughtAlongIsTheSame) {
   const auto object = object_named("sphere");
-  const Scans scans = scans_of(object, views_around(5), noise, {0.002, 0.2}, 2);
+  const Scans scans = scans_of(object, views_around(4), noise, {0.002, 0.2}, 2);
   RegistrationTarget along;
-  for (const std::size_t before : {1, 2, 4, 2, 3}) {  // and back again
+  for (const std::size_t before : {1, 3, 2}) {  // and back again
     const auto so_far = std::span(scans).first(before);
     const ScanRegistration alone = register_scan(*scans[before], so_far, check);
     const ScanRegistration found = register_scan(*scans[before], so_far, check, along);
