@@ -5,9 +5,7 @@
 #include <pcl/search/kdtree.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 
 #include "core/cloud/thinned_points.hpp"
@@ -58,23 +56,24 @@ std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, con
   return oriented;
 }
 
-std::vector<OrientedPoint> merged(std::span<const std::vector<OrientedPoint>> scans, double spacing) {
-  std::map<Cell, std::vector<std::size_t>> at;
-  std::vector<OrientedPoint> all;  // positions and normals are sums, by weight, until the end
-  for (const std::vector<OrientedPoint>& scan : scans)
-    for (const OrientedPoint& p : scan) {
-      std::vector<std::size_t>& here = at[cell_of(p.position, spacing)];
-      const auto same = std::ranges::find_if(
-          here, [&](std::size_t i) { return all[i].normal.normalized().dot(p.normal) > same_side; });
-      if (same == here.end()) {
-        here.push_back(all.size());
-        all.push_back({p.weight * p.position, p.weight * p.normal, p.weight});
-        continue;
-      }
-      all[*same].position += p.weight * p.position;
-      all[*same].normal += p.weight * p.normal;
-      all[*same].weight += p.weight;
+void MergedPoints::add(const std::vector<OrientedPoint>& scan) {
+  for (const OrientedPoint& p : scan) {
+    std::vector<std::size_t>& here = at_[cell_of(p.position, spacing_)];
+    const auto same = std::ranges::find_if(
+        here, [&](std::size_t i) { return sums_[i].normal.normalized().dot(p.normal) > same_side; });
+    if (same == here.end()) {
+      here.push_back(sums_.size());
+      sums_.push_back({p.weight * p.position, p.weight * p.normal, p.weight});
+      continue;
     }
+    sums_[*same].position += p.weight * p.position;
+    sums_[*same].normal += p.weight * p.normal;
+    sums_[*same].weight += p.weight;
+  }
+}
+
+std::vector<OrientedPoint> MergedPoints::points() const {
+  std::vector<OrientedPoint> all = sums_;
   for (OrientedPoint& p : all) {
     p.position /= p.weight;
     p.normal.normalize();

@@ -1,5 +1,7 @@
 #pragma once
-#include <span>
+#include <array>
+#include <cstddef>
+#include <map>
 #include <stop_token>
 #include <vector>
 
@@ -18,7 +20,18 @@ struct OrientedPoint {
 /// neighbours. Points without enough neighbours are left out. The same for the same input. @throws Stopped
 std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, const std::stop_token& stop = {});
 
-/// Several scans' points thinned together: in each cube one point for each side of a wall that was seen in it.
-std::vector<OrientedPoint> merged(std::span<const std::vector<OrientedPoint>> scans, double spacing);
+/// Several scans' points thinned together, scan by scan: in each cube one point for each side of a wall that was seen
+/// in it.
+class MergedPoints {
+ public:
+  explicit MergedPoints(double spacing) : spacing_(spacing) {}  ///< edge of a cube [m]
+  void add(const std::vector<OrientedPoint>& scan);
+  std::vector<OrientedPoint> points() const;
+
+ private:
+  double spacing_;
+  std::map<std::array<int, 3>, std::vector<std::size_t>> at_;  ///< by cube: indices of sums_
+  std::vector<OrientedPoint> sums_;                            ///< positions and normals are sums, by weight
+};
 
 }  // namespace nextview

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/progress/stopped.hpp"
-#include "core/registration/oriented_points.hpp"
 
 namespace nextview {
 namespace {
@@ -170,13 +169,6 @@ double root_mean_square(const Pairs& pairs) {
   return pairs.count() > 0 ? std::sqrt(pairs.squares / double(pairs.count())) : 0.0;
 }
 
-Target target_of(std::span<const std::shared_ptr<const Scan>> so_far, double spacing, const Vector3& middle,
-                 const std::stop_token& stop) {
-  std::vector<std::vector<OrientedPoint>> scans;
-  for (const auto& scan : so_far) scans.push_back(oriented_points(*scan, spacing, stop));
-  return Target(merged(scans, spacing), middle);
-}
-
 /// Why nothing may be corrected; empty if it may.
 std::string doubt(const ScanRegistration& found, const RegistrationLimits& limits, bool has_settled) {
   if (found.overlap < limits.min_overlap)
@@ -189,8 +181,31 @@ std::string doubt(const ScanRegistration& found, const RegistrationLimits& limit
 
 }  // namespace
 
+std::vector<OrientedPoint> RegistrationTarget::of(std::span<const std::shared_ptr<const Scan>> scans, double spacing,
+                                                  const std::stop_token& stop) {
+  const bool goes_on =
+      spacing == spacing_ && scans_.size() <= scans.size() && std::ranges::equal(scans_, scans.first(scans_.size()));
+  if (!goes_on) {
+    scans_.clear();
+    spacing_ = spacing;
+    merged_ = MergedPoints(spacing);
+  }
+  for (const auto& scan : scans.subspan(scans_.size())) {
+    merged_.add(oriented_points(*scan, spacing, stop));
+    scans_.push_back(scan);
+  }
+  return merged_.points();
+}
+
 ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr<const Scan>> so_far,
                                const RegistrationLimits& limits, const std::stop_token& stop) {
+  RegistrationTarget target;
+  return register_scan(scan, so_far, limits, target, stop);
+}
+
+ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr<const Scan>> so_far,
+                               const RegistrationLimits& limits, RegistrationTarget& target,
+                               const std::stop_token& stop) {
   ScanRegistration found;
   const auto points = fewer(oriented_points(scan, limits.spacing, stop));
   if (points.size() < min_registered_points) {
@@ -198,7 +213,7 @@ ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr
     return found;
   }
   const Extent extent = extent_of(points);
-  const Registrar registrar(points, target_of(so_far, limits.spacing, extent.middle, stop), extent);
+  const Registrar registrar(points, Target(target.of(so_far, limits.spacing, stop), extent.middle), extent);
   const double near = nearest_reach * limits.spacing;
   const Pairs before = registrar.pairs(found.T_corrected_believed, near);
   Pose T = Pose::Identity();

@@ -131,11 +131,13 @@ Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& sourc
   return acquired;
 }
 
-void register_capture(const ScanSetup& setup, const ScanState& state, Acquired& acquired, const std::stop_token& stop) {
+void register_capture(const ScanSetup& setup, const ScanState& state, RegistrationTarget& target, Acquired& acquired,
+                      const std::stop_token& stop) {
   const Configuration& c = setup.configuration;
   if (c.registration.mode == RegistrationConfig::Mode::off || state.scans.empty()) return;
   const RegistrationLimits limits = registration_limits(c.registration, setup.source.range_noise, c.map.resolution);
-  acquired.registration = register_scan(to_scan(acquired.capture, &c.cloud, stop).scan, state.scans, limits, stop);
+  acquired.registration =
+      register_scan(to_scan(acquired.capture, &c.cloud, stop).scan, state.scans, limits, target, stop);
 }
 
 std::string beyond_limits(const ScanSetup& setup, const Acquired& acquired) {

@@ -13,8 +13,10 @@ namespace nextview {
 Result<Acquired> acquire(const View& view, std::uint32_t step, ScanSource& source, Robot& robot,
                          const Progress& progress, const std::stop_token& stop);
 
-/// Compares a capture with the scans before it, if that is asked for (registration.mode). @throws Stopped
-void register_capture(const ScanSetup& setup, const ScanState& state, Acquired& acquired, const std::stop_token& stop);
+/// Compares a capture with the scans before it, if that is asked for (registration.mode); the target is that of the
+/// captures before. @throws Stopped
+void register_capture(const ScanSetup& setup, const ScanState& state, RegistrationTarget& target, Acquired& acquired,
+                      const std::stop_token& stop);
 /// In what way it lies farther off than the limits allow, in one line; empty if it does not.
 std::string beyond_limits(const ScanSetup& setup, const Acquired& acquired);
 /// Takes it to stand where its registration puts it, if that is reliable.

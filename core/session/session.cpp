@@ -189,7 +189,7 @@ bool Session::take_view(const Progress& progress, const std::stop_token& stop, c
     throw std::runtime_error(failure->reason);
   }
   Acquired& acquired = std::get<Acquired>(result);
-  register_capture(setup_, state_, acquired, stop);
+  register_capture(setup_, state_, registration_target_, acquired, stop);
   const Verdict wanted = verdict(acquired);
   if (wanted == Verdict::reject) return false;
   if (wanted == Verdict::correct) correct(acquired);

@@ -162,8 +162,9 @@ class Session {
   bool views_as_configured_ = false, robot_as_configured_ = false;  // unless the parts had others
   Judge judge_;
   ScanState state_;
-  std::optional<Acquired> taken_;    ///< captured, and not yet in the state: a step failed after that
-  std::vector<StepRecord> records_;  ///< the state's; so are the next
+  RegistrationTarget registration_target_;  ///< of the scans so far
+  std::optional<Acquired> taken_;           ///< captured, and not yet in the state: a step failed after that
+  std::vector<StepRecord> records_;         ///< the state's; so are the next
   std::vector<Pose> candidates_;
 };
 

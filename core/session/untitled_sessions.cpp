@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <vector>
 
 #include "core/journal/journal.hpp"
@@ -26,6 +27,19 @@ std::vector<fs::path> untitled_sessions(const fs::path& state) {
     if (has_journal(entry->path())) sessions.push_back(entry->path());
   std::ranges::sort(sessions, std::greater<>());
   return sessions;
+}
+
+/// Of now, for a name, or a second after the newest: where the clock was set back, or summer time has ended, what is
+/// made now would go as the oldest.
+std::string time_after(const std::vector<fs::path>& sessions) {
+  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  const std::string text = fmt::format("{:%Y-%m-%d %H.%M.%S}", fmt::localtime(now));
+  const std::string newest = sessions.empty() ? "" : sessions.front().filename().string().substr(0, time_length);
+  std::tm time{};
+  if (text > newest || !::strptime(newest.c_str(), "%Y-%m-%d %H.%M.%S", &time)) return text;
+  ++time.tm_sec;
+  ::timegm(&time);  // whatever is beyond 59
+  return fmt::format("{:%Y-%m-%d %H.%M.%S}", time);
 }
 
 /// What can be a file's name anywhere.
@@ -57,8 +71,7 @@ fs::path state_folder() {
 fs::path untitled_folder(const fs::path& state, const std::string& name) {
   const std::vector<fs::path> sessions = untitled_sessions(state);
   for (std::size_t k = kept_sessions - 1; k < sessions.size(); ++k) remove_session(sessions[k]);
-  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  return free_folder(state / fmt::format("{:%Y-%m-%d %H.%M.%S} {}", fmt::localtime(now), plain(name)));
+  return free_folder(state / fmt::format("{} {}", time_after(sessions), plain(name)));
 }
 
 std::optional<UnfinishedSession> unfinished_session(const fs::path& state) {

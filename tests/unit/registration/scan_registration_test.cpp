@@ -83,6 +83,20 @@ INSTANTIATE_TEST_SUITE_P(Objects, Accuracies,
                          testing::Combine(testing::Values("slotted_housing", "slotted_plate", "sphere"),
                                           testing::Values(0.001, 0.002)));
 
+TEST(RegisterScan, ATargetThatIsBroughtAlongIsTheSame) {
+  const auto object = object_named("sphere");
+  const Scans scans = scans_of(object, views_around(4), noise, {0.002, 0.2}, 2);
+  RegistrationTarget along;
+  for (const std::size_t before : {1, 3, 2}) {  // and back again
+    const auto so_far = std::span(scans).first(before);
+    const ScanRegistration alone = register_scan(*scans[before], so_far, check);
+    const ScanRegistration found = register_scan(*scans[before], so_far, check, along);
+    EXPECT_EQ(found.T_corrected_believed.matrix(), alone.T_corrected_believed.matrix()) << before;
+    EXPECT_EQ(found.overlap, alone.overlap) << before;
+    EXPECT_EQ(along.of(so_far, check.spacing, {}).size(), RegistrationTarget().of(so_far, check.spacing, {}).size());
+  }
+}
+
 TEST(RegisterScan, CorrectsARobotThatErrs) {  // by 9 mm and, about the camera, by 16 mm at the object
   const auto object = object_named("slotted_housing");
   const double without_errors = aligned_accuracy(scans_of(object, views_around(12), noise), object->mesh);

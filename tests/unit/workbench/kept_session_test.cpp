@@ -159,6 +159,21 @@ TEST_F(KeptSessionTest, TheTenNewestStay) {
   EXPECT_EQ(kept().size(), 10u);
 }
 
+/// Names begin with the time: one of an earlier hour than the ten others would be the first to go.
+TEST_F(KeptSessionTest, TheNewestStaysThoughTheClockWasSetBack) {
+  Session session(small_scan());
+  for (int k = 10; k < 20; ++k)
+    SessionFolder::begin(OutputFolder(state() / fmt::format("2999-12-31 23.59.{} box", 3 * k), {}), session).close();
+  const fs::path first = untitled_folder(state(), "sphere");
+  EXPECT_EQ(first.filename(), "2999-12-31 23.59.58 sphere");
+  SessionFolder::begin(OutputFolder(first, {}), session).close();
+  EXPECT_EQ(untitled_folder(state(), "sphere").filename(), "2999-12-31 23.59.59 sphere");
+  EXPECT_TRUE(fs::exists(first / "journal"));
+  SessionFolder::begin(OutputFolder(state() / "2999-12-31 23.59.59 box", {}), session).close();
+  EXPECT_EQ(untitled_folder(state(), "box").filename(), "3000-01-01 00.00.00 box");
+  EXPECT_TRUE(fs::exists(first / "journal"));
+}
+
 TEST_F(KeptSessionTest, WhereNothingCanBeWrittenItSaysSoOnceAndGoesOn) {
   fs::create_directories(folder_ / "");
   std::ofstream(state()) << "a file in its place";
