@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "core/offline/refinement.hpp"
@@ -29,12 +31,19 @@ Knowledge scanned(const RecordedScene& scene, const SceneParameters& parameters,
   return known;
 }
 
-/// The gains of the views on the Gibbs map of the scene.
-std::vector<double> gibbs_gains(const RecordedScene& scene, const Progress& progress, const std::stop_token& stop) {
+/// The same with the Gibbs map of all scans, refined as `refine` does.
+Knowledge with_posterior(Knowledge known, const RecordedScene& scene, const Progress& progress,
+                         const std::stop_token& stop) {
   const RefinementJob job = refinement_job(scene, GibbsConfig{}, 1);
-  std::vector<double> gains = refine(job, progress, stop).gains_after;
+  auto posterior = std::make_shared<GibbsState>(job.grid, job.sampler, job.model);
+  for (const Scan& scan : job.scans) posterior->add(scan);
+  const auto report = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
+    if (progress) progress(fraction, what);
+  };
+  posterior->refine(probabilities(known.map.voxels()), 0, report, stop);  // until it is stationary
   throw_if_stopped(stop);
-  return gains;
+  known.posterior = std::move(posterior);
+  return known;
 }
 
 }  // namespace
@@ -69,14 +78,28 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
   throw_if_stopped(stop);
   std::vector<std::size_t> all(scene.views.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
+  std::optional<Knowledge> refined;
+  std::unique_ptr<RayCaster> refined_rays;
   for (const PlannerConfig& planner : others) {
     const auto policy = make_policy(planner);
     const bool on_posterior = policy->needs().posterior;
     if (on_posterior && semantics == Semantics::reference)
       throw std::invalid_argument(
           fmt::format("the gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
-    const PlanningState state{planner, 1, reach, known, *rays, parameters.rays, nullptr, candidates, {}};
-    const auto column = on_posterior ? gibbs_gains(scene, progress, stop) : policy->values(state, all, stop).gains;
+    if (on_posterior && !refined) {
+      refined = with_posterior(known, scene, progress, stop);
+      refined_rays = planning_rays(*refined, parameters.map.max_ray_depth);
+    }
+    const PlanningState state{planner,
+                              1,
+                              reach,
+                              on_posterior ? *refined : known,
+                              on_posterior ? *refined_rays : *rays,
+                              parameters.rays,
+                              nullptr,
+                              candidates,
+                              {}};
+    const auto column = policy->values(state, all, stop).gains;
     throw_if_stopped(stop);
     scores.gains.push_back(planner.gain);
     for (std::size_t v = 0; v < column.size(); ++v) scores.views[v].gains.push_back(column[v]);

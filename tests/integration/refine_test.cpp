@@ -8,6 +8,7 @@
 #include "core/map/octree_file.hpp"
 #include "tests/data/conformance.hpp"
 #include "tests/integration/program.hpp"
+#include "tests/integration/tables.hpp"
 #include "tests/unit/cloud/made_range_scans.hpp"
 
 namespace nextview {
@@ -153,6 +154,16 @@ TEST(RefineScenes, ScoringASceneByTheGibbsGainRefinesIt) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 49);
   EXPECT_EQ(nextview("score --scene " + scene.string() + " --gain gibbs --semantics reference").exit_code, 2);
+  const Table alone = read_table(run.out);
+  const Table all = read_table(nextview("score --scene " + scene.string() + " --gain all --csv -").out);
+  ASSERT_EQ(all.size(), alone.size());
+  std::size_t as_gibbs = 0, as_conventional = 0;  // new-surface-gibbs once was what gibbs is
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    EXPECT_EQ(all[v].at("gibbs"), alone[v].at("gibbs"));
+    as_gibbs += all[v].at("new-surface-gibbs") == all[v].at("gibbs");
+    as_conventional += all[v].at("new-surface-gibbs") == all[v].at("new-surface");
+  }
+  EXPECT_LT(std::max(as_gibbs, as_conventional), all.size() / 2);
 }
 
 TEST(GibbsScan, WritesThePosteriorAndWhatRefinementDid) {
