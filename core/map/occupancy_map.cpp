@@ -12,6 +12,7 @@
 #include "core/map/huge_pages.hpp"
 #include "core/map/ray_marks.hpp"
 #include "core/map/traversal.hpp"
+#include "core/map/uniform_bricks.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -21,6 +22,10 @@ namespace {
 /// What a scan does to a voxel.
 enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
 using Touches = std::array<std::uint8_t, VoxelBricks::brick_voxels>;
+
+bool all_same(std::span<const std::uint8_t> touches) {
+  return std::memcmp(&touches[0], &touches[1], touches.size() - 1) == 0;  // each is as the one after it
+}
 
 /// How far each place of a map's bricks lies behind a surface, 0 where it does not. It is of one scan: a copy of the
 /// map has none.
@@ -121,6 +126,7 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   VoxelBricks after = voxels_;  // the map stays as it was if memory runs out
+  UniformBricks uniform;
   const auto bricks = after.change_bricks();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 16), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
@@ -131,24 +137,37 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
         const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
         return std::clamp(voxels.log_odds(i) + change, lowest, highest);
       };
-      const auto changes = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
-        return touches[i] != untouched && (!voxels.measured(i) || log_odds_after(voxels, i) != voxels.log_odds(i));
-      };
-      std::size_t i = 0;
-      while (i < touches.size() && !changes(*bricks[brick], i)) ++i;
-      if (i == touches.size()) continue;  // all at their clamps: it stays shared, too
-      VoxelBricks::Brick& voxels = bricks[brick].change();
-      float last = 0.0f;  // neighbours often have the same log-odds
-      VoxelClass last_class = class_of(last);
-      for (; i < touches.size(); ++i) {
-        if (touches[i] == untouched) continue;
-        const float log_odds = log_odds_after(voxels, i);
-        if (log_odds != last) last = log_odds, last_class = class_of(log_odds);
-        voxels.set_measured(i, log_odds, last_class);
-      }
+      touch_brick(bricks[brick], touches, log_odds_after, uniform);
     }
   });
   voxels_ = std::move(after);
+}
+
+/// Gives each touched voxel `log_odds_after(brick, voxel)`. A brick that it does not change stays shared.
+template <class LogOddsAfter>
+void OccupancyMap::touch_brick(CopyOnWrite<VoxelBricks::Brick>& brick, std::span<const std::uint8_t> touches,
+                               LogOddsAfter log_odds_after, UniformBricks& uniform) const {
+  const auto changes = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
+    return touches[i] != untouched && (!voxels.measured(i) || log_odds_after(voxels, i) != voxels.log_odds(i));
+  };
+  std::size_t i = 0;
+  while (i < touches.size() && !changes(*brick, i)) ++i;
+  if (i == touches.size()) return;  // all at their clamps
+  if (!model_.range_dependent() && brick->is_uniform() && all_same(touches)) {
+    const float log_odds = log_odds_after(*brick, 0);
+    brick = uniform.of(log_odds, class_of(log_odds));
+    return;
+  }
+  VoxelBricks::Brick& voxels = brick.change();
+  float last = 0.0f;  // neighbours often have the same log-odds
+  VoxelClass last_class = class_of(last);
+  for (; i < touches.size(); ++i) {
+    if (touches[i] == untouched) continue;
+    const float log_odds = log_odds_after(voxels, i);
+    if (log_odds != last) last = log_odds, last_class = class_of(log_odds);
+    voxels.set_measured(i, log_odds, last_class);
+  }
+  if (voxels.is_uniform()) brick = uniform.of(voxels.log_odds(0), voxels.voxel_class(0));
 }
 
 void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin) {
