@@ -74,7 +74,7 @@ bool is_solid(const Row& row, const Opening& o, const GroundTruth& truth) {
   const double half_length = std::max(0.5 * o.depth - resolution, 0.01 * resolution);
   return std::all_of(row.begin(), row.end(), [&](const Vector3& middle) {
     return all_on_line(truth.grid, middle, o.axis, half_length,
-                       [&](std::uint32_t voxel) { return truth.centre[voxel] != 0; });
+                       [&](std::uint32_t voxel) { return truth.centre[voxel]; });
   });
 }
 

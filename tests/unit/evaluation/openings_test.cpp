@@ -124,8 +124,7 @@ TEST(Openings, ABoreIsRound) {
   bore.width = 0.073;
   bore.centre.x() = 0.0017;
   bore.length = 0.073;
-  plate.truth.centre.assign(plate.truth.centre.size(), 0);
-  plate.truth.touch = plate.truth.centre;
+  plate.truth.touch = plate.truth.centre = BitMask(plate.truth.centre.size());
   std::size_t within = 0;
   for (std::uint32_t i = 0; i < plate.truth.grid.voxel_count(); ++i) {
     const Vector3 offset = plate.truth.grid.centre(i) - bore.centre;
