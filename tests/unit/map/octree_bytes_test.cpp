@@ -6,7 +6,7 @@ namespace nextview {
 namespace {
 
 /// A cube of free voxels, 64 along its edges.
-OccupancyMap free_cube() {
+OccupancyMap cube_of_free_space() {
   OccupancyMap map(VoxelGrid{0.01, Eigen::Vector3i(-64, 0, 64), Eigen::Vector3i::Constant(64)});
   for (std::uint32_t v = 0; v < map.grid().voxel_count(); ++v) map.set_log_odds(v, -0.4f);
   return map;
@@ -14,7 +14,7 @@ OccupancyMap free_cube() {
 
 TEST(OctreeBytes, FreeSpaceIsOneLeafAndTakesTheMemoryOfOne) {
   constexpr std::size_t depth = 10;  // of a leaf of 64 voxels
-  const OctreeBytes full = octree_bytes(free_cube(), false), binary = octree_bytes(free_cube(), true);
+  const OctreeBytes full = octree_bytes(cube_of_free_space(), false), binary = octree_bytes(cube_of_free_space(), true);
   EXPECT_EQ(full.nodes, depth + 1);
   EXPECT_EQ(full.bytes.size(), 5 * (depth + 1)) << "a float and a byte each";
   EXPECT_EQ(binary.nodes, depth + 1);
@@ -23,7 +23,7 @@ TEST(OctreeBytes, FreeSpaceIsOneLeafAndTakesTheMemoryOfOne) {
 }
 
 TEST(OctreeBytes, AVoxelThatDiffersOpensTheLeavesAroundIt) {
-  OccupancyMap map = free_cube();
+  OccupancyMap map = cube_of_free_space();
   map.set_log_odds(map.grid().index({1, 2, 3}), 0.8f);
   EXPECT_EQ(octree_bytes(map, false).nodes, 11u + 6 * 8) << "eight children on each of six levels";
 }
