@@ -8,28 +8,33 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/map/brick_memory.hpp"
+
 namespace nextview {
 namespace {
 
 using Brick = VoxelBricks::Brick;
 
-/// The sum of `term(i)`. Split and joined in the same places on any number of threads, so that it rounds alike.
+/// The sum of `term(brick, memory)` over bricks. Split and joined in the same places on any number of threads, so that
+/// it rounds alike.
 template <class Term>
-double sum(std::size_t count, std::size_t grain, Term term) {
+double sum(std::size_t bricks, Term term) {
+  constexpr std::size_t at_once = 64;
   return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, count, grain), 0.0,
+      tbb::blocked_range<std::size_t>(0, bricks, at_once), 0.0,
       [&](const auto& range, double part) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) part += term(i);
+        BrickMemory<double> memory;
+        for (std::size_t b = range.begin(); b != range.end(); ++b) part += term(b, memory);
         return part;
       },
       std::plus<>());
 }
 
-constexpr std::size_t bricks_at_once = 64;
-
 double measured_count(const VoxelBricks& voxels) {
-  return sum(voxels.brick_count(), bricks_at_once,
-             [&](std::size_t b) { return double(voxels.bricks()[b]->measured_count()); });
+  return sum(voxels.brick_count(), [&](std::size_t b, BrickMemory<double>& memory) {
+    const Brick& brick = *voxels.bricks()[b];
+    return memory.of(brick, [&] { return double(brick.measured_count()); });
+  });
 }
 
 double entropy_change(const Brick& before, const Brick& after) {
@@ -48,12 +53,14 @@ double unmeasured_entropy(const VoxelBricks& voxels) {  // Eq. 18
 double total_entropy(const VoxelBricks& voxels) {
   // Where bricks stick out of the grid their voxels are as uncertain as they can be.
   const double most = double(Voxel().entropy);
-  const double known = sum(voxels.brick_count(), bricks_at_once, [&](std::size_t b) {
+  const double known = sum(voxels.brick_count(), [&](std::size_t b, BrickMemory<double>& memory) {
     if (voxels.is_untouched(b)) return 0.0;
-    double change = 0.0;
     const Brick& brick = *voxels.bricks()[b];
-    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += most - double(brick.entropy(i));
-    return change;
+    return memory.of(brick, [&] {
+      double change = 0.0;
+      for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += most - double(brick.entropy(i));
+      return change;
+    });
   });
   return (double(voxels.size()) * most - known) / std::numbers::ln2;
 }
@@ -61,9 +68,9 @@ double total_entropy(const VoxelBricks& voxels) {
 double realised_gain(const VoxelBricks& before, const VoxelBricks& after) {  // Eq. 12
   if (before.edges() != after.edges())
     throw std::invalid_argument(fmt::format("realised gain: {} voxels before, {} after", before.size(), after.size()));
-  return sum(before.brick_count(), bricks_at_once, [&](std::size_t b) {
+  return sum(before.brick_count(), [&](std::size_t b, BrickMemory<double>& memory) {
     const auto &was = before.bricks()[b], &is = after.bricks()[b];
-    return was.shares_with(is) ? 0.0 : entropy_change(*was, *is);
+    return was.shares_with(is) ? 0.0 : memory.of(*was, *is, [&] { return entropy_change(*was, *is); });
   });
 }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/evaluation/repeated_sum.hpp"
+
 namespace nextview {
 namespace {
 
@@ -54,16 +56,17 @@ struct Sums {
   };
   std::array<Bin, 10> bins;
 
-  void add(double p, bool occupied, bool in_band, const Terms& terms) {
-    ++voxels;
-    log_loss += terms.log_loss;
-    brier += terms.brier;
-    divergence += terms.divergence;
-    if (!in_band) divergence_outside += terms.divergence;
+  /// So many voxels, as if one by one.
+  void add(double p, bool occupied, bool in_band, const Terms& terms, std::size_t count) {
+    voxels += count;
+    add_times(log_loss, terms.log_loss, count);
+    add_times(brier, terms.brier, count);
+    add_times(divergence, terms.divergence, count);
+    if (!in_band) add_times(divergence_outside, terms.divergence, count);
     Bin& bin = bins[terms.bin];
-    ++bin.voxels;
-    bin.occupied += occupied;
-    bin.probability += p;
+    bin.voxels += count;
+    bin.occupied += occupied ? count : 0;
+    add_times(bin.probability, p, count);
   }
 
   Sums& operator+=(const Sums& other) {
@@ -132,31 +135,62 @@ void check_lengths(std::size_t probabilities, const GroundTruth& truth, ScoredSe
         "map quality: the scored set '{}' needs a mask of {} visited voxels, not of {}", name(set), voxels, visited));
 }
 
+using SumsOfSets = std::array<Sums, scored_sets>;
+
+/// Adds voxels to the sums of the sets that they count in. In free space many in a row are alike.
+class RunsOfVoxels {
+ public:
+  explicit RunsOfVoxels(SumsOfSets& sums) : sums_(sums) {}
+  ~RunsOfVoxels() { end(); }
+  RunsOfVoxels(const RunsOfVoxels&) = delete;
+
+  void add(float p, bool occupied, bool in_band, unsigned counts_in) {
+    if (p != p_ || occupied != occupied_ || in_band != in_band_ || counts_in != counts_in_) {
+      end();
+      p_ = p, occupied_ = occupied, in_band_ = in_band, counts_in_ = counts_in;
+    }
+    ++count_;
+  }
+
+ private:
+  void end() {
+    if (count_ == 0) return;
+    const Terms& terms = known_.of(p_, occupied_);
+    for (unsigned sets = counts_in_; sets != 0; sets &= sets - 1)
+      sums_[std::countr_zero(sets)].add(p_, occupied_, in_band_, terms, count_);
+    count_ = 0;
+  }
+
+  SumsOfSets& sums_;
+  KnownTerms known_;
+  float p_ = 0.0f;
+  bool occupied_ = false, in_band_ = false;
+  unsigned counts_in_ = 0;
+  std::size_t count_ = 0;
+};
+
 /// `from(i)`: points at the probability of a voxel, and those of the next ones. `visited(i)`: whether it was.
 template <class From, class Visited>
 std::vector<MapQuality> qualities(const GroundTruth& truth, TruthConvention convention, std::span<const ScoredSet> sets,
                                   From from, Visited visited) {
-  using SumsOfSets = std::array<Sums, scored_sets>;
   const SetsOfVoxel sets_of(sets);
-  const auto add = [&](SumsOfSets& sums, std::size_t i, auto& probability, KnownTerms& known) {
-    const bool in_band = truth.surface_distance[i] <= band_width;
-    unsigned counts_in = sets_of(in_band, sets_of.needs_visited() && visited(i));
+  const auto add = [&](RunsOfVoxels& runs, std::size_t i, auto& probability) {
+    const bool in_band = truth.near_surface[i];
+    const unsigned counts_in = sets_of(in_band, sets_of.needs_visited() && visited(i));
     if (counts_in == 0) return;
     const VoxelTruth voxel = voxel_truth(truth, i, convention);
     if (voxel == VoxelTruth::hidden) return;
-    const bool occupied = voxel == VoxelTruth::occupied;
-    const float p = *probability;
-    const Terms& terms = known.of(p, occupied);
-    for (; counts_in != 0; counts_in &= counts_in - 1)
-      sums[std::countr_zero(counts_in)].add(p, occupied, in_band, terms);
+    runs.add(*probability, voxel == VoxelTruth::occupied, in_band, counts_in);
   };
   // Split and joined in the same places on any number of threads, so that the sums round alike.
   const SumsOfSets all = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, truth.grid.voxel_count(), 1 << 15), SumsOfSets(),
       [&](const auto& range, SumsOfSets part) {
-        KnownTerms known;
-        auto probability = from(range.begin());
-        for (std::size_t i = range.begin(); i != range.end(); ++i, ++probability) add(part, i, probability, known);
+        {
+          RunsOfVoxels runs(part);
+          auto probability = from(range.begin());
+          for (std::size_t i = range.begin(); i != range.end(); ++i, ++probability) add(runs, i, probability);
+        }
         return part;
       },
       [](SumsOfSets a, const SumsOfSets& b) {

@@ -17,7 +17,6 @@ enum class ScoredSet {
   band,         ///< at most `band_width` voxels from one that the surface touches (Chebyshev)
   visited_band  ///< both: visited, and in the band
 };
-constexpr int band_width = 3;  ///< [voxels]
 
 constexpr std::string_view name(ScoredSet set) {
   constexpr std::array<std::string_view, 4> names = {"visited", "region", "band", "visited band"};

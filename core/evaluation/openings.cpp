@@ -74,7 +74,7 @@ bool is_solid(const Row& row, const Opening& o, const GroundTruth& truth) {
   const double half_length = std::max(0.5 * o.depth - resolution, 0.01 * resolution);
   return std::all_of(row.begin(), row.end(), [&](const Vector3& middle) {
     return all_on_line(truth.grid, middle, o.axis, half_length,
-                       [&](std::uint32_t voxel) { return truth.centre[voxel] != 0; });
+                       [&](std::uint32_t voxel) { return truth.centre[voxel]; });
   });
 }
 
@@ -105,11 +105,26 @@ void check(const Opening& o) {
     throw std::invalid_argument("opening: axis and along must be of unit length and at right angles");
 }
 
-void check_lengths(std::span<const Voxel> map, const GroundTruth& truth, std::span<const std::uint8_t> scored) {
+void check_lengths(std::size_t map, const GroundTruth& truth, std::size_t scored) {
   const std::size_t voxels = truth.grid.voxel_count();
-  if (map.size() != voxels || (!scored.empty() && scored.size() != voxels))
-    throw std::invalid_argument(fmt::format("openings: a map of {} voxels and a mask of {} for {} voxels of truth",
-                                            map.size(), scored.size(), voxels));
+  if (map != voxels || scored != voxels)
+    throw std::invalid_argument(
+        fmt::format("openings: a map of {} voxels and a mask of {} for {} voxels of truth", map, scored, voxels));
+}
+void check_lengths(std::span<const Voxel> map, const GroundTruth& truth, std::span<const std::uint8_t> scored) {
+  check_lengths(map.size(), truth, scored.empty() ? truth.grid.voxel_count() : scored.size());
+}
+
+/// `voxel_at(i)` is asked of the truly occupied voxels alone, of which there are few.
+template <class VoxelAt, class Scored>
+std::optional<double> recall(const GroundTruth& truth, TruthConvention convention, VoxelAt voxel_at, Scored scored) {
+  std::size_t occupied = 0, found = 0;
+  for (std::size_t i = 0; i < truth.grid.voxel_count(); ++i) {
+    if (voxel_truth(truth, i, convention) != VoxelTruth::occupied || !scored(i)) continue;
+    ++occupied;
+    found += called_occupied(voxel_at(i));
+  }
+  return occupied == 0 ? std::nullopt : std::optional(double(found) / double(occupied));
 }
 
 }  // namespace
@@ -149,13 +164,16 @@ OpeningScore score_opening(const Opening& opening, std::span<const Voxel> map, c
 std::optional<double> surface_recall(std::span<const Voxel> map, const GroundTruth& truth, TruthConvention convention,
                                      std::span<const std::uint8_t> scored) {
   check_lengths(map, truth, scored);
-  std::size_t occupied = 0, found = 0;
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    if ((!scored.empty() && !scored[i]) || voxel_truth(truth, i, convention) != VoxelTruth::occupied) continue;
-    ++occupied;
-    found += called_occupied(map[i]);
-  }
-  return occupied == 0 ? std::nullopt : std::optional(double(found) / double(occupied));
+  return recall(
+      truth, convention, [&](std::size_t i) { return map[i]; },
+      [&](std::size_t i) { return scored.empty() || scored[i] != 0; });
+}
+
+std::optional<double> surface_recall(const VoxelBricks& map, const GroundTruth& truth, TruthConvention convention,
+                                     const BitMask& scored) {
+  check_lengths(map.size(), truth, scored.size());
+  return recall(
+      truth, convention, [&](std::size_t i) { return map[i]; }, [&](std::size_t i) { return scored[i]; });
 }
 
 }  // namespace nextview

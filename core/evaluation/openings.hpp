@@ -3,7 +3,9 @@
 #include <span>
 
 #include "core/evaluation/truth_convention.hpp"
+#include "core/map/bit_mask.hpp"
 #include "core/map/occupancy.hpp"
+#include "core/map/voxel_bricks.hpp"
 #include "core/mesh/parts.hpp"
 
 namespace nextview {
@@ -49,5 +51,8 @@ OpeningScore score_opening(const Opening& opening, std::span<const Voxel> map, c
 /// @throws std::invalid_argument if lengths differ.
 std::optional<double> surface_recall(std::span<const Voxel> map, const GroundTruth& truth, TruthConvention convention,
                                      std::span<const std::uint8_t> scored = {});
+/// The same of a map's voxels as they are kept. @throws as above
+std::optional<double> surface_recall(const VoxelBricks& map, const GroundTruth& truth, TruthConvention convention,
+                                     const BitMask& scored);
 
 }  // namespace nextview

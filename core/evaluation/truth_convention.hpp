@@ -23,7 +23,7 @@ enum class VoxelTruth : std::uint8_t {
 
 inline VoxelTruth voxel_truth(const GroundTruth& truth, std::size_t voxel, TruthConvention convention) {
   if (truth.hidden(voxel)) return VoxelTruth::hidden;
-  const auto& occupied = convention == TruthConvention::touch ? truth.touch : truth.centre;
+  const BitMask& occupied = convention == TruthConvention::touch ? truth.touch : truth.centre;
   return occupied[voxel] ? VoxelTruth::occupied : VoxelTruth::free;
 }
 

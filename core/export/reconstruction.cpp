@@ -33,8 +33,7 @@ ScanSurface of_map(const ReconstructionInput& input) {
           input.prior ? "the Gibbs map" : "the occupancy map",
           "Marching cubes at p = 0.5, through the middle of the outermost occupied voxels; closed where no "
           "view has looked.",
-          input.prior ? map_surface(input.grid, without_undecided(input.voxels, *input.prior))
-                      : map_surface(input.grid, input.voxels),
+          map_surface(input.grid, input.voxels, input.prior),
           {},
           {}};
 }

@@ -6,7 +6,7 @@
 
 #include "core/evaluation/surface_error.hpp"
 #include "core/export/export_kind.hpp"
-#include "core/map/occupancy.hpp"
+#include "core/map/voxel_bricks.hpp"
 #include "core/map/voxel_grid.hpp"
 #include "core/mesh/boundary_loops.hpp"
 #include "core/progress/progress.hpp"
@@ -28,7 +28,7 @@ struct ScanSurface {
 /// What surfaces are made of, and compared with.
 struct ReconstructionInput {
   const VoxelGrid& grid;
-  std::span<const Voxel> voxels;               ///< one per voxel of the grid
+  VoxelBricks voxels;                          ///< of the grid
   std::optional<double> prior = {};            ///< if the voxels are a Gibbs map's: of a voxel being occupied
   std::vector<const Scan*> scans = {};         ///< none null
   const TriangleMesh* true_mesh = nullptr;     ///< null: not known; nor are the samples then

@@ -84,15 +84,15 @@ nlohmann::ordered_json evaluation_json(const Session& session, const PointCloud&
     const Accuracy a = accuracy(cloud, MeshDistance(*session.mesh()));
     json["accuracy_m"] = {{"points", a.points}, {"mean", a.mean}, {"rms", a.rms}, {"percentile_95", a.percentile_95}};
   }
-  const std::vector<Voxel> voxels = session.map().voxels().dense();
-  const auto p = probabilities(voxels);
-  const std::vector<std::uint8_t> visited = session.evaluation()->visited_voxels.bytes();
+  const VoxelBricks& voxels = session.map().voxels();
+  const BitMask& visited = session.evaluation()->visited_voxels;
+  constexpr std::array sets = {ScoredSet::visited, ScoredSet::visited_band, ScoredSet::region};
   for (const TruthConvention convention : {TruthConvention::touch, TruthConvention::centre}) {
-    for (const ScoredSet set : {ScoredSet::visited, ScoredSet::visited_band, ScoredSet::region})
-      json["map"][std::string(name(convention)) + " truth"][std::string(name(set))] =
-          to_json(map_quality(p, object.truth(), convention, set, visited));
+    nlohmann::ordered_json& of_map = json["map"][std::string(name(convention)) + " truth"];
+    const std::vector<MapQuality> qualities = map_quality(voxels, object.truth(), convention, sets, visited);
+    for (std::size_t s = 0; s < sets.size(); ++s) of_map[std::string(name(sets[s]))] = to_json(qualities[s]);
     const auto recall = surface_recall(voxels, object.truth(), convention, visited);
-    if (recall) json["map"][std::string(name(convention)) + " truth"]["surface_recall"] = *recall;
+    if (recall) of_map["surface_recall"] = *recall;
   }
   return json;
 }

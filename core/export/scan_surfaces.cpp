@@ -53,39 +53,27 @@ Json to_json(const ScanSurface& s) {
 }
 
 /// What of a session surfaces are made of.
-class ReconstructedSession {
- public:
-  explicit ReconstructedSession(const Session& session)
-      : session_(session), voxels_(session.planning_voxels().dense()) {}
-
-  ReconstructionInput input() const {
-    std::vector<const Scan*> scans;
-    for (const auto& scan : session_.scans()) scans.push_back(scan.get());
-    const KnownObject* known = session_.known_object();
-    return {session_.map().grid(),
-            voxels_,
-            session_.refinement() ? std::optional(session_.configuration().gibbs.sampler.prior) : std::nullopt,
-            std::move(scans),
-            known ? session_.mesh().get() : nullptr,
-            known ? &known->samples() : nullptr,
-            known ? known->visible() : std::span<const std::uint8_t>{}};
-  }
-
- private:
-  const Session& session_;
-  std::vector<Voxel> voxels_;
-};
+ReconstructionInput input_of(const Session& session) {
+  std::vector<const Scan*> scans;
+  for (const auto& scan : session.scans()) scans.push_back(scan.get());
+  const KnownObject* known = session.known_object();
+  return {session.map().grid(),
+          session.planning_voxels(),
+          session.refinement() ? std::optional(session.configuration().gibbs.sampler.prior) : std::nullopt,
+          std::move(scans),
+          known ? session.mesh().get() : nullptr,
+          known ? &known->samples() : nullptr,
+          known ? known->visible() : std::span<const std::uint8_t>{}};
+}
 
 }  // namespace
 
 std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& progress, std::stop_token stop) {
-  const ReconstructedSession reconstructed(session);
-  return scan_surfaces(reconstructed.input(), progress, stop);
+  return scan_surfaces(input_of(session), progress, stop);
 }
 
 ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress, std::stop_token stop) {
-  const ReconstructedSession reconstructed(session);
-  ReconstructionInput input = reconstructed.input();
+  ReconstructionInput input = input_of(session);
   input.true_mesh = nullptr;
   return scan_surface(input, source, progress, stop);
 }
@@ -95,8 +83,7 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
   const RefinementTruth* truth = job.truth ? &*job.truth : nullptr;
   std::vector<const Scan*> scans;
   for (const Scan& scan : job.scans) scans.push_back(&scan);
-  const std::vector<Voxel> voxels = refinement.refined.dense();
-  return scan_surfaces({job.grid, voxels, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
+  return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
                         truth ? &truth->samples : nullptr,
                         truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
                        progress, stop);

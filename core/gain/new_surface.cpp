@@ -59,29 +59,32 @@ double area_of_view(const NewSurfaceField& field, const Pose& view, const RayBun
   return square_centimetres * options.slant * area;
 }
 
-/// The map's part in which each voxel lies, by its place with margin, and how many parts there are.
-struct Parts {
-  std::vector<std::uint32_t> of_place;
-  std::size_t count;
+/// Blocks of 8 x 8 x 8 voxels.
+class Parts {
+ public:
+  explicit Parts(const VoxelGrid& grid)
+      : row_(std::uint32_t(grid.size.x()) + 2),
+        layer_(row_ * (std::uint32_t(grid.size.y()) + 2)),
+        parts_((grid.size.array() + 7) / 8) {}
+
+  std::size_t count() const { return std::size_t(parts_.prod()); }
+  /// In which a voxel lies, by its place with margin.
+  std::size_t of(std::uint32_t place) const {
+    const std::uint32_t x = place % row_ - 1, y = place % layer_ / row_ - 1, z = place / layer_ - 1;
+    return (std::size_t(z >> 3) * std::size_t(parts_.y()) + (y >> 3)) * std::size_t(parts_.x()) + (x >> 3);
+  }
+
+ private:
+  std::uint32_t row_, layer_;
+  Eigen::Vector3i parts_;  ///< along each axis
 };
-Parts parts_of(const VoxelGrid& grid) {
-  const Eigen::Vector3i parts = (grid.size + Eigen::Vector3i::Constant(7)) / 8;
-  std::vector<std::uint32_t> of_place(places_with_margin(grid));
-  tbb::parallel_for(0, grid.size.z(), [&](int z) {
-    for (int y = 0; y < grid.size.y(); ++y)
-      for (int x = 0; x < grid.size.x(); ++x)
-        of_place[place_with_margin(grid, x, y, z)] =
-            std::uint32_t(((z >> 3) * parts.y() + (y >> 3)) * parts.x() + (x >> 3));
-  });
-  return {std::move(of_place), static_cast<std::size_t>(parts.prod())};
-}
 
 /// Adds up, ray by ray, how much of a view's new surface lies in each part.
 void add_to_parts(const Finds& finds, const RayBundle& bundle, double worth, const Parts& parts,
                   std::vector<float>& areas) {
   for (std::size_t ray = 0; ray < finds.begins.size(); ++ray)
     for (std::size_t i = finds.begins[ray]; i < finds.ends[ray]; ++i)
-      areas[parts.of_place[finds.finds[i].place]] += float(worth * (finds.finds[i].area * bundle.solid_angles[ray]));
+      areas[parts.of(finds.finds[i].place)] += float(worth * (finds.finds[i].area * bundle.solid_angles[ray]));
 }
 
 }  // namespace
@@ -99,9 +102,9 @@ std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span
 NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
                                         const RayBundle& bundle, const NewSurfaceOptions& options,
                                         std::stop_token stop) {
-  const Parts parts = parts_of(field.grid());
+  const Parts parts(field.grid());
   NewSurfaceForecast forecast;
-  forecast.part_count = parts.count;
+  forecast.part_count = parts.count();
   forecast.areas.assign(views.size(), 0.0);
   forecast.parts.assign(views.size(), std::vector<float>(forecast.part_count, 0.0f));
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {

@@ -30,6 +30,7 @@ std::vector<Eigen::Vector3i> occupied_cells(const VoxelBricks& voxels, double th
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
       const VoxelBricks::Brick& all = *voxels.bricks()[brick];
+      if (all.is_uniform() && !is_occupied(all[0], threshold)) continue;
       for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i)
         if (all.measured(i) && is_occupied(all[i], threshold))
           of_brick[brick].push_back(voxels.cell(brick * VoxelBricks::brick_voxels + i));
@@ -105,14 +106,20 @@ void SurfaceEvidence::read_voxels(const VoxelBricks& voxels, const VoxelBricks& 
   behind_.resize(count);
   tbb::parallel_for(0, grid_.size.z(), [&](int z) {
     std::size_t i = std::size_t(z) * grid_.size.y() * grid_.size.x();
+    float last = 0.5f, its_log_odds = 0.0f;  // neighbours are often alike
     for (int y = 0; y < grid_.size.y(); ++y)
       for (int x = 0; x < grid_.size.x(); ++x, ++i) {
         const Voxel& voxel = voxels.at(x + offset_.x(), y + offset_.y(), z + offset_.z());
         kinds_[i] = is_occupied(voxel, threshold) ? Kind::occupied : voxel.measured ? Kind::free : Kind::unmeasured;
         // Of its probability: other maps than the conventional one have no log-odds.
+        if (voxel.probability != last) {
+          last = voxel.probability;
+          its_log_odds = static_cast<float>(log_odds(std::clamp(double(last), 1e-3, 1 - 1e-3)));
+        }
         if (voxel.measured)
-          log_odds_[i] = static_cast<float>(log_odds(std::clamp(double(voxel.probability), 1e-3, 1 - 1e-3)));
-        behind_[i] = occlusions.at(x + offset_.x(), y + offset_.y(), z + offset_.z()).occlusion_distance;
+          log_odds_[i] = its_log_odds;
+        else
+          behind_[i] = occlusions.at(x + offset_.x(), y + offset_.y(), z + offset_.z()).occlusion_distance;
       }
   });
 }

@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 namespace nextview {
 namespace {
@@ -26,6 +28,13 @@ std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
 
 }  // namespace
 
+void BitMask::add_word(std::size_t first, std::uint64_t word) {
+  if (word == 0) return;
+  words_[first / 64] |= word << (first % 64);
+  const std::uint64_t rest = first % 64 == 0 ? 0 : word >> (64 - first % 64);
+  if (rest != 0) words_[first / 64 + 1] |= rest;
+}
+
 void BitMask::add(std::span<const std::uint8_t> bytes) {
   for_each_word(
       size_, [&](std::size_t w, std::size_t first, std::size_t count) { words_[w] |= packed(&bytes[first], count); });
@@ -39,6 +48,13 @@ void BitMask::add_rows(std::size_t length, const std::function<const std::uint8_
       done += part;
     }
   });
+}
+
+void BitMask::set_words(std::vector<std::uint64_t> words) {
+  const std::uint64_t beyond = size_ % 64 == 0 ? 0 : ~std::uint64_t{0} << (size_ % 64);
+  if (words.size() != words_.size() || (!words.empty() && (words.back() & beyond) != 0))
+    throw std::invalid_argument("bit mask: the words are of another number of flags");
+  words_ = std::move(words);
 }
 
 std::vector<std::uint8_t> BitMask::bytes() const {

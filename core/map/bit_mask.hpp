@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,15 +13,36 @@ class BitMask {
  public:
   explicit BitMask(std::size_t size = 0) : size_(size), words_((size + 63) / 64) {}
 
+  /// Of those that are not 0 in `bytes`, one each.
+  explicit BitMask(std::span<const std::uint8_t> bytes) : BitMask(bytes.size()) { add(bytes); }
+
   std::size_t size() const { return size_; }
   std::size_t memory() const { return words_.size() * sizeof(std::uint64_t); }  ///< [bytes]
   bool operator[](std::size_t i) const { return words_[i / 64] >> (i % 64) & 1; }
+  void set(std::size_t i, bool value = true) {
+    const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+    words_[i / 64] = value ? words_[i / 64] | bit : words_[i / 64] & ~bit;
+  }
+  /// Sets those of the next 64 from `first` on whose bit in `word` is 1, beginning with the lowest.
+  /// @pre all that it sets are there
+  void add_word(std::size_t first, std::uint64_t word);
   /// Sets those that are not 0 in `bytes`, one each. @pre bytes.size() == size()
   void add(std::span<const std::uint8_t> bytes);
   /// The same where the bytes lie in rows of so many, `row(number)` each. @pre size() is a multiple of it
   void add_rows(std::size_t length, const std::function<const std::uint8_t*(std::size_t number)>& row);
+  /// Calls `visit(i)` for those that are set, in their order.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (std::size_t w = 0; w < words_.size(); ++w)
+      for (std::uint64_t bits = words_[w]; bits != 0; bits &= bits - 1)
+        visit(64 * w + std::size_t(std::countr_zero(bits)));
+  }
   /// 0 or 1 each.
   std::vector<std::uint8_t> bytes() const;
+  /// As they are kept, 64 each, to be written to a file and read again.
+  const std::vector<std::uint64_t>& words() const { return words_; }
+  /// @throws std::invalid_argument if they are not of as many
+  void set_words(std::vector<std::uint64_t> words);
   bool operator==(const BitMask&) const = default;
 
  private:

@@ -58,6 +58,7 @@ struct Envelope {
   /// The last place where `left` is not above `right`.
   int overtakes(int left, int right) const {
     const std::int64_t above = std::int64_t(right) * right - std::int64_t(left) * left + heights[right] - heights[left];
+    if (right - left == 1) return static_cast<int>(above >> 1);  // most often, and without a division
     const std::int64_t twice = 2 * (right - left);
     return static_cast<int>(above >= 0 ? above / twice : -((-above + twice - 1) / twice));
   }
@@ -66,14 +67,33 @@ struct Envelope {
   std::vector<int> sites, starts;
 };
 
+/// The squared distance to the nearest feature in the same row: going up to the one before, coming back to the one
+/// after.
+void square_along_row(std::span<const std::uint8_t> is_feature, std::int32_t* squared) {
+  constexpr std::int32_t far = 1 << 14;  // whose square is infinitely_far
+  static_assert(far * far == infinitely_far);
+  std::int32_t distance = far;
+  for (std::size_t x = 0; x < is_feature.size(); ++x)
+    squared[x] = distance = is_feature[x] ? 0 : std::min(distance + 1, far);
+  distance = far;
+  for (std::size_t x = is_feature.size(); x-- > 0;) {
+    distance = std::min(squared[x], std::min(distance + 1, far));
+    squared[x] = distance * distance;
+  }
+}
+
 }  // namespace
 
 std::vector<std::int32_t> squared_distances(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size) {
   require_as_many(is_feature.size(), size);
   std::vector<std::int32_t> squared(is_feature.size());
-  for (std::size_t i = 0; i < squared.size(); ++i) squared[i] = is_feature[i] ? 0 : infinitely_far;
   if (squared.empty()) return squared;
-  for (int axis = 0; axis < 3; ++axis)
+  const auto length = std::size_t(size.x());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squared.size() / length, 64), [&](const auto& rows) {
+    for (std::size_t row = rows.begin(); row != rows.end(); ++row)
+      square_along_row(is_feature.subspan(row * length, length), &squared[row * length]);
+  });
+  for (const int axis : {1, 2})
     for_each_line<Envelope>(size, axis, [&](std::size_t first, std::size_t stride, Envelope& envelope) {
       envelope.lower(&squared[first], stride);
     });

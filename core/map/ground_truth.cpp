@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
+#include "core/map/bit_rows.hpp"
 #include "core/mesh/line_crossing.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -63,7 +63,7 @@ std::array<SeparatingAxis, 10> separating_axes(const Triangle& t) {
   return axes;
 }
 
-void mark_touched(const Triangle& t, const VoxelGrid& grid, std::vector<std::uint8_t>& touch) {
+void mark_touched(const Triangle& t, const VoxelGrid& grid, BitRows& touch) {
   Eigen::Vector3i first, last;
   for (int k = 0; k < 3; ++k) {
     const auto [low, high] = std::minmax({t[0][k], t[1][k], t[2][k]});
@@ -79,15 +79,13 @@ void mark_touched(const Triangle& t, const VoxelGrid& grid, std::vector<std::uin
           const double at = axis.direction.dot(centre);
           return at < axis.low || at > axis.high;
         });
-        // Several triangles may touch one voxel; they all write the same.
-        if (!apart) std::atomic_ref(touch[grid.index({x, y, z})]).store(1, std::memory_order_relaxed);
+        if (!apart) touch.set({x, y, z});
       }
 }
 
 /// Toggles, in each column along `axis` that crosses the triangle, the first voxel whose centre is behind the crossing
 /// (above the grid: the column's parity alone).
-void mark_crossings(const Triangle& t, const VoxelGrid& grid, int axis, std::vector<std::uint8_t>& toggles,
-                    std::vector<std::uint8_t>& parity) {
+void mark_crossings(const Triangle& t, const VoxelGrid& grid, int axis, BitRows& toggles, BitRows& parity) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto [u_low, u_high] = std::minmax({t[0][u], t[1][u], t[2][u]});
   const auto [v_low, v_high] = std::minmax({t[0][v], t[1][v], t[2][v]});
@@ -102,83 +100,46 @@ void mark_crossings(const Triangle& t, const VoxelGrid& grid, int axis, std::vec
       Eigen::Vector3i cell;
       cell[u] = i;
       cell[v] = j;
+      cell[axis] = 0;
+      parity.flip(cell);
       cell[axis] = std::max(0, clamped_floor(*crossing - 0.5, grid.size[axis]) + 1);
-      std::atomic_ref(parity[std::size_t(j) * grid.size[u] + i]).fetch_xor(1, std::memory_order_relaxed);
-      if (cell[axis] < grid.size[axis])
-        std::atomic_ref(toggles[grid.index(cell)]).fetch_xor(1, std::memory_order_relaxed);
+      if (cell[axis] < grid.size[axis]) toggles.flip(cell);
     }
 }
 
-/// Adds one vote to every voxel whose centre is inside, as seen along `axis`.
-void vote_inside(const TriangleMesh& mesh, const VoxelGrid& grid, int axis, const std::stop_token& stop,
-                 std::vector<std::uint8_t>& votes) {
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  std::vector<std::uint8_t> toggles(grid.voxel_count(), 0), parity(std::size_t(grid.size[u]) * grid.size[v], 0);
+/// Which voxels' centres are inside, as seen along `axis`. A column that enters and does not leave says 'outside':
+/// there is a hole in the mesh.
+BitRows inside_along(const TriangleMesh& mesh, const VoxelGrid& grid, int axis, const std::stop_token& stop) {
+  Eigen::Vector3i across = grid.size;
+  across[axis] = 1;
+  BitRows toggles(grid.size), parity(across);
   for_each_triangle(mesh, grid, stop, [&](const Triangle& t) { mark_crossings(t, grid, axis, toggles, parity); });
-  const std::size_t step = axis == 0 ? 1 : axis == 1 ? grid.size.x() : std::size_t(grid.size.x()) * grid.size.y();
-  tbb::parallel_for(tbb::blocked_range<int>(0, grid.size[v]), [&](const auto& range) {
-    for (int j = range.begin(); j != range.end() && !stop.stop_requested(); ++j)
-      for (int i = 0; i < grid.size[u]; ++i) {
-        if (parity[std::size_t(j) * grid.size[u] + i]) continue;  // enters and does not leave: a hole in the mesh
-        Eigen::Vector3i cell = Eigen::Vector3i::Zero();
-        cell[u] = i;
-        cell[v] = j;
-        std::uint8_t inside = 0;
-        std::size_t voxel = grid.index(cell);
-        for (int k = 0; k < grid.size[axis]; ++k, voxel += step) votes[voxel] += inside ^= toggles[voxel];
-      }
-  });
-  throw_if_stopped(stop);
-}
-
-/// One of the two passes of the distance transform: every row takes the least of its own values and its neighbours'
-/// before it in the order of the pass, plus one. With all 26 neighbours this is exact for the Chebyshev distance
-/// (Rosenfeld and Pfaltz 1966).
-void sweep(const VoxelGrid& grid, int direction, const std::stop_token& stop, std::vector<std::uint8_t>& distance) {
-  const int nx = grid.size.x(), ny = grid.size.y(), nz = grid.size.z();
-  std::vector<std::uint8_t> nearest(nx + 2, 255);  // of the rows before; one voxel more at each end
-  const auto plus_one = [](std::uint8_t d) { return static_cast<std::uint8_t>(std::min<int>(d, 254) + 1); };
-  for (int k = 0; k < nz; ++k) {
-    throw_if_stopped(stop);
-    for (int j = 0; j < ny; ++j) {
-      const int z = direction > 0 ? k : nz - 1 - k, y = direction > 0 ? j : ny - 1 - j;
-      std::fill(nearest.begin(), nearest.end(), 255);
-      const std::array<std::array<int, 2>, 4> before = {
-          {{y - 1, z - direction}, {y, z - direction}, {y + 1, z - direction}, {y - direction, z}}};
-      for (const auto& [row_y, row_z] : before) {
-        if (row_y < 0 || row_y >= ny || row_z < 0 || row_z >= nz) continue;
-        const std::uint8_t* row = &distance[grid.index({0, row_y, row_z})];
-        for (int x = 0; x < nx; ++x) nearest[x + 1] = std::min(nearest[x + 1], row[x]);
-      }
-      std::uint8_t* row = &distance[grid.index({0, y, z})];
-      for (int x = 0; x < nx; ++x)
-        row[x] = std::min(row[x], plus_one(std::min({nearest[x], nearest[x + 1], nearest[x + 2]})));
-      std::uint8_t previous = 255;
-      for (int i = 0; i < nx; ++i) {
-        std::uint8_t& own = row[direction > 0 ? i : nx - 1 - i];
-        previous = own = std::min(own, plus_one(previous));
-      }
-    }
-  }
+  toggles.accumulate(axis, parity, stop);
+  return toggles;
 }
 
 }  // namespace
 
+int GroundTruth::surface_distance(std::size_t voxel) const {
+  const Eigen::Vector3i cell = grid.cell(static_cast<std::uint32_t>(voxel));
+  int nearest = 255;
+  touch.for_each([&](std::size_t touched) {
+    nearest = std::min(nearest, (grid.cell(static_cast<std::uint32_t>(touched)) - cell).cwiseAbs().maxCoeff());
+  });
+  return nearest;
+}
+
 GroundTruth ground_truth(const TriangleMesh& mesh, const VoxelGrid& grid, const std::stop_token& stop) {
   GroundTruth truth;
   truth.grid = grid;
-  truth.touch.assign(grid.voxel_count(), 0);
-  for_each_triangle(mesh, grid, stop, [&](const Triangle& t) { mark_touched(t, grid, truth.touch); });
-
-  truth.centre.assign(grid.voxel_count(), 0);
-  for (int axis = 0; axis < 3; ++axis) vote_inside(mesh, grid, axis, stop, truth.centre);
-  for (std::uint8_t& votes : truth.centre) votes = votes >= 2;
-
-  truth.surface_distance.resize(grid.voxel_count());
-  std::transform(truth.touch.begin(), truth.touch.end(), truth.surface_distance.begin(),
-                 [](std::uint8_t touched) { return touched ? 0 : 255; });
-  sweep(grid, +1, stop, truth.surface_distance);
-  sweep(grid, -1, stop, truth.surface_distance);
+  BitRows touch(grid.size);
+  for_each_triangle(mesh, grid, stop, [&](const Triangle& t) { mark_touched(t, grid, touch); });
+  truth.touch = touch.mask();
+  for (int voxels = 0; voxels < band_width; ++voxels) touch.grow(stop);
+  truth.near_surface = touch.mask();
+  truth.centre = BitRows::majority(inside_along(mesh, grid, 0, stop), inside_along(mesh, grid, 1, stop),
+                                   inside_along(mesh, grid, 2, stop))
+                     .mask();
   return truth;
 }
 

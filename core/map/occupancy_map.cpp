@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 
-#include "core/map/huge_pages.hpp"
 #include "core/map/ray_marks.hpp"
 #include "core/map/traversal.hpp"
+#include "core/map/uniform_bricks.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -22,9 +24,44 @@ namespace {
 enum Touch : std::uint8_t { untouched = 0, passed = 1, hit = 2 };
 using Touches = std::array<std::uint8_t, VoxelBricks::brick_voxels>;
 
+bool all_same(std::span<const std::uint8_t> touches) {
+  return std::memcmp(&touches[0], &touches[1], touches.size() - 1) == 0;  // each is as the one after it
+}
+
 /// How far each place of a map's bricks lies behind a surface, 0 where it does not. It is of one scan: a copy of the
-/// map has none.
-using Distances = std::vector<std::uint16_t, HugePages<std::uint16_t>>;
+/// map has none. Only where something is said it takes memory: the system gives the rest no pages.
+class Distances {
+ public:
+  explicit Distances(std::size_t bricks)
+      : places_(static_cast<std::uint16_t*>(std::calloc(bricks * volume, sizeof(std::uint16_t))), &std::free),
+        is_marked_(bricks) {
+    if (!places_ && bricks > 0) throw std::bad_alloc();
+  }
+
+  /// The smallest of several says how far it is. From several threads.
+  void mark(std::size_t place, std::uint16_t distance) {
+    std::atomic_ref<std::uint16_t> nearest(places_.get()[place]);
+    std::uint16_t seen = nearest.load(std::memory_order_relaxed);
+    while ((seen == 0 || distance < seen) &&
+           !nearest.compare_exchange_weak(seen, distance, std::memory_order_relaxed)) {
+    }
+    std::atomic_ref(is_marked_[place / volume]).store(1, std::memory_order_relaxed);
+  }
+
+  /// Calls `visit(brick, its distances)` for the bricks where any is not 0, several at once.
+  template <class Visit>
+  void for_each_brick(Visit visit) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, is_marked_.size(), 256), [&](const auto& range) {
+      for (std::size_t brick = range.begin(); brick != range.end(); ++brick)
+        if (is_marked_[brick]) visit(brick, &places_.get()[brick * volume]);
+    });
+  }
+
+ private:
+  static constexpr std::size_t volume = VoxelBricks::brick_voxels;
+  std::unique_ptr<std::uint16_t, decltype(&std::free)> places_;
+  std::vector<std::uint8_t> is_marked_;
+};
 
 /// Before any of it is taken: memory that is promised and not there ends the program without a word.
 const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
@@ -34,19 +71,6 @@ const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
                    fmt::format("a map of {} x {} x {} voxels", grid.size.x(), grid.size.y(), grid.size.z()),
                    "use coarser voxels or a smaller region");
   return grid;
-}
-
-/// Calls `visit(brick)` for the bricks in whose part of the distances anything is not 0, several at once.
-template <class Visit>
-void for_each_brick_behind(const Distances& distances, Visit visit) {
-  constexpr std::size_t volume = VoxelBricks::brick_voxels;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distances.size() / volume, 16), [&](const auto& range) {
-    for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
-      std::uint16_t any = 0;
-      for (std::size_t i = 0; i < volume; ++i) any |= distances[brick * volume + i];
-      if (any != 0) visit(brick);
-    }
-  });
 }
 
 }  // namespace
@@ -121,6 +145,7 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
   const auto lowest = static_cast<float>(nextview::log_odds(model_.clamp_min));
   const auto highest = static_cast<float>(nextview::log_odds(model_.clamp_max));
   VoxelBricks after = voxels_;  // the map stays as it was if memory runs out
+  UniformBricks uniform;
   const auto bricks = after.change_bricks();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 16), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
@@ -131,24 +156,37 @@ void OccupancyMap::add_terms(TouchesOf touches_of, Term term) {
         const float change = term(brick * VoxelBricks::brick_voxels + i, touches[i] == hit);
         return std::clamp(voxels.log_odds(i) + change, lowest, highest);
       };
-      const auto changes = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
-        return touches[i] != untouched && (!voxels.measured(i) || log_odds_after(voxels, i) != voxels.log_odds(i));
-      };
-      std::size_t i = 0;
-      while (i < touches.size() && !changes(*bricks[brick], i)) ++i;
-      if (i == touches.size()) continue;  // all at their clamps: it stays shared, too
-      VoxelBricks::Brick& voxels = bricks[brick].change();
-      float last = 0.0f;  // neighbours often have the same log-odds
-      VoxelClass last_class = class_of(last);
-      for (; i < touches.size(); ++i) {
-        if (touches[i] == untouched) continue;
-        const float log_odds = log_odds_after(voxels, i);
-        if (log_odds != last) last = log_odds, last_class = class_of(log_odds);
-        voxels.set_measured(i, log_odds, last_class);
-      }
+      touch_brick(bricks[brick], touches, log_odds_after, uniform);
     }
   });
   voxels_ = std::move(after);
+}
+
+/// Gives each touched voxel `log_odds_after(brick, voxel)`. A brick that it does not change stays shared.
+template <class LogOddsAfter>
+void OccupancyMap::touch_brick(CopyOnWrite<VoxelBricks::Brick>& brick, std::span<const std::uint8_t> touches,
+                               LogOddsAfter log_odds_after, UniformBricks& uniform) const {
+  const auto changes = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
+    return touches[i] != untouched && (!voxels.measured(i) || log_odds_after(voxels, i) != voxels.log_odds(i));
+  };
+  std::size_t i = 0;
+  while (i < touches.size() && !changes(*brick, i)) ++i;
+  if (i == touches.size()) return;  // all at their clamps
+  if (!model_.range_dependent() && brick->is_uniform() && all_same(touches)) {
+    const float log_odds = log_odds_after(*brick, 0);
+    brick = uniform.of(log_odds, class_of(log_odds));
+    return;
+  }
+  VoxelBricks::Brick& voxels = brick.change();
+  float last = 0.0f;  // neighbours often have the same log-odds
+  VoxelClass last_class = class_of(last);
+  for (; i < touches.size(); ++i) {
+    if (touches[i] == untouched) continue;
+    const float log_odds = log_odds_after(voxels, i);
+    if (log_odds != last) last = log_odds, last_class = class_of(log_odds);
+    voxels.set_measured(i, log_odds, last_class);
+  }
+  if (voxels.is_uniform()) brick = uniform.of(voxels.log_odds(0), voxels.voxel_class(0));
 }
 
 void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& origin) {
@@ -170,7 +208,7 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
-  Distances nearest_behind(voxels_.brick_count() * VoxelBricks::brick_voxels);
+  Distances nearest_behind(voxels_.brick_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.hits.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -182,11 +220,7 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std:
       walk_segment(grid_, point, end, [&](int x, int y, int z) {
         if (!grid_.contains({x, y, z}) || ++behind > 65535) return false;
         if (behind == 0) return true;
-        std::atomic_ref<std::uint16_t> nearest(nearest_behind[voxels_.place(x, y, z)]);
-        std::uint16_t seen = nearest.load(std::memory_order_relaxed);
-        while ((seen == 0 || behind < seen) &&
-               !nearest.compare_exchange_weak(seen, static_cast<std::uint16_t>(behind), std::memory_order_relaxed)) {
-        }
+        nearest_behind.mark(voxels_.place(x, y, z), static_cast<std::uint16_t>(behind));
         return true;
       });
     }
@@ -194,8 +228,7 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std:
   throw_if_stopped(stop);
   VoxelBricks after = voxels_;
   const auto bricks = after.change_bricks();
-  for_each_brick_behind(nearest_behind, [&](std::size_t brick) {
-    const std::uint16_t* const nearest = &nearest_behind[brick * VoxelBricks::brick_voxels];
+  nearest_behind.for_each_brick([&](std::size_t brick, const std::uint16_t* nearest) {
     const auto better = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
       if (nearest[i] == 0 || voxels.measured(i)) return false;
       const std::uint16_t known = voxels.occlusion_distance(i);

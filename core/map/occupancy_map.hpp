@@ -8,6 +8,8 @@
 
 namespace nextview {
 
+class UniformBricks;
+
 /// Ways of adding a scan to a map, to the same effect: by way of a local map of its own, as the paper does, or not.
 enum class Insertion { local_octree, direct };
 
@@ -58,6 +60,9 @@ class OccupancyMap {
   void add(TouchesOf touches_of, const Vector3& origin);
   template <class TouchesOf, class Term>
   void add_terms(TouchesOf touches_of, Term term);
+  template <class LogOddsAfter>
+  void touch_brick(CopyOnWrite<VoxelBricks::Brick>& brick, std::span<const std::uint8_t> touches,
+                   LogOddsAfter log_odds_after, UniformBricks& uniform) const;
 
   VoxelGrid grid_;
   InverseSensorModel model_;

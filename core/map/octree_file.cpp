@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/map/octree_bytes.hpp"
 
 namespace nextview {
 namespace {
@@ -20,31 +21,11 @@ namespace {
 constexpr int key_offset = 32768;  // OctoMap's key of lattice coordinate 0
 constexpr int tree_depth = 16;
 
-octomap::OcTree to_octree(const OccupancyMap& map) {
-  const InverseSensorModel& model = map.model();
-  octomap::OcTree tree(map.grid().resolution);
-  tree.setProbHit(model.hit);
-  tree.setProbMiss(model.miss);
-  tree.setClampingThresMin(model.clamp_min);
-  tree.setClampingThresMax(model.clamp_max);
-  tree.setOccupancyThres(model.occupancy_threshold);
-  std::uint32_t v = 0;
-  for (const Voxel& voxel : map.voxels()) {
-    const Eigen::Vector3i lattice = map.grid().first + map.grid().cell(v++);
-    if (!voxel.measured) continue;
-    const octomap::OcTreeKey key(lattice.x() + key_offset, lattice.y() + key_offset, lattice.z() + key_offset);
-    tree.setNodeValue(key, voxel.log_odds, true);
-  }
-  tree.updateInnerOccupancy();
-  tree.prune();
-  return tree;
-}
-
-/// As OctoMap writes it. Its own functions for whole files print "done." and warnings of their own to the terminal.
-void write_head(std::ostream& out, const octomap::OcTree& tree, bool binary) {
+/// As OctoMap writes it.
+void write_head(std::ostream& out, std::size_t nodes, double resolution, bool binary) {
   out << (binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file")
-      << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid " << tree.getTreeType()
-      << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+      << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\nsize " << nodes
+      << "\nres " << resolution << "\ndata\n";
 }
 
 /// Walks the bytes of a tree without building it. OctoMap's own reader trusts them: a truncated file sends it into the
@@ -159,14 +140,10 @@ void write_octree(const OccupancyMap& map, const std::filesystem::path& file) {
   const bool binary = file.extension() == ".bt";
   if (!binary && file.extension() != ".ot")
     throw std::runtime_error(fmt::format("{}: an octree's file must end in .ot or .bt", file.string()));
-  octomap::OcTree tree = to_octree(map);
-  if (binary) {
-    tree.toMaxLikelihood();
-    tree.prune();
-  }
+  const OctreeBytes tree = octree_bytes(map, binary);
   AtomicFile out(file);
-  write_head(out.stream(), tree, binary);
-  binary ? tree.writeBinaryData(out.stream()) : tree.writeData(out.stream());
+  write_head(out.stream(), tree.nodes, map.grid().resolution, binary);
+  out.stream() << tree.bytes;
   out.commit();
 }
 

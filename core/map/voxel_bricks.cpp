@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <stdexcept>
+#include <unordered_set>
 
 namespace nextview {
 namespace {
@@ -46,6 +48,12 @@ std::size_t VoxelBricks::Brick::measured_count() const {
   std::size_t count = 0;
   for (const std::uint8_t state : states_) count += state / is_measured;
   return count;
+}
+
+bool VoxelBricks::Brick::is_uniform() const {
+  // Each is as the one after it.
+  return told_.empty() && std::memcmp(&states_[0], &states_[1], brick_voxels - 1) == 0 &&
+         std::memcmp(&numbers_[0], &numbers_[1], (brick_voxels - 1) * sizeof(float)) == 0;
 }
 
 bool VoxelBricks::Brick::holds_nothing() const {
@@ -112,16 +120,19 @@ void VoxelBricks::Iterator::find() {
 
 std::size_t VoxelBricks::bytes() const {
   std::size_t bytes = 0;
+  std::unordered_set<const Brick*> counted = {&*empty_};
   for (const auto& brick : *table_)
-    if (!brick.shares_with(empty_)) bytes += brick->bytes();
+    if (counted.insert(&*brick).second) bytes += brick->bytes();
   return bytes;
 }
 
 std::size_t VoxelBricks::bytes_beside(const VoxelBricks& other) const {
   if (table_.shares_with(other.table_)) return 0;
   std::size_t own = table_->size() * sizeof(CopyOnWrite<Brick>);
-  for (std::size_t b = 0; b < table_->size(); ++b)
-    if (!(*table_)[b].shares_with((*other.table_)[b])) own += (*table_)[b]->bytes();
+  std::unordered_set<const Brick*> counted;
+  for (const auto& brick : *other.table_) counted.insert(&*brick);
+  for (const auto& brick : *table_)
+    if (counted.insert(&*brick).second) own += brick->bytes();
   return own;
 }
 

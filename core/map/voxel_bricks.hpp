@@ -12,8 +12,9 @@
 namespace nextview {
 
 /// The voxels of a grid in bricks of 8 x 8 x 8. A copy costs a pointer: copies share their bricks, and a brick is
-/// copied when one of them changes it. Of bricks that hold only unmeasured voxels there is one for all. Copies may live
-/// in different threads. A voxel of an occupancy map takes 5 bytes; what else a Voxel says follows from them.
+/// copied when one of them changes it. Of bricks that hold only unmeasured voxels there is one for all, and places
+/// whose voxels are all the same may share one (UniformBricks). Copies may live in different threads. A voxel of an
+/// occupancy map takes 5 bytes; what else a Voxel says follows from them.
 class VoxelBricks {
  public:
   static constexpr int edge = 8;  ///< of a brick [voxels]
@@ -41,6 +42,8 @@ class VoxelBricks {
     /// Whether probability and entropy follow from the log-odds, as in an occupancy map.
     bool follows_from_log_odds() const { return told_.empty(); }
     std::size_t measured_count() const;
+    /// Whether all its voxels are kept as the first one is.
+    bool is_uniform() const;
 
     void set_measured(std::size_t i, float log_odds, VoxelClass voxel_class) {
       numbers_[i] = log_odds;
@@ -143,7 +146,7 @@ class VoxelBricks {
 
   /// Whether nothing was ever said of a brick's voxels.
   bool is_untouched(std::size_t brick) const { return bricks()[brick].shares_with(empty_); }
-  /// What the bricks take that hold anything [bytes].
+  /// What the bricks take that hold anything [bytes]; one that several places share counts once.
   std::size_t bytes() const;
   /// Whether they are copies, and neither was changed since.
   bool shares_all_with(const VoxelBricks& other) const { return table_.shares_with(other.table_); }

@@ -59,11 +59,11 @@ std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowle
   {
     const std::scoped_lock lock(seeing_);
     if (last_seen_ && is_of(*last_seen_)) return last_seen_;
+    last_seen_.reset();  // before another takes as much memory
   }
-  SurfaceEvidence evidence = surface_evidence(known);
-  NewSurfaceField field(evidence, model_);
+  const SurfaceEvidence evidence = surface_evidence(known);
   auto seen = std::make_shared<const Seen>(
-      Seen{known.planning_voxels(), known.map.voxels(), std::move(evidence), std::move(field)});
+      Seen{known.planning_voxels(), known.map.voxels(), evidence.object().center(), NewSurfaceField(evidence, model_)});
   const std::scoped_lock lock(seeing_);
   last_seen_ = seen;
   return seen;
@@ -86,8 +86,8 @@ std::string NewSurfacePolicy::promise(double value, const PlanningState& state, 
   std::string text = short_text(value) + " cm² of new surface";
   if (!(value > 0.0)) return text;
   const std::shared_ptr<const Seen> seen = see(state.known);
-  const std::string where = side(explanation(*seen, state, T_world_camera), seen->evidence.object().center(),
-                                 seen->evidence.grid().resolution);
+  const std::string where =
+      side(explanation(*seen, state, T_world_camera), seen->object_centre, seen->field.grid().resolution);
   return where.empty() ? text : text + ", most of it " + where;
 }
 

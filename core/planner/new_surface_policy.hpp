@@ -31,7 +31,7 @@ class NewSurfacePolicy : public Policy {
   /// What maps say, and of which voxels.
   struct Seen {
     VoxelBricks planned_on, occlusions;
-    SurfaceEvidence evidence;
+    Vector3 object_centre;  ///< [m, world]
     NewSurfaceField field;
   };
   /// Made once for maps that are asked about several times in a row. From any thread.

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/evaluation/entropy.hpp"
+#include "core/map/brick_memory.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/progress/stopwatch.hpp"
@@ -26,10 +27,15 @@ std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) 
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, after.brick_count(), 64), std::size_t{0},
       [&](const auto& range, std::size_t count) {
+        BrickMemory<std::size_t> memory;
         for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
           const auto &was = before.bricks()[brick], &is = after.bricks()[brick];
           if (was.shares_with(is)) continue;
-          for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) count += is->measured(i) && !was->measured(i);
+          count += memory.of(*was, *is, [&] {
+            std::size_t newly = 0;
+            for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) newly += is->measured(i) && !was->measured(i);
+            return newly;
+          });
         }
         return count;
       },

@@ -34,7 +34,7 @@ std::string image_text(const DepthCameraConfig& sensor) {
 std::uint64_t map_bytes(const Configuration& c) {
   const VoxelGrid grid = configured_region(c);
   const std::uint64_t maps = c.map.insertion == Insertion::local_octree ? 2 : 1;
-  const std::uint64_t truth = c.evaluation.enabled ? 10 : 0, changed = 7;
+  const std::uint64_t truth = c.evaluation.enabled ? 1 : 0, changed = 7;
   const std::uint64_t sampler =
       make_policy(c.planner)->needs().posterior ? 88 + 25 * static_cast<std::uint64_t>(c.gibbs.sampler.chains) : 0;
   return maps * OccupancyMap::bytes(grid) + (truth + changed + sampler) * grid.voxel_count();

@@ -9,6 +9,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/bytes.hpp"
 #include "core/file/read_file.hpp"
+#include "core/map/brick_archive.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/session/timings.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "nextview state 1\n";
+constexpr std::string_view magic = "nextview state 2\n";
 constexpr std::uintmax_t largest = std::uintmax_t{4} << 30;  // [bytes]
 
 // What a value is made of, in one order for writing and reading; `Archive` is a ByteWriter or a ByteReader.
@@ -118,45 +119,23 @@ bool can_be_kept(const Session& session) {
          state.candidates == session.setup().candidates->candidates(nothing_scanned(session.setup(), {}).known);
 }
 
-void write_bricks(ByteWriter& writer, const VoxelBricks& voxels) {
-  const auto bricks = voxels.bricks();
-  std::vector<std::uint32_t> kept;
-  for (std::uint32_t b = 0; b < bricks.size(); ++b)
-    if (!bricks[b]->holds_nothing()) kept.push_back(b);
-  writer(kept);
-  for (const std::uint32_t b : kept) writer(bricks[b]->numbers(), bricks[b]->states());
-}
-
-void read_bricks(ByteReader& reader, OccupancyMap& map) {
-  std::vector<std::uint32_t> kept;
-  reader(kept);
-  const auto bricks = map.change_bricks();
-  for (const std::uint32_t b : kept) {
-    std::array<float, VoxelBricks::brick_voxels> numbers;
-    std::array<std::uint8_t, VoxelBricks::brick_voxels> states;
-    reader(numbers, states);
-    if (b >= bricks.size()) throw std::runtime_error("no such brick");
-    bricks[b].change().set(numbers, states);
-  }
-}
-
 void write_evaluation(ByteWriter& writer, const EvaluationState& evaluation) {
   const auto bytes = [](std::span<const std::uint8_t> span) {
     return std::vector<std::uint8_t>(span.begin(), span.end());
   };
   writer(evaluation.seen, bytes(evaluation.coverage.observed()), bytes(evaluation.coverage_paper.observed()),
-         evaluation.visited_voxels.bytes());
+         evaluation.visited_voxels.words());
 }
 
 void read_evaluation(ByteReader& reader, EvaluationState& evaluation) {
-  std::vector<std::uint8_t> seen, observed, observed_paper, visited;
+  std::vector<std::uint8_t> seen, observed, observed_paper;
+  std::vector<std::uint64_t> visited;
   reader(seen, observed, observed_paper, visited);
-  if (seen.size() != evaluation.seen.size() || visited.size() != evaluation.visited_voxels.size())
-    throw std::runtime_error("it is of another object");
+  if (seen.size() != evaluation.seen.size()) throw std::runtime_error("it is of another object");
   evaluation.seen = std::move(seen);
   evaluation.coverage.set_observed(std::move(observed));
   evaluation.coverage_paper.set_observed(std::move(observed_paper));
-  evaluation.visited_voxels.add(visited);
+  evaluation.visited_voxels.set_words(std::move(visited));
 }
 
 std::vector<float> coordinates(const PointCloud& points) {
@@ -238,7 +217,9 @@ bool write_state_file(const Session& session, std::span<const JournalStep> line,
   state.known.scanned->archive(writer);
   if (state.evaluation) write_evaluation(writer, *state.evaluation);
   for (const auto& scan : state.scans) writer(coordinates(scan->hits));
-  write_file(file, fmt::format("{}{}\n{}", magic, hash_of(writer.bytes).crc32, writer.bytes));
+  AtomicFile out(file);
+  out.stream() << magic << hash_of(writer.bytes).crc32 << '\n' << writer.bytes;
+  out.commit();
   return true;
 }
 

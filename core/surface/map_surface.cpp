@@ -52,8 +52,8 @@ Eigen::AlignedBox3i solid_box(const VoxelGrid& grid, std::span<const float> soli
 /// edges stay sharp and thin walls whole.
 class InsideField {
  public:
-  InsideField(const VoxelGrid& grid, std::span<const float> solid)
-      : grid_(grid), solid_(solid), walls_(wall_voxels(grid, solid)) {}
+  explicit InsideField(const SolidPart& part)
+      : grid_(part.grid), offset_(part.offset), solid_(part.solid), walls_(wall_voxels(grid_, solid_)) {}
 
   ScalarField make() const {
     const Eigen::AlignedBox3i box = solid_box(grid_, solid_);
@@ -61,7 +61,9 @@ class InsideField {
     ScalarField field;
     field.size = 2 * box.sizes() + Eigen::Vector3i::Constant(5);
     field.spacing = 0.5 * grid_.resolution;
-    field.origin = grid_.lower() + field.spacing * first.cast<double>();
+    // From the map's corner: the same place to the last bit, whatever part of it is looked at.
+    const Vector3 lower = (grid_.first - offset_).cast<double>() * grid_.resolution;
+    field.origin = lower + field.spacing * (first + 2 * offset_).cast<double>();
     field.values.resize(field.point_count());
     tbb::parallel_for(0, field.size.z(), [&](int z) {
       for (int y = 0; y < field.size.y(); ++y)
@@ -103,6 +105,7 @@ class InsideField {
   }
 
   const VoxelGrid& grid_;
+  Eigen::Vector3i offset_;
   std::span<const float> solid_;
   std::vector<Wall> walls_;
 };
@@ -135,19 +138,30 @@ float uncertainty(const ScalarField& field, const Vector3& vertex, double larges
   return static_cast<float>(std::min(0.25 / slope.norm(), largest));
 }
 
-bool is_seen(const VoxelGrid& grid, std::span<const Voxel> voxels, std::span<const float> solid,
-             const Vector3& vertex) {
+bool is_seen(const SolidPart& part, const Vector3& vertex) {
+  const VoxelGrid& grid = part.grid;
   int near = 0, measured = 0;
   const Eigen::Vector3i centre = grid.cell_at(vertex);
   for (int k = 0; k < 27; ++k) {
     const Eigen::Vector3i cell = centre + Eigen::Vector3i(k % 3, k / 3 % 3, k / 9) - Eigen::Vector3i::Ones();
     if (!grid.contains(cell)) continue;
     const std::uint32_t v = grid.index(cell);
-    if (solid[v] < solid_from || (grid.centre(v) - vertex).norm() > seen_within * grid.resolution) continue;
+    if (part.solid[v] < solid_from || (grid.centre(v) - vertex).norm() > seen_within * grid.resolution) continue;
     ++near;
-    measured += voxels[v].measured;
+    measured += part.measured[v];
   }
   return near > 0 && 2 * measured >= near;
+}
+
+/// Of bricks whose voxels are all the same one of them is asked.
+template <class Is>
+bool any_voxel(const VoxelBricks& voxels, Is is) {
+  return std::ranges::any_of(voxels.bricks(), [&](const auto& brick) {
+    bool found = false;
+    const std::size_t count = brick->is_uniform() ? 1 : VoxelBricks::brick_voxels;
+    for (std::size_t i = 0; i < count && !found; ++i) found = is((*brick)[i]);
+    return found;
+  });
 }
 
 }  // namespace
@@ -155,18 +169,22 @@ bool is_seen(const VoxelGrid& grid, std::span<const Voxel> voxels, std::span<con
 Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels) {
   if (voxels.size() != grid.voxel_count())
     throw std::invalid_argument("surface of a map: the voxels are not as many as the grid's");
-  if (std::any_of(voxels.begin(), voxels.end(), [](const Voxel& v) { return !std::isfinite(v.probability); }))
-    throw std::invalid_argument("surface of a map: a probability is not a number");
-  Surface surface;
-  if (std::none_of(voxels.begin(), voxels.end(), [](const Voxel& v) { return v.measured; }))
-    surface.why_empty = "nothing has been measured yet";
-  else if (std::none_of(voxels.begin(), voxels.end(),
-                        [](const Voxel& v) { return v.measured && v.probability >= solid_from; }))
-    surface.why_empty = "no voxel is occupied";
-  if (!surface.why_empty.empty()) return surface;
+  return map_surface(grid, VoxelBricks(grid.size, voxels));
+}
 
-  const std::vector<float> solid = solid_voxels(grid, voxels);
-  const ScalarField field = InsideField(grid, solid).make();
+Surface map_surface(const VoxelGrid& grid, const VoxelBricks& voxels, std::optional<double> prior) {
+  if (voxels.edges() != grid.size)
+    throw std::invalid_argument("surface of a map: the voxels are not as many as the grid's");
+  if (any_voxel(voxels, [](const Voxel& voxel) { return !std::isfinite(voxel.probability); }))
+    throw std::invalid_argument("surface of a map: a probability is not a number");
+  const DecidedVoxels decided(prior);
+  Surface surface;
+  const std::optional<SolidPart> part = solid_part(grid, voxels, decided);
+  if (!part) {
+    surface.why_empty = any_voxel(voxels, decided) ? "no voxel is occupied" : "nothing has been measured yet";
+    return surface;
+  }
+  const ScalarField field = InsideField(*part).make();
   surface.mesh = isosurface(field, solid_from);
   const std::size_t vertices = surface.mesh.vertices.size();
   surface.uncertainty.resize(vertices);
@@ -174,19 +192,9 @@ Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels) {
   tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
     const Vector3 vertex = surface.mesh.vertices[v].cast<double>();
     surface.uncertainty[v] = uncertainty(field, vertex, grid.resolution);
-    surface.seen[v] = is_seen(grid, voxels, solid, vertex);
+    surface.seen[v] = is_seen(*part, vertex);
   });
   return surface;
-}
-
-std::vector<Voxel> without_undecided(std::span<const Voxel> voxels, double prior) {
-  constexpr double factor = 2.0;
-  const auto with_odds = [](double odds) { return odds / (1.0 + odds); };
-  const double odds = prior / (1.0 - prior), low = with_odds(odds / factor), high = with_odds(odds * factor);
-  std::vector<Voxel> decided(voxels.begin(), voxels.end());
-  for (Voxel& voxel : decided)
-    voxel.measured = voxel.measured && !(voxel.probability > low && voxel.probability < high);
-  return decided;
 }
 
 }  // namespace nextview

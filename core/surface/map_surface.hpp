@@ -1,8 +1,8 @@
 #pragma once
+#include <optional>
 #include <span>
-#include <vector>
 
-#include "core/map/occupancy.hpp"
+#include "core/map/voxel_bricks.hpp"
 #include "core/map/voxel_grid.hpp"
 #include "core/surface/surface.hpp"
 
@@ -24,10 +24,9 @@ namespace nextview {
 /// occupied. The same on any number of threads.
 /// @throws std::invalid_argument if the number of voxels is not the grid's, or a probability is not finite.
 Surface map_surface(const VoxelGrid& grid, std::span<const Voxel> voxels);
-
-/// A Gibbs map as map_surface should see it: voxels whose odds the measurements have left within a factor of two of the
-/// `prior` probability's count as not measured. Rays reach into walls that attenuate them weakly and say nothing there;
-/// taken for free, walls would be hollow.
-std::vector<Voxel> without_undecided(std::span<const Voxel> voxels, double prior);
+/// The same of a map's voxels as they are kept; with a prior of a Gibbs map's, of which those that the measurements
+/// hardly moved from it count as not measured (DecidedVoxels). What it takes grows with the object, not with the
+/// region.
+Surface map_surface(const VoxelGrid& grid, const VoxelBricks& voxels, std::optional<double> prior = {});
 
 }  // namespace nextview

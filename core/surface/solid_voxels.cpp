@@ -26,23 +26,30 @@ void for_each_neighbour(const VoxelGrid& grid, std::uint32_t voxel, Neighbours n
       }
 }
 
-/// Calls `visit(piece)` with the voxels of each connected piece of those that `belongs` is true for.
-template <class Belongs, class Visit>
-void for_each_piece(const VoxelGrid& grid, Neighbours neighbours, Belongs belongs, Visit visit) {
-  std::vector<std::uint8_t> done(grid.voxel_count());
+/// Calls `visit(piece)` with the voxels of each connected piece of those that are set in `left`.
+template <class Visit>
+void for_each_piece(const VoxelGrid& grid, Neighbours neighbours, BitMask left, Visit visit) {
   std::vector<std::uint32_t> piece;
-  for (std::uint32_t start = 0; start < done.size(); ++start) {
-    if (done[start] || !belongs(start)) continue;
-    done[start] = 1;
-    piece.assign(1, start);
+  left.for_each([&](std::size_t start) {
+    if (!left[start]) return;  // it was in an earlier piece
+    left.set(start, false);
+    piece.assign(1, static_cast<std::uint32_t>(start));
     for (std::size_t next = 0; next < piece.size(); ++next)
       for_each_neighbour(grid, piece[next], neighbours, [&](std::uint32_t v) {
-        if (done[v] || !belongs(v)) return;
-        done[v] = 1;
+        if (!left[v]) return;
+        left.set(v, false);
         piece.push_back(v);
       });
     visit(piece);
-  }
+  });
+}
+
+template <class Belongs>
+BitMask mask_of(std::size_t count, Belongs belongs) {
+  BitMask mask(count);
+  for (std::size_t v = 0; v < count; ++v)
+    if (belongs(v)) mask.set(v);
+  return mask;
 }
 
 bool at_border(const VoxelGrid& grid, std::uint32_t voxel) {
@@ -51,69 +58,106 @@ bool at_border(const VoxelGrid& grid, std::uint32_t voxel) {
 }
 
 /// Free pockets that do not reach the region's border become solid. The largest stays in any case: a region may end
-/// where nothing was measured.
-void close_pockets(const VoxelGrid& grid, std::vector<float>& solid) {
+/// where nothing was measured. What is free beyond the part, `beyond` voxels, is one piece with what is free at the
+/// part's border within the map, and reaches the region's.
+void close_pockets(SolidPart& part, std::size_t beyond, const Eigen::AlignedBox3i& box) {
   std::vector<std::vector<std::uint32_t>> pockets;
   std::vector<std::uint32_t> largest;
   std::size_t largest_size = 0;
-  for_each_piece(
-      grid, Neighbours::faces, [&](std::uint32_t v) { return solid[v] < solid_from; },
-      [&](const std::vector<std::uint32_t>& piece) {
-        const bool reaches = std::any_of(piece.begin(), piece.end(), [&](auto v) { return at_border(grid, v); });
-        if (piece.size() > largest_size) {
-          largest_size = piece.size();
-          if (!largest.empty()) pockets.push_back(std::move(largest));
-          largest = reaches ? std::vector<std::uint32_t>{} : piece;
-        } else if (!reaches) {
-          pockets.push_back(piece);
-        }
-      });
+  const auto is_outside = [&](std::uint32_t v) { return !box.contains(part.grid.cell(v)); };
+  for_each_piece(part.grid, Neighbours::faces,
+                 mask_of(part.solid.size(), [&](auto v) { return part.solid[v] < solid_from; }),
+                 [&](const std::vector<std::uint32_t>& piece) {
+                   const bool reaches = std::ranges::any_of(piece, [&](auto v) { return at_border(part.grid, v); });
+                   const bool goes_on = beyond > 0 && reaches && std::ranges::any_of(piece, is_outside);
+                   const std::size_t size = piece.size() + (goes_on ? beyond : 0);
+                   if (size > largest_size) {
+                     largest_size = size;
+                     if (!largest.empty()) pockets.push_back(std::move(largest));
+                     largest = reaches ? std::vector<std::uint32_t>{} : piece;
+                   } else if (!reaches) {
+                     pockets.push_back(piece);
+                   }
+                 });
   for (const auto& pocket : pockets)
-    for (const std::uint32_t v : pocket) solid[v] = 1.0f;
+    for (const std::uint32_t v : pocket) part.solid[v] = 1.0f;
 }
 
-/// Which voxels say where the object is: measured and occupied, but for pieces of fewer than a few, which stray hits
-/// leave; the largest piece counts in any case.
-std::vector<std::uint8_t> trusted_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels) {
-  std::vector<std::uint8_t> trusted(voxels.size());
+/// Of a map, the voxels that are measured and occupied.
+BitMask occupied_voxels(const VoxelGrid& grid, const VoxelBricks& voxels, const DecidedVoxels& decided) {
+  const auto is_occupied = [&](const Voxel& voxel) { return decided(voxel) && voxel.probability >= solid_from; };
+  BitMask occupied(grid.voxel_count());
+  for (std::size_t b = 0; b < voxels.brick_count(); ++b) {
+    const VoxelBricks::Brick& brick = *voxels.bricks()[b];
+    if (brick.is_uniform() && !is_occupied(brick[0])) continue;
+    for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i)
+      if (is_occupied(brick[i])) occupied.set(grid.index(voxels.cell(b * VoxelBricks::brick_voxels + i)));
+  }
+  return occupied;
+}
+
+/// Which of the occupied voxels say where the object is: all but pieces of fewer than a few, which stray hits leave;
+/// the largest piece counts in any case.
+BitMask trusted_voxels(const VoxelGrid& grid, const BitMask& occupied) {
+  BitMask trusted = occupied;
   std::vector<std::vector<std::uint32_t>> small;
   std::size_t largest = 0;
-  for_each_piece(
-      grid, Neighbours::all, [&](std::uint32_t v) { return voxels[v].measured && voxels[v].probability >= solid_from; },
-      [&](const std::vector<std::uint32_t>& piece) {
-        for (const std::uint32_t v : piece) trusted[v] = 1;
-        largest = std::max(largest, piece.size());
-        if (piece.size() < min_trusted) small.push_back(piece);
-      });
+  for_each_piece(grid, Neighbours::all, occupied, [&](const std::vector<std::uint32_t>& piece) {
+    largest = std::max(largest, piece.size());
+    if (piece.size() < min_trusted) small.push_back(piece);
+  });
   for (const auto& piece : small)
     if (piece.size() < largest)
-      for (const std::uint32_t v : piece) trusted[v] = 0;
+      for (const std::uint32_t v : piece) trusted.set(v, false);
   return trusted;
 }
 
 /// Farther beyond the box of what is trusted than a quarter of its longest side nothing is solid, measured or not: the
 /// shadow of the object there would reach to the region's border.
-void clear_beyond(const VoxelGrid& grid, std::span<const std::uint8_t> trusted, std::vector<float>& solid) {
+Eigen::AlignedBox3i box_around(const VoxelGrid& grid, const BitMask& trusted) {
   Eigen::AlignedBox3i box;
-  for (std::uint32_t v = 0; v < solid.size(); ++v)
-    if (trusted[v]) box.extend(grid.cell(v));
-  if (!box.isEmpty()) {
-    const Eigen::Vector3i margin = Eigen::Vector3i::Constant(box.sizes().maxCoeff() / 4 + 1);
-    box = {box.min() - margin, box.max() + margin};
-  }
-  for (std::uint32_t v = 0; v < solid.size(); ++v)
-    if (solid[v] >= solid_from && !box.contains(grid.cell(v))) solid[v] = 0.0f;
+  trusted.for_each([&](std::size_t v) { box.extend(grid.cell(static_cast<std::uint32_t>(v))); });
+  const Eigen::Vector3i margin = Eigen::Vector3i::Constant(box.sizes().maxCoeff() / 4 + 1);
+  return {box.min() - margin, box.max() + margin};
 }
 
-/// Solid pieces that nothing trusted speaks for become free.
-void drop_other_pieces(const VoxelGrid& grid, std::span<const std::uint8_t> trusted, std::vector<float>& solid) {
-  const std::vector<float> before = solid;
-  for_each_piece(
-      grid, Neighbours::all, [&](std::uint32_t v) { return before[v] >= solid_from; },
-      [&](const std::vector<std::uint32_t>& piece) {
-        if (std::none_of(piece.begin(), piece.end(), [&](std::uint32_t v) { return trusted[v]; }))
-          for (const std::uint32_t v : piece) solid[v] = 0.0f;
-      });
+Eigen::AlignedBox3i whole(const VoxelGrid& grid) {
+  return {Eigen::Vector3i::Zero(), grid.size - Eigen::Vector3i::Ones()};
+}
+
+/// The box with two voxels more on each side. All of the grid if the box reaches from one of its sides to the other:
+/// what is free beyond might be in two pieces.
+Eigen::AlignedBox3i part_around(const VoxelGrid& grid, const Eigen::AlignedBox3i& box) {
+  const Eigen::AlignedBox3i all = whole(grid);
+  if (((box.min().array() <= 0) && (box.max().array() >= all.max().array())).any()) return all;
+  const Eigen::Vector3i more = Eigen::Vector3i::Constant(2);
+  return all.intersection(Eigen::AlignedBox3i(box.min() - more, box.max() + more));
+}
+
+/// Reads the part's voxels: those beyond `box` (counted in the part) are not solid.
+void read_part(const VoxelBricks& voxels, const DecidedVoxels& decided, const Eigen::AlignedBox3i& box,
+               SolidPart& part) {
+  part.solid.resize(part.grid.voxel_count());
+  part.measured = BitMask(part.solid.size());
+  for (std::uint32_t v = 0; v < part.solid.size(); ++v) {
+    const Eigen::Vector3i here = part.grid.cell(v), cell = here + part.offset;
+    const Voxel voxel = voxels.at(cell.x(), cell.y(), cell.z());
+    const bool measured = decided(voxel);
+    part.measured.set(v, measured);
+    part.solid[v] = measured ? voxel.probability : 1.0f;
+    if (part.solid[v] >= solid_from && !box.contains(here)) part.solid[v] = 0.0f;
+  }
+}
+
+/// Solid pieces that nothing trusted speaks for become free. `trusted` is of the map.
+void drop_other_pieces(const VoxelGrid& map, const BitMask& trusted, SolidPart& part) {
+  const auto is_trusted = [&](std::uint32_t v) { return trusted[map.index(part.grid.cell(v) + part.offset)]; };
+  for_each_piece(part.grid, Neighbours::all,
+                 mask_of(part.solid.size(), [&](auto v) { return part.solid[v] >= solid_from; }),
+                 [&](const std::vector<std::uint32_t>& piece) {
+                   if (std::ranges::none_of(piece, is_trusted))
+                     for (const std::uint32_t v : piece) part.solid[v] = 0.0f;
+                 });
 }
 
 /// Calls `visit(cells)` for each block of 2 x 2 x 2 solid voxels around a voxel.
@@ -148,14 +192,28 @@ bool in_lone_block(const VoxelGrid& grid, std::span<const float> solid, std::uin
 
 }  // namespace
 
-std::vector<float> solid_voxels(const VoxelGrid& grid, std::span<const Voxel> voxels) {
-  std::vector<float> solid(voxels.size());
-  for (std::size_t v = 0; v < voxels.size(); ++v) solid[v] = voxels[v].measured ? voxels[v].probability : 1.0f;
-  const std::vector<std::uint8_t> trusted = trusted_voxels(grid, voxels);
-  clear_beyond(grid, trusted, solid);
-  close_pockets(grid, solid);
-  drop_other_pieces(grid, trusted, solid);
-  return solid;
+DecidedVoxels::DecidedVoxels(std::optional<double> prior) {
+  if (!prior) return;
+  constexpr double factor = 2.0;
+  const auto with_odds = [](double odds) { return odds / (1.0 + odds); };
+  const double odds = *prior / (1.0 - *prior);
+  low_ = with_odds(odds / factor), high_ = with_odds(odds * factor);
+}
+
+std::optional<SolidPart> solid_part(const VoxelGrid& grid, const VoxelBricks& voxels, const DecidedVoxels& decided) {
+  const BitMask occupied = occupied_voxels(grid, voxels, decided);
+  if (occupied == BitMask(occupied.size())) return std::nullopt;
+  const BitMask trusted = trusted_voxels(grid, occupied);
+  const Eigen::AlignedBox3i box = box_around(grid, trusted);
+  const Eigen::AlignedBox3i place = part_around(grid, box);
+  SolidPart part;
+  part.offset = place.min();
+  part.grid = {grid.resolution, grid.first + part.offset, place.sizes() + Eigen::Vector3i::Ones()};
+  const Eigen::AlignedBox3i in_part(box.min() - part.offset, box.max() - part.offset);
+  read_part(voxels, decided, in_part, part);
+  close_pockets(part, grid.voxel_count() - part.grid.voxel_count(), in_part);
+  drop_other_pieces(grid, trusted, part);
+  return part;
 }
 
 std::vector<Wall> wall_voxels(const VoxelGrid& grid, std::span<const float> solid) {
@@ -171,13 +229,12 @@ std::vector<Wall> wall_voxels(const VoxelGrid& grid, std::span<const float> soli
     return found;
   };
   std::vector<std::uint32_t> specks, steps;
-  for_each_piece(
-      grid, Neighbours::all, [&](std::uint32_t v) { return walls[v] == Wall::thin; },
-      [&](const std::vector<std::uint32_t>& piece) {
-        const auto on_thick = [&](std::uint32_t v) { return beside(v, Wall::thick); };
-        if (piece.size() < fewest_thin && std::any_of(piece.begin(), piece.end(), on_thick))
-          specks.insert(specks.end(), piece.begin(), piece.end());
-      });
+  for_each_piece(grid, Neighbours::all, mask_of(walls.size(), [&](auto v) { return walls[v] == Wall::thin; }),
+                 [&](const std::vector<std::uint32_t>& piece) {
+                   const auto on_thick = [&](std::uint32_t v) { return beside(v, Wall::thick); };
+                   if (piece.size() < fewest_thin && std::any_of(piece.begin(), piece.end(), on_thick))
+                     specks.insert(specks.end(), piece.begin(), piece.end());
+                 });
   for (const std::uint32_t v : specks) walls[v] = Wall::speck;
   for (std::uint32_t v = 0; v < solid.size(); ++v)
     if (walls[v] == Wall::thick && beside(v, Wall::thin) && in_lone_block(grid, solid, v)) steps.push_back(v);

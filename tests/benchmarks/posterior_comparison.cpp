@@ -66,7 +66,7 @@ std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
   const GroundTruth& truth = c.truth.voxels;
   std::vector<std::uint8_t> mask(truth.touch.size());
   for (std::size_t v = 0; v < mask.size(); ++v)
-    mask[v] = c.truth.visited[v] && truth.surface_distance[v] <= band_width && !truth.hidden(v);
+    mask[v] = c.truth.visited[v] && truth.near_surface[v] && !truth.hidden(v);
   return mask;
 }
 
@@ -101,8 +101,8 @@ struct TermHistories {
       const std::vector<float> targets(target.begin(), target.end());
       histories.add(c.grid, c.scans, targets, mask);
     };
-    add(touch, c.truth.voxels.touch);
-    add(centre, c.truth.voxels.centre);
+    add(touch, c.truth.voxels.touch.bytes());
+    add(centre, c.truth.voxels.centre.bytes());
     add(posterior, gibbs.touch);
   }
 };

@@ -26,7 +26,7 @@ std::string text_of(const Voxel& voxel) {
 std::string truth_of(const GroundTruth& truth, std::uint32_t voxel) {
   if (truth.hidden(voxel)) return "inside the object, out of sight";
   if (truth.touch[voxel]) return "the surface touches it";
-  const int distance = truth.surface_distance[voxel];
+  const int distance = truth.surface_distance(voxel);
   return distance >= 255 ? "free, far from the surface"
                          : fmt::format("free, {} voxel{} from the surface", distance, distance == 1 ? "" : "s");
 }

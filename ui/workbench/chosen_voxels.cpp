@@ -19,9 +19,17 @@ std::vector<float> differences(const SessionSnapshot& s) {
 
 }  // namespace
 
-std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) {
-  return map == MapChoice::gibbs && s.gibbs ? *s.gibbs->voxels : *s.voxels;
+namespace {
+
+const LaidOutVoxels& chosen(const SessionSnapshot& s, MapChoice map) {
+  return map == MapChoice::gibbs && s.gibbs ? s.gibbs->voxels : s.voxels;
 }
+
+}  // namespace
+
+std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) { return *chosen(s, map); }
+
+VoxelBricks chosen_bricks(const SessionSnapshot& s, MapChoice map) { return chosen(s, map).bricks(s.grid.size); }
 
 std::vector<float> chosen_values(const SessionSnapshot& s, const LayerChoice& choice) {
   if (choice.colouring == VoxelColouring::by_difference) return differences(s);

@@ -9,6 +9,8 @@ namespace nextview {
 
 /// The voxels that the user has chosen to see: the conventional map's, or the Gibbs map's if there is one.
 std::span<const Voxel> chosen_voxels(const SessionSnapshot& snapshot, MapChoice map);
+/// As that map keeps them.
+VoxelBricks chosen_bricks(const SessionSnapshot& snapshot, MapChoice map);
 
 /// One per voxel, for the colourings that need values: Gibbs minus conventional probability, or the chosen map's error.
 /// Not a number where one of both says nothing; empty for other colourings, and without a truth.

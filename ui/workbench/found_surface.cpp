@@ -15,7 +15,7 @@ bool SurfaceQuestion::same_as(const SurfaceQuestion& other) const {
 std::shared_ptr<const FoundSurface> find_surface(const SurfaceQuestion& question, const Progress& progress,
                                                  const std::stop_token& stop) {
   const SessionSnapshot& s = *question.session;
-  ReconstructionInput input{s.grid, chosen_voxels(s, question.map)};
+  ReconstructionInput input{s.grid, chosen_bricks(s, question.map)};
   if (question.map == MapChoice::gibbs && s.gibbs) input.prior = s.gibbs->config.prior;
   for (const auto& scan : s.scans) input.scans.push_back(scan.get());
   if (s.setup->truth && s.mesh) {

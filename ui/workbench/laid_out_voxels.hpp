@@ -15,6 +15,8 @@ class LaidOutVoxels {
   explicit LaidOutVoxels(std::vector<Voxel> voxels);
   const std::vector<Voxel>& operator*() const;                      ///< @pre it is not null
   const std::vector<Voxel>* operator->() const { return &**this; }  ///< likewise
+  /// As a map keeps them. @pre it is not null, and they are of `size`
+  VoxelBricks bricks(const Eigen::Vector3i& size) const;
   explicit operator bool() const { return shared_ != nullptr; }
 
  private:

@@ -67,8 +67,9 @@ TEST(DeterministicSums, RealisedGain) {
 TEST(DeterministicSums, MapQuality) {
   GroundTruth truth;
   truth.grid = {0.01, {0, 0, 0}, size};
-  truth.touch.assign(count, 0), truth.centre.assign(count, 0), truth.surface_distance.assign(count, 9);
-  for (std::size_t v = 0; v < count; v += 3) truth.touch[v] = 1, truth.surface_distance[v] = 0;
+  truth.touch = truth.centre = BitMask(count);
+  for (std::size_t v = 0; v < count; v += 3) truth.touch.set(v);
+  truth.near_surface = truth.touch;
   const auto p = probabilities(voxels_of_many_magnitudes(4));
   expect_one_value("map quality", [&] {
     const MapQuality q = map_quality(p, truth, TruthConvention::touch, ScoredSet::region);

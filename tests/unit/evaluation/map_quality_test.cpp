@@ -15,9 +15,10 @@ GroundTruth truth_of(std::vector<std::uint8_t> touch, std::vector<std::uint8_t> 
                      std::vector<std::uint8_t> distance) {
   GroundTruth truth;
   truth.grid.size = {int(touch.size()), 1, 1};
-  truth.touch = std::move(touch);
-  truth.centre = std::move(centre);
-  truth.surface_distance = std::move(distance);
+  truth.touch = BitMask(touch);
+  truth.centre = BitMask(centre);
+  truth.near_surface = BitMask(distance.size());
+  for (std::size_t i = 0; i < distance.size(); ++i) truth.near_surface.set(i, distance[i] <= band_width);
   return truth;
 }
 
@@ -35,9 +36,9 @@ RandomCase random_case(std::size_t voxels) {
       {},
       {}};
   for (std::size_t i = 0; i < voxels; ++i) {
-    c.truth.touch[i] = uniform(generator) < 0.2f;
-    c.truth.centre[i] = uniform(generator) < 0.3f;
-    c.truth.surface_distance[i] = c.truth.touch[i] ? 0 : std::uint8_t(1.0f + 7.0f * uniform(generator));
+    c.truth.touch.set(i, uniform(generator) < 0.2f);
+    c.truth.centre.set(i, uniform(generator) < 0.3f);
+    c.truth.near_surface.set(i, c.truth.touch[i] || std::uint8_t(1.0f + 7.0f * uniform(generator)) <= band_width);
     c.visited.push_back(uniform(generator) < 0.6f);
     const float p = 1.2f * uniform(generator) - 0.1f;
     c.p.push_back(std::min(1.0f, std::max(0.0f, p)));  // 0 and 1 themselves occur
@@ -78,8 +79,7 @@ MapQuality twin(const RandomCase& c, bool by_touch, bool only_visited, bool only
   std::vector<std::size_t> scored;
   for (std::size_t i = 0; i < c.p.size(); ++i) {
     const bool hidden = c.truth.centre[i] == 1 && c.truth.touch[i] == 0;
-    if (!hidden && (c.visited[i] || !only_visited) && (c.truth.surface_distance[i] < 4 || !only_band))
-      scored.push_back(i);
+    if (!hidden && (c.visited[i] || !only_visited) && (c.truth.near_surface[i] || !only_band)) scored.push_back(i);
   }
   const auto is_occupied = [&](std::size_t i) { return (by_touch ? c.truth.touch : c.truth.centre)[i] == 1; };
   for (const std::size_t i : scored) {
@@ -93,7 +93,7 @@ MapQuality twin(const RandomCase& c, bool by_touch, bool only_visited, bool only
       if (said > 0) d += said * (std::log(said) - std::log(q_state));
     }
     divergence += d;
-    if (c.truth.surface_distance[i] > 3) outside += d;
+    if (!c.truth.near_surface[i]) outside += d;
   }
   for (int b = 0; b < 10; ++b) {
     long double sum = 0, occupied = 0, count = 0;

@@ -124,8 +124,7 @@ TEST(Openings, ABoreIsRound) {
   bore.width = 0.073;
   bore.centre.x() = 0.0017;
   bore.length = 0.073;
-  plate.truth.centre.assign(plate.truth.centre.size(), 0);
-  plate.truth.touch = plate.truth.centre;
+  plate.truth.touch = plate.truth.centre = BitMask(plate.truth.centre.size());
   std::size_t within = 0;
   for (std::uint32_t i = 0; i < plate.truth.grid.voxel_count(); ++i) {
     const Vector3 offset = plate.truth.grid.centre(i) - bore.centre;
@@ -200,6 +199,10 @@ TEST(Openings, SurfaceRecallCountsOccupiedVoxels) {
     if (plate.truth.touch[i] && touched++ % 2) half[i] = occupied_voxel, scored[i] = 1;
   EXPECT_NEAR(surface_recall(half, plate.truth, TruthConvention::touch).value(), 0.5, 0.001);
   EXPECT_EQ(surface_recall(half, plate.truth, TruthConvention::touch, scored), 1.0);
+  BitMask mask(scored.size());
+  mask.add(scored);
+  const VoxelBricks bricks(plate.truth.grid.size, half);
+  EXPECT_EQ(surface_recall(bricks, plate.truth, TruthConvention::touch, mask), 1.0) << "of a map as it is kept";
   scored.assign(scored.size(), 0);
   EXPECT_FALSE(surface_recall(half, plate.truth, TruthConvention::touch, scored).has_value());
 }
@@ -242,6 +245,8 @@ TEST(Openings, BadInputIsRefused) {
   const std::vector<Voxel> few(3);
   EXPECT_THROW(score_opening(plate.slot, few, plate.truth, TruthConvention::touch), std::invalid_argument);
   EXPECT_THROW(surface_recall(few, plate.truth, TruthConvention::touch), std::invalid_argument);
+  const VoxelBricks bricks(plate.truth.grid.size);
+  EXPECT_THROW(surface_recall(bricks, plate.truth, TruthConvention::touch, BitMask(3)), std::invalid_argument);
 }
 
 }  // namespace

@@ -17,9 +17,7 @@ struct Plate {
     truth.grid.first = {-20, -20, -8};
     truth.grid.size = {40, 40, 16};
     const std::size_t voxels = truth.grid.voxel_count();
-    truth.touch.assign(voxels, 0);
-    truth.centre.assign(voxels, 0);
-    truth.surface_distance.assign(voxels, 255);
+    truth.touch = truth.centre = truth.near_surface = BitMask(voxels);
     const Vector3 half_plate(0.1501, 0.1497, 0.015), half_slot(0.5 * width, 0.06, 1.0);
     for (std::uint32_t i = 0; i < voxels; ++i) {
       const Vector3 from_plate = truth.grid.centre(i).cwiseAbs(),
@@ -28,10 +26,10 @@ struct Plate {
         return (p.array() < half.array() + margin).all();
       };
       const double h = 0.5 * edge;
-      truth.centre[i] = within(from_plate, half_plate, 0) && !within(from_slot, half_slot, 0);
+      truth.centre.set(i, within(from_plate, half_plate, 0) && !within(from_slot, half_slot, 0));
       const bool outside = !within(from_plate, half_plate, h) || within(from_slot, half_slot, -h);
       const bool inside = within(from_plate, half_plate, -h) && !within(from_slot, half_slot, h);
-      truth.touch[i] = !outside && !inside;
+      truth.touch.set(i, !outside && !inside);
     }
   }
 

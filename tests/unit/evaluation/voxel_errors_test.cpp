@@ -13,9 +13,8 @@ namespace {
 TEST(VoxelErrors, ByHand) {
   GroundTruth truth;
   truth.grid.size = {5, 1, 1};
-  truth.touch = {0, 1, 1, 0, 0};
-  truth.centre = {0, 0, 1, 1, 0};  // the fourth is hidden
-  truth.surface_distance = {1, 0, 0, 1, 2};
+  truth.touch = BitMask(std::vector<std::uint8_t>{0, 1, 1, 0, 0});
+  truth.centre = BitMask(std::vector<std::uint8_t>{0, 0, 1, 1, 0});  // the fourth is hidden
   const std::vector<float> p = {0.25f, 0.75f, 0.5f, 0.9f, 0.0f};
   const auto touch = voxel_errors(p, truth, TruthConvention::touch);
   const auto centre = voxel_errors(p, truth, TruthConvention::centre);
@@ -60,7 +59,7 @@ TEST(VoxelErrors, MakeTheBrierScore) {
 TEST(VoxelErrors, RefuseOtherLengths) {
   GroundTruth truth;
   truth.grid.size = {2, 1, 1};
-  truth.touch = truth.centre = truth.surface_distance = {0, 0};
+  truth.touch = truth.centre = BitMask(2);
   const std::vector<float> one(1), two(2);
   const std::vector<std::uint8_t> mask(1);
   EXPECT_THROW(voxel_errors(one, truth, TruthConvention::touch), std::invalid_argument);

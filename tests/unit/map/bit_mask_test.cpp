@@ -35,7 +35,28 @@ TEST(BitMask, HoldsWhatWasAdded) {
     EXPECT_EQ(same == mask, mask.bytes() == std::vector<std::uint8_t>(size));
     same.add(expected);
     EXPECT_EQ(same, mask);
+    EXPECT_EQ(BitMask(expected), mask);
+    BitMask by_words(size), one_by_one(size);
+    by_words.set_words(mask.words());
+    EXPECT_EQ(by_words, mask);
+    mask.for_each([&](std::size_t i) { one_by_one.set(i); });
+    EXPECT_EQ(one_by_one, mask);
   }
+}
+
+TEST(BitMask, TakesWordsFromAnywhereAndRefusesThoseOfAnother) {
+  for (const std::size_t first : {0, 1, 63, 64, 70}) {
+    BitMask mask(140);
+    mask.add_word(first, 0b1011);
+    std::vector<std::size_t> set;
+    mask.for_each([&](std::size_t i) { set.push_back(i - first); });
+    EXPECT_EQ(set, (std::vector<std::size_t>{0, 1, 3})) << first;
+    mask.set(first, false);
+    EXPECT_FALSE(mask[first]);
+  }
+  BitMask mask(65);
+  EXPECT_THROW(mask.set_words({1}), std::invalid_argument);
+  EXPECT_THROW(mask.set_words({1, 2}), std::invalid_argument) << "the 67th of 65";
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST(GroundTruth, AnObjectAroundTheGridHidesAllOfIt) {
   const GroundTruth truth = ground_truth(box(Vector3::Constant(-0.5), Vector3::Constant(0.6)), grid_around_origin());
   for (std::size_t i = 0; i < truth.grid.voxel_count(); ++i) {
     ASSERT_TRUE(truth.hidden(i));
-    ASSERT_EQ(truth.surface_distance[i], 255);
+    ASSERT_EQ(truth.surface_distance(i), 255);
   }
 }
 
@@ -116,9 +116,9 @@ TEST(GroundTruth, NoTrianglesAndTrianglesFarAwayTouchNothing) {
   far.triangles = {{0, 1, 2}};
   for (const TriangleMesh& mesh : {TriangleMesh{}, far}) {
     const GroundTruth truth = ground_truth(mesh, grid_around_origin());
-    EXPECT_EQ(std::count(truth.touch.begin(), truth.touch.end(), 0), std::ptrdiff_t(truth.grid.voxel_count()));
-    EXPECT_EQ(std::count(truth.centre.begin(), truth.centre.end(), 0), std::ptrdiff_t(truth.grid.voxel_count()));
-    EXPECT_EQ(truth.surface_distance.at(100), 255);
+    EXPECT_EQ(truth.touch, BitMask(truth.grid.voxel_count()));
+    EXPECT_EQ(truth.centre, BitMask(truth.grid.voxel_count()));
+    EXPECT_EQ(truth.surface_distance(100), 255);
   }
 }
 
@@ -142,7 +142,8 @@ TEST(GroundTruthDistance, AgreesWithAllPairsOfVoxels) {
     for (std::uint32_t i = 0; i < truth.grid.voxel_count(); ++i) {
       int nearest = 255;
       for (const auto& cell : touched) nearest = std::min(nearest, (cell - truth.grid.cell(i)).cwiseAbs().maxCoeff());
-      ASSERT_EQ(int(truth.surface_distance[i]), nearest) << triangles << " triangles, voxel " << i;
+      ASSERT_EQ(truth.surface_distance(i), nearest) << triangles << " triangles, voxel " << i;
+      ASSERT_EQ(truth.near_surface[i], nearest <= band_width) << triangles << " triangles, voxel " << i;
     }
   }
 }
@@ -155,7 +156,7 @@ TEST(GroundTruthDistance, StopsAt255) {
   mesh.triangles = {{0, 1, 2}};
   const GroundTruth truth = ground_truth(mesh, grid);
   for (std::uint32_t i = 0; i < grid.voxel_count(); ++i)
-    ASSERT_EQ(int(truth.surface_distance[i]),
+    ASSERT_EQ(truth.surface_distance(i),
               std::min(255, (grid.cell(i) - Eigen::Vector3i(300, 0, 0)).cwiseAbs().maxCoeff()));
 }
 
@@ -167,7 +168,7 @@ TEST(GroundTruth, DoesNotDependOnTheNumberOfThreads) {
   const GroundTruth one = ground_truth(mesh, grid_around_origin());
   EXPECT_EQ(one.touch, many.touch);
   EXPECT_EQ(one.centre, many.centre);
-  EXPECT_EQ(one.surface_distance, many.surface_distance);
+  EXPECT_EQ(one.near_surface, many.near_surface);
 }
 
 }  // namespace

@@ -84,11 +84,17 @@ class InspectedVoxel : public InspectorPanel {
     voxels[voxel_] = {0.75f, 0.5625f, VoxelClass::occupied, true, 0};
     scan_->voxels = LaidOutVoxels(voxels);
     auto truth = *scan_->truth;
-    truth.touch[voxel_] = truth.centre[voxel_] = 0;
-    truth.surface_distance[voxel_] = 3;
+    touch_alone(truth, {4, 2, 3});
+    truth.centre.set(voxel_, false);
     scan_->truth = std::make_shared<const GroundTruth>(truth);
     desk_.window.selection.voxel = voxel_;
     desk_.inspection.voxel = VoxelInspection{voxel_, {{2, 30, 0.85f, 1.25f, 0.777f}, {}}, {{}, {}}, {}, {}};
+  }
+
+  /// The surface touches this voxel and no other.
+  static void touch_alone(GroundTruth& truth, const Eigen::Vector3i& cell) {
+    truth.touch = BitMask(truth.touch.size());
+    truth.touch.set(truth.grid.index(cell));
   }
 
   const std::uint32_t voxel_ = scan_->grid.index({1, 2, 3});
@@ -118,10 +124,10 @@ TEST_F(InspectedVoxel, TheTruthIsSaidInWords) {
     scan_->truth = std::make_shared<const GroundTruth>(truth);
     EXPECT_THAT(panel(), HasSubstr(words));
   };
-  expect_truth([&](GroundTruth& t) { t.surface_distance[voxel_] = 1; }, "free, 1 voxel from the surface");
-  expect_truth([&](GroundTruth& t) { t.surface_distance[voxel_] = 255; }, "free, far from the surface");
-  expect_truth([&](GroundTruth& t) { t.centre[voxel_] = 1; }, "inside the object, out of sight");
-  expect_truth([&](GroundTruth& t) { t.touch[voxel_] = 1; }, "the surface touches it");
+  expect_truth([&](GroundTruth& t) { touch_alone(t, {2, 3, 4}); }, "free, 1 voxel from the surface");
+  expect_truth([&](GroundTruth& t) { t.touch = BitMask(t.touch.size()); }, "free, far from the surface");
+  expect_truth([&](GroundTruth& t) { t.centre.set(voxel_); }, "inside the object, out of sight");
+  expect_truth([&](GroundTruth& t) { t.touch.set(voxel_); }, "the surface touches it");
 }
 
 TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {

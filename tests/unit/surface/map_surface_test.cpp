@@ -71,7 +71,7 @@ TEST(MapSurface, NothingToShowSaysWhy) {
     EXPECT_FALSE(surface.why_empty.empty());
   }
   EXPECT_NE(map_surface(grid, unknown).why_empty, map_surface(grid, free_space(grid)).why_empty);
-  EXPECT_TRUE(complete(map_surface(VoxelGrid{}, {}), edge)) << "a grid without voxels";
+  EXPECT_TRUE(complete(map_surface(VoxelGrid{}, std::vector<Voxel>()), edge)) << "a grid without voxels";
 }
 
 TEST(MapSurface, RefusesVoxelsThatAreNotTheGrids) {

@@ -105,6 +105,20 @@ std::optional<std::vector<float>> solid_twin(const VoxelGrid& grid, const std::v
   return solid;
 }
 
+/// Of each voxel of the map how solid it is; what is beyond the part is free.
+std::vector<float> solid_voxels(const VoxelGrid& grid, const std::vector<Voxel>& voxels) {
+  const std::optional<SolidPart> part = solid_part(grid, VoxelBricks(grid.size, voxels), DecidedVoxels());
+  std::vector<float> solid;
+  for (std::uint32_t v = 0; v < voxels.size(); ++v) {
+    const Eigen::Vector3i cell = grid.cell(v) - (part ? part->offset : Eigen::Vector3i::Zero().eval());
+    const float p = voxels[v].measured ? voxels[v].probability : 1.0f;
+    const bool inside = part && part->grid.contains(cell);
+    if (inside) EXPECT_EQ(part->measured[part->grid.index(cell)], voxels[v].measured);
+    solid.push_back(inside ? part->solid[part->grid.index(cell)] : p < solid_from ? p : 0.0f);
+  }
+  return solid;
+}
+
 TEST(SolidVoxels, RandomMapsAgreeWithThePlainTwin) {
   std::mt19937 random(5);
   std::size_t closed = 0, dropped = 0, compared = 0;

@@ -1,0 +1,114 @@
+#include "core/map/bit_rows.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "core/progress/stopped.hpp"
+
+namespace nextview {
+namespace {
+
+std::uint64_t bit_of(const Eigen::Vector3i& cell) { return std::uint64_t{1} << (cell.x() % 64); }
+
+/// Of each bit, the parity of those up to it.
+std::uint64_t parities(std::uint64_t word) {
+  for (int shift = 1; shift < 64; shift *= 2) word ^= word << shift;
+  return word;
+}
+
+}  // namespace
+
+BitRows::BitRows(const Eigen::Vector3i& size)
+    : size_(size),
+      row_words_((std::size_t(size.x()) + 63) / 64),
+      last_word_(~std::uint64_t{0} >> (64 * row_words_ - std::size_t(size.x()))),
+      words_(row_words_ * std::size_t(size.y()) * std::size_t(size.z())) {}
+
+void BitRows::set(const Eigen::Vector3i& cell) {
+  std::atomic_ref(word_of(cell)).fetch_or(bit_of(cell), std::memory_order_relaxed);
+}
+
+void BitRows::flip(const Eigen::Vector3i& cell) {
+  std::atomic_ref(word_of(cell)).fetch_xor(bit_of(cell), std::memory_order_relaxed);
+}
+
+/// Calls `visit(other, rows)` for the rows that lie one after the other along y or z, at the place `other` along the
+/// third axis: `rows(k)` says where each begins. Several at once.
+template <class Visit>
+void BitRows::for_each_column_of_rows(int axis, const std::stop_token& stop, Visit visit) {
+  tbb::parallel_for(0, axis == 1 ? size_.z() : size_.y(), [&](int other) {
+    if (!stop.stop_requested()) visit(other, [&, other](int k) { return axis == 1 ? row(k, other) : row(other, k); });
+  });
+  throw_if_stopped(stop);
+}
+
+void BitRows::accumulate(int axis, const BitRows& left_out, const std::stop_token& stop) {
+  if (axis > 0)
+    return for_each_column_of_rows(axis, stop, [&](int other, auto rows) {
+      const std::uint64_t* const out = &left_out.words_[std::size_t(other) * row_words_];
+      std::vector<std::uint64_t> parity(row_words_);
+      for (int k = 0; k < size_[axis]; ++k)
+        for (std::size_t w = 0; w < row_words_; ++w) {
+          std::uint64_t& word = words_[rows(k) + w];
+          word = (parity[w] ^= word) & ~out[w];
+        }
+    });
+  for_each_column_of_rows(1, stop, [&](int, auto rows) {
+    for (int y = 0; y < size_.y(); ++y) {
+      std::uint64_t carried = 0;
+      const std::uint64_t kept = left_out.words_[rows(y) / row_words_] & 1 ? 0 : ~std::uint64_t{0};
+      for (std::size_t w = 0; w < row_words_; ++w) {
+        const std::uint64_t parity = parities(words_[rows(y) + w]) ^ carried;
+        carried = parity >> 63 ? ~std::uint64_t{0} : 0;
+        words_[rows(y) + w] = parity & kept;
+      }
+    }
+  });
+}
+
+void BitRows::grow(const std::stop_token& stop) {
+  grow_along_rows();
+  for (const int axis : {1, 2})
+    for_each_column_of_rows(axis, stop, [&](int, auto rows) {
+      std::vector<std::uint64_t> before(row_words_);
+      for (int k = 0; k < size_[axis]; ++k)
+        for (std::size_t w = 0; w < row_words_; ++w) {
+          std::uint64_t& word = words_[rows(k) + w];
+          const std::uint64_t own = word, after = k + 1 < size_[axis] ? words_[rows(k + 1) + w] : 0;
+          word = before[w] | own | after;
+          before[w] = own;
+        }
+    });
+}
+
+void BitRows::grow_along_rows() {
+  std::uint64_t before = 0;
+  for (std::size_t w = 0; w < words_.size(); ++w) {
+    const bool is_first = w % row_words_ == 0, is_last = (w + 1) % row_words_ == 0;
+    const std::uint64_t own = words_[w], from_left = is_first ? 0 : before >> 63,
+                        from_right = is_last ? 0 : words_[w + 1] << 63;
+    words_[w] = own | own << 1 | own >> 1 | from_left | from_right;
+    if (is_last) words_[w] &= last_word_;
+    before = own;
+  }
+}
+
+BitRows BitRows::majority(const BitRows& a, const BitRows& b, const BitRows& c) {
+  BitRows most = a;
+  for (std::size_t w = 0; w < most.words_.size(); ++w)
+    most.words_[w] = (a.words_[w] & b.words_[w]) | (c.words_[w] & (a.words_[w] | b.words_[w]));
+  return most;
+}
+
+BitMask BitRows::mask() const {
+  const std::size_t length = std::size_t(size_.x());
+  BitMask mask(length * std::size_t(size_.y()) * std::size_t(size_.z()));
+  for (std::size_t w = 0; w < words_.size(); ++w) {
+    const std::size_t in_row = w % row_words_;
+    mask.add_word(w / row_words_ * length + 64 * in_row, in_row + 1 == row_words_ ? words_[w] & last_word_ : words_[w]);
+  }
+  return mask;
+}
+
+}  // namespace nextview
