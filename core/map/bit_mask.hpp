@@ -11,7 +11,8 @@ namespace nextview {
 /// A flag for each of many things, in an eighth of a byte. All false at first.
 class BitMask {
  public:
-  explicit BitMask(std::size_t size = 0) : size_(size), words_((size + 63) / 64) {}
+  BitMask() = default;
+  explicit BitMask(std::size_t size) : size_(size), words_((size + 63) / 64) {}
 
   /// Of those that are not 0 in `bytes`, one each.
   explicit BitMask(std::span<const std::uint8_t> bytes) : BitMask(bytes.size()) { add(bytes); }
@@ -46,7 +47,7 @@ class BitMask {
   bool operator==(const BitMask&) const = default;
 
  private:
-  std::size_t size_;
+  std::size_t size_ = 0;
   std::vector<std::uint64_t> words_;
 };
 

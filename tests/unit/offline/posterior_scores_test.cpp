@@ -29,7 +29,9 @@ struct TwoReadOuts {
 
   TwoReadOuts() {
     const VoxelGrid grid{0.1, {0, 0, 0}, {2, 1, 1}};
-    truth.voxels = {grid, {1, 0}, {0, 0}, {0, 1}};
+    truth.voxels = {grid, BitMask(2), BitMask(2), BitMask(2)};
+    truth.voxels.touch.set(0);
+    for (const std::size_t v : {0u, 1u}) truth.voxels.near_surface.set(v);
     truth.visited = {1, 1};
     posterior.grid = grid;
     posterior.occupied = {0.3f, 0.3f}, posterior.informed = {1, 1};

@@ -113,7 +113,9 @@ std::vector<float> solid_voxels(const VoxelGrid& grid, const std::vector<Voxel>&
     const Eigen::Vector3i cell = grid.cell(v) - (part ? part->offset : Eigen::Vector3i::Zero().eval());
     const float p = voxels[v].measured ? voxels[v].probability : 1.0f;
     const bool inside = part && part->grid.contains(cell);
-    if (inside) EXPECT_EQ(part->measured[part->grid.index(cell)], voxels[v].measured);
+    if (inside) {
+      EXPECT_EQ(part->measured[part->grid.index(cell)], voxels[v].measured);
+    }
     solid.push_back(inside ? part->solid[part->grid.index(cell)] : p < solid_from ? p : 0.0f);
   }
   return solid;
