@@ -5,8 +5,8 @@
 
 #include "core/setting/setting.hpp"
 #include "core/view/length_unit.hpp"
-#include "core/view/up_axis.hpp"
 #include "core/view/pose.hpp"
+#include "core/view/up_axis.hpp"
 
 namespace nextview {
 
