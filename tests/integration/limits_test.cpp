@@ -120,7 +120,7 @@ std::string limited(const std::string& ulimit) { return fmt::format(R"(sh -c 'ul
 
 TEST_F(Limits, AMapThatDoesNotFitIsRefusedWithItsSize) {
   const std::string scan = "scan " + box() + " --no-pictures --map.resolution 0.0025 --overwrite --out " + out();
-  const Result run = nextview_behind(limited("-v 3000000"), scan);
+  const Result run = nextview_behind(limited("-v 1500000"), scan);
   expect_one_line(run, "map");
   EXPECT_THAT(run.err, HasSubstr("a map of 512 x 512 x 512 voxels needs"));
   EXPECT_THAT(run.err, HasSubstr("GB are available: use coarser voxels (--map.resolution)"));
