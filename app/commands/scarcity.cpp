@@ -1,5 +1,6 @@
 #include "app/commands/scarcity.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/mman.h>
@@ -33,6 +34,8 @@ constexpr const char* last_words =
     "nextview: out of memory while drawing or computing: raise the limit (ulimit -v), use coarser voxels "
     "(--map.resolution) or fewer pixels (--sensor.width), or --no-pictures\n";
 constexpr const char* ended_by_library = "nextview: a library has ended the program, and says why above\n";
+constexpr const char* display_lost =
+    "nextview: the display has gone away; views that were taken are kept, and the next start offers to go on\n";
 constexpr const char* no_threads =
     "nextview: no thread can be started: raise the limits (ulimit -u, ulimit -v), or use --threads 1\n";
 
@@ -66,7 +69,7 @@ void on_refusal() {
   throw std::bad_alloc();
 }
 
-/// OpenMP's runtime, and Xlib's where a display goes away, end the program with 1, which is no end of ours.
+/// OpenMP's runtime ends the program with 1, which is no end of ours.
 void on_end(int exit_code, void*) {
   if (exit_code == EXIT_FAILURE && ::getpid() == own_process) end_with(ended_by_library);
 }
@@ -113,6 +116,14 @@ void watch_for_faults() {
   ::on_exit(on_end, nullptr);
 }
 
+/// Xlib, which is there with GLFW, would end the program by exit(), which takes away what other threads still use.
+void watch_for_lost_display() {
+  using Handler = int (*)(void* display);
+  using SetHandler = Handler (*)(Handler);
+  if (const auto set_handler = reinterpret_cast<SetHandler>(::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler")))
+    set_handler([](void*) -> int { end_with(display_lost); });
+}
+
 bool address_space_is_limited() {
   rlimit limit{};
   return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
@@ -122,6 +133,7 @@ bool address_space_is_limited() {
 
 void prepare_for_scarcity() {
   watch_for_faults();
+  watch_for_lost_display();
   // Each thread's heap reserves 64 MB of addresses.
   if (address_space_is_limited()) ::mallopt(M_ARENA_MAX, 1);
   const int workers = static_cast<int>(std::thread::hardware_concurrency()) - 1, watchers = 1;
