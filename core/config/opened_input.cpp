@@ -8,6 +8,7 @@
 #include "core/config/configuration_text.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
+#include "core/file/gzip_file.hpp"
 #include "core/file/lower_case.hpp"
 #include "core/file/png_text.hpp"
 #include "core/mesh/mesh_types.hpp"
@@ -50,7 +51,7 @@ Configuration with_input(Configuration configuration, const std::filesystem::pat
 }
 
 std::string not_an_input(const std::filesystem::path& file) {
-  const std::filesystem::path unpacked = file.extension() == ".gz" ? file.stem() : file;
+  const std::filesystem::path unpacked = without_gz(file);
   if (ends_in_one_of(recordings, file) || ends_in_one_of(others, unpacked)) return "";
   return not_a_mesh_type(lower_case_extension(unpacked));
 }

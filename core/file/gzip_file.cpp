@@ -48,4 +48,12 @@ std::string read_gzip_file(const std::filesystem::path& file, std::uintmax_t lar
   return content;
 }
 
+std::string read_plain_or_gzip(const std::filesystem::path& file, std::uintmax_t largest) {
+  return file.extension() == ".gz" ? read_gzip_file(file, largest) : read_file(file, largest);
+}
+
+std::filesystem::path without_gz(const std::filesystem::path& file) {
+  return file.extension() == ".gz" ? file.parent_path() / file.stem() : file;
+}
+
 }  // namespace nextview

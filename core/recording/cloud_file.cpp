@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/recording/frame_files.hpp"
+#include "core/file/gzip_file.hpp"
 
 namespace nextview {
 namespace {

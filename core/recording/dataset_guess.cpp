@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "core/file/gzip_file.hpp"
 #include "core/recording/frame_files.hpp"
 #include "core/recording/number_lines.hpp"
 

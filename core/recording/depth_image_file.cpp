@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/recording/frame_files.hpp"
+#include "core/file/gzip_file.hpp"
 
 namespace nextview {
 namespace {

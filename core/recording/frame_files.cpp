@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "core/file/gzip_file.hpp"
-#include "core/file/read_file.hpp"
 
 namespace nextview {
 namespace {
@@ -137,14 +136,6 @@ std::vector<FrameFile> find_frame_files(const fs::path& folder, const std::strin
     return natural_order(a.file.filename().string(), b.file.filename().string());
   });
   return frames;
-}
-
-std::string read_plain_or_gzip(const fs::path& file, std::uintmax_t largest) {
-  return file.extension() == ".gz" ? read_gzip_file(file, largest) : read_file(file, largest);
-}
-
-fs::path without_gz(const fs::path& file) {
-  return file.extension() == ".gz" ? file.parent_path() / file.stem() : file;
 }
 
 }  // namespace nextview

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,11 +28,5 @@ bool same_key(std::string_view a, std::string_view b);
 
 /// The last whole number in a text, without its leading zeros. ("frame-000012.color" has 12)
 std::optional<std::string> last_number(std::string_view text);
-
-/// The whole of a file; one whose name ends in .gz is decompressed. @throws as read_file and read_gzip_file
-std::string read_plain_or_gzip(const std::filesystem::path& file, std::uintmax_t largest = 1u << 30);
-
-/// The name without a .gz at its end.
-std::filesystem::path without_gz(const std::filesystem::path& file);
 
 }  // namespace nextview

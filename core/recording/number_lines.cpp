@@ -6,7 +6,7 @@
 #include <charconv>
 #include <optional>
 
-#include "core/recording/frame_files.hpp"
+#include "core/file/gzip_file.hpp"
 
 namespace nextview {
 namespace {

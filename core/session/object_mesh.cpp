@@ -18,7 +18,6 @@
 #include "core/file/read_file.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/recording/cloud_file.hpp"
-#include "core/recording/frame_files.hpp"
 #include "core/surface/cloud_surface.hpp"
 
 namespace nextview {
