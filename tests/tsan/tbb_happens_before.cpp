@@ -22,15 +22,19 @@ Function* real(Function* /*ours*/, const char* name) {
 class Announced : public d1::task {
  public:
   explicit Announced(d1::task& task) : task_(task) { __tsan_release(this); }
-  d1::task* execute(d1::execution_data& data) override { return begun().execute(data); }
-  d1::task* cancel(d1::execution_data& data) override { return begun().cancel(data); }
+  d1::task* execute(d1::execution_data& data) override {
+    __tsan_acquire(this);
+    return ended(task_.execute(data));  // one that throws is cancelled, too
+  }
+  d1::task* cancel(d1::execution_data& data) override {
+    __tsan_acquire(this);
+    return ended(task_.cancel(data));
+  }
 
  private:
-  d1::task& begun() {
-    __tsan_acquire(this);
-    d1::task& task = task_;
+  d1::task* ended(d1::task* next) {
     delete this;
-    return task;
+    return next;
   }
   d1::task& task_;
 };
