@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <regex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -41,12 +43,48 @@ Header header_of(const std::string& bytes) {
   return {bytes.substr(begin, length), begin + length};
 }
 
-/// What stands behind a key of the header, a Python dictionary; empty if there is none.
-std::string value_of(const std::string& header, const char* key, const char* pattern) {
-  if (header.size() > 4096) return {};  // std::regex recurses
-  std::smatch match;
-  const std::regex expression(fmt::format("['\"]{}['\"]\\s*:\\s*{}", key, pattern));
-  return std::regex_search(header, match, expression) ? match[1].str() : std::string();
+// By hand: compiling regular expressions is not safe from several threads in GCC's library, and captures are read so.
+void skip_blanks(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+}
+
+bool skip(std::string_view& text, char expected) {
+  if (!text.starts_with(expected)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// What stands behind a key of the header, a Python dictionary, and all after it; empty if there is none.
+std::string_view after_key(std::string_view header, std::string_view key) {
+  for (const char quote : {'\'', '"'}) {
+    const std::string quoted = fmt::format("{0}{1}{0}", quote, key);
+    const std::size_t at = header.find(quoted);
+    if (at == header.npos) continue;
+    std::string_view rest = header.substr(at + quoted.size());
+    skip_blanks(rest);
+    if (!skip(rest, ':')) continue;
+    skip_blanks(rest);
+    return rest;
+  }
+  return {};
+}
+
+/// A text between two of its ends, of which any of `first` begins it; empty if none does.
+std::string_view between(std::string_view text, std::string_view first, std::string_view last) {
+  if (text.empty() || first.find(text.front()) == first.npos) return {};
+  const std::size_t end = text.find_first_of(last, 1);
+  return end == text.npos ? std::string_view() : text.substr(1, end - 1);
+}
+
+/// A number of at most six digits, with blanks around it.
+std::optional<int> take_number(std::string_view& text) {
+  skip_blanks(text);
+  unsigned number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + std::min<std::size_t>(text.size(), 6), number);
+  if (error != std::errc()) return {};
+  text.remove_prefix(std::size_t(end - text.data()));
+  skip_blanks(text);
+  return int(number);
 }
 
 template <class Value>
@@ -58,21 +96,24 @@ std::vector<float> values_of(std::string_view bytes) {
 
 NpyTable table_of(const std::string& bytes) {
   const Header header = header_of(bytes);
-  const std::string type = value_of(header.text, "descr", "['\"]([^'\"]*)['\"]");
+  const std::string_view type = between(after_key(header.text, "descr"), "'\"", "'\"");
   if (type != "<f4" && type != "<f8")
     throw std::invalid_argument(
         fmt::format("holds values of type '{}'; float32 ('<f4') and float64 ('<f8') are read", printable(type)));
   const std::size_t size = type == "<f4" ? sizeof(float) : sizeof(double);
-  if (value_of(header.text, "fortran_order", "(True|False)") != "False")
+  if (!after_key(header.text, "fortran_order").starts_with("False"))
     throw std::invalid_argument("is not row by row (C order)");
-  const std::string shape = value_of(header.text, "shape", "\\(([0-9, ]*)\\)");
-  NpyTable table;
-  const std::regex two("\\s*([0-9]{1,6})\\s*,\\s*([0-9]{1,6})\\s*,?\\s*");
-  std::smatch sizes;
-  if (!std::regex_match(shape, sizes, two))
+  const std::string_view shape = between(after_key(header.text, "shape"), "(", ")");
+  std::string_view rest = shape;
+  const std::optional<int> rows = take_number(rest);
+  const bool is_two = rows && skip(rest, ',');
+  const std::optional<int> columns = is_two ? take_number(rest) : std::nullopt;
+  if (columns && skip(rest, ',')) skip_blanks(rest);
+  if (!columns || !rest.empty())
     throw std::invalid_argument(fmt::format("has the shape ({}); two dimensions are read", printable(shape)));
-  table.rows = std::stoi(sizes[1]);
-  table.columns = std::stoi(sizes[2]);
+  NpyTable table;
+  table.rows = *rows;
+  table.columns = *columns;
   const std::uint64_t count = std::uint64_t(table.rows) * std::uint64_t(table.columns);
   if (bytes.size() - header.end != count * size)
     throw std::invalid_argument(fmt::format("has {} bytes of values; {} x {} values have {}", bytes.size() - header.end,
