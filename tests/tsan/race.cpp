@@ -1,5 +1,5 @@
-// A race within a loop of oneTBB, to see that tbb_happens_before.cpp does not hide it: the thread sanitizer must end this
-// with its exit code.
+// A race within a loop of oneTBB, to see that tbb_happens_before.cpp does not hide it: the thread sanitizer must end
+// this with its exit code.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cstdio>

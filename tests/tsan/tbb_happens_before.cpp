@@ -1,6 +1,6 @@
 // Debian's oneTBB is not built for the thread sanitizer, which therefore does not see that a task begins after it was
-// spawned and that what waits goes on after it has ended: it would report every loop. Linked into a test, this tells it,
-// by standing between the headers of oneTBB, which are compiled with the test, and its library.
+// spawned and that what waits goes on after it has ended: it would report every loop. Linked into a test, this tells
+// it, by standing between the headers of oneTBB, which are compiled with the test, and its library.
 #include <dlfcn.h>
 #include <oneapi/tbb/task_group.h>
 #include <sanitizer/tsan_interface.h>
@@ -57,9 +57,9 @@ void spawn(d1::task& task, d1::task_group_context& context, d1::slot_id slot) {
 
 void execute_and_wait(d1::task& task, d1::task_group_context& context, d1::wait_context& wait_context,
                       d1::task_group_context& wait_task_context) {
-  static const auto library = real(
-      &execute_and_wait,
-      "_ZN3tbb6detail2r116execute_and_waitERNS0_2d14taskERNS2_18task_group_contextERNS2_12wait_contextES6_");
+  static const auto library =
+      real(&execute_and_wait,
+           "_ZN3tbb6detail2r116execute_and_waitERNS0_2d14taskERNS2_18task_group_contextERNS2_12wait_contextES6_");
   struct Waited {
     d1::wait_context& context;
     ~Waited() { context.reserve(), context.release(); }  // touches its count, as the last task to end has
@@ -70,8 +70,8 @@ void execute_and_wait(d1::task& task, d1::task_group_context& context, d1::wait_
 // The library keeps what a task leaves for the next one that is made.
 void* allocate(d1::small_object_pool*& pool, std::size_t bytes, const d1::execution_data& data) {
   using Allocate = void*(d1::small_object_pool*&, std::size_t, const d1::execution_data&);
-  static Allocate* const library = real<Allocate>(
-      allocate, "_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEmRKNS2_14execution_dataE");
+  static Allocate* const library =
+      real<Allocate>(allocate, "_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEmRKNS2_14execution_dataE");
   void* const memory = library(pool, bytes, data);
   __tsan_acquire(memory);
   return memory;
