@@ -44,26 +44,28 @@ Header header_of(const std::string& bytes) {
 }
 
 // By hand: compiling regular expressions is not safe from several threads in GCC's library, and captures are read so.
-void skip_blanks(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+constexpr std::string_view blanks = " \t\r\n", quotes = "'\"";
+
+void skip_all(std::string_view& text, std::string_view of) {
+  text.remove_prefix(std::min(text.find_first_not_of(of), text.size()));
 }
 
-bool skip(std::string_view& text, char expected) {
-  if (!text.starts_with(expected)) return false;
+/// Whether the text began with one of these, which is skipped.
+bool skip_one(std::string_view& text, std::string_view of) {
+  if (text.empty() || of.find(text.front()) == of.npos) return false;
   text.remove_prefix(1);
   return true;
 }
 
 /// What stands behind a key of the header, a Python dictionary, and all after it; empty if there is none.
 std::string_view after_key(std::string_view header, std::string_view key) {
-  for (const char quote : {'\'', '"'}) {
-    const std::string quoted = fmt::format("{0}{1}{0}", quote, key);
-    const std::size_t at = header.find(quoted);
-    if (at == header.npos) continue;
-    std::string_view rest = header.substr(at + quoted.size());
-    skip_blanks(rest);
-    if (!skip(rest, ':')) continue;
-    skip_blanks(rest);
+  if (header.size() > 4096) return {};  // no table of two dimensions says so much
+  for (std::size_t at = header.find(key, 1); at < header.size(); at = header.find(key, at + 1)) {
+    std::string_view rest = header.substr(at + key.size());
+    if (quotes.find(header[at - 1]) == quotes.npos || !skip_one(rest, quotes)) continue;
+    skip_all(rest, blanks);
+    if (!skip_one(rest, ":")) continue;
+    skip_all(rest, blanks);
     return rest;
   }
   return {};
@@ -71,19 +73,19 @@ std::string_view after_key(std::string_view header, std::string_view key) {
 
 /// A text between two of its ends, of which any of `first` begins it; empty if none does.
 std::string_view between(std::string_view text, std::string_view first, std::string_view last) {
-  if (text.empty() || first.find(text.front()) == first.npos) return {};
-  const std::size_t end = text.find_first_of(last, 1);
-  return end == text.npos ? std::string_view() : text.substr(1, end - 1);
+  if (!skip_one(text, first)) return {};
+  const std::size_t end = text.find_first_of(last);
+  return end == text.npos ? std::string_view() : text.substr(0, end);
 }
 
-/// A number of at most six digits, with blanks around it.
-std::optional<int> take_number(std::string_view& text) {
-  skip_blanks(text);
+/// Of at most six digits, with spaces around it.
+std::optional<int> take_size(std::string_view& text) {
+  skip_all(text, " ");
   unsigned number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + std::min<std::size_t>(text.size(), 6), number);
   if (error != std::errc()) return {};
   text.remove_prefix(std::size_t(end - text.data()));
-  skip_blanks(text);
+  skip_all(text, " ");
   return int(number);
 }
 
@@ -96,7 +98,7 @@ std::vector<float> values_of(std::string_view bytes) {
 
 NpyTable table_of(const std::string& bytes) {
   const Header header = header_of(bytes);
-  const std::string_view type = between(after_key(header.text, "descr"), "'\"", "'\"");
+  const std::string_view type = between(after_key(header.text, "descr"), quotes, quotes);
   if (type != "<f4" && type != "<f8")
     throw std::invalid_argument(
         fmt::format("holds values of type '{}'; float32 ('<f4') and float64 ('<f8') are read", printable(type)));
@@ -105,10 +107,10 @@ NpyTable table_of(const std::string& bytes) {
     throw std::invalid_argument("is not row by row (C order)");
   const std::string_view shape = between(after_key(header.text, "shape"), "(", ")");
   std::string_view rest = shape;
-  const std::optional<int> rows = take_number(rest);
-  const bool is_two = rows && skip(rest, ',');
-  const std::optional<int> columns = is_two ? take_number(rest) : std::nullopt;
-  if (columns && skip(rest, ',')) skip_blanks(rest);
+  const std::optional<int> rows = take_size(rest);
+  const bool is_two = rows && skip_one(rest, ",");
+  const std::optional<int> columns = is_two ? take_size(rest) : std::nullopt;
+  if (columns && skip_one(rest, ",")) skip_all(rest, " ");
   if (!columns || !rest.empty())
     throw std::invalid_argument(fmt::format("has the shape ({}); two dimensions are read", printable(shape)));
   NpyTable table;

@@ -72,12 +72,19 @@ TEST(NpyFile, WhatIsNotReadIsSaid) {
   EXPECT_THAT(of(npy(header("<f4", "True", "2, 3"), 24)), HasSubstr("C order"));
   EXPECT_THAT(of(npy(header("<f4", "False", "6,"), 24)), HasSubstr("two dimensions"));
   EXPECT_THAT(of(npy(header("<f4", "False", "2, 3, 1"), 24)), HasSubstr("two dimensions"));
-  for (const char* shape : {"99999999999, 3", "1234567, 3", "-2, 3", "2 3", "2, 3,,", "2, ", ""})
+  for (const char* shape : {"99999999999, 3", "1234567, 3", "-2, 3", "2 3", "2, 3,,", "2, ", "", "2,\t3"})
     EXPECT_THAT(of(npy(header("<f4", "False", shape), 24)), HasSubstr("two dimensions")) << shape;
   EXPECT_THAT(of(npy(header("<f4", "False", "999999, 999999"), 24)), HasSubstr("bytes of values"));
   EXPECT_THAT(of(npy(header("<f4", "False", "2, 3"), 23)), HasSubstr("bytes of values"));
   EXPECT_THAT(of(npy(header("<f4", "False", "2, 3"), 25)), HasSubstr("bytes of values"));
   EXPECT_THAT(of(npy("", 0)), HasSubstr("type"));
+  const std::string before = std::string("\x93NUMPY\1\0", 8), text = header("<f4", "False", "2, 3");
+  const auto padded = [&](std::size_t size) {  // a header of so many bytes, below 2^16
+    return before + char(size % 256) + char(size / 256) + text + std::string(size - text.size(), ' ') +
+           std::string(24, '\0');
+  };
+  EXPECT_EQ(of(padded(4096)), "it was read");
+  EXPECT_THAT(of(padded(4097)), HasSubstr("type")) << "nobody writes so long a header";
   EXPECT_THAT(of(npy(header("<f4", "False", "2, 3"), 24, 9)), HasSubstr("version 9"));
   EXPECT_THAT(of("ply\n"), HasSubstr("no .npy file"));
   EXPECT_THAT(of(""), HasSubstr("no .npy file"));
