@@ -12,7 +12,7 @@ namespace {
 
 /// A function of the library, by its mangled name.
 template <class Function>
-Function* real(Function* /*ours*/, const char* name) {
+Function* real(const char* name) {
   void* const found = dlsym(RTLD_NEXT, name);
   if (!found) std::abort();  // another oneTBB: the names below are no longer its
   return reinterpret_cast<Function*>(found);
@@ -45,21 +45,20 @@ namespace r1 {
 
 void spawn(d1::task& task, d1::task_group_context& context) {
   using Spawn = void(d1::task&, d1::task_group_context&);
-  static Spawn* const library = real<Spawn>(spawn, "_ZN3tbb6detail2r15spawnERNS0_2d14taskERNS2_18task_group_contextE");
+  static Spawn* const library = real<Spawn>("_ZN3tbb6detail2r15spawnERNS0_2d14taskERNS2_18task_group_contextE");
   library(*new Announced(task), context);
 }
 
 void spawn(d1::task& task, d1::task_group_context& context, d1::slot_id slot) {
   using Spawn = void(d1::task&, d1::task_group_context&, d1::slot_id);
-  static Spawn* const library = real<Spawn>(spawn, "_ZN3tbb6detail2r15spawnERNS0_2d14taskERNS2_18task_group_contextEt");
+  static Spawn* const library = real<Spawn>("_ZN3tbb6detail2r15spawnERNS0_2d14taskERNS2_18task_group_contextEt");
   library(*new Announced(task), context, slot);
 }
 
 void execute_and_wait(d1::task& task, d1::task_group_context& context, d1::wait_context& wait_context,
                       d1::task_group_context& wait_task_context) {
-  static const auto library =
-      real(&execute_and_wait,
-           "_ZN3tbb6detail2r116execute_and_waitERNS0_2d14taskERNS2_18task_group_contextERNS2_12wait_contextES6_");
+  static const auto library = real<decltype(execute_and_wait)>(
+      "_ZN3tbb6detail2r116execute_and_waitERNS0_2d14taskERNS2_18task_group_contextERNS2_12wait_contextES6_");
   struct Waited {
     d1::wait_context& context;
     ~Waited() { context.reserve(), context.release(); }  // touches its count, as the last task to end has
@@ -71,7 +70,7 @@ void execute_and_wait(d1::task& task, d1::task_group_context& context, d1::wait_
 void* allocate(d1::small_object_pool*& pool, std::size_t bytes, const d1::execution_data& data) {
   using Allocate = void*(d1::small_object_pool*&, std::size_t, const d1::execution_data&);
   static Allocate* const library =
-      real<Allocate>(allocate, "_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEmRKNS2_14execution_dataE");
+      real<Allocate>("_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEmRKNS2_14execution_dataE");
   void* const memory = library(pool, bytes, data);
   __tsan_acquire(memory);
   return memory;
@@ -79,8 +78,7 @@ void* allocate(d1::small_object_pool*& pool, std::size_t bytes, const d1::execut
 
 void* allocate(d1::small_object_pool*& pool, std::size_t bytes) {
   using Allocate = void*(d1::small_object_pool*&, std::size_t);
-  static Allocate* const library =
-      real<Allocate>(allocate, "_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEm");
+  static Allocate* const library = real<Allocate>("_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEm");
   void* const memory = library(pool, bytes);
   __tsan_acquire(memory);
   return memory;
@@ -88,16 +86,15 @@ void* allocate(d1::small_object_pool*& pool, std::size_t bytes) {
 
 void deallocate(d1::small_object_pool& pool, void* memory, std::size_t bytes, const d1::execution_data& data) {
   using Deallocate = void(d1::small_object_pool&, void*, std::size_t, const d1::execution_data&);
-  static Deallocate* const library = real<Deallocate>(
-      deallocate, "_ZN3tbb6detail2r110deallocateERNS0_2d117small_object_poolEPvmRKNS2_14execution_dataE");
+  static Deallocate* const library =
+      real<Deallocate>("_ZN3tbb6detail2r110deallocateERNS0_2d117small_object_poolEPvmRKNS2_14execution_dataE");
   __tsan_release(memory);
   library(pool, memory, bytes, data);
 }
 
 void deallocate(d1::small_object_pool& pool, void* memory, std::size_t bytes) {
   using Deallocate = void(d1::small_object_pool&, void*, std::size_t);
-  static Deallocate* const library =
-      real<Deallocate>(deallocate, "_ZN3tbb6detail2r110deallocateERNS0_2d117small_object_poolEPvm");
+  static Deallocate* const library = real<Deallocate>("_ZN3tbb6detail2r110deallocateERNS0_2d117small_object_poolEPvm");
   __tsan_release(memory);
   library(pool, memory, bytes);
 }
