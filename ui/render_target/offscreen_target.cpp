@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "core/memory/available_memory.hpp"
 #include "core/memory/startable_threads.hpp"
@@ -33,14 +34,7 @@ Function osmesa(const char* name) {
   return reinterpret_cast<Function>(::dlsym(RTLD_DEFAULT, name));
 }
 
-}  // namespace
-
-OffscreenTarget::OffscreenTarget(int width, int height) : buffer_(std::size_t(width) * height * 4) {
-  if (!drawing_headless()) {
-    throw std::runtime_error("cannot draw into memory: this process was not started to draw headless");
-  }
-  require_memory(drawing_bytes, "drawing pictures", "raise the limit (ulimit -v), or use --no-pictures");
-  require_drawing_threads();
+void* new_context() {
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -54,14 +48,35 @@ OffscreenTarget::OffscreenTarget(int width, int height) : buffer_(std::size_t(wi
                             OSMESA_CONTEXT_MINOR_VERSION,
                             3,
                             0};
-  context_ = osmesa<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(attributes, nullptr);
-  if (!context_) throw std::runtime_error("cannot draw into memory: OSMesa gives no OpenGL 3.3 core context");
+  void* context = osmesa<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(attributes, nullptr);
+  if (!context) throw std::runtime_error("cannot draw into memory: OSMesa gives no OpenGL 3.3 core context");
+  return context;
+}
+
+void destroy(void* context) {
+  osmesa<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(static_cast<OSMesaContext>(context));
+}
+
+}  // namespace
+
+OffscreenTarget::OffscreenTarget(int width, int height) : buffer_(std::size_t(width) * height * 4) {
+  if (!drawing_headless()) {
+    throw std::runtime_error("cannot draw into memory: this process was not started to draw headless");
+  }
+  require_memory(drawing_bytes, "drawing pictures", "raise the limit (ulimit -v), or use --no-pictures");
+  require_drawing_threads();
+  context_ = new_context();
   start(width, height);
 }
 
 OffscreenTarget::~OffscreenTarget() {
   finish();
-  osmesa<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(static_cast<OSMesaContext>(context_));
+  destroy(context_);
+}
+
+void OffscreenTarget::replace_context() {
+  void* const another = new_context();
+  destroy(std::exchange(context_, another));
 }
 
 void OffscreenTarget::make_current() {

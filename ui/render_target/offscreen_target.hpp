@@ -19,6 +19,8 @@ class OffscreenTarget : public RenderTarget {
   void* gl_function(const char* name) const override;
 
  private:
+  void replace_context() override;
+
   void* context_ = nullptr;
   std::vector<unsigned char> buffer_;  ///< OSMesa's back buffer
 };

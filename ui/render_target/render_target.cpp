@@ -65,6 +65,13 @@ void RenderTarget::finish() {
   window_->Finalize();
 }
 
+void RenderTarget::renew() {
+  finish();
+  replace_context();
+  make_current();
+  window_->OpenGLInitContext();
+}
+
 void RenderTarget::render() {
   using PointParameter = void (*)(unsigned int, int);
   const VtkMessages messages;

@@ -25,6 +25,12 @@ class RenderTarget {
   /// An OpenGL function of the target's context by its name.
   virtual void* gl_function(const char* name) const = 0;
 
+  /// Whether all that was given to the graphics card is gone, as after a reset of it: nothing is drawn any more.
+  virtual bool is_lost() { return false; }
+  /// Takes another context. What VTK has in the old one is given up here, and made again when it is drawn; others must
+  /// give up theirs before. @throws std::runtime_error if there is none
+  void renew();
+
   /// Whether a processor does what graphics cards do (Mesa's llvmpipe or softpipe): each pixel counts.
   bool draws_in_software();
 
@@ -50,6 +56,8 @@ class RenderTarget {
   void finish();
 
  private:
+  virtual void replace_context() = 0;
+
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> window_;
 };
 

@@ -4,6 +4,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace nextview {
 namespace {
@@ -15,18 +16,28 @@ std::runtime_error no_window() {
                             "; the subcommands draw without a display");
 }
 
-}  // namespace
-
-WindowTarget::WindowTarget(const std::string& title, int width, int height) {
-  if (!glfwInit()) throw no_window();
+/// @throws std::runtime_error
+GLFWwindow* new_window(const std::string& title, int width, int height, GLFWmonitor* monitor) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  handle_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (!handle_) {
-    const auto error = no_window();
+  // Where a driver can, it tells of a loss; not all that say so can.
+  for (const int told : {GLFW_LOSE_CONTEXT_ON_RESET, GLFW_NO_ROBUSTNESS}) {
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, told);
+    if (GLFWwindow* window = glfwCreateWindow(width, height, title.c_str(), monitor, nullptr)) return window;
+  }
+  throw no_window();
+}
+
+}  // namespace
+
+WindowTarget::WindowTarget(const std::string& title, int width, int height) : title_(title) {
+  if (!glfwInit()) throw no_window();
+  try {
+    handle_ = new_window(title_, width, height, nullptr);
+  } catch (...) {
     glfwTerminate();
-    throw error;
+    throw;
   }
   glfwGetFramebufferSize(handle_, &width, &height);
   start(width, height);
@@ -36,6 +47,22 @@ WindowTarget::~WindowTarget() {
   finish();
   glfwDestroyWindow(handle_);
   glfwTerminate();
+}
+
+void WindowTarget::replace_context() {
+  int x = 0, y = 0, width = 0, height = 0;
+  glfwGetWindowPos(handle_, &x, &y);
+  glfwGetWindowSize(handle_, &width, &height);
+  GLFWwindow* const another = new_window(title_, width, height, glfwGetWindowMonitor(handle_));
+  if (!glfwGetWindowMonitor(another)) glfwSetWindowPos(another, x, y);
+  glfwDestroyWindow(std::exchange(handle_, another));
+}
+
+bool WindowTarget::is_lost() {
+  make_current();
+  if (!glfwExtensionSupported("GL_ARB_robustness")) return false;
+  const auto status = reinterpret_cast<unsigned int (*)()>(gl_function("glGetGraphicsResetStatusARB"));
+  return status && status() != 0;
 }
 
 void WindowTarget::make_current() { glfwMakeContextCurrent(handle_); }

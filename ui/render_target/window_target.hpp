@@ -18,7 +18,10 @@ class WindowTarget : public RenderTarget {
   void make_current() override;
   bool is_current() const override;
   void* gl_function(const char* name) const override;
+  /// Asks the driver, where it tells.
+  bool is_lost() override;
 
+  /// Another one after renew(), which opens a window in the place of the old.
   GLFWwindow* handle() { return handle_; }
   /// Takes over the framebuffer's size; call it when the window was resized.
   void follow_size();
@@ -26,6 +29,9 @@ class WindowTarget : public RenderTarget {
   void present();
 
  private:
+  void replace_context() override;
+
+  std::string title_;
   GLFWwindow* handle_ = nullptr;
 };
 

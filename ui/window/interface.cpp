@@ -36,6 +36,20 @@ Interface::~Interface() {
   ImGui_ImplOpenGL3_Shutdown();
 }
 
+void Interface::renew_target() {
+  Parts& p = *parts_;
+  p.target.make_current();
+  p.host.make_current();
+  p.pictures.forget();
+  p.composer.forget();
+  ImGui_ImplOpenGL3_Shutdown();
+  p.target.renew();
+  ImGui_ImplOpenGL3_Init("#version 150");
+  p.scene_is_old = true;
+  p.settling = frames_to_settle;
+  p.worker.log().add(LogEntry::Level::note, "The graphics driver lost what was drawn: it was made again");
+}
+
 void Interface::set_clipboard(Clipboard clipboard) { parts_->host.set_clipboard(std::move(clipboard)); }
 void Interface::push(const InputEvent& event) { parts_->queue.push(event); }
 void Interface::open(const Configuration& configuration) {

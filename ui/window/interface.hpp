@@ -24,6 +24,9 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
+  /// Gives the target another context (RenderTarget::renew), with all that was in the old one: the window is drawn as
+  /// before. @throws as that
+  void renew_target();
   void set_clipboard(Clipboard clipboard);
   void push(const InputEvent& event);
   /// Has the worker begin with this configuration. A script that is saved begins with it, too.

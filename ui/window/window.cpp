@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 
 #include "core/session/untitled_sessions.hpp"
 #include "ui/render_target/window_target.hpp"
@@ -107,7 +108,10 @@ void on_drop(GLFWwindow* window, int count, const char** files) {
   if (count > 0) interface_of(window).push(input::Drop{files[0], std::size_t(count)});
 }
 
-void listen(GLFWwindow* window, Interface& interface) {
+/// What a window is told once it is open.
+void prepare(GLFWwindow* window, Interface& interface) {
+  glfwSetWindowSizeLimits(window, min_width, min_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSwapInterval(1);
   glfwSetWindowUserPointer(window, &interface);
   glfwSetCursorPosCallback(window, on_move);
   glfwSetMouseButtonCallback(window, on_button);
@@ -147,21 +151,19 @@ double text_scale_of_display(float content_scale) {
 /// The window on the whole screen, or where it was before.
 class FullScreen {
  public:
-  explicit FullScreen(GLFWwindow* window) : window_(window) {}
-  void set(bool wanted) {
+  void set(GLFWwindow* window, bool wanted) {
     if (wanted == is_) return;
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
     if (wanted && !mode) return;
     is_ = wanted;
-    if (!wanted) return glfwSetWindowMonitor(window_, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
-    glfwGetWindowPos(window_, &x_, &y_);
-    glfwGetWindowSize(window_, &width_, &height_);
-    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    if (!wanted) return glfwSetWindowMonitor(window, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
+    glfwGetWindowPos(window, &x_, &y_);
+    glfwGetWindowSize(window, &width_, &height_);
+    glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   }
 
  private:
-  GLFWwindow* window_;
   bool is_ = false;
   int x_ = 0, y_ = 0, width_ = 0, height_ = 0;
 };
@@ -182,10 +184,30 @@ class ScriptErrors {
   int count_ = 0;
 };
 
+/// Makes again what a reset took. Who loses it at once again is not helped by a third window.
+void renew(WindowTarget& target, Interface& interface) {
+  interface.renew_target();
+  prepare(target.handle(), interface);
+  if (target.is_lost())
+    throw std::runtime_error("the graphics driver lost what is drawn, twice; the session is kept: start again");
+}
+
+/// Draws a frame, also if the graphics card is reset before or meanwhile. Whether there is something new to show.
+bool draw(WindowTarget& target, Interface& interface, double seconds) {
+  if (target.is_lost()) renew(target, interface);
+  try {
+    return interface.draw(seconds);
+  } catch (const std::runtime_error&) {
+    if (!target.is_lost()) throw;
+    renew(target, interface);
+    return false;
+  }
+}
+
 void run(WindowTarget& target, Interface& interface, const std::function<bool()>& has_to_end) {
-  GLFWwindow* window = target.handle();
   std::string title;
-  FullScreen full_screen(window);
+  const GLFWwindow* entitled = nullptr;
+  FullScreen full_screen;
   double last = glfwGetTime();
   const auto seconds_left = [&] { return interface.seconds_to_next_frame() - (glfwGetTime() - last); };
   while (!interface.wants_to_quit() && !has_to_end()) {
@@ -194,17 +216,20 @@ void run(WindowTarget& target, Interface& interface, const std::function<bool()>
     } else {
       glfwPollEvents();
     }
-    if (glfwWindowShouldClose(window)) {
-      glfwSetWindowShouldClose(window, GLFW_FALSE);
+    if (glfwWindowShouldClose(target.handle())) {
+      glfwSetWindowShouldClose(target.handle(), GLFW_FALSE);
       interface.ask_to_quit();
     }
-    full_screen.set(interface.state().full_screen);
+    full_screen.set(target.handle(), interface.state().full_screen);
     target.follow_size();
     if (seconds_left() > 0) continue;
     const double now = glfwGetTime();
-    if (interface.draw(now - last)) target.present();
+    if (draw(target, interface, now - last)) target.present();
     last = now;
-    if (interface.title() != title) glfwSetWindowTitle(window, (title = interface.title()).c_str());
+    if (interface.title() == title && entitled == target.handle()) continue;
+    title = interface.title();
+    entitled = target.handle();
+    glfwSetWindowTitle(target.handle(), title.c_str());
   }
 }
 
@@ -213,11 +238,8 @@ void run(WindowTarget& target, Interface& interface, const std::function<bool()>
 int run_window(const Configuration& configuration, const Script& script, const WindowStart& start) {
   const auto [first_width, first_height] = first_size();
   WindowTarget target("Nextview", first_width, first_height);
-  GLFWwindow* window = target.handle();
-  glfwSetWindowSizeLimits(window, min_width, min_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  glfwSwapInterval(1);
   float scale = 1.0f, ignored = 1.0f;
-  glfwGetWindowContentScale(window, &scale, &ignored);
+  glfwGetWindowContentScale(target.handle(), &scale, &ignored);
   const auto has_news = [] {  // called by those that compute
     stay_behind_drawing();
     glfwPostEmptyEvent();
@@ -238,7 +260,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
     interface.offer(*unfinished);
   if (!start.record.empty()) interface.record(start.record);
   script.demo ? interface.play_demo(script.calls) : interface.run_script(script.calls);
-  listen(window, interface);
+  prepare(target.handle(), interface);
   const WindowPreferences before = read_preferences(state_folder(), {.text_scale = text_scale_of_display(scale)});
   interface.set_text_scale(before.text_scale);
   interface.set_dark(before.dark);
