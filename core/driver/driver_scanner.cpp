@@ -76,7 +76,7 @@ void DriverRobot::restored(const Pose& T_world_camera) {
 
 /// Why a pose is not even asked for; empty if it is.
 std::string DriverRobot::forbidden(const Pose& T_world_camera) const {
-  if (!is_rigid(T_world_camera)) return "the pose is not finite, or not rigid";
+  if (!is_pose(T_world_camera)) return "the pose is not finite, not rigid, or too far off";
   const auto& volume = connection_->options().working_volume;
   const Vector3 p = T_world_camera.translation();
   if (!volume || volume->contains(p)) return {};

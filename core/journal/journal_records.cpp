@@ -26,7 +26,7 @@ Pose pose_of(const Json& json) {
   Pose pose = Pose::Identity();
   if (numbers.size() != 16) throw std::runtime_error("no pose");
   for (int i = 0; i < 16; ++i) pose.matrix()(i / 4, i % 4) = numbers[std::size_t(i)];
-  if (!is_rigid(pose)) throw std::runtime_error("no pose");
+  if (!is_pose(pose)) throw std::runtime_error("no pose");
   return pose;
 }
 

@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 constexpr double rotation_tolerance = 1e-3;
-constexpr double farthest_pose = 1e6;  // [m]
 
 /// A pose as the file holds it, before directions and axes.
 struct FoundPose {

@@ -100,6 +100,11 @@ void MeshRayCaster::cast(const Vector3& origin, std::span<const Eigen::Vector3f>
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const Eigen::Vector3f o = origin.cast<float>();
+  constexpr float farthest = 1e18f;  // [m] Embree's assertions let pass little more
+  if (!o.allFinite() || o.cwiseAbs().maxCoeff() > farthest) {
+    std::ranges::fill(hits, Hit{});
+    return;
+  }
   for (std::size_t first = 0; first < directions.size(); first += packet_size) {
     const std::size_t count = std::min(packet_size, directions.size() - first);
     alignas(64) int active[packet_size];

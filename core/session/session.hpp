@@ -66,7 +66,7 @@ class Session {
   void override_next_view(std::size_t candidate);
   /// Makes a custom view the next one. Its record has view -1, overridden, and the gain that explain()
   /// expects of it now (0 if it has none). @throws std::invalid_argument before the first step, if the pose is not
-  /// finite and rigid (is_rigid), or if the robot cannot reach it.
+  /// finite and rigid (is_pose), or if the robot cannot reach it.
   void override_next_view(const Pose& T_world_camera);
 
   /// Leaves the choice of the next view to the planner again.
@@ -133,7 +133,7 @@ class Session {
   bool next_view_is_custom() const { return state_.next.is_custom; }
   /// Why a candidate has its score now. Nothing if no rays explain the planner's values.
   std::optional<ScoreExplanation> explain(std::size_t candidate) const { return explain(candidates().at(candidate)); }
-  /// What any other view would score now, taken apart. @pre is_rigid(T_world_camera)
+  /// What any other view would score now, taken apart. @pre is_pose(T_world_camera)
   std::optional<ScoreExplanation> explain(const Pose& T_world_camera) const;
 
  private:

@@ -101,8 +101,9 @@ void Session::override_next_view(std::size_t candidate) {
 }
 
 void Session::override_next_view(const Pose& T_world_camera) {
-  if (!is_rigid(T_world_camera))
-    throw std::invalid_argument("a view must be a finite position and a rotation, without scale or reflection");
+  if (!is_pose(T_world_camera))
+    throw std::invalid_argument(
+        "a view must be a position that is not too far off and a rotation, without scale or reflection");
   if (recording_)
     throw std::invalid_argument("a recording has no views but those that were taken; choose one of its frames");
   if (const std::string reason = unreachable({T_world_camera}); !reason.empty())

@@ -26,7 +26,7 @@ constexpr std::uintmax_t largest = std::uintmax_t{4} << 30;  // [bytes]
 template <class Archive, class PoseValue>
 void each(Archive& archive, PoseValue& pose) requires std::is_same_v<std::remove_const_t<PoseValue>, Pose> {
   for (int i = 0; i < 16; ++i) archive(pose.matrix()(i / 4, i % 4));
-  if (!is_rigid(pose)) throw std::runtime_error("no pose");
+  if (!is_pose(pose)) throw std::runtime_error("no pose");
 }
 
 template <class Archive, class Optional, class Each>

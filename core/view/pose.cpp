@@ -46,10 +46,10 @@ Pose make_pose(const Vector3& position, const Eigen::Quaterniond& orientation) {
   return pose;
 }
 
-bool is_rigid(const Pose& pose) {
+bool is_pose(const Pose& pose) {
   const Eigen::Matrix3d r = pose.linear();
-  return pose.matrix().allFinite() && (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
-         r.determinant() > 0.0;
+  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() <= farthest_pose &&
+         (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 && r.determinant() > 0.0;
 }
 
 double rotation_angle(const Pose& a, const Pose& b) {
@@ -65,6 +65,8 @@ Pose parse_view(const std::string& text) {
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   if (!v.allFinite() || std::abs(q.norm() - 1.0) > 1e-3)
     throw std::invalid_argument("the view's quaternion (qx qy qz qw) must be finite and of length 1");
+  if (v.head<3>().cwiseAbs().maxCoeff() > farthest_pose)
+    throw std::invalid_argument(fmt::format("the view lies over {:g} m off", farthest_pose));
   return make_pose(v.head<3>(), q);
 }
 

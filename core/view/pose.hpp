@@ -17,8 +17,11 @@ Pose look_at(const Vector3& position, const Vector3& target);
 
 Pose make_pose(const Vector3& position, const Eigen::Quaterniond& orientation);
 
-/// Whether a pose is finite and its linear part a rotation, give or take 1e-6.
-bool is_rigid(const Pose& pose);
+/// Farther from the world's origin along an axis is no camera [m, or the unit of what is read].
+inline constexpr double farthest_pose = 1e6;
+
+/// Whether a pose lies within farthest_pose, and its linear part is a rotation, give or take 1e-6.
+bool is_pose(const Pose& pose);
 
 /// Angle of the rotation that takes the orientation of `a` to that of `b` [rad], in [0, pi].
 double rotation_angle(const Pose& a, const Pose& b);

@@ -12,7 +12,7 @@ void read_answer(const std::string& line) {
   answer.error();
   is_read([&] { greeting_of(answer); });
   is_read([&] { answer.reaches("reach", 2); });
-  is_read([&] { require(is_rigid(answer.pose("pose")), "a pose is rigid"); });
+  is_read([&] { require(is_pose(answer.pose("pose")), "a pose is rigid"); });
   is_read([&] { captured_file_of(answer); });
 }
 

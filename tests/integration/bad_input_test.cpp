@@ -90,6 +90,8 @@ TEST_F(BadInput, Options) {
   expect_error(scan + "--sensor telescope", {"telescope", "narrow"});
   expect_error(scan + "--views.layout file", {"views"});
   expect_error(scan + "--views.layout file --views.file " + (folder_.path() / "none.txt").string(), {"none.txt"});
+  const fs::path far_view = write("far_view.txt", "0.9 0 0 0.5 -0.5 -0.5 0.5\n1e300 0 0 0 0 0 1\n");
+  expect_error(scan + "--views.layout file --views.file " + far_view.string(), {"far_view.txt:2", "m off"});
   expect_error(scan + "--no-such-option", {"--no-such-option"});
   expect_error(scan + "--planner.combined_weights nonsense", {"combined_weights"});
   expect_error("scan no-such-object --no-pictures --out " + out(), {"no-such-object"});

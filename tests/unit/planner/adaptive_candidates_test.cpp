@@ -61,7 +61,7 @@ TEST(AdaptiveCandidates, FixedOnesComeFirstAndAtMostSoManyFollow) {
     expect_fixed_first(views);
     EXPECT_LE(views.size(), fixed.size() + std::size_t(kept));
     EXPECT_GE(views.size(), fixed.size() + std::size_t(std::min(kept, 16))) << "there is enough to see";
-    for (const View& view : views) EXPECT_TRUE(is_rigid(view.T_world_camera));
+    for (const View& view : views) EXPECT_TRUE(is_pose(view.T_world_camera));
   }
 }
 

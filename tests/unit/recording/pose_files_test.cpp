@@ -80,14 +80,14 @@ TEST(PoseFiles, DirectionsAndAxes) {
   // Forward is x of the body and z of the camera; up is z of the body and -y of the camera.
   EXPECT_LT((body.linear() * Vector3::UnitZ() - pose.linear() * Vector3::UnitX()).norm(), 1e-12);
   EXPECT_LT((body.linear() * -Vector3::UnitY() - pose.linear() * Vector3::UnitZ()).norm(), 1e-12);
-  EXPECT_TRUE(is_rigid(body));
+  EXPECT_TRUE(is_pose(body));
 }
 
 TEST(PoseFiles, NearlyRigidIsMadeRigidAndTheRestRefusedByLine) {
   const TemporaryFolder folder;
   Pose p = pose;
   p.linear() *= 1.0003;
-  EXPECT_TRUE(is_rigid(read_poses(folder.write("p.txt", rows(p, 4)), PoseFormat::matrix4x4)[0].T_world_camera));
+  EXPECT_TRUE(is_pose(read_poses(folder.write("p.txt", rows(p, 4)), PoseFormat::matrix4x4)[0].T_world_camera));
   p.linear() *= 1.01;
   const auto why = [&](const std::string& text, PoseFormat format = PoseFormat::matrix4x4) {
     return failure_of([&] { read_poses(folder.write("p.txt", text), format).at(0).pose(); });

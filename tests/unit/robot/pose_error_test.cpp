@@ -19,7 +19,7 @@ TEST(PoseError, HasTheDeviationsThatWereAskedFor) {
   Vector3 mean = Vector3::Zero();
   for (std::uint32_t step = 1; step <= count; ++step) {
     const Pose error = pose_error({0.005, 1.0}, 1, step);
-    ASSERT_TRUE(is_rigid(error));
+    ASSERT_TRUE(is_pose(error));
     squared_shift += error.translation().squaredNorm() / count;
     squared_turn += std::pow(rotation_angle(error, Pose::Identity()), 2) / count;
     mean += error.translation() / count;

@@ -125,6 +125,14 @@ TEST(MeshRayCaster, nothingAndNoRays) {
   EXPECT_NEAR(cast(moved, Vector3::Zero(), {Eigen::Vector3f::UnitX()})[0].range, 0.25, 1e-6);
 }
 
+TEST(MeshRayCaster, fromTooFarOffNothingIsMet) {
+  const MeshRayCaster scene(box_part().mesh);
+  for (const double far : {1e19, -1e30, 1e300, HUGE_VAL, std::nan("")})
+    EXPECT_TRUE(
+        DepthImage::is_beyond_range(cast(scene, {0.1, far, 0.1}, {-Eigen::Vector3f::UnitY()}, INFINITY)[0].range))
+        << far;
+}
+
 struct Solid {
   TriangleMesh mesh;
   Vector3 centre;

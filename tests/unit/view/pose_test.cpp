@@ -72,20 +72,22 @@ TEST(MakePose, TakesCameraPointsToTheWorld) {
   EXPECT_LT((pose * Vector3(1, 0, 0) - Vector3(1, 3, 3)).norm(), 1e-12);
 }
 
-TEST(IsRigid, ARotationAndAPlaceAreAndNothingElse) {
+TEST(IsPose, ARotationAndAPlaceAreAndNothingElse) {
   const Pose good = look_at(Vector3(0.3, -2.0, 0.7), Vector3(0.1, 0.0, 0.0));
-  EXPECT_TRUE(is_rigid(good));
-  EXPECT_TRUE(is_rigid(Pose::Identity()));
-  Pose rounded = good, nan = good, far = good, scaled = good, mirrored = good, sheared = good, flat = good;
+  EXPECT_TRUE(is_pose(good));
+  EXPECT_TRUE(is_pose(Pose::Identity()));
+  Pose rounded = good, nan = good, infinite = good, far = good, scaled = good, mirrored = good, sheared = good,
+       flat = good;
   rounded.linear() = good.linear().cast<float>().cast<double>();
   nan.linear()(1, 2) = std::nan("");
-  far.translation().z() = INFINITY;
+  infinite.translation().z() = INFINITY;
+  far.translation().x() = -1.001 * farthest_pose;
   scaled.linear() *= 1.0001;
   mirrored.linear().row(2) *= -1.0;
   sheared.linear().col(0) += 0.001 * good.linear().col(1);
   flat.linear().col(2).setZero();
-  EXPECT_TRUE(is_rigid(rounded));
-  for (const Pose& bad : {nan, far, scaled, mirrored, sheared, flat}) EXPECT_FALSE(is_rigid(bad));
+  EXPECT_TRUE(is_pose(rounded));
+  for (const Pose& bad : {nan, infinite, far, scaled, mirrored, sheared, flat}) EXPECT_FALSE(is_pose(bad));
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(ProjectionMatrix, IsTakenApartAndPutTogetherAgain) {
     EXPECT_NEAR(found.cx, 823.2, 1e-7);
     EXPECT_NEAR(found.cy, 619.1, 1e-7);
     EXPECT_LT((found.T_world_camera.matrix() - pose.matrix()).cwiseAbs().maxCoeff(), 1e-10);
-    EXPECT_TRUE(is_rigid(found.T_world_camera));
+    EXPECT_TRUE(is_pose(found.T_world_camera));
   }
   EXPECT_THROW(decompose_projection(ProjectionMatrix::Zero()), std::invalid_argument);
   EXPECT_THROW(decompose_projection(ProjectionMatrix::Constant(NAN)), std::invalid_argument);

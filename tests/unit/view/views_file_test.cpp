@@ -84,7 +84,8 @@ TEST_F(ViewsFile, MayHaveNoCount) {
 
 TEST_F(ViewsFile, OneViewIsReadFromAText) {
   EXPECT_EQ(parse_view("0.1 0.2 0.3 0 0 0 1").matrix(), read(two_views)[0].matrix());
-  for (const char* bad : {"", "1 2 3", "1 2 3 0 0 0 1 0", "1 2 3 0 0 0 2", "1 2 nan 0 0 0 1", "1,2,3,0,0,0,1"})
+  for (const char* bad :
+       {"", "1 2 3", "1 2 3 0 0 0 1 0", "1 2 3 0 0 0 2", "1 2 nan 0 0 0 1", "1,2,3,0,0,0,1", "1e7 2 3 0 0 0 1"})
     EXPECT_THROW(parse_view(bad), std::invalid_argument) << bad;
 }
 
