@@ -4,9 +4,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/map/ray_batch.hpp"
 #include "core/progress/stopped.hpp"
@@ -16,215 +17,190 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "core/map/ray_starts-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace nextview::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::ScalableTag<double>;
-using Floats = hn::Rebind<float, Doubles>;
-using Integers = hn::RebindToSigned<Doubles>;
-using Vector = hn::Vec<Doubles>;
-using FloatVector = hn::Vec<Floats>;
-using IntegerVector = hn::Vec<Integers>;
-using Mask = hn::Mask<Doubles>;
+/// Rays on their way, one a lane, to the last rounding.
+class ExactWalk {
+ public:
+  using Place = std::int64_t;
+  static constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
+  HWY_INLINE static std::size_t lanes() { return hn::Lanes(doubles); }
 
-constexpr Doubles doubles;
-constexpr Floats floats;
-constexpr Integers integers;
-constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
-constexpr int rows =
-    4;  // of lanes, walked side by side: a step takes its time, but the next row's need not wait for it
-
-HWY_INLINE Mask none() { return hn::Lt(hn::Zero(doubles), hn::Zero(doubles)); }
-
-/// Rays on their way, one a lane.
-struct Walk {
-  Vector next[3];         ///< distance at which the next face across each axis is met [m]
-  Vector delta[3];        ///< from face to face
-  Vector stop;            ///< a voxel that is left beyond this is not marked
-  IntegerVector place;    ///< of the voxel that each ray is in
-  IntegerVector end;      ///< of the voxel that it ends in, which it does not mark; -1: outside
-  IntegerVector step[3];  ///< what a step along each axis adds to the place
-  Mask active;
-};
-
-/// Adds `delta` to `next` as often as it takes to get to `target`, each time rounded as if one by one; `count` is how
-/// often. Between two powers of two the sums lie on one lattice: once a step has been rounded to it, all further ones
-/// are the same.
-HWY_INLINE void step_up_to(Vector target, Vector delta, Vector& next, Vector& count) {
-  const IntegerVector exponent = hn::Set(integers, std::int64_t{0x7ff0000000000000});
-  const Vector one = hn::Set(doubles, 1.0);
-  while (true) {
-    Mask before = hn::Lt(next, target);
-    if (hn::AllFalse(doubles, before)) return;
-    for (int twice = 0; twice < 2; ++twice) {
-      before = hn::Lt(next, target);
-      count = hn::Add(count, hn::IfThenElseZero(before, one));
-      next = hn::IfThenElse(before, hn::Add(next, delta), next);
+  HWY_INLINE void begin(const RayBatch& batch, const float* ends, std::size_t count) {
+    const RayStarts start = start_rays(batch, ends, count);
+    for (int axis = 0; axis < 3; ++axis) {
+      next_[axis] = start.next[axis];
+      delta_[axis] = start.delta[axis];
+      step_[axis] = hn::ConvertTo(integers, start.step[axis]);
     }
-    const Vector power = hn::BitCast(doubles, hn::And(hn::BitCast(integers, next), exponent));
-    const Vector upper = hn::Add(power, power), last = hn::Sub(next, delta);
-    const Vector settled = hn::Sub(hn::Add(next, delta), next);
-    // Only where the step before this one was in the same range of two powers already.
-    const Mask same_range = hn::And(hn::Lt(next, target), hn::Ge(hn::Add(last, last), upper));
-    const Vector steps = hn::Floor(hn::Div(hn::Sub(hn::Min(upper, target), next), settled));
-    const Vector whole = hn::IfThenElseZero(same_range, hn::Max(hn::Zero(doubles), steps));
-    next = hn::IfThenElse(same_range, hn::Add(next, hn::Mul(whole, settled)), next);  // others may be infinite
-    count = hn::Add(count, whole);
+    stop_ = start.stop;
+    place_ = hn::ConvertTo(integers, start.place);
+    end_ = hn::ConvertTo(integers, start.end);
+    active_ = start.active;
   }
-}
 
-/// Where rays end [m], in single precision as OctoMap has them, and how long they are.
-struct Ends {
-  FloatVector at[3], way[3];
-  Vector length;
-  Mask is_finite;  ///< what is longer than single precision can tell has no direction
+  /// Stores where the rays are, the finished ones at 0 in the margin, and takes them one voxel on, as
+  /// VoxelWalk::advance does. Whether any is on its way.
+  HWY_INLINE bool advance(Place* places) {
+    const Vector exit = hn::Min(hn::Min(next_[0], next_[1]), next_[2]);
+    const Mask at_end = hn::MaskFromVec(hn::BitCast(doubles, hn::VecFromMask(integers, hn::Eq(place_, end_))));
+    active_ = hn::AndNot(hn::Or(at_end, hn::Gt(exit, stop_)), active_);
+    hn::Store(hn::BitCast(integers, hn::IfThenElseZero(active_, hn::BitCast(doubles, place_))), integers, places);
+    const Mask x_before_y = hn::Lt(next_[0], next_[1]);
+    const Mask along_x = hn::And(x_before_y, hn::Lt(next_[0], next_[2]));
+    const Mask along_y = hn::AndNot(x_before_y, hn::Lt(next_[1], next_[2]));
+    place_ = hn::Add(place_, pick(along_x, step_[0], pick(along_y, step_[1], step_[2])));
+    next_[0] = hn::IfThenElse(along_x, hn::Add(next_[0], delta_[0]), next_[0]);
+    next_[1] = hn::IfThenElse(along_y, hn::Add(next_[1], delta_[1]), next_[1]);
+    next_[2] = hn::IfThenElse(hn::Or(along_x, along_y), next_[2], hn::Add(next_[2], delta_[2]));
+    return !hn::AllFalse(doubles, active_);
+  }
+
+  void keep_undecided(const float*, std::vector<Eigen::Vector3f>&) const {}  ///< all are decided
+
+ private:
+  HWY_INLINE static IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
+    return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
+  }
+
+  Vector next_[3], delta_[3], stop_;  ///< as RayStarts has them, also the others
+  IntegerVector place_, end_, step_[3];
+  Mask active_;
 };
-HWY_INLINE Vector length_of(const FloatVector (&way)[3]) {
-  const FloatVector squares =
-      hn::Add(hn::Add(hn::Mul(way[0], way[0]), hn::Mul(way[1], way[1])), hn::Mul(way[2], way[2]));
-  return hn::Sqrt(hn::PromoteTo(doubles, squares));
-}
-HWY_INLINE Ends ends_of(const RayBatch& batch, const float* ends) {
-  Ends e;
-  hn::LoadInterleaved3(floats, ends, e.at[0], e.at[1], e.at[2]);
-  for (int axis = 0; axis < 3; ++axis) e.way[axis] = hn::Sub(e.at[axis], hn::Set(floats, batch.origin[axis]));
-  e.length = length_of(e.way);
-  e.is_finite = hn::Le(e.length, hn::Set(doubles, std::numeric_limits<float>::max()));
-  const Mask too_long = hn::Gt(e.length, hn::Set(doubles, batch.max_range));
-  if (hn::AllFalse(doubles, too_long)) return e;
-  const FloatVector whole = hn::DemoteTo(floats, e.length);  // as point_on_ray
-  const auto cut = hn::Gt(hn::DemoteTo(floats, hn::IfThenElseZero(too_long, hn::Set(doubles, 1.0))), hn::Zero(floats));
-  for (int axis = 0; axis < 3; ++axis) {
-    const FloatVector origin = hn::Set(floats, batch.origin[axis]);
-    const FloatVector along =
-        hn::Mul(hn::Div(e.way[axis], whole), hn::Set(floats, static_cast<float>(batch.max_range)));
-    e.at[axis] = hn::IfThenElse(cut, hn::Add(origin, along), e.at[axis]);
-    e.way[axis] = hn::Sub(e.at[axis], origin);
-  }
-  e.length = length_of(e.way);
-  return e;
-}
 
-/// The rays in a row of lanes, at the grid's face or where they begin. `ends`: theirs, three floats each, for all
-/// lanes; `count`: how many of them there are. Rays that rounding could lead elsewhere are walked at once, one by one.
-HWY_INLINE Walk begin_walk(const RayBatch& batch, const float* ends, std::size_t count) {
-  const VoxelGrid& grid = batch.grid;
-  const Ends e = ends_of(batch, ends);
-  const FloatVector single_length = hn::DemoteTo(floats, e.length);
-  const Vector length = hn::PromoteTo(doubles, single_length), zero = hn::Zero(doubles), one = hn::Set(doubles, 1.0);
-  const Vector never = hn::Set(doubles, std::numeric_limits<double>::max());
-  const Eigen::Vector3i from = grid.cell_at(batch.origin.cast<double>());
-  Walk walk;
-  Vector enter = zero, leave = never, direction[3], to[3], cells[3];
-  Mask same_cell = hn::Not(none()), beside = none();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double origin = batch.origin[axis], edge = grid.resolution;
-    direction[axis] = hn::PromoteTo(doubles, hn::Div(e.way[axis], single_length));
-    const Mask forward = hn::Gt(direction[axis], zero), still = hn::Eq(direction[axis], zero);
-    // The grid's cells, as cell_at has them; what is farther off than an int can tell is outside anyway.
-    to[axis] = hn::Sub(hn::Floor(hn::Mul(hn::PromoteTo(doubles, e.at[axis]), hn::Set(doubles, 1.0 / edge))),
-                       hn::Set(doubles, grid.first[axis]));
-    cells[axis] = hn::Abs(hn::Sub(to[axis], hn::Set(doubles, from[axis])));
-    same_cell = hn::And(same_cell, hn::Eq(cells[axis], zero));
-    // As set_axis.
-    const double middle = (from[axis] + grid.first[axis] + 0.5) * edge;
-    const double face_above = middle + static_cast<float>(1 * edge * 0.5),
-                 face_below = middle + static_cast<float>(-1 * edge * 0.5);
-    const Vector to_face =
-        hn::IfThenElse(forward, hn::Set(doubles, face_above - origin), hn::Set(doubles, face_below - origin));
-    walk.next[axis] = hn::IfThenElse(still, never, hn::Div(to_face, direction[axis]));
-    walk.delta[axis] = hn::IfThenElse(still, never, hn::Div(hn::Set(doubles, edge), hn::Abs(direction[axis])));
-    const Vector to_lower = hn::Div(hn::Set(doubles, grid.lower()[axis] - origin), direction[axis]);
-    const Vector to_upper = hn::Div(hn::Set(doubles, grid.upper()[axis] - origin), direction[axis]);
-    if (from[axis] < 0 || from[axis] >= grid.size[axis]) beside = hn::Or(beside, still);
-    enter = hn::IfThenElse(still, enter, hn::Max(enter, hn::Min(to_lower, to_upper)));
-    leave = hn::IfThenElse(still, leave, hn::Min(leave, hn::Max(to_lower, to_upper)));
-  }
-  const Vector margin = hn::Set(doubles, 1e-3 * grid.resolution);  // far more than rounding, less than a voxel
-  walk.stop = hn::Min(length, hn::Add(leave, margin));
-  Vector target = hn::Sub(enter, margin);
-  walk.active = hn::And(hn::Lt(target, walk.stop), e.is_finite);
-  walk.active = hn::AndNot(hn::Or(same_cell, beside), hn::And(walk.active, hn::FirstN(doubles, count)));
-  target = hn::IfThenElseZero(walk.active, target);
+#if HWY_TARGET != HWY_SCALAR
+/// The same in fixed point, with twice as many lanes. Where two faces, or a face and the end of the way, are met within
+/// what rounding can amount to, a ray is left where it is, undecided.
+class FixedWalk {
+  using UnitTag = hn::ScalableTag<std::int32_t>;
+  using Units = hn::Vec<UnitTag>;
+  static constexpr UnitTag units{};
+  static constexpr hn::Rebind<std::int32_t, Doubles> half_units{};
 
-  Mask past_end = none(), end_is_near = hn::Not(none());
-  Vector place = zero, end = zero;
-  double stride = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vector steps = zero;
-    step_up_to(target, walk.delta[axis], walk.next[axis], steps);
-    past_end = hn::Or(past_end, hn::Gt(steps, cells[axis]));
-    const Vector sign = hn::IfThenElse(hn::Gt(direction[axis], zero), one,
-                                       hn::IfThenElseZero(hn::Lt(direction[axis], zero), hn::Set(doubles, -1.0)));
-    const Vector cell = hn::Add(hn::Set(doubles, from[axis] + 1.0), hn::Mul(steps, sign)),
-                 end_cell = hn::Add(to[axis], one);
-    const double across = grid.size[axis] + 2.0;
-    end_is_near = hn::And(end_is_near, hn::And(hn::Ge(end_cell, zero), hn::Lt(end_cell, hn::Set(doubles, across))));
-    place = hn::Add(place, hn::Mul(cell, hn::Set(doubles, stride)));
-    end = hn::Add(end, hn::Mul(end_cell, hn::Set(doubles, stride)));
-    walk.step[axis] = hn::ConvertTo(integers, hn::Mul(sign, hn::Set(doubles, stride)));
-    stride *= across;
-  }
-  past_end = hn::And(past_end, walk.active);
-  if (!hn::AllFalse(doubles, past_end)) {
-    HWY_ALIGN double one_by_one[most_lanes];
-    hn::Store(hn::IfThenElseZero(past_end, one), doubles, one_by_one);
-    for (std::size_t lane = 0; lane < count; ++lane)
-      if (one_by_one[lane] != 0.0) mark_one(batch, {ends[3 * lane], ends[3 * lane + 1], ends[3 * lane + 2]});
-    walk.active = hn::AndNot(past_end, walk.active);
-  }
-  walk.place = hn::ConvertTo(integers, hn::IfThenElseZero(walk.active, place));
-  walk.end = hn::ConvertTo(integers, hn::IfThenElse(end_is_near, end, hn::Set(doubles, -1.0)));
-  return walk;
-}
+ public:
+  using Place = std::int32_t;
+  static constexpr std::size_t most_lanes = hn::MaxLanes(units);
+  HWY_INLINE static std::size_t lanes() { return hn::Lanes(units); }
 
-HWY_INLINE IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
-  return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
-}
+  /// In larger grids too many rays are undecided, and from farther off doubles are hardly better than the units.
+  static bool fits(const RayBatch& batch) {
+    constexpr int largest_grid = 256, farthest_camera = 1 << 13;  // [voxels]
+    return batch.grid.size.maxCoeff() <= largest_grid &&
+           batch.grid.cell_at(batch.origin.cast<double>()).cwiseAbs().maxCoeff() <= farthest_camera;
+  }
 
-/// Stores where the rays of a row are, the finished ones at 0 in the margin, and takes them one voxel on, as
-/// VoxelWalk::advance does. Whether any is on its way.
-HWY_INLINE bool advance(Walk& w, std::int64_t* places) {
-  const Vector exit = hn::Min(hn::Min(w.next[0], w.next[1]), w.next[2]);
-  const Mask at_end = hn::MaskFromVec(hn::BitCast(doubles, hn::VecFromMask(integers, hn::Eq(w.place, w.end))));
-  w.active = hn::AndNot(hn::Or(at_end, hn::Gt(exit, w.stop)), w.active);
-  hn::Store(hn::BitCast(integers, hn::IfThenElseZero(w.active, hn::BitCast(doubles, w.place))), integers, places);
-  const Mask x_before_y = hn::Lt(w.next[0], w.next[1]);
-  const Mask along_x = hn::And(x_before_y, hn::Lt(w.next[0], w.next[2]));
-  const Mask along_y = hn::AndNot(x_before_y, hn::Lt(w.next[1], w.next[2]));
-  w.place = hn::Add(w.place, pick(along_x, w.step[0], pick(along_y, w.step[1], w.step[2])));
-  w.next[0] = hn::IfThenElse(along_x, hn::Add(w.next[0], w.delta[0]), w.next[0]);
-  w.next[1] = hn::IfThenElse(along_y, hn::Add(w.next[1], w.delta[1]), w.next[1]);
-  w.next[2] = hn::IfThenElse(hn::Or(along_x, along_y), w.next[2], hn::Add(w.next[2], w.delta[2]));
-  return !hn::AllFalse(doubles, w.active);
+  HWY_INLINE void begin(const RayBatch& batch, const float* ends, std::size_t count) {
+    const std::size_t half = hn::Lanes(doubles);
+    const RayStarts lower = start_rays(batch, ends, std::min(count, half));
+    const RayStarts upper = start_rays(batch, ends + 3 * half, count - std::min(count, half));
+    const Vector shortest = hn::Set(doubles, batch.grid.resolution), whole = hn::Set(doubles, double(whole_way));
+    const Vector lower_scale = hn::Div(whole, hn::Sub(lower.stop, lower.begin));
+    const Vector upper_scale = hn::Div(whole, hn::Sub(upper.stop, upper.begin));
+    for (int axis = 0; axis < 3; ++axis) {
+      next_[axis] = both(in_units(hn::Sub(lower.next[axis], lower.begin), lower_scale),
+                         in_units(hn::Sub(upper.next[axis], upper.begin), upper_scale));
+      delta_[axis] = both(in_units(lower.delta[axis], lower_scale), in_units(upper.delta[axis], upper_scale));
+      step_[axis] = both(lower.step[axis], upper.step[axis]);
+    }
+    place_ = both(lower.place, upper.place);
+    end_ = both(lower.end, upper.end);
+    const Units state = both(state_of(lower, shortest), state_of(upper, shortest));
+    active_ = hn::Gt(state, hn::Set(units, 1));
+    last_ = hn::IfThenElse(hn::Eq(state, hn::Zero(units)), hn::Set(units, decided), hn::Zero(units));
+    doubt_ =
+        batch.grid.size.maxCoeff() + 8;  // a step is off by half a unit at most, and so are the first face and the end
+  }
+
+  HWY_INLINE bool advance(Place* places) {
+    const Units lower = hn::Min(next_[0], next_[1]), upper = hn::Max(next_[0], next_[1]);
+    const Units exit = hn::Min(lower, next_[2]), second = hn::Max(lower, hn::Min(upper, next_[2]));
+    const Units met = hn::IfThenElse(hn::Eq(place_, end_), hn::Set(units, decided), exit);
+    last_ = hn::IfThenElse(active_, met, last_);
+    active_ = hn::And(active_, hn::Lt(met, hn::Set(units, whole_way - doubt_)));
+    active_ = hn::And(active_, hn::Gt(hn::Sub(second, exit), hn::Set(units, doubt_)));
+    hn::Store(hn::IfThenElseZero(active_, place_), units, places);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto here = hn::Eq(next_[axis], exit);
+      place_ = hn::IfThenElse(here, hn::Add(place_, step_[axis]), place_);
+      next_[axis] = hn::IfThenElse(here, hn::Add(next_[axis], delta_[axis]), next_[axis]);
+    }
+    return !hn::AllFalse(units, active_);
+  }
+
+  /// Of the rays to these ends, once all have come as far as they do.
+  void keep_undecided(const float* ends, std::vector<Eigen::Vector3f>& undecided) const {
+    if (hn::AllFalse(units, hn::Lt(last_, hn::Set(units, whole_way + doubt_ + 1)))) return;
+    HWY_ALIGN Place last[most_lanes];
+    hn::Store(last_, units, last);
+    for (std::size_t i = 0; i < lanes(); ++i)
+      if (last[i] <= whole_way + doubt_) undecided.emplace_back(ends[3 * i], ends[3 * i + 1], ends[3 * i + 2]);
+  }
+
+ private:
+  /// Of a ray through the grid [units]. What comes later is cut off so that a face's distance and one step more have
+  /// room in 32 bits, and are still beyond.
+  static constexpr Place whole_way = (1 << 30) - 1024, beyond = (1 << 30) + 512;
+  static constexpr Place decided = std::numeric_limits<Place>::max();
+
+  HWY_INLINE static Units both(Vector lower, Vector upper) {
+    return hn::Combine(units, hn::DemoteTo(half_units, upper), hn::DemoteTo(half_units, lower));
+  }
+  HWY_INLINE static Vector in_units(Vector distance, Vector scale) {
+    const Vector rounded = hn::MulAdd(distance, scale, hn::Set(doubles, 0.5));
+    return hn::Min(rounded, hn::Set(doubles, double(beyond)));
+  }
+  /// 0: the ray goes nowhere, 1: not even as far as a voxel is wide, where units are finer than doubles.
+  HWY_INLINE static Vector state_of(const RayStarts& start, Vector shortest) {
+    const Vector one = hn::Set(doubles, 1.0);
+    const Mask is_long = hn::Ge(hn::Sub(start.stop, start.begin), shortest);
+    return hn::IfThenElseZero(start.active, hn::Add(one, hn::IfThenElseZero(is_long, one)));
+  }
+
+  Units next_[3], delta_[3], step_[3], place_, end_;
+  Units last_;  ///< what each ray met last; decided: its end, or it went nowhere
+  hn::Mask<UnitTag> active_;
+  Place doubt_ = 0;
+};
+#endif
+
+/// Leaves the marks of rays; returns the ends of those that are undecided. One walk at a time stays in the registers,
+/// and while its marks are left its next step is made.
+template <class Walk>
+std::vector<Eigen::Vector3f> walk_rays(const RayBatch& batch) {
+  const std::size_t lanes = Walk::lanes(), rays = batch.ends.size();
+  std::uint8_t* const marks = batch.marks;  // which a mark might change, for all that the compiler knows
+  std::vector<Eigen::Vector3f> undecided;
+  HWY_ALIGN typename Walk::Place places[Walk::most_lanes] = {};
+  std::array<float, 3 * Walk::most_lanes> some{};  // where there are fewer rays than lanes
+  for (std::size_t first = 0; first < rays; first += lanes) {
+    const std::size_t count = std::min(lanes, rays - first);
+    const float* ends = batch.ends[first].data();
+    if (count < lanes) ends = (std::copy_n(ends, 3 * count, some.data()), some.data());
+    Walk walk;
+    walk.begin(batch, ends, count);
+    while (walk.advance(places)) {
+#pragma GCC unroll 16
+      for (std::size_t i = 0; i < Walk::most_lanes; ++i) leave_mark(marks[places[i]]);
+    }
+    walk.keep_undecided(ends, undecided);
+  }
+  return undecided;
 }
 
 /// Leaves the marks of the batch's rays.
 void mark_rays(const RayBatch& batch) {
-  const std::size_t lanes = hn::Lanes(doubles), rays = batch.ends.size();
-  HWY_ALIGN std::int64_t places[rows * most_lanes];
-  for (std::size_t first = 0; first < rays; first += rows * lanes) {
-    Walk walks[rows];
-    for (int row = 0; row < rows; ++row) {
-      const std::size_t begin = first + row * lanes, count = begin < rays ? std::min(lanes, rays - begin) : 0;
-      std::array<float, 3 * most_lanes> some{};  // where there are fewer rays than lanes
-      const float* ends = some.data();
-      if (count == lanes) {
-        ends = batch.ends[begin].data();
-      } else {
-        for (std::size_t i = 0; i < 3 * count; ++i) some[i] = batch.ends[begin + i / 3][i % 3];
-      }
-      walks[row] = begin_walk(batch, ends, count);
-    }
-    while (true) {
-      bool any = false;
-      for (int row = 0; row < rows; ++row) any |= advance(walks[row], places + row * lanes);
-      if (!any) break;
-#pragma GCC unroll 32
-      for (std::size_t i = 0; i < rows * lanes; ++i) leave_mark(batch.marks[places[i]]);
-    }
+#if HWY_TARGET != HWY_SCALAR
+  if (FixedWalk::fits(batch)) {
+    const std::vector<Eigen::Vector3f> undecided = walk_rays<FixedWalk>(batch);
+    walk_rays<ExactWalk>({batch.grid, batch.origin, undecided, batch.max_range, batch.marks});
+    return;
   }
+#endif
+  walk_rays<ExactWalk>(batch);
 }
 
 }  // namespace nextview::HWY_NAMESPACE
