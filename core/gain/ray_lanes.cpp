@@ -139,18 +139,59 @@ struct Found {
   Mask inside, ends;  ///< whether the voxels are the grid's; whether rays go no farther
 };
 
-/// Of voxels that are kept as numbers of states.
+/// What voxels have that are kept as numbers of states: twice the number, and 1 where a ray goes no farther.
 template <class State>
-HWY_INLINE Found look_up(const StateField& field, const std::vector<State>& states, IntegerVector place) {
+HWY_INLINE IntegerVector states_at(const std::vector<State>& states, IntegerVector place) {
   constexpr std::int64_t bits = (std::int64_t{1} << (8 * sizeof(State))) - 1;
   const auto* const begin = reinterpret_cast<const std::int64_t*>(states.data());
   const IntegerVector offset = hn::ShiftLeft<sizeof(State) / 2>(place);
-  const IntegerVector state = hn::And(hn::GatherOffset(integers, begin, offset), hn::Set(integers, bits));
-  const IntegerVector number = hn::ShiftRight<1>(state), one = hn::Set(integers, std::int64_t{1});
-  return {hn::GatherIndex(doubles, field.worth.data(), number), hn::GatherIndex(doubles, field.passes.data(), number),
-          where(hn::Ne(state, hn::Set(integers, std::int64_t{StateField::outside}))),
+  return hn::And(hn::GatherOffset(integers, begin, offset), hn::Set(integers, bits));
+}
+
+HWY_INLINE Found found_in(IntegerVector state, Vector worth, Vector passes) {
+  const IntegerVector one = hn::Set(integers, std::int64_t{1});
+  return {worth, passes, where(hn::Ne(state, hn::Set(integers, std::int64_t{StateField::outside}))),
           where(hn::Eq(hn::And(state, one), one))};
 }
+
+template <class State>
+HWY_INLINE Found look_up(const StateField& field, const std::vector<State>& states, IntegerVector place) {
+  const IntegerVector state = states_at(states, place), number = hn::ShiftRight<1>(state);
+  return found_in(state, hn::GatherIndex(doubles, field.worth.data(), number),
+                  hn::GatherIndex(doubles, field.passes.data(), number));
+}
+
+#if HWY_TARGET <= HWY_AVX3
+/// The same of so few states that registers hold them all: a gather takes longer than four permutations.
+class FewStates {
+ public:
+  static constexpr std::size_t most = 4 * most_lanes;
+  explicit FewStates(const StateField& field) {
+    HWY_ALIGN double padded[2][most] = {};
+    std::ranges::copy(field.worth, padded[0]);
+    std::ranges::copy(field.passes, padded[1]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      worth_[i] = hn::Load(doubles, padded[0] + i * most_lanes);
+      passes_[i] = hn::Load(doubles, padded[1] + i * most_lanes);
+    }
+  }
+
+  HWY_INLINE Found operator()(const StateField& field, IntegerVector place) const {
+    const IntegerVector state = states_at(field.bytes, place), number = hn::ShiftRight<1>(state);
+    const auto lane = hn::IndicesFromVec(doubles, hn::And(number, hn::Set(integers, std::int64_t{most_lanes - 1})));
+    const Mask odd = hn::RebindMask(doubles, hn::TestBit(number, hn::Set(integers, std::int64_t{most_lanes})));
+    const Mask upper = hn::RebindMask(doubles, hn::TestBit(number, hn::Set(integers, std::int64_t{2 * most_lanes})));
+    const auto pick_from = [&](const Vector(&of)[4]) HWY_ATTR {
+      const auto at = [&](int i) HWY_ATTR { return hn::TableLookupLanes(of[i], lane); };
+      return hn::IfThenElse(upper, hn::IfThenElse(odd, at(3), at(2)), hn::IfThenElse(odd, at(1), at(0)));
+    };
+    return found_in(state, pick_from(worth_), pick_from(passes_));
+  }
+
+ private:
+  Vector worth_[4], passes_[4];
+};
+#endif
 
 /// Of voxels that are all different.
 HWY_INLINE Found look_up(const StateField& field, IntegerVector place) {
@@ -187,6 +228,9 @@ std::size_t sum_by(const RaysThroughGrid& rays, const StateField& field, std::sp
 }
 
 std::size_t sum_states(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums) {
+#if HWY_TARGET <= HWY_AVX3
+  if (!field.bytes.empty() && field.worth.size() <= FewStates::most) return sum_by(rays, field, sums, FewStates(field));
+#endif
   if (!field.bytes.empty())
     return sum_by(rays, field, sums, [](const StateField& f, IntegerVector at) { return look_up(f, f.bytes, at); });
   if (!field.shorts.empty())

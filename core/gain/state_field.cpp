@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstring>
@@ -84,19 +85,25 @@ class KnownStates {
   std::array<std::uint16_t, 256> states_{};
 };
 
-/// Calls `visit(place, brick, number)` for each voxel of the grid that is in a brick: where it stands in a field, and
-/// in the brick.
+/// Calls `visit(place, brick, number, count)` for each row of voxels of the grid that is in a brick: where its first
+/// one stands in a field, and in the brick.
 template <class Visit>
-void for_each_voxel(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t b, Visit visit) {
+void for_each_row(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t b, Visit visit) {
   const Brick& brick = *voxels.bricks()[b];
   const Eigen::Vector3i first = voxels.cell(b * VoxelBricks::brick_voxels);
   const Eigen::Vector3i size = (grid.size - first).cwiseMin(VoxelBricks::edge);
   for (int z = 0; z < size.z(); ++z)
-    for (int y = 0; y < size.y(); ++y) {
-      const std::size_t row = place_with_margin(grid, first.x(), first.y() + y, first.z() + z);
-      const std::size_t in_brick = std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge;
-      for (int x = 0; x < size.x(); ++x) visit(row + std::size_t(x), brick, in_brick + std::size_t(x));
-    }
+    for (int y = 0; y < size.y(); ++y)
+      visit(place_with_margin(grid, first.x(), first.y() + y, first.z() + z), brick,
+            std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge, std::size_t(size.x()));
+}
+
+/// Whether two rows of a brick are kept as the same.
+bool same_rows(const Brick& brick, std::size_t a, std::size_t b) {
+  const auto same = [&](const auto& values) {
+    return std::memcmp(&values[a], &values[b], VoxelBricks::edge * sizeof values[0]) == 0;
+  };
+  return same(brick.numbers()) && same(brick.states());
 }
 
 /// Calls `work(bricks)` for ranges of all bricks, several at once.
@@ -113,10 +120,18 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
   Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
   for_ranges_of_bricks(voxels, [&](const auto& range) {
     KnownStates state(numbering);
-    for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b)
-      for_each_voxel(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t i) {
-        states[place] = static_cast<State>(state(brick, i, scoring.gain.needs_occlusion));
+    std::array<State, VoxelBricks::edge> row{};
+    for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b) {
+      std::size_t before = VoxelBricks::brick_voxels;  // the row that was visited last: none of this brick yet
+      for_each_row(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t first, std::size_t count) {
+        // Most are as the one before: where nothing is, or nothing was seen.
+        if (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before))
+          for (std::size_t i = 0; i < count; ++i)
+            row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
+        before = first;
+        std::copy_n(row.begin(), count, states.begin() + std::ptrdiff_t(place));
       });
+    }
   });
   if (numbering.too_many()) states.clear();
   return !states.empty();
@@ -128,10 +143,12 @@ void fill_places(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring
   field.passes.assign(places_with_margin(grid), -2.0);
   for_ranges_of_bricks(voxels, [&](const auto& range) {
     for (std::size_t b = range.begin(); b != range.end(); ++b)
-      for_each_voxel(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t i) {
-        const Voxel voxel = brick[i];
-        field.worth[place] = scoring.worth(voxel);
-        field.passes[place] = scoring.ends(voxel) ? -scoring.passes(voxel) : scoring.passes(voxel);
+      for_each_row(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t first, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+          const Voxel voxel = brick[first + i];
+          field.worth[place + i] = scoring.worth(voxel);
+          field.passes[place + i] = scoring.ends(voxel) ? -scoring.passes(voxel) : scoring.passes(voxel);
+        }
       });
   });
 }
