@@ -16,7 +16,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     ::_exit(0);
   };
   ReadingProcess process(send, std::chrono::seconds(10), {});
-  const ReceivedScene received = receive_scene(process);
+  ReceivedScene received;
+  try {
+    received = receive_scene(process);
+  } catch (const ReadingProcess::TooSlow&) {  // a machine that has much else to do
+  }
   for (const auto& triangle : received.scene.triangles)
     for (const std::uint32_t vertex : triangle)
       require(received.kind != ReceivedScene::Kind::scene || vertex < received.scene.vertices.size(),
