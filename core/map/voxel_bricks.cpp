@@ -7,7 +7,6 @@
 #include <cstring>
 #include <functional>
 #include <stdexcept>
-#include <unordered_set>
 
 namespace nextview {
 namespace {
@@ -22,6 +21,19 @@ std::vector<Part> of_each(const VoxelBricks& voxels, PartOf part_of) {
     for (std::size_t i = z * layer; i < (z + 1) * layer; ++i, ++voxel) parts[i] = std::invoke(part_of, *voxel);
   });
   return parts;
+}
+
+/// Sorted.
+std::vector<const VoxelBricks::Brick*> each_once(std::vector<const VoxelBricks::Brick*> bricks) {
+  std::ranges::sort(bricks, std::less<>());
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+  return bricks;
+}
+
+std::size_t bytes_of(const std::vector<const VoxelBricks::Brick*>& bricks) {
+  std::size_t bytes = 0;
+  for (const VoxelBricks::Brick* brick : bricks) bytes += brick->bytes();
+  return bytes;
 }
 
 }  // namespace
@@ -119,21 +131,30 @@ void VoxelBricks::Iterator::find() {
 }
 
 std::size_t VoxelBricks::bytes() const {
-  std::size_t bytes = 0;
-  std::unordered_set<const Brick*> counted = {&*empty_};
+  std::vector<const Brick*> own;
   for (const auto& brick : *table_)
-    if (counted.insert(&*brick).second) bytes += brick->bytes();
-  return bytes;
+    if (!brick.shares_with(empty_)) own.push_back(&*brick);
+  return bytes_of(each_once(own));
 }
 
 std::size_t VoxelBricks::bytes_beside(const VoxelBricks& other) const {
   if (table_.shares_with(other.table_)) return 0;
-  std::size_t own = table_->size() * sizeof(CopyOnWrite<Brick>);
-  std::unordered_set<const Brick*> counted;
-  for (const auto& brick : *other.table_) counted.insert(&*brick);
-  for (const auto& brick : *table_)
-    if (counted.insert(&*brick).second) own += brick->bytes();
-  return own;
+  const auto &bricks = *table_, &others = *other.table_;
+  std::vector<const Brick*> own;
+  for (std::size_t b = 0; b < bricks.size(); ++b)
+    if (!bricks[b].shares_with(others[b])) own.push_back(&*bricks[b]);
+  own = each_once(own);
+  // Of those that several places share, one may be the other's at another place.
+  std::vector<bool> shared(own.size());
+  for (const auto& brick : others) {
+    const auto found = std::lower_bound(own.begin(), own.end(), &*brick, std::less<>());
+    if (found != own.end() && *found == &*brick) shared[std::size_t(found - own.begin())] = true;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (!shared[i]) own[kept++] = own[i];
+  own.resize(kept);
+  return bricks.size() * sizeof(CopyOnWrite<Brick>) + bytes_of(own);
 }
 
 }  // namespace nextview

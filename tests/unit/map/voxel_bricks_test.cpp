@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 #include <thread>
 
 #include "core/map/occupancy_map.hpp"
+#include "tests/unit/map/random_scans.hpp"
 
 namespace nextview {
 namespace {
@@ -127,6 +129,34 @@ TEST(VoxelBricks, OnlyWhatChangesTakesMemory) {
   EXPECT_EQ(fork.bytes(), 2 * brick);
   EXPECT_LE(fork.bytes_beside(bricks), brick + (std::size_t{64} << 10)) << "and at most 64 KiB to find the bricks";
   EXPECT_LE(sizeof(VoxelBricks), 64u);
+}
+
+/// Of the bricks that `of` has and `other` has not, wherever.
+std::size_t bytes_of_bricks(const VoxelBricks& of, const VoxelBricks& other) {
+  std::set<const VoxelBricks::Brick*> counted;
+  for (const auto& brick : other.bricks()) counted.insert(&*brick);
+  std::size_t bytes = 0;
+  for (const auto& brick : of.bricks())
+    if (counted.insert(&*brick).second) bytes += brick->bytes();
+  return bytes;
+}
+
+TEST(VoxelBricks, OfSeveralMapsEachBrickCountsOnce) {
+  std::mt19937 random(12);
+  OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, 0.01));
+  const VoxelBricks nothing = map.voxels();
+  std::vector<VoxelBricks> maps = {nothing};
+  for (const Vector3& origin : random_scans::origins()) {
+    Scan scan = random_scans::scan(random, origin, 0.01, 400);
+    random_scans::add_passes(scan, random, 4000);  // free space whose bricks are shared
+    map.insert(scan);
+    maps.push_back(map.voxels());
+  }
+  const std::size_t table = nothing.brick_count() * sizeof(void*);
+  for (const VoxelBricks& a : maps) {
+    EXPECT_EQ(a.bytes(), bytes_of_bricks(a, nothing));
+    for (const VoxelBricks& b : maps) EXPECT_EQ(a.bytes_beside(b), &a == &b ? 0 : table + bytes_of_bricks(a, b));
+  }
 }
 
 TEST(VoxelBricks, ForksOfOneMapGrowInSeveralThreads) {
