@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/evaluation/repeated_sum.hpp"
 
@@ -91,18 +92,16 @@ bool of_band(ScoredSet set) { return set == ScoredSet::band || set == ScoredSet:
 /// Which of the sets that are scored a voxel belongs to, a bit each.
 class SetsOfVoxel {
  public:
-  explicit SetsOfVoxel(std::span<const ScoredSet> sets) : needs_visited_(std::ranges::any_of(sets, of_visited)) {
+  explicit SetsOfVoxel(std::span<const ScoredSet> sets) {
     for (const bool in_band : {false, true})
       for (const bool visited : {false, true})
         for (const ScoredSet set : sets)
           if ((visited || !of_visited(set)) && (in_band || !of_band(set)))
             sets_[2 * in_band + visited] |= 1u << static_cast<unsigned>(set);
   }
-  bool needs_visited() const { return needs_visited_; }
   unsigned operator()(bool in_band, bool visited) const { return sets_[2 * in_band + visited]; }
 
  private:
-  bool needs_visited_;
   std::array<unsigned, 4> sets_{};
 };
 
@@ -144,12 +143,12 @@ class RunsOfVoxels {
   ~RunsOfVoxels() { end(); }
   RunsOfVoxels(const RunsOfVoxels&) = delete;
 
-  void add(float p, bool occupied, bool in_band, unsigned counts_in) {
+  void add(float p, bool occupied, bool in_band, unsigned counts_in, std::size_t count) {
     if (p != p_ || occupied != occupied_ || in_band != in_band_ || counts_in != counts_in_) {
       end();
       p_ = p, occupied_ = occupied, in_band_ = in_band, counts_in_ = counts_in;
     }
-    ++count_;
+    count_ += count;
   }
 
  private:
@@ -169,27 +168,51 @@ class RunsOfVoxels {
   std::size_t count_ = 0;
 };
 
-/// `from(i)`: points at the probability of a voxel, and those of the next ones. `visited(i)`: whether it was.
-template <class From, class Visited>
+/// 64 of a mask's flags from one on, the lowest bit first; beyond its end 0.
+std::uint64_t bits_from(const BitMask& mask, std::size_t first) {
+  const std::vector<std::uint64_t>& words = mask.words();
+  const std::size_t word = first / 64, shift = first % 64;
+  return words[word] >> shift | (shift != 0 && word + 1 < words.size() ? words[word + 1] << (64 - shift) : 0);
+}
+
+/// What is true of a voxel, and of how many from it on.
+struct VoxelRun {
+  bool in_band, visited, hidden, occupied;
+  std::size_t count;
+};
+VoxelRun run_from(const GroundTruth& truth, TruthConvention convention, const BitMask* visited, std::size_t first) {
+  const std::uint64_t touch = bits_from(truth.touch, first), centre = bits_from(truth.centre, first);
+  const std::uint64_t band = bits_from(truth.near_surface, first), seen = visited ? bits_from(*visited, first) : 0;
+  const auto changes = [](std::uint64_t bits) { return bits ^ (0 - (bits & 1)); };
+  const int alike = std::countr_zero(changes(touch) | changes(centre) | changes(band) | changes(seen));
+  const bool hidden = centre & ~touch & 1, occupied = (convention == TruthConvention::touch ? touch : centre) & 1;
+  return {(band & 1) != 0, (seen & 1) != 0, hidden, occupied, std::size_t(alike)};
+}
+
+/// `from(i)`: where the probabilities of a voxel and the next ones are; `next(most)` gives one, and of how many from
+/// there on it is, and `skip(count)` goes on. `visited` may be null where no set needs it.
+template <class From>
 std::vector<MapQuality> qualities(const GroundTruth& truth, TruthConvention convention, std::span<const ScoredSet> sets,
-                                  From from, Visited visited) {
+                                  From from, const BitMask* visited) {
   const SetsOfVoxel sets_of(sets);
-  const auto add = [&](RunsOfVoxels& runs, std::size_t i, auto& probability) {
-    const bool in_band = truth.near_surface[i];
-    const unsigned counts_in = sets_of(in_band, sets_of.needs_visited() && visited(i));
-    if (counts_in == 0) return;
-    const VoxelTruth voxel = voxel_truth(truth, i, convention);
-    if (voxel == VoxelTruth::hidden) return;
-    runs.add(*probability, voxel == VoxelTruth::occupied, in_band, counts_in);
-  };
   // Split and joined in the same places on any number of threads, so that the sums round alike.
   const SumsOfSets all = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, truth.grid.voxel_count(), 1 << 15), SumsOfSets(),
       [&](const auto& range, SumsOfSets part) {
         {
           RunsOfVoxels runs(part);
-          auto probability = from(range.begin());
-          for (std::size_t i = range.begin(); i != range.end(); ++i, ++probability) add(runs, i, probability);
+          auto probabilities = from(range.begin());
+          for (std::size_t i = range.begin(), left = 0; i != range.end(); i += left) {
+            const VoxelRun run = run_from(truth, convention, visited, i);
+            left = std::min(run.count, range.end() - i);
+            const unsigned counts_in = run.hidden ? 0 : sets_of(run.in_band, run.visited);
+            if (counts_in == 0) probabilities.skip(left);
+            for (std::size_t done = 0; counts_in != 0 && done < left;) {
+              const auto [probability, count] = probabilities.next(left - done);
+              runs.add(probability, run.occupied, run.in_band, counts_in, count);
+              done += count;
+            }
+          }
         }
         return part;
       },
@@ -202,12 +225,22 @@ std::vector<MapQuality> qualities(const GroundTruth& truth, TruthConvention conv
   return result;
 }
 
-/// Walks the probabilities of a map's voxels in the grid's order.
-struct ProbabilityIterator {
+struct Probabilities {
+  const float* at;
+
+  std::pair<float, std::size_t> next(std::size_t) { return {*at++, 1}; }
+  void skip(std::size_t count) { at += count; }
+};
+
+struct ProbabilitiesOfVoxels {
   VoxelBricks::Iterator voxel;
 
-  float operator*() const { return (*voxel).probability; }
-  void operator++() { ++voxel; }
+  std::pair<float, std::size_t> next(std::size_t most) {
+    const std::pair found((*voxel).probability, voxel.alike(most));
+    voxel += found.second;
+    return found;
+  }
+  void skip(std::size_t count) { voxel += count; }
 };
 
 }  // namespace
@@ -216,17 +249,18 @@ std::vector<MapQuality> map_quality(std::span<const float> probabilities, const 
                                     TruthConvention convention, std::span<const ScoredSet> sets,
                                     std::span<const std::uint8_t> visited) {
   for (const ScoredSet set : sets) check_lengths(probabilities.size(), truth, set, visited.size());
+  const BitMask mask(visited);
   return qualities(
-      truth, convention, sets, [&](std::size_t i) { return probabilities.begin() + std::ptrdiff_t(i); },
-      [&](std::size_t i) { return visited[i] != 0; });
+      truth, convention, sets, [&](std::size_t i) { return Probabilities{probabilities.data() + i}; },
+      std::ranges::any_of(sets, of_visited) ? &mask : nullptr);
 }
 
 std::vector<MapQuality> map_quality(const VoxelBricks& voxels, const GroundTruth& truth, TruthConvention convention,
                                     std::span<const ScoredSet> sets, const BitMask& visited) {
   for (const ScoredSet set : sets) check_lengths(voxels.size(), truth, set, visited.size());
   return qualities(
-      truth, convention, sets, [&](std::size_t i) { return ProbabilityIterator{voxels.from(i)}; },
-      [&](std::size_t i) { return visited[i]; });
+      truth, convention, sets, [&](std::size_t i) { return ProbabilitiesOfVoxels{voxels.from(i)}; },
+      std::ranges::any_of(sets, of_visited) ? &visited : nullptr);
 }
 
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,

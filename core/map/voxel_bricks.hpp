@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
@@ -128,8 +129,28 @@ class VoxelBricks {
       return before;
     }
     bool operator==(const Iterator& other) const { return number_ == other.number_; }
+    /// So many on.
+    Iterator& operator+=(std::size_t count) {
+      while (count > 0) {
+        const std::size_t here = std::min(count, left_in_row());
+        number_ += here, in_brick_ += here, x_ += static_cast<int>(here), count -= here;
+        if ((x_ & (edge - 1)) == 0 || x_ == bricks_->size_.x()) next_row();
+      }
+      return *this;
+    }
+    /// Of how many voxels from this one on, `most` at most, it is known at a look that they are as this one.
+    std::size_t alike(std::size_t most) const {
+      if (!brick_->follows_from_log_odds()) return 1;
+      const float* const numbers = &brick_->numbers()[in_brick_];
+      const std::uint8_t* const states = &brick_->states()[in_brick_];
+      const std::size_t look_at = std::min(most, left_in_row());
+      std::size_t count = 1;
+      while (count < look_at && numbers[count] == numbers[0] && states[count] == states[0]) ++count;
+      return count;
+    }
 
    private:
+    std::size_t left_in_row() const { return std::size_t(std::min(edge - (x_ & (edge - 1)), bricks_->size_.x() - x_)); }
     void next_row();
     void find();
     const VoxelBricks* bricks_ = nullptr;
