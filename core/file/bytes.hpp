@@ -2,11 +2,13 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace nextview {
@@ -15,19 +17,33 @@ namespace nextview {
 template <class Value>
 concept PlainValue = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
 
-/// Values as bytes, of the machine that writes them.
+/// Values as bytes, of the machine that writes them, given to a sink some at a time.
 class ByteWriter {
  public:
+  explicit ByteWriter(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) {}
+  /// Gives it the rest. Call it at the end.
+  void finish() {
+    sink_(waiting_);
+    waiting_.clear();
+  }
   template <class... Values>
   void operator()(const Values&... values) {
     (put(values), ...);
   }
-  std::string bytes;
 
  private:
+  void append(const void* data, std::size_t size) {
+    constexpr std::size_t many = std::size_t{1} << 20;
+    if (waiting_.size() + size > many) finish();
+    const std::string_view bytes(static_cast<const char*>(data), size);
+    if (size > many)
+      sink_(bytes);
+    else
+      waiting_ += bytes;
+  }
   template <PlainValue Value>
   void put(const Value& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    append(&value, sizeof value);
   }
   void put(const std::string& text) { put(std::vector<char>(text.begin(), text.end())); }
   template <class Value>
@@ -39,7 +55,7 @@ class ByteWriter {
   void put(const std::vector<Value>& values) {
     put(std::uint64_t{values.size()});
     if constexpr (PlainValue<Value>)
-      bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+      append(values.data(), values.size() * sizeof(Value));
     else
       for (const Value& value : values) put(value);
   }
@@ -47,6 +63,9 @@ class ByteWriter {
   void put(const std::array<Value, size>& values) {
     for (const Value& value : values) put(value);
   }
+
+  std::function<void(std::string_view)> sink_;
+  std::string waiting_;
 };
 
 /// The same values again. Every function @throws std::runtime_error if there are not as many bytes.

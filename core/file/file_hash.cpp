@@ -10,27 +10,31 @@
 
 namespace nextview {
 
+void HashOfParts::add(std::string_view bytes) {
+  crc_ =
+      static_cast<std::uint32_t>(::crc32_z(crc_, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+  bytes_ += bytes.size();
+}
+
+FileHash HashOfParts::hash() const { return {bytes_, fmt::format("{:08x}", crc_)}; }
+
 FileHash file_hash(const std::filesystem::path& file) {
   const Descriptor descriptor = open_regular_file(file);
-  FileHash hash;
-  uLong crc = ::crc32(0, nullptr, 0);
-  std::vector<unsigned char> part(1 << 20);
+  HashOfParts hash;
+  std::vector<char> part(1 << 20);
   for (;;) {
     const ssize_t got = ::read(descriptor.get(), part.data(), part.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw file_error(file, "read", errno);
-    if (got == 0) break;
-    crc = ::crc32(crc, part.data(), static_cast<uInt>(got));
-    hash.bytes += static_cast<std::uintmax_t>(got);
+    if (got == 0) return hash.hash();
+    hash.add({part.data(), static_cast<std::size_t>(got)});
   }
-  hash.crc32 = fmt::format("{:08x}", crc);
-  return hash;
 }
 
 FileHash hash_of(std::string_view bytes) {
-  const uLong crc =
-      ::crc32_z(::crc32(0, nullptr, 0), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-  return {bytes.size(), fmt::format("{:08x}", crc)};
+  HashOfParts hash;
+  hash.add(bytes);
+  return hash.hash();
 }
 
 }  // namespace nextview

@@ -14,6 +14,17 @@ struct FileHash {
   bool operator==(const FileHash&) const = default;
 };
 
+/// The same of bytes that come some at a time.
+class HashOfParts {
+ public:
+  void add(std::string_view bytes);
+  FileHash hash() const;
+
+ private:
+  std::uintmax_t bytes_ = 0;
+  std::uint32_t crc_ = 0;  // what zlib begins with
+};
+
 /// @throws std::runtime_error naming the file and the reason if it cannot be read.
 FileHash file_hash(const std::filesystem::path& file);
 /// The same of bytes that are at hand.

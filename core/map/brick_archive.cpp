@@ -37,9 +37,6 @@ Kept kept_bricks(const VoxelBricks& voxels) {
 
 void write_bricks(ByteWriter& writer, const VoxelBricks& voxels) {
   const Kept kept = kept_bricks(voxels);
-  // At once: growing, the bytes would be there twice.
-  writer.bytes.reserve(writer.bytes.size() + 8 * (kept.places.size() + 3) +
-                       kept.different.size() * VoxelBricks::brick_voxels * (sizeof(float) + 1));
   writer(kept.places, kept.which, std::uint64_t{kept.different.size()});
   for (const Brick* const brick : kept.different) writer(brick->numbers(), brick->states());
 }

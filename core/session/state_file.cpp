@@ -206,19 +206,26 @@ ScanState state_in(ByteReader& reader, const Session& session, std::span<const J
 bool write_state_file(const Session& session, std::span<const JournalStep> line, const fs::path& file) {
   const ScanState& state = session.state();
   if (!can_be_kept(session) || line.size() != state.records.size()) return false;
-  ByteWriter writer;
-  writer(key_of(session, line, file.parent_path()));
-  for (const auto& record : state.records) each_record(writer, *record);
-  for (const TakenView& taken : state.known.taken) each_taken(writer, taken);
-  each_next(writer, state.next);
-  writer(state.finished);
-  each(writer, state.T_world_camera);
-  write_bricks(writer, state.known.map.voxels());
-  state.known.scanned->archive(writer);
-  if (state.evaluation) write_evaluation(writer, *state.evaluation);
-  for (const auto& scan : state.scans) writer(coordinates(scan->hits));
+  const std::string key = key_of(session, line, file.parent_path());
+  const auto write = [&](std::function<void(std::string_view)> sink) {
+    ByteWriter writer(std::move(sink));
+    writer(key);
+    for (const auto& record : state.records) each_record(writer, *record);
+    for (const TakenView& taken : state.known.taken) each_taken(writer, taken);
+    each_next(writer, state.next);
+    writer(state.finished);
+    each(writer, state.T_world_camera);
+    write_bricks(writer, state.known.map.voxels());
+    state.known.scanned->archive(writer);
+    if (state.evaluation) write_evaluation(writer, *state.evaluation);
+    for (const auto& scan : state.scans) writer(coordinates(scan->hits));
+    writer.finish();
+  };
+  HashOfParts sum;  // of what is written then: all of it at once would take as much memory as the map
+  write([&](std::string_view bytes) { sum.add(bytes); });
   AtomicFile out(file);
-  out.stream() << magic << hash_of(writer.bytes).crc32 << '\n' << writer.bytes;
+  out.stream() << magic << sum.hash().crc32 << '\n';
+  write([&](std::string_view bytes) { out.stream() << bytes; });
   out.commit();
   return true;
 }

@@ -19,9 +19,11 @@ OccupancyMap map_with_wall() {
 }
 
 std::string bytes_of(const OccupancyMap& map) {
-  ByteWriter writer;
+  std::string bytes;
+  ByteWriter writer([&](std::string_view more) { bytes += more; });
   write_bricks(writer, map.voxels());
-  return writer.bytes;
+  writer.finish();
+  return bytes;
 }
 
 TEST(BrickArchive, AMapIsReadAsItWas) {
