@@ -183,6 +183,8 @@ Pose pose_of(const std::vector<double>& by_rows) {
   };
   if (!(error(given) <= printed_roughly) || given.determinant() <= 0.0)
     throw std::invalid_argument("is no rigid pose: its rotation is none");
+  if (!(pose.translation().cwiseAbs().maxCoeff() <= farthest_pose))
+    throw std::invalid_argument(fmt::format("is no pose: it lies over {:g} m off", farthest_pose));
   if (error(given) > printed_fully) pose.linear() = Eigen::Quaterniond(given).normalized().toRotationMatrix();
   return pose;
 }

@@ -83,6 +83,7 @@ TEST(DriverServer, SaysWhatIsWrong) {
   EXPECT_THAT(error("\"request\":\"dance\""), HasSubstr("no request 'dance'"));
   EXPECT_THAT(error("\"request\":\"move\",\"pose\":[1]"), HasSubstr("16 numbers"));
   EXPECT_THAT(error("\"request\":\"move\""), HasSubstr("pose"));
+  EXPECT_THAT(error("\"request\":\"move\",\"pose\":[1,0,0,1e71,0,1,0,0,0,0,1,0,0,0,0,1]"), HasSubstr("m off"));
   EXPECT_THAT(error("\"request\":\"capture\",\"step\":7,\"folder\":\"/\""), HasSubstr("lens cap"));
   EXPECT_THAT(error("\"request\":\"capture\",\"step\":1,\"folder\":\"/no/such\""), HasSubstr("/no/such"));
   EXPECT_EQ(answers("hello\n[]\n{}\n").size(), 3u);
