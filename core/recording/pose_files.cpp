@@ -32,8 +32,6 @@ std::string fault(const Matrix34& m) {
   if (!(error <= rotation_tolerance))
     return fmt::format("the pose's rotation is none: its columns are off length 1 and right angles by {:.3g}", error);
   if (r.determinant() < 0.0) return "the pose mirrors; its rotation must be right-handed";
-  if (m.col(3).cwiseAbs().maxCoeff() > farthest_pose)
-    return fmt::format("the pose lies over {:g} m off", farthest_pose);
   return "";
 }
 
@@ -55,6 +53,10 @@ NamedPose named_pose(const fs::path& file, const FoundPose& found, PoseDirection
   }
   Pose pose = rigid(found.matrix);
   if (direction == PoseDirection::world_to_sensor) pose = pose.inverse();
+  if (!is_pose(pose)) {
+    named.fault = line_failure(file, found.line, fmt::format("the pose lies over {:g} m off", farthest_pose)).what();
+    return named;
+  }
   named.T_world_camera = axes == PoseAxes::body ? pose * camera_in_body() : pose;
   return named;
 }
