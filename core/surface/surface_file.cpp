@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
@@ -96,8 +97,12 @@ std::string ply_header(const Surface& surface, float end) {
 void write_stl(const TriangleMesh& mesh, const std::filesystem::path& file, std::string_view remark) {
   constexpr float millimetres = 1e3f;
   check(mesh, millimetres);
-  std::string facets;
+  constexpr std::size_t head = 80, bytes_a_facet = 50;
+  std::string bytes = "nextview, unit mm";  // not 'solid': that begins the text format
+  if (!remark.empty()) bytes += fmt::format("; {}", remark.substr(0, 40));
   std::uint32_t count = 0;
+  bytes.reserve(head + sizeof count + bytes_a_facet * mesh.triangles.size());  // growing, it would be there twice
+  bytes.resize(head + sizeof count, '\0');
   for (const auto& [a, b, c] : mesh.triangles) {
     const std::array<Eigen::Vector3f, 3> corners = {millimetres * mesh.vertices[a], millimetres * mesh.vertices[b],
                                                     millimetres * mesh.vertices[c]};
@@ -105,23 +110,23 @@ void write_stl(const TriangleMesh& mesh, const std::filesystem::path& file, std:
     const Eigen::Vector3d across = (corners[1].cast<double>() - origin).cross(corners[2].cast<double>() - origin);
     if (across.isZero(0.0)) continue;
     const Eigen::Vector3f normal = across.stableNormalized().cast<float>();
-    append(facets, normal.data(), 3);
-    for (const Eigen::Vector3f& corner : corners) append(facets, corner.data(), 3);
-    facets.append(2, '\0');  // attribute byte count
+    append(bytes, normal.data(), 3);
+    for (const Eigen::Vector3f& corner : corners) append(bytes, corner.data(), 3);
+    bytes.append(2, '\0');  // attribute byte count
     ++count;
   }
   if (count == 0) throw std::invalid_argument("surface file: no triangle of the surface has an area");
-  std::string header = "nextview, unit mm";  // not 'solid': that begins the text format
-  if (!remark.empty()) header += fmt::format("; {}", remark.substr(0, 40));
-  header.resize(80, '\0');
-  append(header, &count, 1);
-  write_file(file, header + facets);
+  std::memcpy(bytes.data() + head, &count, sizeof count);
+  write_file(file, bytes);
 }
 
 void write_ply(const Surface& surface, const std::filesystem::path& file) {
   check(surface);
   const float end = colours_end(surface);
+  constexpr std::size_t bytes_a_vertex = 20, bytes_a_face = 13;
   std::string bytes = ply_header(surface, end);
+  bytes.reserve(bytes.size() + bytes_a_vertex * surface.mesh.vertices.size() +
+                bytes_a_face * surface.mesh.triangles.size());
   for (std::size_t i = 0; i < surface.mesh.vertices.size(); ++i) {
     const float uncertainty = surface.uncertainty[i];
     const std::uint8_t seen = surface.seen[i] != 0;
