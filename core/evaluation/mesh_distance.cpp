@@ -34,9 +34,8 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh) {
   build(mesh, 0, order_.size());
   triangles_.reserve(order_.size());
   for (const std::uint32_t t : order_) {
-    const auto corner = [&](int k) -> Vector3 { return mesh.vertices[mesh.triangles[t][k]].cast<double>(); };
-    const Vector3 ab = corner(1) - corner(0), ac = corner(2) - corner(0);
-    triangles_.push_back({corner(0), ab, ac, ab.cross(ac)});
+    const auto& [a, b, c] = mesh.triangles[t];
+    triangles_.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
   }
 }
 
@@ -73,15 +72,16 @@ void MeshDistance::build(const TriangleMesh& mesh, std::size_t begin, std::size_
 /// point lies on an edge whose outer side faces the point. Holds for degenerate triangles too.
 double MeshDistance::squared_distance(const Triangle& t, const Vector3& point, double limit) {
   double nearest = std::numeric_limits<double>::infinity();
-  const Vector3 p = point - t.a;
-  const double height = t.normal.dot(p), whole = t.normal.squaredNorm();  // both times the parallelogram's area
+  const Vector3 corner = t[0].cast<double>(), ab = t[1].cast<double>() - corner, ac = t[2].cast<double>() - corner;
+  const Vector3 p = point - corner, normal = ab.cross(ac);
+  const double height = normal.dot(p), whole = normal.squaredNorm();  // both times the parallelogram's area
   if (height * height > limit * whole) return nearest;
   // Barycentric coordinates of the foot of the point, times `whole`.
-  const double b = t.normal.dot(p.cross(t.ac)), c = t.normal.dot(t.ab.cross(p)), a = whole - b - c;
+  const double b = normal.dot(p.cross(ac)), c = normal.dot(ab.cross(p)), a = whole - b - c;
   if (a > 0.0 && b > 0.0 && c > 0.0) return height * height / whole;
-  if (a <= 0.0) nearest = std::min(nearest, squared_distance_to_segment(p - t.ab, t.ac - t.ab));
-  if (b <= 0.0) nearest = std::min(nearest, squared_distance_to_segment(p, t.ac));
-  if (c <= 0.0) nearest = std::min(nearest, squared_distance_to_segment(p, t.ab));
+  if (a <= 0.0) nearest = std::min(nearest, squared_distance_to_segment(p - ab, ac - ab));
+  if (b <= 0.0) nearest = std::min(nearest, squared_distance_to_segment(p, ac));
+  if (c <= 0.0) nearest = std::min(nearest, squared_distance_to_segment(p, ab));
   return nearest;
 }
 

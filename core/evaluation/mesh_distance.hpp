@@ -23,9 +23,7 @@ class MeshDistance {
   void for_each_along(int axis, const Eigen::Vector3f& point, Visit visit) const;
 
  private:
-  struct Triangle {
-    Vector3 a, ab, ac, normal;  ///< a corner, the edges from there, and their cross product
-  };
+  using Triangle = std::array<Eigen::Vector3f, 3>;  ///< its corners
   /// An inner node has its first child right behind it and its second at `second`; a leaf has `count` triangles from
   /// `first`.
   struct Node {
