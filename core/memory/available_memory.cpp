@@ -35,8 +35,8 @@ std::uint64_t left_by_limits() {
 }
 
 /// What the machine has left, swap included.
-std::uint64_t left_by_machine() {
-  std::ifstream meminfo("/proc/meminfo");
+std::uint64_t left_by_machine(const fs::path& root) {
+  std::ifstream meminfo(root / "proc/meminfo");
   std::uint64_t kilobytes = 0, sum = 0;
   bool found = false;
   for (std::string key; meminfo >> key;) {
@@ -75,18 +75,18 @@ std::uint64_t left_by_group(const fs::path& root, fs::path group, const char* li
   }
 }
 
-std::uint64_t left_by_groups() {
+std::uint64_t left_by_groups(const fs::path& root) {
   std::uint64_t left = unlimited;
-  std::ifstream groups("/proc/self/cgroup");  // lines HIERARCHY:CONTROLLERS:PATH
+  const fs::path all = root / "sys/fs/cgroup";
+  std::ifstream groups(root / "proc/self/cgroup");  // lines HIERARCHY:CONTROLLERS:PATH
   for (std::string line; std::getline(groups, line);) {
     const auto first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1), path = line.substr(second + 1);
     if (controllers.empty())
-      left = std::min(left, left_by_group("/sys/fs/cgroup", path, "memory.max", "memory.current"));
+      left = std::min(left, left_by_group(all, path, "memory.max", "memory.current"));
     else if (controllers == "memory")
-      left = std::min(left,
-                      left_by_group("/sys/fs/cgroup/memory", path, "memory.limit_in_bytes", "memory.usage_in_bytes"));
+      left = std::min(left, left_by_group(all / "memory", path, "memory.limit_in_bytes", "memory.usage_in_bytes"));
   }
   return left;
 }
@@ -98,7 +98,9 @@ std::string gigabytes(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t available_memory() { return std::min({left_by_limits(), left_by_machine(), left_by_groups()}); }
+std::uint64_t available_memory(const fs::path& root) {
+  return std::min({left_by_limits(), left_by_machine(root), left_by_groups(root)});
+}
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice) {
   constexpr std::uint64_t reserve = std::uint64_t{48} << 20;  // for what is small, and for the stacks of threads

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 
@@ -11,8 +12,8 @@ struct OutOfMemory : std::runtime_error {
 };
 
 /// What this process may still take [bytes]: the least of what its limits (`ulimit -v`, `ulimit -d`), its control
-/// groups and the machine leave it.
-std::uint64_t available_memory();
+/// groups and the machine leave it, as the files below `root` have it.
+std::uint64_t available_memory(const std::filesystem::path& root = "/");
 
 /// To be asked before something large is made, while everything is still whole.
 /// @throws OutOfMemory "WHAT needs 2.3 GB, 0.8 GB are available: ADVICE" if `bytes` are not available.

@@ -79,7 +79,7 @@ TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
 
 TEST(Info, CloudsAreTakenAsScanTakesThem) {
   const TemporaryFolder folder;
-  const std::string points = "0 0 0\n60 0 0\n0 40 20\n";
+  const std::string points = "5 7 -9\n65 7 -9\n5 47 11\n";
   const fs::path ply = folder.path() / "a.ply", pcd = folder.path() / "b.pcd";
   write_file(ply,
              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

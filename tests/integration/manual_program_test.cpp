@@ -82,6 +82,15 @@ TEST(Manual, IsPrintedByTopicAndKnowsTheNearest) {
   EXPECT_THAT(wrong.err, HasSubstr("there is no topic 'planing'; did you mean 'planning'?"));
 }
 
+TEST(Manual, TheShellIsToldWhatAnOptionTakes) {
+  const Result completion = nextview("help --completion");
+  EXPECT_EQ(completion.exit_code, 0) << completion.err;
+  for (const char* line :
+       {"    --driver-confirm) words='always never' ;;\n", "    --of) words='map cloud' ;;\n",
+        "    --fit) words='sensor-model new-surface' ;;\n", "    --gibbs.sampler) words='exact algorithm1' ;;\n"})
+    EXPECT_THAT(completion.out, HasSubstr(line));
+}
+
 TEST(Manual, AnOptionThatWouldDoNothingIsRefused) {
   const Result result = nextview("demo tour --fps 4");
   EXPECT_EQ(result.exit_code, 2);

@@ -94,6 +94,7 @@ TEST(Posterior, printsATableAndWhatToLookAt) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* word : {"slot: ", "exact", "sampler", "difference", "OctoMap", "hidden", "opening"})
     EXPECT_THAT(run.out, HasSubstr(word));
+  EXPECT_THAT(run.out, HasSubstr("\n    5  1 1 0 "));
   EXPECT_EQ(read_rows(read_file(csv)).size(), 12u);
 }
 

@@ -160,7 +160,9 @@ TEST_F(SessionFolders, GoesOnBeyondItsEndWithAnotherOne) {
   const std::string scan = "scan box " + camera + quick;
   ASSERT_EQ(nextview(scan + "--views 2 --out " + in("two")).exit_code, 0);
   ASSERT_EQ(nextview(scan + "--views 4 --out " + in("four")).exit_code, 0);
-  ASSERT_EQ(nextview("scan --resume " + in("two") + " --views 4 --no-pictures --no-surfaces").exit_code, 0);
+  const Result on = nextview("scan --resume " + in("two") + " --views 4 --no-pictures --no-surfaces");
+  ASSERT_EQ(on.exit_code, 0) << on.err;
+  EXPECT_THAT(on.out, testing::HasSubstr("\nstep  view "));
   expect_same("two", "four");
 }
 

@@ -156,6 +156,14 @@ std::vector<double> sampled_from(const Problem& problem, const ForwardSensorMode
   return logs;
 }
 
+TEST_P(FullConditionals, ListsTellWhatTheyTake) {
+  const Problem problem = random_problems::make({"oblong", {6, 5, 2}, 3, 60, 0.6, true}, 11);
+  const RayLists lists(problem.grid, problem.measurements, model_for(problem, GetParam(), VoxelRange::segment, 1.0));
+  const std::size_t of_rays = lists.rays() * sizeof(RangeMeasurement), voxels = 8 * problem.grid.voxel_count();
+  EXPECT_GE(lists.bytes(), of_rays + voxels + 4 * lists.incidence_count());
+  EXPECT_LE(lists.bytes(), of_rays + voxels + 12 * lists.rays() + 24 * lists.incidence_count());
+}
+
 TEST_P(FullConditionals, AreWhatTheSamplerDrawsFrom) {
   std::mt19937 random(4);
   const Problem problem = random_problems::make({"oblong", {6, 5, 2}, 3, 60, 0.6, true}, 11);

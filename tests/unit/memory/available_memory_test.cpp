@@ -6,9 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
+
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -44,6 +47,51 @@ TEST(AvailableMemory, IsAtMostWhatTheMachineHas) {
   EXPECT_GT(available_memory(), 0u);
   EXPECT_LE(available_memory(), kilobytes * 1024);
   EXPECT_GT(total, 0u);
+}
+
+/// A machine as these files have it.
+class AvailableMemoryOf : public testing::Test {
+ protected:
+  AvailableMemoryOf() {
+    write("proc/meminfo",
+          "MemTotal: 900000 kB\nMemFree: 1 kB\nMemAvailable:  400000 kB\nBuffers: 2 kB\nSwapFree: 100000 kB\n");
+  }
+  void write(const std::string& name, const std::string& text) {
+    const std::filesystem::path file = root_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+  std::uint64_t left() const { return available_memory(root_.path()); }
+
+  TemporaryFolder root_;
+};
+
+TEST_F(AvailableMemoryOf, AMachineIsWhatItCanGiveAndItsSwap) { EXPECT_EQ(left(), 500'000u * 1024); }
+
+TEST_F(AvailableMemoryOf, AMachineThatDoesNotTellIsThatOfTheLimits) {
+  write("proc/meminfo", "MemTotal: 900000 kB\n");
+  EXPECT_GT(left(), 900'000u * 1024);
+}
+
+TEST_F(AvailableMemoryOf, AGroupIsWhatItAndThoseAroundItLeave) {
+  write("proc/self/cgroup", "0::/outer/inner\n");
+  write("sys/fs/cgroup/outer/inner/memory.max", "max\n");
+  EXPECT_EQ(left(), 500'000u * 1024);
+  write("sys/fs/cgroup/outer/memory.max", "300000000\n");
+  write("sys/fs/cgroup/outer/memory.current", "200000000\n");
+  EXPECT_EQ(left(), 100'000'000u);
+  write("sys/fs/cgroup/outer/memory.stat", "anon 7\nfile 50\ninactive_file 40000000\n");
+  EXPECT_EQ(left(), 140'000'000u) << "pages of files are given back";
+  write("sys/fs/cgroup/outer/inner/memory.max", "30000000\n");
+  write("sys/fs/cgroup/outer/inner/memory.current", "40000000\n");
+  EXPECT_EQ(left(), 0u);
+}
+
+TEST_F(AvailableMemoryOf, AGroupOfTheFirstKindToo) {
+  write("proc/self/cgroup", "4:cpu:/other\n5:memory:/jobs\n");
+  write("sys/fs/cgroup/memory/jobs/memory.limit_in_bytes", "70000000\n");
+  write("sys/fs/cgroup/memory/jobs/memory.usage_in_bytes", "20000000\n");
+  EXPECT_EQ(left(), 50'000'000u);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace nextview {
 namespace {
@@ -30,6 +31,22 @@ TEST(TrainingParts, TheSameNumberAndSeedGiveTheSamePart) {
   EXPECT_TRUE(same(part, training_part(3, 1)));
   EXPECT_FALSE(same(part, training_part(4, 1)));
   EXPECT_FALSE(same(part, training_part(3, 2)));
+}
+
+double volume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += mesh.vertices[a].cast<double>().dot(mesh.vertices[b].cast<double>().cross(mesh.vertices[c].cast<double>()));
+  return sum / 6;
+}
+
+/// The default gain's numbers were learned from these: whoever changes them has to learn anew.
+TEST(TrainingParts, AreThoseThatTheDefaultGainWasFittedTo) {
+  std::vector<double> volumes;
+  for (std::uint32_t number = 0; number < 8; ++number) volumes.push_back(1e6 * volume(training_part(number, 1)));
+  const std::vector<double> expected = {60354.25, 33504.82, 18933.00, 20497.81,
+                                        25285.35, 42479.06, 53781.37, 7290.51};  // [cm^3]
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(volumes[i], expected[i], 0.1) << i;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr double step = 1.0 / 4294967296.0;  // one of the 2^32 steps of a word
 
 bool is_words(const std::array<double, 4>& uniform, const std::array<std::uint32_t, 4>& words) {
   for (int i = 0; i < 4; ++i)
-    if (std::abs(uniform[i] - (words[i] + 0.5) * step) > step) return false;
+    if (std::abs(uniform[i] - (words[i] + 0.5) * step) > 0.1 * step) return false;
   return true;
 }
 
