@@ -1,6 +1,10 @@
 // Going through recorded data, as a user does.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <array>
+#include <sstream>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
@@ -41,6 +45,47 @@ TEST_F(RecordedScan, ReplayedInItsOrderGivesItsFiles) {
   const Result again = nextview("scan " + in("replay") + " --gain fixed-order " + quick + "--out " + in("again"));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(read_file(scan + "/map.ot"), read_file(in("again") + "/map.ot"));
+}
+
+/// What a scan was ended by is its own affair; what it was scanned with is not.
+TEST_F(RecordedScan, HasTheSettingsOfTheScanButItsEnd) {
+  ASSERT_EQ(nextview("scan box --views 2 --views.count 12 --sensor.width 80 --sensor.height 60 "
+                     "--evaluation.surface_samples 500 --termination.coverage 99 " +
+                     quick + "--out " + in("scan"))
+                .exit_code,
+            0);
+  ASSERT_EQ(nextview("scan --recorded " + in("scan") + " " + quick + "--out " + in("out")).exit_code, 0);
+  EXPECT_THAT(read_file(in("scan") + "/config.toml"), AllOf(HasSubstr("\ncoverage = 99 "), HasSubstr("\nwidth = 80 ")));
+  EXPECT_THAT(read_file(in("out") + "/config.toml"), AllOf(HasSubstr("\ncoverage = 0 "), HasSubstr("\nwidth = 80 ")));
+}
+
+/// Around the points, whatever their extents.
+TEST_F(RecordedScan, TheRegionIsAroundThePoints) {
+  const fs::path folder = folder_.path() / "clouds";
+  fs::create_directories(folder);
+  std::string points;
+  for (int i = 0; i < 400; ++i)
+    points += fmt::format("{} {} {}\n", 0.01 * (i % 20), 0.02 * (i / 20), 1.0 + 0.005 * (i % 7));
+  write_file(folder / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\nproperty float y\nproperty float z\n"
+             "end_header\n" +
+                 points);
+  write_file(folder / "poses.txt", "0 0 0 0 0 0 1\n");
+  const Result run = nextview("scan --recorded " + folder.string() + " " + quick + "--out " + in("out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string config = read_file(in("out") + "/config.toml");
+  const std::size_t at = config.find("\nregion = '");
+  ASSERT_NE(at, config.npos) << config;
+  std::istringstream numbers(config.substr(at + 11));
+  std::array<double, 6> region{};
+  for (double& number : region) numbers >> number;
+  const std::array<double, 3> low = {0, 0, 1}, high = {0.19, 0.38, 1.03};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_LE(region[axis], low[axis]) << axis;
+    EXPECT_GE(region[axis], low[axis] - 0.2) << axis;
+    EXPECT_GE(region[axis + 3], high[axis]) << axis;
+    EXPECT_LE(region[axis + 3], high[axis] + 0.2) << axis;
+  }
 }
 
 TEST_F(RecordedScan, IsComparedWithATruthThatIsFound) {

@@ -159,9 +159,11 @@ std::vector<double> sampled_from(const Problem& problem, const ForwardSensorMode
 TEST_P(FullConditionals, ListsTellWhatTheyTake) {
   const Problem problem = random_problems::make({"oblong", {6, 5, 2}, 3, 60, 0.6, true}, 11);
   const RayLists lists(problem.grid, problem.measurements, model_for(problem, GetParam(), VoxelRange::segment, 1.0));
-  const std::size_t of_rays = lists.rays() * sizeof(RangeMeasurement), voxels = 8 * problem.grid.voxel_count();
-  EXPECT_GE(lists.bytes(), of_rays + voxels + 4 * lists.incidence_count());
-  EXPECT_LE(lists.bytes(), of_rays + voxels + 12 * lists.rays() + 24 * lists.incidence_count());
+  std::size_t in_front = 0, near = 0;
+  for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v)
+    in_front += lists.front(v).size(), near += lists.near(v).size();
+  const std::size_t of_rays = lists.rays() * (sizeof(RangeMeasurement) + 12);  // three indices each
+  EXPECT_EQ(lists.bytes(), 4 * in_front + 20 * near + of_rays + 8 * problem.grid.voxel_count());
 }
 
 TEST_P(FullConditionals, AreWhatTheSamplerDrawsFrom) {

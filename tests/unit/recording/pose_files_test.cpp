@@ -99,6 +99,8 @@ TEST(PoseFiles, NearlyRigidIsMadeRigidAndTheRestRefusedByLine) {
   EXPECT_FALSE(
       read_poses(folder.write("p.txt", "nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"), PoseFormat::matrix4x4).at(0).pose());
   EXPECT_THAT(why("1 0 0 0\n0 1 0 0\n"), HasSubstr("expected 3 or 4 rows"));
+  EXPECT_THAT(why("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 1 0 1\n"), HasSubstr("expected 3 or 4 rows"));
+  EXPECT_THAT(why("1 0 0 2e6\n0 1 0 0\n0 0 1 0\n"), HasSubstr("p.txt:1: the pose lies over 1e+06 m off"));
   EXPECT_THAT(why("0 0 0 0 0 0 2\n", PoseFormat::quaternion_xyzw), HasSubstr("p.txt:1: the quaternion has length 2"));
   EXPECT_THAT(why("1 2 3\n", PoseFormat::tum), HasSubstr("p.txt:1: expected 8 numbers, found 3"));
   EXPECT_THAT(why("hello\n"), HasSubstr("holds no pose"));

@@ -61,6 +61,8 @@ TEST(Quantity, WhatIsShownReadsBack) {
   for (const double length : {0.0, 0.005, 0.0123456, 0.999999, 1.0, 1.5, 12.25, 1e-6, -0.02, -3.0})
     EXPECT_EQ(read(quantity_text(length)), length) << quantity_text(length);
   EXPECT_EQ(quantity_text(0.005), "5 mm");
+  EXPECT_EQ(quantity_text(0.999), "999 mm");
+  EXPECT_EQ(quantity_text(-1.1), "-1.1 m");
   EXPECT_EQ(quantity_text(1.5), "1.5 m");
   EXPECT_EQ(quantity_text(0.0), "0 m");
 }

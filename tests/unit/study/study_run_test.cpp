@@ -76,6 +76,9 @@ TEST_F(StudyRuns, AMapIsScoredAsRefineScoresIt) {
   EXPECT_EQ(gibbs.find("log_loss_near_surface[nats]", 0)->value, expected.scores_after->touch_band.log_loss);
   EXPECT_EQ(gibbs.find("rows_open[%]", 0)->value, 100.0 * *expected.scores_after->openings.row_openness());
   EXPECT_EQ(gibbs.find("sweeps", 0)->value, expected.posterior.diagnostics.sweeps);
+  EXPECT_EQ(gibbs.find("d_kl_outside_band[%]", 0)->value,
+            100.0 * expected.scores_after->touch_visited.divergence_outside_band);
+  EXPECT_EQ(gibbs.find("stationary", 0)->value, expected.posterior.diagnostics.stationary ? 1.0 : 0.0);
   // By width, one each: the plate has slots and bores of 10, 20, 30 and 40 mm.
   for (const double width : {10.0, 20.0, 30.0, 40.0})
     EXPECT_TRUE(octomap.find("rows_open_by_width[%]", width)) << width;

@@ -199,5 +199,28 @@ TEST_F(Summary, OfSomeRunsHasTheirRows) {
   EXPECT_EQ(row_of(rows_of(all.path() / "summary.csv"), "box", "random", "mean_coverage[%]"), whole);
 }
 
+/// Between random views and the oracle there is a gap only where both were run.
+TEST(SummaryOfFewMethods, SaysNothingOfAGapThatIsNotThere) {
+  for (const std::string methods : {"'random', 'farthest'", "'oracle', 'farthest'"}) {
+    const TemporaryFolder folder;
+    const Study study = read_study(folder.write(
+        "study.toml", "[[planning]]\nobjects = ['sphere', 'box']\npolicies = [" + methods + "]\nviews = 2\n"));
+    const StudyKeys keys = keys_of(study);
+    const StudyFolder all = [&] {
+      StudyFolder made = StudyFolder::begin(folder / "all", study, keys, true);
+      for (std::size_t k = 0; k < study.size(); ++k) {
+        RunResult result;
+        result.add(main_measure(StudyPart::planning), 0.0, 10.0 + double(k));
+        made.keep(keys.keys[k], study.run(k), result, {});
+      }
+      return made;
+    }();
+    summarise(study, keys.keys, {&all, 1}, {1, study.size()}, all.path());
+    const auto rows = rows_of(all.path() / "summary.csv");
+    EXPECT_GE(rows.size(), 4u);
+    for (const Row& row : rows) EXPECT_NE(row.at("measure"), "gap_closed") << methods;
+  }
+}
+
 }  // namespace
 }  // namespace nextview
