@@ -50,12 +50,13 @@ TEST_F(RecordedScan, ReplayedInItsOrderGivesItsFiles) {
 /// What a scan was ended by is its own affair; what it was scanned with is not.
 TEST_F(RecordedScan, HasTheSettingsOfTheScanButItsEnd) {
   ASSERT_EQ(nextview("scan box --views 2 --views.count 12 --sensor.width 80 --sensor.height 60 "
-                     "--evaluation.surface_samples 500 --termination.coverage 99 " +
+                     "--evaluation.surface_samples 500 --termination.coverage 0.99 " +
                      quick + "--out " + in("scan"))
                 .exit_code,
             0);
   ASSERT_EQ(nextview("scan --recorded " + in("scan") + " " + quick + "--out " + in("out")).exit_code, 0);
-  EXPECT_THAT(read_file(in("scan") + "/config.toml"), AllOf(HasSubstr("\ncoverage = 99 "), HasSubstr("\nwidth = 80 ")));
+  EXPECT_THAT(read_file(in("scan") + "/config.toml"),
+              AllOf(HasSubstr("\ncoverage = 0.99 "), HasSubstr("\nwidth = 80 ")));
   EXPECT_THAT(read_file(in("out") + "/config.toml"), AllOf(HasSubstr("\ncoverage = 0 "), HasSubstr("\nwidth = 80 ")));
 }
 
