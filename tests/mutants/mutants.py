@@ -41,9 +41,12 @@ class Mutant:
 
 
 def blanked(text):
-    """The same length, without comments, strings, characters and directives."""
+    """The same length, without comments, strings, characters and directives; nor what has no effect: assertions, which a
+    release build leaves out, and room that is made ahead."""
+    idle = re.compile(r"\bassert\([^;]*(?=;)|[\w.>\-\[\]]+(?:\.|->)reserve\([^;]*(?=;)")
     pattern = r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'|^[ \t]*#(?:\\\n|[^\n])*'
-    return re.sub(pattern, lambda found: re.sub(r"[^\n]", "~", found[0]), text, flags=re.S | re.M)
+    blank = lambda found: re.sub(r"[^\n]", "~", found[0])
+    return idle.sub(blank, re.sub(pattern, blank, text, flags=re.S | re.M))
 
 
 def closing(code, at):
