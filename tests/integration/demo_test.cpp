@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <random>
 #include <set>
 
@@ -209,6 +210,33 @@ TEST_F(Demos, FramesAndTheirListAreReplacedByThoseOfTheNextRun) {
 
 TEST_F(Demos, AVideoNeedsItsProgramAndAnEndingThatItKnows) {
   EXPECT_THROW(require_video("a.avi"), std::invalid_argument);
+  EXPECT_NO_THROW(require_video("a.png")) << "that needs no other program";
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", ("/nowhere::" + (folder_ / "none").string()).c_str(), 1);
+  EXPECT_THROW(require_video("a.mp4"), std::runtime_error);
+  ::setenv("PATH", path.c_str(), 1);
+}
+
+/// In its place stands a script that writes down how it was called, or says what is wrong.
+TEST_F(Demos, AVideoIsMadeByItsProgramWhichSaysWhyItCannot) {
+  const fs::path program = folder_ / "ffmpeg", video = folder_ / "a.webm";
+  write_file(program,
+             "#!/bin/sh\nfor last; do :; done\nif [ -e \"$0.broken\" ]; then printf 'first\\nno such codec\\n\\n' >&2; "
+             "exit 3; fi\nprintf '%s\\n' \"$@\" > \"$last\"\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", ("/nowhere:" + folder_.string() + ":" + path).c_str(), 1);
+  EXPECT_NO_THROW(require_video(video));
+  write_video(folder_ / "frames", 24, video);
+  EXPECT_THAT(read_file(video), HasSubstr("-framerate\n24\n-i\n" + (folder_ / "frames/frame_%05d.png").string()));
+  write_file(folder_ / "ffmpeg.broken", "");
+  try {
+    write_video(folder_ / "frames", 24, video);
+    ADD_FAILURE() << "it ended with 3";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), video.string() + ": ffmpeg cannot write it: no such codec");
+  }
+  ::setenv("PATH", path.c_str(), 1);
 }
 
 /// A demo that is cut, has its lines swapped, words of other lines, huge numbers or unknown commands.

@@ -78,6 +78,17 @@ TEST(ChartSvg, EachValueLiesWhereTheTicksSay) {
   }
 }
 
+TEST(ChartSvg, TheAxisEndsWithTheDataUnlessItIsTold) {
+  ChartContent content{"t", "view", "", "coverage", "%", {{"one", {0, 1}, {3, 40}}}, {}, true};
+  const auto highest = [&] {
+    const std::vector<ChartContent> charts = {content};
+    return scale(charts_svg(charts, {640, 400}, false), "end", false).value_b;
+  };
+  EXPECT_EQ(highest(), 40);
+  content.y_high = 100;
+  EXPECT_EQ(highest(), 100);
+}
+
 TEST(ChartSvg, ValuesThatAreNotFiniteLeaveGaps) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ChartContent content{"t", "view", "", "gain", "&", {{"one", {0, 1, 2, 3, 4}, {1, 2, nan, 4, 5}}}, {}, true};
