@@ -111,8 +111,8 @@ class FixedWalk {
     const Units state = both(state_of(lower, shortest), state_of(upper, shortest));
     active_ = hn::Gt(state, hn::Set(units, 1));
     last_ = hn::IfThenElse(hn::Eq(state, hn::Zero(units)), hn::Set(units, decided), hn::Zero(units));
-    doubt_ =
-        batch.grid.size.maxCoeff() + 8;  // a step is off by half a unit at most, and so are the first face and the end
+    // A step is off by half a unit at most, and so are the first face and the end.
+    doubt_ = batch.grid.size.maxCoeff() + 8;
   }
 
   HWY_INLINE bool advance(Place* places) {
