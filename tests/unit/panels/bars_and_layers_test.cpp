@@ -118,9 +118,11 @@ TEST_F(Bars, PlayAndPauseAreOneButtonAndStepWaitsWhilePlaying) {
 
 TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   EXPECT_THAT(status(), HasSubstr("View 2: 500 points, 214 cm² of new surface, 15.75 s")) << "all stages";
-  const Eigen::Vector3i n = scan_->grid.size;
+  const Eigen::Vector3i cube = scan_->grid.size, n = cube + Eigen::Vector3i(0, 1, 2);
+  scan_->grid.size = n;
   EXPECT_THAT(status(), HasSubstr(fmt::format("sphere · {} triangles · {} × {} × {} voxels of 40 mm",
                                               scan_->mesh->triangles.size(), n.x(), n.y(), n.z())));
+  scan_->grid.size = cube;
   const double usual = std::exchange(scan_->records.back().new_surface, 0.0612);
   EXPECT_THAT(status(), HasSubstr("0.061 cm² of new surface")) << "of a small part all are less than 1";
   scan_->records.back().new_surface = usual;
