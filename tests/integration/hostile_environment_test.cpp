@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
 #include "tests/integration/program.hpp"
 
 namespace nextview {
@@ -90,6 +91,19 @@ TEST_F(HostileEnvironment, VariablesOfAnotherRunMeanNothing) {
     EXPECT_EQ(run.err, "") << guard;
     EXPECT_FALSE(planted_was_loaded());
   }
+}
+
+TEST_F(HostileEnvironment, WhatItStartsHasTheEnvironmentThatWasThere) {
+  const fs::path seen = folder_.path() / "seen", driver = folder_.path() / "driver.sh";
+  write_file(driver, "env > '" + seen.string() + "'\n");
+  const std::string out = (folder_.path() / "out").string();
+  const Result run =
+      nextview_behind("env ASAN_OPTIONS=detect_leaks=0", "scan --driver 'sh " + driver.string() + "' --out " + out);
+  EXPECT_EQ(run.exit_code, 2) << "that is no driver";
+  const std::string variables = read_file(seen);
+  EXPECT_THAT(variables, HasSubstr("ASAN_OPTIONS=detect_leaks=0\n"));
+  for (const char* own : {"LD_PRELOAD", "NEXTVIEW_HEADLESS", "NEXTVIEW_SAVED"})
+    EXPECT_THAT(variables, ::testing::Not(HasSubstr(own)));
 }
 
 TEST_F(HostileEnvironment, AMissingLibraryIsNamed) {
