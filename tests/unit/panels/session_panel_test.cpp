@@ -67,6 +67,16 @@ TEST_F(SessionPanelTest, WhatIsNotAllowedIsLeftToTheCommand) {
   EXPECT_EQ(write_into("13", "-5"), "set termination.views -5");
 }
 
+/// A name that is long with its unit has a line of its own above the field, a short one stands beside it.
+TEST_F(SessionPanelTest, AllOthersAreInGroupsThatOpen) {
+  desk_.frames();
+  click_on(desk_, "Gibbs sampler", "Session");
+  desk_.frames();
+  const std::vector<std::string> lines = read_lines("Session");
+  EXPECT_THAT(lines, testing::Contains("angular sigma [rad]"));
+  EXPECT_THAT(lines, testing::Contains("voxel range segment"));
+}
+
 TEST_F(SessionPanelTest, AChoiceIsSetToo) {
   desk_.frames();
   click_on(desk_, "occlusion-aware", "Session");
