@@ -57,5 +57,14 @@ TEST_F(Animations, SayWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.png"));
 }
 
+TEST(SideBySide, EachRowIsThatOfOneAndThenOfTheOther) {
+  Image left{2, 2, {}}, right{1, 2, {}};
+  for (std::uint8_t i = 0; i < 16; ++i) left.rgba.push_back(i);
+  for (std::uint8_t i = 100; i < 108; ++i) right.rgba.push_back(i);
+  const std::vector<std::uint8_t> rows = {0, 1, 2,  3,  4,  5,  6,  7,  100, 101, 102, 103,
+                                          8, 9, 10, 11, 12, 13, 14, 15, 104, 105, 106, 107};
+  EXPECT_EQ(side_by_side(left, right), (Image{3, 2, rows}));
+}
+
 }  // namespace
 }  // namespace nextview
