@@ -62,6 +62,7 @@ bool Interface::Parts::draw_scene() {
   if (scene_waits) {
     scene_waits = faces.busy();
     view.take_faces(faces.found());
+    if (!scene_waits) settling = frames_to_settle;  // the next frame shows it, however long they took
     return false;
   }
   SceneChange changed = SceneChange::none;
