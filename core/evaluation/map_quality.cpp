@@ -177,7 +177,8 @@ std::uint64_t bits_from(const BitMask& mask, std::size_t first) {
 
 /// What is true of a voxel, and of how many from it on.
 struct VoxelRun {
-  bool in_band, visited, hidden, occupied;
+  VoxelTruth truth;
+  bool in_band, visited;
   std::size_t count;
 };
 VoxelRun run_from(const GroundTruth& truth, TruthConvention convention, const BitMask* visited, std::size_t first) {
@@ -185,8 +186,7 @@ VoxelRun run_from(const GroundTruth& truth, TruthConvention convention, const Bi
   const std::uint64_t band = bits_from(truth.near_surface, first), seen = visited ? bits_from(*visited, first) : 0;
   const auto changes = [](std::uint64_t bits) { return bits ^ (0 - (bits & 1)); };
   const int alike = std::countr_zero(changes(touch) | changes(centre) | changes(band) | changes(seen));
-  const bool hidden = centre & ~touch & 1, occupied = (convention == TruthConvention::touch ? touch : centre) & 1;
-  return {(band & 1) != 0, (seen & 1) != 0, hidden, occupied, std::size_t(alike)};
+  return {voxel_truth(truth, first, convention), (band & 1) != 0, (seen & 1) != 0, std::size_t(alike)};
 }
 
 /// `from(i)`: where the probabilities of a voxel and the next ones are; `next(most)` gives one, and of how many from
@@ -205,11 +205,11 @@ std::vector<MapQuality> qualities(const GroundTruth& truth, TruthConvention conv
           for (std::size_t i = range.begin(), left = 0; i != range.end(); i += left) {
             const VoxelRun run = run_from(truth, convention, visited, i);
             left = std::min(run.count, range.end() - i);
-            const unsigned counts_in = run.hidden ? 0 : sets_of(run.in_band, run.visited);
+            const unsigned counts_in = run.truth == VoxelTruth::hidden ? 0 : sets_of(run.in_band, run.visited);
             if (counts_in == 0) probabilities.skip(left);
             for (std::size_t done = 0; counts_in != 0 && done < left;) {
               const auto [probability, count] = probabilities.next(left - done);
-              runs.add(probability, run.occupied, run.in_band, counts_in, count);
+              runs.add(probability, run.truth == VoxelTruth::occupied, run.in_band, counts_in, count);
               done += count;
             }
           }

@@ -41,6 +41,7 @@ WindowTarget::WindowTarget(const std::string& title, int width, int height) : ti
   }
   glfwGetFramebufferSize(handle_, &width, &height);
   start(width, height);
+  look_up_reset_status();
 }
 
 WindowTarget::~WindowTarget() {
@@ -56,13 +57,19 @@ void WindowTarget::replace_context() {
   GLFWwindow* const another = new_window(title_, width, height, glfwGetWindowMonitor(handle_));
   if (!glfwGetWindowMonitor(another)) glfwSetWindowPos(another, x, y);
   glfwDestroyWindow(std::exchange(handle_, another));
+  look_up_reset_status();
+}
+
+void WindowTarget::look_up_reset_status() {
+  make_current();
+  reset_status_ = glfwExtensionSupported("GL_ARB_robustness")
+                      ? reinterpret_cast<unsigned int (*)()>(gl_function("glGetGraphicsResetStatusARB"))
+                      : nullptr;
 }
 
 bool WindowTarget::is_lost() {
   make_current();
-  if (!glfwExtensionSupported("GL_ARB_robustness")) return false;
-  const auto status = reinterpret_cast<unsigned int (*)()>(gl_function("glGetGraphicsResetStatusARB"));
-  return status && status() != 0;
+  return reset_status_ && reset_status_() != 0;
 }
 
 void WindowTarget::make_current() { glfwMakeContextCurrent(handle_); }

@@ -31,7 +31,10 @@ class WindowTarget : public RenderTarget {
  private:
   void replace_context() override;
 
+  void look_up_reset_status();
+
   std::string title_;
+  unsigned int (*reset_status_)() = nullptr;  ///< of the driver, if it tells
   GLFWwindow* handle_ = nullptr;
 };
 
