@@ -13,20 +13,11 @@
 #include <limits>
 
 #include "core/gain/ray_lanes.hpp"
+#include "core/map/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace nextview::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Doubles = hn::ScalableTag<double>;
-using Integers = hn::RebindToSigned<Doubles>;
-using Vector = hn::Vec<Doubles>;
-using IntegerVector = hn::Vec<Integers>;
-using Mask = hn::Mask<Doubles>;
-
-constexpr Doubles doubles;
-constexpr Integers integers;
-constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
 
 HWY_INLINE unsigned bits_of(Mask mask) {
   std::uint8_t bytes[8] = {};
@@ -34,9 +25,6 @@ HWY_INLINE unsigned bits_of(Mask mask) {
   return bytes[0];
 }
 HWY_INLINE Mask mask_of(IntegerVector ones) { return hn::MaskFromVec(hn::BitCast(doubles, ones)); }
-HWY_INLINE IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
-  return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
-}
 
 /// Where rays enter the grid and how they go on, as walk_ray_segments has it; of all rays of a camera, one value each.
 struct Entries {

@@ -63,10 +63,6 @@ class ExactWalk {
   void keep_undecided(const float*, std::vector<Eigen::Vector3f>&) const {}  ///< all are decided
 
  private:
-  HWY_INLINE static IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
-    return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
-  }
-
   Vector next_[3], delta_[3], stop_;  ///< as RayStarts has them, also the others
   IntegerVector place_, end_, step_[3];
   Mask active_;

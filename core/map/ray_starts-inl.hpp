@@ -11,24 +11,17 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/map/lanes-inl.hpp"
 #include "core/map/ray_batch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace nextview::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::ScalableTag<double>;
 using Floats = hn::Rebind<float, Doubles>;
-using Integers = hn::RebindToSigned<Doubles>;
-using Vector = hn::Vec<Doubles>;
 using FloatVector = hn::Vec<Floats>;
-using IntegerVector = hn::Vec<Integers>;
-using Mask = hn::Mask<Doubles>;
 
-constexpr Doubles doubles;
 constexpr Floats floats;
-constexpr Integers integers;
-constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
 
 HWY_INLINE Mask none() { return hn::Lt(hn::Zero(doubles), hn::Zero(doubles)); }
 

@@ -1,0 +1,31 @@
+// Included once for each instruction set (Highway's foreach_target), by those that follow rays in lanes.
+#if defined(NEXTVIEW_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef NEXTVIEW_LANES
+#undef NEXTVIEW_LANES
+#else
+#define NEXTVIEW_LANES
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nextview::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::ScalableTag<double>;
+using Integers = hn::RebindToSigned<Doubles>;
+using Vector = hn::Vec<Doubles>;
+using IntegerVector = hn::Vec<Integers>;
+using Mask = hn::Mask<Doubles>;
+
+constexpr Doubles doubles;
+constexpr Integers integers;
+constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
+
+HWY_INLINE IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
+  return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
+}
+
+}  // namespace nextview::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
