@@ -99,6 +99,50 @@ TEST(Calibration, TheDescentGoesDownAndEndsAtTheModel) {
   EXPECT_LT(fit.descent.back().gradient_norm, 1e-3 * fit.descent.front().gradient_norm);
 }
 
+// Clamps so narrow that each term alone goes from one to the other: neither half nor twice the terms are any better.
+TEST(Calibration, WhereNothingIsGainedTheGivenModelStays) {
+  const InverseSensorModel start = model(0.7, 0.4, 0.48, 0.52);
+  CalibrationConfig config;
+  config.clamps = false;
+  const Calibration fit = calibrate(histories(scans(4), model(0.8, 0.3, 0.1, 0.9)), start, config);
+  EXPECT_EQ(fit.model, start);
+  EXPECT_EQ(fit.cross_entropy, fit.cross_entropy_before);
+  EXPECT_TRUE(fit.termination.starts_with("from the given terms: ")) << fit.termination;
+  EXPECT_TRUE(fit.converged) << "the gradient is 0";
+}
+
+TEST(Calibration, TheStartThatWonIsNamedAndItsDescentBeginsThere) {
+  const std::map<std::string, double> scales = {
+      {"from the given terms", 1.0}, {"from half the terms", 0.5}, {"from twice the terms", 2.0}};
+  const UpdateHistories all = histories(scans(8), model(0.75, 0.35, 0.1, 0.9));
+  for (const InverseSensorModel& start :
+       {model(0.7, 0.4, 0.12, 0.97), model(0.98, 0.03, 0.12, 0.97), model(0.55, 0.47, 0.12, 0.97)}) {
+    const Calibration fit = calibrate(all, start);
+    const std::string name = fit.termination.substr(0, fit.termination.find(':'));
+    ASSERT_TRUE(scales.contains(name)) << fit.termination;
+    ASSERT_FALSE(fit.descent.empty());
+    const InverseSensorModel& first = fit.descent.front().model;
+    EXPECT_NEAR(log_odds(first.hit), scales.at(name) * log_odds(start.hit), 1e-9);
+    EXPECT_NEAR(log_odds(first.miss), scales.at(name) * log_odds(start.miss), 1e-9);
+    EXPECT_NEAR(all.cross_entropy(first).value, fit.descent.front().cross_entropy, 1e-12);
+  }
+}
+
+TEST(Calibration, ItsProgressGoesFromStartToStart) {
+  CalibrationConfig config;
+  config.iterations = 10;
+  std::vector<double> told;
+  calibrate(histories(scans(4), model(0.85, 0.3, 0.05, 0.95)), {}, config, [&](double fraction, std::string_view what) {
+    told.push_back(fraction);
+    EXPECT_EQ(what, "fitting the inverse sensor model");
+  });
+  ASSERT_GT(told.size(), 3u);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_LT(told.front(), 1.0 / 3.0) << "two more starts follow";
+  EXPECT_GT(told.back(), 2.0 / 3.0) << "two starts are done";
+  EXPECT_LE(told.back(), 1.0);
+}
+
 TEST(Calibration, IterationsAreKeptTo) {
   CalibrationConfig config;
   config.iterations = 2;

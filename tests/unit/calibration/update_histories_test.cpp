@@ -138,8 +138,28 @@ TEST(UpdateHistories, BadInputIsRefusedAndAddsNothing) {
   EXPECT_EQ(none.voxels(), 0u);
   none.add(grid(), {}, good, everywhere());  // no scans, no histories
   EXPECT_EQ(none.voxels(), 0u);
-  none.add(grid(), views, good, everywhere());
-  EXPECT_THROW(none.cross_entropy(model(0.4, 0.4, 0.1, 0.9)), std::invalid_argument);
+}
+
+TEST(UpdateHistories, AModelThatIsNoneIsRefused) {
+  const UpdateHistories all = histories(scans(1), {});
+  for (const InverseSensorModel& bad :
+       {model(0.4, 0.4, 0.1, 0.9), model(0.7, 0.6, 0.1, 0.9), model(0.7, 0.4, 0.6, 0.9), model(0.7, 0.4, 0.1, 0.4)}) {
+    EXPECT_THROW(all.cross_entropy(bad), std::invalid_argument);
+    EXPECT_THROW(all.probabilities(bad), std::invalid_argument);
+  }
+}
+
+// Of several places, as of finished scans and objects: each brings its own grid and scans.
+TEST(UpdateHistories, AppendedOnesAreAsIfAddedThemselves) {
+  UpdateHistories appended = histories(scans(3), models[2]);
+  const UpdateHistories more = histories(scans(4, 5), models[2]);
+  std::vector<double> expected = appended.probabilities({});
+  const std::vector<double> of_more = more.probabilities({});
+  expected.insert(expected.end(), of_more.begin(), of_more.end());
+  const std::size_t voxels = appended.voxels() + more.voxels();
+  appended.append(more);
+  EXPECT_EQ(appended.voxels(), voxels);
+  EXPECT_EQ(appended.probabilities({}), expected);
 }
 
 TEST(UpdateHistories, TheSameBytesOnOneThreadAndTwo) {
