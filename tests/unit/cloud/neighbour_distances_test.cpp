@@ -31,14 +31,16 @@ std::vector<float> twin(const PointCloud& points, int neighbours) {
   return distances;
 }
 
-/// Kinds of clouds: a sheet, a line, a heap, a sheet that gets sparse to one side and lies far from the origin.
+/// Kinds of clouds: a sheet, a line, a heap, a sheet that gets sparse to one side and lies far from the origin, lines
+/// along the other axes.
+constexpr int kinds_of_clouds = 6;
 PointCloud cloud_of(int kind, std::mt19937& random, int count) {
   std::uniform_real_distribution<float> u(-0.2f, 0.2f);
   PointCloud points;
   for (int i = 0; i < count; ++i) {
     const float x = u(random), y = u(random), z = u(random);
-    const Eigen::Vector3f kinds[] = {
-        {x, y, 0.01f * z + 0.7f}, {x, 0.0f, 0.0f}, {x, y, z}, {80.0f + 9 * x * x, y, 30.0f}};
+    const Eigen::Vector3f kinds[] = {{x, y, 0.01f * z + 0.7f},      {x, 0.0f, 0.0f}, {x, y, z},
+                                     {80.0f + 9 * x * x, y, 30.0f}, {0.0f, y, 0.0f}, {0.0f, 0.0f, z}};
     points.push_back(kinds[kind]);
   }
   return points;
@@ -46,7 +48,7 @@ PointCloud cloud_of(int kind, std::mt19937& random, int count) {
 
 TEST(NeighbourDistances, AreThoseOfAllPointsOneByOne) {
   std::mt19937 random(1);
-  for (int kind = 0; kind < 4; ++kind)
+  for (int kind = 0; kind < kinds_of_clouds; ++kind)
     for (const int count : {1, 2, 17, 700})
       for (const int outliers : {0, 3, 30}) {
         PointCloud points = cloud_of(kind, random, count);

@@ -96,6 +96,41 @@ TEST_F(RangeScanFolder, HeaderLinesThatAreNotKnownAreReadOnOver) {
   EXPECT_EQ(notices[0],
             "2 of its scans have header lines that are not known; they are read on over: the first is "
             "'scanned by?[31m hand' in a.ply");
+  EXPECT_EQ(read().scans.size(), 2u) << "also where nobody hears of them";
+}
+
+TEST_F(RangeScanFolder, OfHeaderLinesThatAreKnownNobodyHears) {
+  std::vector<std::string> notices;
+  const auto read_and_note = [&] {
+    read_range_scan_folder(folder / "", default_stand_off, 0.0,
+                           [&](const std::string& text) { notices.push_back(text); });
+  };
+  read_and_note();
+  EXPECT_TRUE(notices.empty()) << notices.front();
+  std::string a = ply(upright);
+  a.insert(a.find("end_header\n"), std::string(70, 'x') + "\n");
+  folder.write("a.ply", a);
+  read_and_note();
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(notices[0], "1 of its scans has header lines that are not known; they are read on over: the first is '" +
+                            std::string(60, 'x') + "' in a.ply");
+}
+
+TEST_F(RangeScanFolder, AUnitScalesPointsAndPlaces) {
+  const RecordedScene metres = read();
+  std::vector<Vector3> in_mm = upright, turned_in_mm = turned;
+  for (Vector3& p : in_mm) p *= 1e3;
+  for (Vector3& p : turned_in_mm) p *= 1e3;
+  folder.write("a.ply", ply(in_mm));
+  folder.write("b.ply", ply(turned_in_mm));
+  write_conf(fmt::format("bmesh a.ply 0 0 0 0 0 0 1\nbmesh b.ply 500 0 5 {}\n", quarter_turn));
+  const RecordedScene scaled = read_range_scan_folder(folder / "", default_stand_off, 0.0, {}, 1e-3);
+  ASSERT_EQ(scaled.scans.size(), 2u);
+  for (std::size_t s = 0; s < 2; ++s) {
+    expect_near(scaled.scans[s].T_world_camera.translation(), metres.scans[s].T_world_camera.translation());
+    for (std::size_t i = 0; i < metres.scans[s].points.size(); ++i)
+      expect_near(scaled.scans[s].points.at(i), metres.scans[s].points[i]);
+  }
 }
 
 TEST_F(RangeScanFolder, PosesPlaceCamerasAndPointsInTheWorld) {
@@ -242,7 +277,8 @@ TEST_F(RangeScanFolder, ExtentsThatAreHardlyInMetresAreRefused) {
 
 TEST_F(RangeScanFolder, StandOffAndResolutionAreChecked) {
   const double nan = std::nan("");
-  for (const double stand_off : {0.0, -0.7, 101.0, nan}) EXPECT_THROW(read(stand_off), std::invalid_argument);
+  for (const double stand_off : {0.0, 0.0099, -0.7, 100.1, nan}) EXPECT_THROW(read(stand_off), std::invalid_argument);
+  for (const double stand_off : {0.01, 100.0}) EXPECT_NO_THROW(read(stand_off)) << stand_off;
   for (const double resolution : {-0.01, 0.00001, 1.1, nan}) EXPECT_THROW(read(0.7, resolution), std::invalid_argument);
 }
 
