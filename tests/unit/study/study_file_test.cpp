@@ -67,6 +67,20 @@ TEST_F(StudyFile, ListsItsRunsInAFixedOrder) {
   EXPECT_EQ(study.run(i + 2).views, 8);
 }
 
+TEST_F(StudyFile, HasNoRunBeyondItsLast) {
+  const Study study = read(small);
+  EXPECT_EQ(study.run(study.size() - 1).method, "gibbs");
+  EXPECT_EQ(study.run(study.size() - 1).views, 8);
+  EXPECT_THROW(study.run(study.size()), std::out_of_range);
+}
+
+TEST_F(StudyFile, ARunIsSaidInWords) {
+  const Study study = read(small);
+  EXPECT_EQ(study.run(1).text(), "sphere, noisy, 6 views, random, start 10 5, seed 7");
+  EXPECT_EQ(study.run(16).text(), "missing, noisy, 6 views, random, start 10 5, seed 3") << "without the file's ending";
+  EXPECT_EQ(study.run(32).text(), "box, paper, 4 views, octomap, seed 1") << "a map has no start view";
+}
+
 TEST_F(StudyFile, WhatANameMeansOverridesTheSettingsOfAll) {
   const Study study = read(small);
   const Configuration noisy = configuration_of(study, study.run(0)), wide = configuration_of(study, study.run(8));
@@ -77,7 +91,10 @@ TEST_F(StudyFile, WhatANameMeansOverridesTheSettingsOfAll) {
   const Configuration near = configuration_of(study, study.run(7));
   EXPECT_EQ(near.planner.gain, "area-factor");
   EXPECT_EQ(near.planner.weights.cost, 2.0);
+  EXPECT_EQ(near.planner.start_azimuth, 200.0);
   EXPECT_EQ(near.planner.start_elevation, -30.0);
+  EXPECT_EQ(noisy.planner.start_azimuth, 10.0);
+  EXPECT_EQ(noisy.planner.start_elevation, 5.0);
   EXPECT_EQ(near.seed, 7u);
   EXPECT_EQ(near.termination.views, 6);
   EXPECT_EQ(near.termination.surface_left, 0.0);
