@@ -10,7 +10,10 @@
 namespace nextview {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Every element is closed, in its order; no bare & or < is left.
 void expect_well_formed(const std::string& xml) {
@@ -102,6 +105,78 @@ TEST(ChartSvg, ValuesThatAreNotFiniteLeaveGaps) {
   EXPECT_THROW(charts_svg(std::vector{content}, {640, 400}, true), std::invalid_argument);
   content.series.clear();
   EXPECT_EQ(all(charts_svg(std::vector{content, content, content}, {9, 9}, false), "(<g>)").size(), 3u);
+}
+
+TEST(ChartSvg, AChartWithoutValuesHasItsAxesAndNoLine) {
+  const ChartContent content{"nothing & all", "view", "", "gain", "nats", {}, {}, true};
+  const std::string svg = charts_svg(std::vector{content}, {640, 400}, false);
+  expect_well_formed(svg);
+  EXPECT_THAT(svg, Not(AnyOf(HasSubstr("<polyline"), HasSubstr("<circle"))));
+  EXPECT_EQ(scale(svg, "middle", true).value_a, 0.0);
+  EXPECT_EQ(scale(svg, "middle", true).value_b, 1.0);
+  EXPECT_EQ(scale(svg, "end", false).value_b, 1.0);
+}
+
+TEST(ChartSvg, SeriesAreNamedInTheirColoursIfThereAreSeveral) {
+  ChartContent content{"t", "view", "", "gain", "nats", {{"one", {0, 1}, {1, 2}}}, {}, true};
+  const auto drawn = [&] {
+    const std::vector<ChartContent> charts = {content};
+    return charts_svg(charts, {640, 400}, false);
+  };
+  const auto named = all(drawn(), ">(one|two)</text>");
+  EXPECT_TRUE(named.empty()) << "the title says what a single one is";
+  content.series.push_back({"two", {0, 1}, {2, 3}});
+  EXPECT_EQ(all(drawn(), ">(one|two)</text>"), (std::vector<std::string>{"one", "two"}));
+  const std::vector<std::string> colours = {"#1f5fa8", "#d1401f"};  // the first of the theme
+  EXPECT_EQ(all(drawn(), "<polyline[^>]* stroke=\"([^\"]*)\""), colours);
+  EXPECT_EQ(all(drawn(), "<rect x[^>]* height=\"3\" fill=\"([^\"]*)\""), colours);
+  const auto places = all(drawn(), "<text x=\"([^\"]*)\"[^>]*>(?:one|two)</text>");
+  EXPECT_GT(std::stod(places.at(1)), std::stod(places.at(0)) + 30) << "beside each other";
+}
+
+TEST(ChartSvg, AValueSaysItsNumbers) {
+  const ChartContent content{"t", "view", "", "gain", "nats", {{"a < b", {0, 2}, {1, 7.5}}}, {}, true};
+  const std::string svg = charts_svg(std::vector{content}, {640, 400}, false);
+  EXPECT_EQ(all(svg, "<title>([^<]*)</title>"),
+            (std::vector<std::string>{"view 0, a &lt; b: 1 nats", "view 2, a &lt; b: 7.5 nats"}));
+  EXPECT_THAT(svg, AllOf(HasSubstr(">view</text>"), HasSubstr(">gain [nats]</text>")));
+  EXPECT_THAT(svg, HasSubstr("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"));
+}
+
+TEST(ChartSvg, TheAxisBeginsAtZeroOrBelowTheData) {
+  const auto lowest = [](double least) {
+    const ChartContent content{"t", "view", "", "gain", "", {{"one", {0, 1}, {least, 40}}}, {}, true};
+    return scale(charts_svg(std::vector{content}, {640, 400}, false), "end", false).value_a;
+  };
+  EXPECT_EQ(lowest(30), 0);
+  EXPECT_EQ(lowest(-12), -20) << "the next round number";
+}
+
+/// Two beside each other, 640 x 400 pixels of the page each.
+TEST(ChartSvg, EachChartIsDrawnInItsOwnPartOfThePage) {
+  std::vector<ChartContent> charts;
+  for (int i = 0; i < 5; ++i)
+    charts.push_back({"t", "view", "", "gain", "nats", {{"one", {0, 1}, {1, 2}}, {"two", {0, 1}, {3, 4}}}, {}, true});
+  const std::string svg = charts_svg(charts, {640, 600}, true);
+  EXPECT_THAT(svg, HasSubstr("width=\"640\" height=\"600\" viewBox=\"0 0 1280 1200\""));
+  std::vector<std::string> groups;
+  for (std::size_t at = svg.find("<g>"); at != svg.npos; at = svg.find("<g>", at + 1))
+    groups.push_back(svg.substr(at, svg.find("</g>", at) - at));
+  ASSERT_EQ(groups.size(), 5u);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const double left = i % 2 ? 640.0 : 0.0, top = 400.0 * double(i / 2);
+    for (const std::string& x : all(groups[i], " c?x[12]?=\"([^\"]*)\"")) {
+      EXPECT_GT(std::stod(x), left) << i;
+      EXPECT_LT(std::stod(x), left + 640) << i;
+    }
+    for (const std::string& y : all(groups[i], " c?y[12]?=\"([^\"]*)\"")) {
+      EXPECT_GT(std::stod(y), top) << i;
+      EXPECT_LT(std::stod(y), top + 400) << i;
+    }
+    EXPECT_EQ(all(groups[i], "(<circle)").size(), 4u);
+  }
+  const std::string one = charts_svg(std::span(charts).first(1), {640, 400}, true);
+  EXPECT_THAT(one, HasSubstr("viewBox=\"0 0 640 400\"")) << "a single one has the page for itself";
 }
 
 }  // namespace

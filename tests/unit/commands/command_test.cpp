@@ -102,6 +102,22 @@ TEST(Commands, ShortcutsAreValidCalls) {
   EXPECT_EQ(find_command("panel").keys(), "") << "its keys bring values";
 }
 
+TEST(Commands, KeysThatTurnAndMoveTheSceneDoSoWithoutControl) {
+  std::vector<std::string> keys;
+  for (const char* name : {"turn", "zoom", "section-axis"})
+    for (const Shortcut& s : find_command(name).shortcuts())
+      keys.push_back(s.text() + ": " + make_call(name, s.values).text());
+  EXPECT_THAT(keys, ElementsAre("Left: turn -10 0", "Right: turn 10 0", "Up: turn 0 10", "Down: turn 0 -10",
+                                "=: zoom 1", "-: zoom -1", "X: section-axis x"));
+}
+
+TEST(Commands, TheSidesOfTheObjectHaveTheDigitsWithControl) {
+  std::vector<std::string> keys;
+  for (const Shortcut& s : find_command("standard-view").shortcuts()) keys.push_back(s.text() + " " + s.values.front());
+  EXPECT_THAT(keys, ElementsAre("Ctrl+1 front", "Ctrl+2 right", "Ctrl+3 back", "Ctrl+4 left", "Ctrl+5 top",
+                                "Ctrl+6 bottom", "Ctrl+7 usual"));
+}
+
 /// Two commands may share a key only if there is no state in which both can be done.
 TEST(Commands, AKeyNeverMeansTwoThingsAtOnce) {
   std::map<std::pair<Key, bool>, std::vector<const Command*>> keys;

@@ -12,7 +12,7 @@ struct KnownPanels : testing::Environment {
                                      {"layers", "Layers", Side::left, "What is shown."},
                                      {"log", "Log", Side::bottom, "What happened."},
                                      {panel_name::curves, "Curves", Side::bottom, "How it went."}};
-    for (const std::string& name : {panel_name::view, panel_name::inspector, panel_name::gibbs})
+    for (const std::string& name : {panel_name::view, panel_name::inspector, panel_name::gibbs, panel_name::comparison})
       panels.push_back({name, name, Side::right, "What it is."});
     announce_panels(std::move(panels));
   }

@@ -129,6 +129,29 @@ TEST(CandidateViews, TheSameEveryTime) {
   }
 }
 
+TEST(CandidateViews, BoundsThemselvesAreTaken) {
+  const auto is_valid = [](auto change) {
+    CandidateViewsConfig config;
+    change(config);
+    try {
+      config.validate();
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
+    return true;
+  };
+  for (const auto& [count, valid] : {std::pair(0, false), {1, true}, {10000, true}, {10001, false}}) {
+    EXPECT_EQ(is_valid([=](auto& c) { c.count = count; }), valid) << count;
+    EXPECT_EQ(is_valid([=](auto& c) { c.layout = ViewLayout::rings, c.count = 10000, c.rings = count; }), valid);
+  }
+  for (const auto& [radius, valid] : {std::pair(0.0009, false), {0.001, true}, {100.0, true}, {100.1, false}})
+    EXPECT_EQ(is_valid([=](auto& c) { c.radius = radius; }), valid) << radius;
+  for (const auto& [adaptive, valid] : {std::pair(0, false), {1, true}, {1000, true}, {1001, false}})
+    EXPECT_EQ(is_valid([=](auto& c) { c.adaptive = adaptive; }), valid) << adaptive;
+  EXPECT_TRUE(is_valid([](auto& c) { c.layout = ViewLayout::rings, c.count = c.rings; })) << "a view a ring";
+  EXPECT_TRUE(is_valid([](auto& c) { c.count = 1; })) << "rings are of the layout rings alone";
+}
+
 TEST(CandidateViews, RejectsWhatMakesNoSense) {
   const auto rejects = [](auto change, const char* field) {
     CandidateViewsConfig config;

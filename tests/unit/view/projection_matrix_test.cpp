@@ -72,6 +72,40 @@ TEST(ProjectionMatrix, IsTakenApartAndPutTogetherAgain) {
   EXPECT_THROW(decompose_projection(ProjectionMatrix::Constant(NAN)), std::invalid_argument);
 }
 
+TEST(ProjectionMatrix, PixelsThatAreNoRectanglesTurnNoCamera) {
+  Eigen::Matrix3d skewed = k;
+  skewed(0, 1) = 35.0;
+  const DecomposedProjection found = decompose_projection(skewed * pose.inverse().matrix().topRows<3>());
+  EXPECT_NEAR(found.fx, 2892.3, 1e-7);
+  EXPECT_NEAR(found.cx, 823.2, 1e-7);
+  EXPECT_LT((found.T_world_camera.matrix() - pose.matrix()).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+/// A camera far beyond a kilometre is one whose unit is another.
+TEST_F(Projections, CamerasStandWithinAKilometre) {
+  CandidateViewsConfig config;
+  config.layout = ViewLayout::file;
+  config.unit = LengthUnit::metres;
+  const auto read = [&](double x) {
+    config.file = write("p.txt", text_of(projection(look_at(Vector3(x, 0, 0), Vector3::Zero())))).string();
+    return candidate_views(config, Vector3::Zero());
+  };
+  EXPECT_NEAR(read(999.0).at(0).translation().x(), 999.0, 1e-6);
+  EXPECT_THROW(read(1001.0), std::runtime_error);
+  EXPECT_THROW(read(-1001.0), std::runtime_error);
+}
+
+TEST_F(Projections, TurnWithTheObjectsFile) {
+  CandidateViewsConfig config;
+  config.layout = ViewLayout::file;
+  config.file = write("p.txt", text_of(projection(look_at(Vector3(1, 2, 3), Vector3::Zero())))).string();
+  config.projections = {Vector3::Zero(), 1.0, UpAxis::y};
+  const Pose view = candidate_views(config, Vector3::Zero()).at(0);
+  EXPECT_TRUE(is_pose(view));
+  EXPECT_LT((view.translation() - Vector3(1, -3, 2)).norm(), 1e-9) << "2 along the file's y is up";
+  EXPECT_LT((view * Vector3(0, 0, std::sqrt(14.0))).norm(), 1e-9) << "it still looks at the object";
+}
+
 TEST_F(Projections, AFileHasThreeLinesOrOne) {
   for (const std::string& text : {text_of(projection(pose)), text_of(projection(pose), "\r\n"),
                                   text_of(projection(pose), ""), "\n" + text_of(projection(pose), " ") + "\n\n"}) {

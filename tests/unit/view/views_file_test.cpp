@@ -89,6 +89,29 @@ TEST_F(ViewsFile, OneViewIsReadFromAText) {
     EXPECT_THROW(parse_view(bad), std::invalid_argument) << bad;
 }
 
+/// By one in a thousand at most; written with four digits they are off by less.
+TEST_F(ViewsFile, QuaternionsMayBeALittleOff) {
+  for (const char* good : {"0 0 0 0 0 0 1.0009", "0 0 0 0 0 0 0.9991", "0 0 0 0 0 0 -1"})
+    EXPECT_NO_THROW(parse_view(good)) << good;
+  for (const char* bad : {"0 0 0 0 0 0 1.0011", "0 0 0 0 0 0 0.9989", "0 0 0 1 0 0 0.1"})
+    EXPECT_THROW(parse_view(bad), std::invalid_argument) << bad;
+}
+
+TEST_F(ViewsFile, ViewsLieWithinAMillionMetres) {
+  for (const char* good : {"1e6 0 0 0 0 0 1", "0 -1e6 0 0 0 0 1", "0 0 1e6 0 0 0 1"}) EXPECT_NO_THROW(parse_view(good));
+  for (const char* bad : {"1000001 0 0 0 0 0 1", "0 -1000001 0 0 0 0 1", "0 0 1000001 0 0 0 1"})
+    EXPECT_THROW(parse_view(bad), std::invalid_argument) << bad;
+}
+
+TEST_F(ViewsFile, HoldsAHundredThousandViewsAtMost) {
+  std::string views;
+  for (int i = 0; i < 100'000; ++i) views += "0 0 0 0 0 0 1\n";
+  EXPECT_EQ(read(views).size(), 100'000u);
+  EXPECT_EQ(read("100000\n" + views).size(), 100'000u);
+  EXPECT_NE(reason(views + "0 0 0 0 0 0 1\n"), "");
+  EXPECT_NE(reason("100001\n" + views + "0 0 0 0 0 0 1\n"), "");
+}
+
 TEST_F(ViewsFile, RoundedQuaternionsAreMadeUnit) {
   const std::vector<Pose> views = read("1\n0 0 0 0.3827 0 0 0.9239\n");
   EXPECT_LT((views[0].linear().transpose() * views[0].linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
