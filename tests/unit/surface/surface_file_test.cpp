@@ -104,6 +104,17 @@ TEST(Stl, isReadByAnIndependentReader) {
   EXPECT_NEAR(read.surface_area(), 1e6 * mesh.surface_area(), 1.0);
 }
 
+TEST(Stl, carriesARemarkThatFitsIntoItsHead) {
+  const TemporaryFolder folder;
+  write_stl(triangle().mesh, folder / "a.stl", "of box, 3 views");
+  EXPECT_TRUE(read_file(folder / "a.stl").starts_with("nextview, unit mm; of box, 3 views" + std::string(3, '\0')));
+  write_stl(triangle().mesh, folder / "b.stl", std::string(200, 'x'));
+  const std::string bytes = read_file(folder / "b.stl");
+  EXPECT_EQ(bytes.size(), 84u + 50u);
+  EXPECT_EQ(bytes.substr(0, 80), "nextview, unit mm; " + std::string(40, 'x') + std::string(21, '\0'));
+  EXPECT_EQ(value<std::uint32_t>(bytes, 80), 1u);
+}
+
 TEST(Stl, leavesOutTrianglesWithoutArea) {
   const TemporaryFolder folder;
   TriangleMesh mesh = triangle().mesh;
@@ -127,7 +138,8 @@ TEST(SurfacePly, holdsWhatItsHeaderSays) {
   const std::string header = bytes.substr(0, end);
   EXPECT_TRUE(header.starts_with("ply\nformat binary_little_endian 1.0\n"));
   EXPECT_THAT(header, HasSubstr("unit m\n"));
-  EXPECT_THAT(header, HasSubstr("from 0 m (dark blue) to 0.001 m"));  // of the seen vertices
+  EXPECT_THAT(header, HasSubstr("from 0 m (dark blue) to 0.001 m"));                   // of the seen vertices
+  EXPECT_THAT(header, HasSubstr("comment seen of the area: 0 %, 0 of 0.0625 m^2\n"));  // one corner was not
   EXPECT_THAT(header, HasSubstr("\nelement vertex 3\nproperty uchar seen\n"
                                 "property float x\nproperty float y\nproperty float z\n"
                                 "property uchar red\nproperty uchar green\nproperty uchar blue\n"
