@@ -86,6 +86,29 @@ TEST(Confinement, aConfinedProcessReadsBelowItsFolderAndNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(fresh));
 }
 
+// Which holds without a filter of calls, too.
+TEST(Confinement, aConfinedProcessOpensFewFilesAndMakesNoneLarger) {
+  const TemporaryFolder folder;
+  folder.write("one.txt", "1");
+  const int below = ::open(folder.path().c_str(), O_PATH | O_DIRECTORY);
+  ASSERT_GE(below, 0);
+  ReadingProcess process(
+      [&](int pipe) {
+        confine(pipe);
+        int opened = 0;
+        while (opened < 1000 && ::openat(below, "one.txt", O_RDONLY) >= 0) ++opened;
+        const int why = errno;
+        rlimit largest{1, 1};
+        ::getrlimit(RLIMIT_FSIZE, &largest);
+        send_message(pipe, std::string(opened < 64 ? "few, " : "many, ") + (opened > 40 ? "enough, " : "too few, ") +
+                               (why == EMFILE ? "then no more; " : "otherwise; ") + std::to_string(largest.rlim_cur));
+        ::_exit(0);
+      },
+      60s, {});
+  EXPECT_EQ(receive_scene(process).message, "few, enough, then no more; 0");
+  ::close(below);
+}
+
 TEST(Confinement, abortIsStillADeathThatSaysWhat) {
   if (!can_confine) GTEST_SKIP() << "built with sanitizers";
   ReadingProcess process(

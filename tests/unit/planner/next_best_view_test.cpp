@@ -105,6 +105,12 @@ TEST(Rank, SaysThatAGainIsSaturated) {
   EXPECT_NE(rank(saturated, {}).degenerate, "");
 }
 
+TEST(Rank, OfHalfAtTheTopTheGainStillChooses) {
+  auto half = candidates({{7, 1}, {7, 2}, {1, 1}, {2, 1}}), most = candidates({{7, 1}, {7, 2}, {1, 1}});
+  EXPECT_EQ(rank(half, {}).degenerate, "");
+  EXPECT_EQ(rank(most, {}).degenerate, "2 of 3 candidates tie at the largest gain, 7");
+}
+
 TEST(Rank, TheOnlyCandidateLeftIsNotDegenerate) {
   auto one = candidates({{5, 1}});
   const Ranking ranking = rank(one, {});

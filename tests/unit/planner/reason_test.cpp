@@ -54,6 +54,11 @@ TEST(Reason, SaysWhereTheGainHardlyTellsThemApart) {
   EXPECT_EQ(near_ties.best, 0u) << "the nearest";
   EXPECT_THAT(near_ties.reason, HasSubstr(" 3 of 4 gain the same within 0.1 %: the way there decides."));
   EXPECT_EQ(near_ties.degenerate, "");
+  EXPECT_THAT(ranked({1000, 1000, 980, 500}, {at(0.2), at(1), at(2), at(3)}).reason, Not(HasSubstr("decides")))
+      << "half of them are not most";
+  EXPECT_THAT(ranked({1000, 1000}, {at(0.2), at(1)}).reason, HasSubstr(" 2 of 2 gain the same"));
+  EXPECT_THAT(ranked({1000, 980}, {at(0.2), at(1)}).reason, Not(HasSubstr("decides")));
+  EXPECT_THAT(ranked({0, 0}, {at(0.2), at(1)}).reason, Not(HasSubstr("decides"))) << "nothing is to be gained";
   EXPECT_THAT(ranked({1000, 990, 980, 500}, {at(0.2), at(1), at(2), at(3)}).reason, Not(HasSubstr("decides")));
 }
 

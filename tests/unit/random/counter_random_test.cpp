@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <map>
+#include <new>
 #include <random>
 #include <vector>
 
@@ -131,6 +134,16 @@ TEST(CounterRandom, NeighboursAreIndependent) {
     }
     EXPECT_LT(std::abs(chi_square_deviation(counts, double(draws) / (side * side))), 4.5) << name;
   }
+}
+
+// They are made where they are wanted: what is kept right behind them stays.
+TEST(CounterRandom, AreFourNumbersAndNoFifth) {
+  using Numbers = std::array<double, 4>;
+  alignas(Numbers) std::array<std::byte, sizeof(Numbers) + 2 * sizeof(double)> memory;
+  memory.fill(std::byte{0x5a});
+  const auto& four = *new (memory.data()) Numbers(CounterRandom(1, 1).uniform(3));
+  EXPECT_EQ(four, CounterRandom(1, 1).uniform(3));
+  for (std::size_t i = sizeof(Numbers); i < memory.size(); ++i) EXPECT_EQ(memory[i], std::byte{0x5a}) << i;
 }
 
 TEST(CounterRandom, DependsOnKeyAndCounterAlone) {

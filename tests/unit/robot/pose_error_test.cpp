@@ -10,6 +10,8 @@ namespace {
 
 TEST(PoseError, IsNothingUnlessAskedFor) {
   EXPECT_TRUE(RobotConfig().exact());
+  EXPECT_FALSE(RobotConfig({0.001, 0.0}).exact());
+  EXPECT_FALSE(RobotConfig({0.0, 0.1}).exact()) << "one error alone is one";
   EXPECT_TRUE(pose_error({}, 7, 3).isApprox(Pose::Identity(), 0.0));
 }
 
@@ -34,6 +36,14 @@ TEST(PoseError, DependsOnSeedAndStepAlone) {
   EXPECT_EQ(pose_error(config, 1, 2).matrix(), pose_error(config, 1, 2).matrix());
   EXPECT_NE(pose_error(config, 1, 2).matrix(), pose_error(config, 1, 3).matrix());
   EXPECT_NE(pose_error(config, 1, 2).matrix(), pose_error(config, 2, 2).matrix());
+}
+
+TEST(PoseError, AnErrorThatIsNotAskedForIsNone) {
+  const Pose shifted = pose_error({0.005, 0.0}, 1, 2), turned = pose_error({0.0, 1.0}, 1, 2);
+  EXPECT_GT(shifted.translation().norm(), 0.0);
+  EXPECT_EQ(shifted.linear(), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(turned.translation(), Vector3::Zero());
+  EXPECT_GT(rotation_angle(turned, Pose::Identity()), 0.0);
 }
 
 TEST(PoseError, SaysWhichSettingIsOutOfBounds) {

@@ -42,6 +42,12 @@ TEST(FreeFlyingCamera, TheSlowerOfMoveAndTurnCounts) {
   EXPECT_NEAR(cost.seconds, std::numbers::pi / 2 / 0.1, 1e-6);
 }
 
+TEST(FreeFlyingCamera, GoesAQuarterOfAMetreAndTurnsARadianInASecondUnlessToldOtherwise) {
+  const FreeFlyingCamera robot(Pose::Identity());
+  EXPECT_NEAR(cost_of(robot, pose_at({0, 0, 0}, 0.0), pose_at({0, 0, 1}, 0.0)).seconds, 4.0, 1e-12);
+  EXPECT_NEAR(cost_of(robot, pose_at({0, 0, 0}, 0.0), pose_at({0, 0, 0}, 1.5)).seconds, 1.5, 1e-9);
+}
+
 TEST(FreeFlyingCamera, StayingCostsNothing) {
   const FreeFlyingCamera robot(Pose::Identity());
   const Pose pose = pose_at({1, 2, 3}, 0.7);

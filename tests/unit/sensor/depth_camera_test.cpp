@@ -49,6 +49,27 @@ TEST(DepthCamera, settingsOutsideTheirBoundsAreNamed) {
   EXPECT_NO_THROW(DepthCamera(DepthCameraConfig{}));
 }
 
+TEST(DepthCamera, imagesHaveAnythingFromOnePixelTo16384ASide) {
+  const auto is_taken = [](int width, int height) {
+    DepthCameraConfig config;
+    config.width = width, config.height = height;
+    try {
+      config.validate();
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
+    return true;
+  };
+  for (const auto& [width, height] : {std::pair(1, 1), {1, 16384}, {16384, 1}}) EXPECT_TRUE(is_taken(width, height));
+  for (const auto& [width, height] : {std::pair(0, 1), {1, 0}, {16385, 1}, {1, 16385}})
+    EXPECT_FALSE(is_taken(width, height)) << width << " x " << height;
+  DepthCameraConfig one;
+  one.width = one.height = 1;
+  const DepthImage image = DepthCamera(one).sense_ideal(MeshRayCaster(plane({0, 0, 1}, {0, 0, 1})), Pose::Identity());
+  ASSERT_EQ(image.range.size(), 1u);
+  EXPECT_NEAR(image.range[0], 1.0, 1e-6) << "straight ahead";
+}
+
 TEST(DepthCamera, intrinsicsTakeThePlaceOfTheFieldOfView) {
   DepthCameraConfig config;
   const PinholeCamera plain = config.camera();

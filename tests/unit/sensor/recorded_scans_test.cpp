@@ -108,6 +108,25 @@ TEST(RecordedScans, whatIsWrongIsNamedWithItsLine) {
   }
 }
 
+// A count that the rest of the file cannot hold is refused before memory is taken for it: a point takes six characters
+// at least, and the last line may lack its end.
+TEST(RecordedScans, pointsAreAtMostWhatTheFileHasRoomFor) {
+  const TemporaryFolder folder;
+  const auto scene = [&](std::size_t claimed, std::size_t points, const char* behind = "") {
+    std::string text = "scan 0 0 0 0 0 0 1 " + std::to_string(claimed) + "\n";
+    for (std::size_t i = 0; i < points; ++i) text += i + 1 < points ? "0 0 0\n" : "0 0 0";
+    return folder.write("scene.txt", text + behind);
+  };
+  for (const char* behind : {"", "\n"}) {
+    EXPECT_EQ(read_recorded_scene(scene(1, 1, behind)).scans[0].points.size(), 1u);
+    EXPECT_EQ(read_recorded_scene(scene(9, 9, behind)).scans[0].points.size(), 9u);
+    for (const std::size_t claimed : {10u, 20u, 100u, 1000u})
+      EXPECT_THAT(complaint(scene(claimed, 9, behind)),
+                  HasSubstr("claims " + std::to_string(claimed) + " points, more than the rest of the file can hold"));
+  }
+  EXPECT_THAT(complaint(scene(2, 1, "\n      ")), HasSubstr("ends after 1 of 2 points")) << "there is room for it";
+}
+
 TEST(RecordedScans, truncatedOrGarbage) {
   const TemporaryFolder folder;
   EXPECT_THAT(complaint(folder.write("cut.txt", good.substr(0, good.find("  3 4")))),

@@ -25,6 +25,10 @@ TEST(Quantity, ALengthHasAnyOfItsUnits) {
   EXPECT_EQ(read("300 µm"), 0.0003);
   EXPECT_NEAR(read("2 in"), 0.0508, 1e-17);
   EXPECT_NEAR(read("5e-1 mm"), 0.0005, 1e-18);
+  EXPECT_EQ(read("5e-1 m"), 0.5);
+  EXPECT_NEAR(read("2E1 cm"), 0.2, 1e-16);
+  EXPECT_NEAR(read("1e2 um"), 0.0001, 1e-19);
+  EXPECT_NEAR(read("1e1 in"), 0.254, 1e-16);
 }
 
 TEST(Quantity, OtherUnitsAreNamedAsTheyAreAndNotMixed) {

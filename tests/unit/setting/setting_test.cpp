@@ -19,6 +19,8 @@ TEST(Bounds, EndsAreIncludedOrNot) {
   EXPECT_FALSE(between(1, 2).allow(1) || between(1, 2).allow(2));
   EXPECT_TRUE(!over_to(1, 2).allow(1) && over_to(1, 2).allow(2));
   EXPECT_TRUE(zero_or(4, 9).allow(0) && !zero_or(4, 9).allow(3));
+  EXPECT_TRUE(zero_or(4, 9).allow(4) && zero_or(4, 9).allow(9) && !zero_or(4, 9).allow(9.1));
+  EXPECT_FALSE(from_to(1, 2).allow(0) || between(1, 2).allow(0) || over_to(1, 2).allow(0)) << "0 is not off here";
   for (const Bounds& bounds : {from_to(1, 2), between(-1, 2), over_to(1, 2), zero_or(1, 2)})
     EXPECT_FALSE(bounds.allow(std::nan("")) || bounds.allow(INFINITY) || bounds.allow(-INFINITY));
 }

@@ -47,6 +47,11 @@ TEST(InaccurateSource, ErrsAgainAsItDidAfterGoingBack) {
   EXPECT_TRUE(same(ranges(first), ranges(captured(source, looking, 2))));
 }
 
+TEST(InaccurateSource, RefusesErrorsThatAreNone) {
+  EXPECT_THROW(InaccurateSource(simulated(), {-0.001, 0.0}, 3), std::invalid_argument);
+  EXPECT_THROW(InaccurateSource(simulated(), {0.0, std::nan("")}, 3), std::invalid_argument);
+}
+
 TEST(InaccurateSource, WithoutErrorsIsTheSimulation) {
   InaccurateSource source(simulated(), {}, 3);
   EXPECT_TRUE(same(ranges(captured(source, looking, 2)), ranges(captured(*simulated(), looking, 2))));

@@ -1,0 +1,72 @@
+// What the numbers of a file that keeps its own size are taken for.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/mesh/mesh_file.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
+#include "tests/unit/mesh/tetrahedron_files.hpp"
+
+namespace nextview {
+namespace {
+
+namespace files = tetrahedron_files;
+
+PlacedMesh at_own_size(const std::filesystem::path& file, LengthUnit unit = LengthUnit::automatic) {
+  return load_placed_mesh(file, {.longest_side = 0.0, .unit = unit, .up = UpAxis::z});
+}
+double longest(const PlacedMesh& placed) { return placed.mesh.bounding_box().sizes().maxCoeff(); }
+
+/// One triangle, so many units long.
+std::string obj_of(double units) { return fmt::format("v 0 0 0\nv {} 0 0\nv 0 1 0\nf 1 2 3\n", units); }
+
+// By their specifications: glTF is in metres, 3MF in millimetres. The others have no unit, and 4 of them are metres.
+TEST(OwnSize, IsThatOfTheTypesUnit) {
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] : files::all()) {
+    const PlacedMesh placed = at_own_size(folder.write(name, bytes));
+    const bool is_3mf = name.ends_with(".3mf");
+    EXPECT_NEAR(longest(placed), is_3mf ? 0.004 : 4.0, 1e-6) << name;
+    EXPECT_EQ(placed.unit, is_3mf ? LengthUnit::millimetres : LengthUnit::metres) << name;
+  }
+}
+
+TEST(OwnSize, InGltfIsInMetresHoweverLong) {
+  const TemporaryFolder folder;
+  folder.write("buffer.bin", files::gltf_buffer());
+  const auto file =
+      folder.write("large.gltf", files::gltf(R"("uri": "buffer.bin", )", R"([{"mesh": 0, "scale": [20, 20, 20]}])"));
+  EXPECT_NEAR(longest(at_own_size(file)), 80.0, 1e-4);
+  EXPECT_EQ(at_own_size(file).unit, LengthUnit::metres);
+}
+
+TEST(OwnSize, WithoutAUnitOverTenAreMillimetres) {
+  const TemporaryFolder folder;
+  for (const auto& [units, metres] : {std::pair(9.75, 9.75), {10.0, 10.0}, {10.25, 0.01025}, {80.0, 0.08}}) {
+    const PlacedMesh placed = at_own_size(folder.write("t.obj", obj_of(units)));
+    EXPECT_NEAR(longest(placed), metres, 1e-6 * metres) << units;
+    EXPECT_EQ(placed.unit, units > 10.0 ? LengthUnit::millimetres : LengthUnit::metres);
+  }
+}
+
+TEST(OwnSize, IsInTheUnitThatIsAskedForWhateverTheTypeSays) {
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] : {std::pair{"t.glb", files::glb()}, {"t.3mf", files::three_mf()}})
+    for (const auto& [unit, metres] : {std::pair{LengthUnit::metres, 4.0},
+                                       {LengthUnit::millimetres, 0.004},
+                                       {LengthUnit::centimetres, 0.04},
+                                       {LengthUnit::inches, 0.1016}})
+      EXPECT_NEAR(longest(at_own_size(folder.write(name, bytes), unit)), metres, 1e-6) << name;
+  const PlacedMesh scaled = load_placed_mesh(folder.write("t.glb", files::glb()), {.unit = LengthUnit::inches});
+  EXPECT_NEAR(longest(scaled), 0.5, 1e-6) << "a longest side says all";
+  EXPECT_EQ(scaled.unit, LengthUnit::automatic);
+}
+
+TEST(OwnSize, IsAtMostAKilometre) {
+  const TemporaryFolder folder;
+  EXPECT_NEAR(longest(at_own_size(folder.write("t.obj", obj_of(1000.0)), LengthUnit::metres)), 1000.0, 1e-3);
+  EXPECT_THROW(at_own_size(folder.write("t.obj", obj_of(1001.0)), LengthUnit::metres), std::runtime_error);
+  EXPECT_NEAR(longest(at_own_size(folder.write("t.obj", obj_of(1001.0)))), 1.001, 1e-6) << "of millimetres it is";
+}
+
+}  // namespace
+}  // namespace nextview
