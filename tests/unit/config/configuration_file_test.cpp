@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/config/configuration.hpp"
+#include "core/config/configuration_text.hpp"
 
 namespace nextview {
 namespace {
@@ -307,6 +308,22 @@ TEST_F(ConfigurationFile, SettingsThatDoNotGoTogetherAreAllNamedAsTheyWereGiven)
     std::string expected = "FILE" + reason;
     for (std::size_t at; (at = expected.find("FILE")) != expected.npos;) expected.replace(at, 4, file().string());
     EXPECT_THAT(complaint([&] { bad.validate(); }), testing::StartsWith(expected)) << text;
+  }
+}
+
+// Settings that were written down elsewhere, as in a picture or a journal: what makes no sense is refused as in a file.
+TEST_F(ConfigurationFile, ATextIsTakenAsThatFileWouldBe) {
+  const Configuration good = configuration_of("seed = 5\n[sensor]\nwidth = 77\n", file());
+  EXPECT_EQ(good.seed, 5u);
+  EXPECT_EQ(good.sensor.width, 77);
+  EXPECT_EQ(good.read_from, std::vector<std::filesystem::path>{file()});
+  EXPECT_EQ(good.sources.at("sensor.width").place, file().string() + ":3");
+  const std::string apart = "[sensor]\nmin_range = 0.5\nmax_range = 0.25\n";
+  for (const std::string& text : {apart, std::string("[sensor]\nrange_noise = 5\n"), std::string("sed = 5\n")}) {
+    std::ofstream(file(), std::ios::binary) << text;
+    const std::string of_file = complaint([&] { read_configuration(file()); });
+    EXPECT_NE(of_file, "") << text;
+    EXPECT_EQ(complaint([&] { configuration_of(text, file()); }), of_file);
   }
 }
 
