@@ -43,5 +43,38 @@ TEST(SceneParameters, ViewsLieWhereAnOctreeReaches) {
   }
 }
 
+RecordedScene scene_of_box(double resolution, const Vector3& lower, const Vector3& upper) {
+  RecordedScene scene = scene_from({0, 0, 0}, resolution);
+  const char* const axes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    scene.parameters[std::string("bbox_min_") + axes[axis] + "_m"] = lower[axis];
+    scene.parameters[std::string("bbox_max_") + axes[axis] + "_m"] = upper[axis];
+  }
+  return scene;
+}
+
+TEST(SceneParameters, TheGridHoldsTheBoundingBox) {
+  const VoxelGrid grid = scene_parameters(scene_of_box(0.1, {-0.35, 0.15, -1.05}, {0.75, 0.25, -0.95})).grid();
+  EXPECT_EQ(grid.resolution, 0.1);
+  EXPECT_EQ(grid.first, Eigen::Vector3i(-4, 1, -11)) << "whole voxels, from below the box";
+  EXPECT_EQ(grid.size, Eigen::Vector3i(12, 2, 2)) << "to above it";
+  for (const double other : {0.75, -0.4})  // no box is empty
+    EXPECT_THROW(scene_parameters(scene_of_box(0.1, {0.75, 0, 0}, {other, 1, 1})), std::invalid_argument) << other;
+}
+
+// 2^28, whatever their size.
+TEST(SceneParameters, AGridHasAtMost268MillionVoxels) {
+  const auto grid_up_to = [](double x) {
+    return scene_parameters(scene_of_box(0.25, {-128, -64, -64}, {x, 64, 64})).grid();
+  };
+  EXPECT_EQ(grid_up_to(128.0).voxel_count(), 268'435'456u);
+  try {
+    grid_up_to(128.25);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "the bounding box holds 268697600 voxels; at most 268435456 are held");
+  }
+}
+
 }  // namespace
 }  // namespace nextview

@@ -156,6 +156,26 @@ TEST_F(StateFile, AfterItsStartMapHasChangedIsNotUsed) {
   EXPECT_FALSE(opened());
 }
 
+TEST_F(StateFile, WithoutAllOfItsTimesItIsTheSameButForThem) {
+  const auto session = scan(small_scan());
+  const fs::path times = path() / "timings.csv";
+  const std::string all = read_file(times);
+  const std::size_t first = all.find('\n') + 1, second = all.find('\n', first) + 1;
+  for (const std::string& some :
+       {std::string(), all.substr(0, first), all.substr(0, second), all + "4,1,1,1,1,1,1\n"}) {
+    write_file(times, some);
+    const auto is = opened();
+    ASSERT_TRUE(is) << some;
+    EXPECT_TRUE(same_scan(*session, *is)) << some;
+    EXPECT_EQ(is->records()[0].seconds.insert > 0.0, some.size() >= second) << some;
+    EXPECT_EQ(is->records()[2].seconds.insert > 0.0, some.size() > all.size()) << some;
+  }
+  fs::remove(times);
+  const auto is = opened();
+  ASSERT_TRUE(is);
+  EXPECT_TRUE(same_scan(*session, *is));
+}
+
 TEST_F(StateFile, WrittenTwiceIsTheSame) {
   scan(small_scan());
   const std::string first = read_file(file());
