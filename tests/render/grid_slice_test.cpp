@@ -74,6 +74,14 @@ TEST(GridSlice, TheLargestDifferenceIsFound) {
   EXPECT_EQ(slice.axis, 0);
   EXPECT_EQ(slice.index, 4);
   EXPECT_LT(slice.height, 40) << "cropped around the wall";
+  // It is y from 3 to 7 and z of 6; what is free around it shows, too.
+  EXPECT_TRUE(slice.left == 0 && slice.left + slice.width >= 12) << slice.left << " + " << slice.width;
+  EXPECT_TRUE(slice.bottom <= 3 && slice.bottom + slice.height >= 10) << slice.bottom << " + " << slice.height;
+  EXPECT_LT(slice.height, 14) << "and not much more";
+  // What a map calls occupied that has not measured it does not count.
+  for (int y = 3; y < 8; ++y) other[grid.index({4, y, 6})].measured = false;
+  slice = slice_of_largest_difference(grid, one, other);
+  EXPECT_EQ(slice.axis, 1);
 }
 
 TEST(GridSlice, ACrossSectionOfABoxIsItsRectangle) {
@@ -130,6 +138,72 @@ TEST(SliceSquares, ADifferenceIsOfNoColourWhereMapsAgree) {
   // The same colours as probabilities: agreement as undecided, more occupied as occupied, freer as free.
   const std::vector<Voxel> alike = {measured(0.5f), measured(0.9f), measured(0.1f)};
   EXPECT_EQ(difference, slice_squares(content_of(grid, content.slice, alike), 2));
+}
+
+TEST(SliceSquares, ADifferenceIsHatchedWhereNeitherMapHasMeasured) {
+  const VoxelGrid grid = grid_of(4, 1, 1);
+  const std::vector<Voxel> one = {measured(0.3f), {}, measured(0.3f), {}};
+  const std::vector<Voxel> other = {{}, measured(0.3f), measured(0.3f), {}};
+  SliceContent content = content_of(grid, whole_layer(grid, 2, 0), one);
+  content.value = SliceValue::difference;
+  content.other = other;
+  const Image image = slice_squares(content, 7);
+  const auto plain = [&](int voxel) {
+    for (int x = 0; x < 7; ++x)
+      for (int y = 0; y < 7; ++y)
+        if (pixel(image, 7 * voxel + x, y) != pixel(image, 7 * voxel, 0)) return false;
+    return true;
+  };
+  EXPECT_TRUE(plain(0) && plain(1) && plain(2));
+  EXPECT_FALSE(plain(3));
+}
+
+/// Of a slice's panel, which rows of a column have ink that is on no blank panel; parts that are so far from each other
+/// are apart.
+std::vector<std::pair<int, int>> parts_of_row(const Image& image, int bottom, int top, int gap) {
+  std::vector<std::pair<int, int>> parts;
+  for (int x = 20; x < image.width - 20; ++x) {  // within the panel's frame
+    bool ink = false;
+    for (int y = bottom; y < top; ++y) ink |= (pixel(image, x, y) & 0xFF) < 0xF0;
+    if (!ink) continue;
+    if (parts.empty() || x > parts.back().second + gap) parts.emplace_back(x, x);
+    parts.back().second = x;
+  }
+  return parts;
+}
+
+Image panel_of(const std::function<void(SliceContent&)>& change) {
+  const VoxelGrid grid = grid_of(30, 12, 1);
+  std::vector<Voxel> voxels(grid.voxel_count(), measured(0.1f));
+  SliceContent content = content_of(grid, whole_layer(grid, 2, 0), voxels);
+  change(content);
+  return draw_page(620, 360, [&](vtkContext2D& context) { paint_slice(context, {0, 0, 620, 360}, content); });
+}
+
+TEST(SlicePanel, ItsLegendNamesWhatItsColoursAndHatchesAre) {
+  const auto lowest = [](const Image& image) {
+    for (int y = 5;; ++y)
+      if (!parts_of_row(image, y, y + 1, 5).empty()) return y;
+  };
+  const Image usual = panel_of([](SliceContent&) {});
+  const int y = lowest(usual);
+  // The lower row: "0", the bar, "1", each apart from the next; no true surface is there to be named; the scale bar.
+  const auto lower = parts_of_row(usual, y, y + 14, 5);
+  ASSERT_EQ(lower.size(), 4u);
+  EXPECT_LT(lower[0].second - lower[0].first, 12) << "a digit";
+  EXPECT_NEAR(lower[1].second - lower[1].first, 130, 2) << "the bar";
+  EXPECT_LT(lower[2].second - lower[2].first, 12) << "a digit";
+  const TriangleMesh none;
+  EXPECT_GT(parts_of_row(panel_of([&](SliceContent& c) { c.object = &none; }), y, y + 14, 5).size(), 4u);
+  // The upper row: what the colours are, a hatched patch and its name, how long the bar is.
+  const auto words_beside_patch = [&](const std::string& name) {
+    const Image image = panel_of([&](SliceContent& content) { content.unmeasured_name = name; });
+    const auto upper = parts_of_row(image, y + 22, y + 38, 12);
+    EXPECT_EQ(upper.size(), 3u);
+    return upper.size() > 1 ? upper[1].second - upper[1].first : 0;
+  };
+  EXPECT_GT(words_beside_patch("not measured"), words_beside_patch("") + 50);
+  EXPECT_GT(words_beside_patch("not measured by either"), words_beside_patch("not measured") + 30);
 }
 
 TEST(SliceSquares, ReachThePageUnchanged) {

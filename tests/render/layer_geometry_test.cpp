@@ -99,6 +99,19 @@ TEST(CameraFraming, AllPointsAreWithinTheMarginsAndTouchTwoOfThem) {
   EXPECT_TRUE((left < 1e-9 && right < 1e-9) || (bottom < 1e-9 && top < 1e-9)) << "the camera could be nearer";
 }
 
+TEST(CameraFraming, MarginsThatLeaveNoRoomAreRefused) {
+  const Eigen::Matrix3d R = look_at({0, -1, 0}, Vector3::Zero()).linear();
+  const std::vector<Vector3> points{{0, 0, 0}, {0.1, 0, 0.1}};
+  const auto framed = [&](const FrameMargins& margins) { return frame_points(R, 0.5, 1.5, margins, points); };
+  for (const double margin : {0.5, 0.75}) {  // of either side: nothing is left, and less than nothing
+    EXPECT_THROW(framed({margin, margin, 0.1, 0.1}), std::invalid_argument) << margin;
+    EXPECT_THROW(framed({0.1, 0.1, margin, margin}), std::invalid_argument) << margin;
+  }
+  EXPECT_TRUE(framed({0.49, 0.49, 0.1, 0.1}).allFinite());
+  EXPECT_TRUE(framed({0.1, 0.1, 0.49, 0.49}).allFinite());
+  EXPECT_THROW(frame_points(R, 0.5, 1.5, {}, {}), std::invalid_argument) << "there is nothing to look at";
+}
+
 TEST(CameraFraming, ExtremePointsReachAsFarAsAllInEveryDirection) {
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 5000; ++i) {

@@ -1,11 +1,19 @@
 // The charts of this project's own study: what README says of plans and maps, as pictures.
 #include "ui/report/study_charts.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
 #include "core/study/summary_table.hpp"
 #include "tests/render/render_test.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
+
+using testing::HasSubstr;
 
 const SummaryTable& own_study() {
   static const SummaryTable table(std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets" / "studies" / "nextview");
@@ -25,6 +33,29 @@ TEST(Figures, ChartsOfAStudyOnDarkPaper) {
     if (figure.name == "coverage_by_view" || figure.name == "gap_closed" || figure.name == "stationarity" ||
         figure.name == "log_loss_by_sensor")
       expect_screenshot("study_" + figure.name + "_dark", figure.draw(own_study(), Look::dark())->image());
+}
+
+/// Divergences of as many objects after six and after nine views, made up.
+std::string title_of_maps(int objects_of_nine) {
+  const TemporaryFolder folder;
+  std::string rows = "part,block,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
+  for (const int views : {6, 9})
+    for (const char* object : {"box", "sphere", "plate"}) {
+      if (views == 9 && objects_of_nine-- <= 0) continue;
+      for (const char* method : {"conventional", "gibbs"})
+        rows += fmt::format("maps,1,{},paper,{},{},d_kl[nats],0,2,40.25,1.5,,7-8,00aa,\n", object, views, method);
+    }
+  folder.write("summary.csv", rows);
+  const SummaryTable table(folder / "");
+  const auto figures = study_figures();
+  const auto figure = std::ranges::find(figures, "divergence_by_object", &StudyFigure::name);
+  const auto drawing = figure->draw(table, Look::light());
+  return drawing ? drawing->svg() : "";
+}
+
+TEST(StudyCharts, AreOfTheMostViewsUnderWhichAllWasTried) {
+  EXPECT_THAT(title_of_maps(3), HasSubstr("9 views"));
+  for (const int objects : {0, 1, 2}) EXPECT_THAT(title_of_maps(objects), HasSubstr("6 views")) << objects;
 }
 
 TEST(Drawings, FitInTheMiddleOfAPage) {

@@ -59,6 +59,18 @@ TEST_F(StudyReport, SaysWhatIsBestOfThoseThatDoNotKnowTheObject) {
   EXPECT_THAT(html, Not(HasSubstr("<td>2</td><td>oracle</td>")));
 }
 
+/// What the others are compared with has no difference to itself, and needs no name beside it.
+TEST_F(StudyReport, WhereTheBestIsWhatAllAreComparedWithNoDifferenceIsSaid) {
+  std::string summary = read_file(folder_ / "summary.csv");
+  const std::string mean = "random,mean_coverage[%],0,2,41.04";
+  summary.replace(summary.find(mean), mean.size(), "random,mean_coverage[%],0,2,51.04");
+  folder_.write("summary.csv", summary);
+  const std::string html = report();
+  EXPECT_THAT(html, HasSubstr("<td>2</td><td>random</td><td class=\"number\">2</td><td class=\"number\">51.0 ± 2.5</td>"
+                              "<td class=\"number\"></td><td class=\"number\"></td>"));
+  EXPECT_THAT(html, Not(HasSubstr("(random)")));
+}
+
 TEST_F(StudyReport, NeedsNothingElseAndRunsNothing) {
   const std::string html = report();
   EXPECT_THAT(html, HasSubstr("<h1>Study a &lt;b&gt; &amp; c</h1>"));

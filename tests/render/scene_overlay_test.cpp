@@ -1,0 +1,129 @@
+// What lies flat over a scene: legends and the paper behind them, of any size of display; its caption.
+#include "ui/scene/scene_overlay.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include "ui/render_target/offscreen_target.hpp"
+
+namespace nextview {
+namespace {
+
+constexpr int width = 500, height = 320;  // [px of the design]
+
+/// An overlay over plain white, without axes and scale bar.
+Image drawn(double scale, const std::function<void(SceneOverlay&)>& fill) {
+  OffscreenTarget target(int(width * scale), int(height * scale));
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  vtkNew<vtkContextActor> actor;
+  vtkNew<SceneOverlay> overlay;
+  overlay->renderer = renderer;
+  overlay->axes = overlay->scale_bar = false;
+  overlay->scale = scale;
+  fill(*overlay);
+  actor->GetScene()->AddItem(overlay);
+  actor->GetScene()->SetRenderer(renderer);
+  renderer->AddActor(actor);
+  target.window().AddRenderer(renderer);
+  target.render();
+  Image image = target.read_back();
+  actor->GetScene()->SetRenderer(nullptr);
+  target.window().RemoveRenderer(renderer);
+  return image;
+}
+
+using Box = Eigen::AlignedBox2d;
+
+/// What encloses the pixels that are of a kind [px of the design, from the upper left].
+Box box_of(const Image& image, double scale, const std::function<bool(const std::uint8_t*)>& is_wanted) {
+  Box box;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (is_wanted(&image.rgba[(std::size_t(y) * image.width + x) * 4])) {
+        box.extend(Eigen::Vector2d(x, y) / scale);
+        box.extend(Eigen::Vector2d(x + 1, y + 1) / scale);
+      }
+  return box;
+}
+
+bool is_red(const std::uint8_t* p) { return p[0] > 200 && p[1] < 60 && p[2] < 60; }
+bool is_dark(const std::uint8_t* p) { return p[0] < 200 && p[1] < 200 && p[2] < 200; }
+bool is_not_white(const std::uint8_t* p) { return p[0] < 252; }
+
+void add_legends(SceneOverlay& overlay) {
+  for (const char* name : {"one", "another, whose name is wider than the bar"})
+    overlay.legends.push_back({"title", {{name, {1, 0, 0}}}, Legend::Range{ColourMap::score(), 0, 1, "m"}});
+}
+
+TEST(SceneOverlay, LegendsAreInTheSamePlaceOnAnyDisplay) {
+  const auto boxes = [](double scale) {
+    const Image image = drawn(scale, add_legends);
+    return std::pair(box_of(image, scale, is_red), box_of(image, scale, is_dark));
+  };
+  const auto usual = boxes(1.0);
+  ASSERT_FALSE(usual.first.isEmpty());
+  EXPECT_GT(usual.first.min().x(), width / 3.0) << "at the right";
+  EXPECT_NEAR(usual.second.min().y(), 20, 8) << "and above";
+  EXPECT_GT(usual.second.max().x(), width / 2.0);
+  for (const double scale : {1.5, 2.0, 3.0}) {
+    const auto fine = boxes(scale);
+    for (const auto& [a, b] : {std::pair(usual.first, fine.first), std::pair(usual.second, fine.second)}) {
+      ASSERT_FALSE(b.isEmpty()) << scale;
+      // Letters have whole pixels, so what they push away may be a little elsewhere.
+      EXPECT_LT((a.min() - b.min()).cwiseAbs().maxCoeff(), 12) << scale;
+      EXPECT_LT((a.max() - b.max()).cwiseAbs().maxCoeff(), 12) << scale;
+    }
+  }
+}
+
+TEST(SceneOverlay, PaperLiesBehindAllOfTheLegendsAndNothingElse) {
+  for (const double scale : {1.0, 2.0}) {
+    const Box legends = box_of(drawn(scale, add_legends), scale, is_not_white);
+    const Box paper = box_of(drawn(scale,
+                                   [](SceneOverlay& overlay) {
+                                     add_legends(overlay);
+                                     overlay.backed = true;
+                                   }),
+                             scale, is_not_white);
+    EXPECT_TRUE(paper.contains(legends));
+    EXPECT_GT(legends.min().x() - paper.min().x(), 4) << "a little more to the left";
+    EXPECT_GT(paper.max().x() - legends.max().x(), 4) << "to the right";
+    EXPECT_LT(paper.sizes().x(), legends.sizes().x() + 40);
+    EXPECT_LT(paper.sizes().y(), legends.sizes().y() + 40);
+    EXPECT_TRUE(
+        box_of(drawn(scale, [](SceneOverlay& overlay) { overlay.backed = true; }), scale, is_not_white).isEmpty())
+        << "without legends there is none";
+  }
+}
+
+TEST(SceneOverlay, ACaptionStandsAtTheUpperLeft) {
+  EXPECT_TRUE(box_of(drawn(1.0, [](SceneOverlay&) {}), 1.0, is_not_white).isEmpty());
+  for (const double scale : {1.0, 2.0}) {
+    const Box words = box_of(drawn(scale, [](SceneOverlay& overlay) { overlay.caption = "Height"; }), scale, is_dark);
+    ASSERT_FALSE(words.isEmpty());
+    EXPECT_NEAR(words.min().x(), 17, 3);
+    EXPECT_TRUE(words.min().y() > 8 && words.max().y() < 45) << words.min().y() << " to " << words.max().y();
+    EXPECT_TRUE(words.max().x() > 40 && words.max().x() < 120) << words.max().x();
+  }
+}
+
+/// Perpendicular to the view, one metre away: its picture is as high as the angle says.
+TEST(SceneOverlay, TheScaleBarIsAsLongAsItSays) {
+  constexpr double angle = 30.0;  // [deg], VTK's usual one
+  for (const double scale : {1.0, 2.0}) {
+    const Image image = drawn(scale, [](SceneOverlay& overlay) { overlay.scale_bar = true; });
+    const Box bar = box_of(image, scale, is_dark);
+    ASSERT_FALSE(bar.isEmpty());
+    const double pixels_per_metre = height / (2 * std::tan(angle / 2 * M_PI / 180));
+    // 1, 2 or 5 times a power of ten that is at most 150 px: 0.2 m of these. Its ends are 2 px wide.
+    EXPECT_NEAR(bar.sizes().x(), 0.2 * pixels_per_metre, 3) << scale;
+  }
+}
+
+}  // namespace
+}  // namespace nextview
