@@ -2,15 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <string>
 
+#include "tests/unit/memory/in_child.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -73,6 +70,15 @@ TEST_F(AvailableMemoryOf, AMachineThatDoesNotTellIsThatOfTheLimits) {
   EXPECT_GT(left(), 900'000u * 1024);
 }
 
+TEST_F(AvailableMemoryOf, AMachineWithoutSwapOrWithEmptyFilesIsReadToo) {
+  write("proc/meminfo", "MemAvailable:  300000 kB\n");
+  EXPECT_EQ(left(), 300'000u * 1024);
+  write("proc/meminfo", "SwapFree: 100000 kB\nMemAvailable: 0 kB\n");
+  EXPECT_EQ(left(), 100'000u * 1024) << "in any order";
+  write("proc/self/cgroup", "\n7\n0::\n");
+  EXPECT_EQ(left(), 100'000u * 1024);
+}
+
 TEST_F(AvailableMemoryOf, AGroupIsWhatItAndThoseAroundItLeave) {
   write("proc/self/cgroup", "0::/outer/inner\n");
   write("sys/fs/cgroup/outer/inner/memory.max", "max\n");
@@ -94,38 +100,18 @@ TEST_F(AvailableMemoryOf, AGroupOfTheFirstKindToo) {
   EXPECT_EQ(left(), 50'000'000u);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses
-
-/// Whether `check` holds in a process of its own.
-bool holds_in_child(const std::function<bool()>& check) {
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(check() ? 0 : 1);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-std::uint64_t pages_taken(int field) {
-  std::ifstream statm("/proc/self/statm");
-  std::uint64_t pages = 0;
-  for (int i = 0; i <= field; ++i) statm >> pages;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
 TEST(AvailableMemory, FollowsTheLimitsOfTheProcess) {
+  if (!memory_can_be_limited) GTEST_SKIP() << "built with sanitizers";
   constexpr std::uint64_t left = std::uint64_t{100} << 20, slack = std::uint64_t{8} << 20;
-  const auto limited = [&](auto resource, int field) {
+  const auto limited = [&](auto resource) {
     return holds_in_child([&] {
-      const rlimit limit{pages_taken(field) + left, RLIM_INFINITY};
-      return ::setrlimit(resource, &limit) == 0 && available_memory() <= left && available_memory() >= left - slack &&
+      return leave(resource, left) && available_memory() <= left && available_memory() >= left - slack &&
              !complaint(left).empty() && complaint(left / 3).empty();
     });
   };
-  EXPECT_TRUE(limited(RLIMIT_AS, 0));
-  EXPECT_TRUE(limited(RLIMIT_DATA, 5));
+  EXPECT_TRUE(limited(RLIMIT_AS));
+  EXPECT_TRUE(limited(RLIMIT_DATA));
 }
-
-#endif
 
 }  // namespace
 }  // namespace nextview

@@ -70,6 +70,20 @@ TEST(PoseFiles, QuaternionsOfEachOrder) {
   EXPECT_EQ(mesh.heading, "a.ply");
 }
 
+TEST(PoseFiles, QuaternionsMayHaveTheirFramesWholeNumbersInFront) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text, PoseFormat format = PoseFormat::quaternion_xyzw) {
+    return read_poses(folder.write("p.txt", text + " 1 -2 3.5 0 0 0 1\n"), format).at(0);
+  };
+  for (const auto& [number, name] : {std::pair{"12", "12"}, {"0", "0"}, {"7.0", "7"}, {"000012", "12"}}) {
+    EXPECT_EQ(read(number).heading, name);
+    expect_pose(read(number).T_world_camera, make_pose({1.0, -2.0, 3.5}, Eigen::Quaterniond::Identity()));
+  }
+  for (const char* none : {"-1", "1.5", "frame 3", "1 2"})
+    EXPECT_THAT(failure_of([&] { read(none); }), HasSubstr("p.txt:1: expected 7 numbers, found")) << none;
+  EXPECT_THAT(failure_of([&] { read("bmesh a.ply 3", PoseFormat::conf); }), HasSubstr("expected 7 numbers, found 8"));
+}
+
 TEST(PoseFiles, DirectionsAndAxes) {
   const TemporaryFolder folder;
   const auto file = folder.write("p.txt", rows(pose, 4));
