@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "core/random/counter_random.hpp"
@@ -164,6 +165,40 @@ TEST(MergeRays, opposedDirectionsStayApart) {
                                      Eigen::Vector3f(0, -1, 0), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0, 0, -1)})
     measurements.rays.push_back({end});
   EXPECT_EQ(merge_rays(measurements, 0.5, 0.1).rays.size(), 6u);
+}
+
+// Up to 60 degrees from the middle of what a camera sees, cells are squares of one plane across it, 1 m off: of a disc,
+// as many merged rays as squares reach into it. Whichever way the camera looks.
+TEST(MergeRays, cellsAreSquaresAcrossTheMiddleOfWhatIsSeen) {
+  constexpr double spacing = 0.2, step = 0.02;
+  const double radius = std::tan(59.0 * std::numbers::pi / 180.0), squares = radius / spacing;
+  // Those within, and those that a circle cuts: 4 / pi a length of a square's side on average.
+  const double expected = std::numbers::pi * squares * squares + 4.0 * squares;
+  for (const Vector3& towards : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0.48, -0.6, 0.64)}) {
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), towards);
+    RangeMeasurements measurements;
+    measurements.origins = {{0, 0, 0}};
+    const int reach = static_cast<int>(radius / step);
+    for (int i = -reach; i <= reach; ++i)
+      for (int k = -reach; k <= reach; ++k)
+        if (std::hypot(i * step, k * step) <= radius)
+          measurements.rays.push_back({(turn * Vector3(i * step, k * step, 1.0).normalized()).cast<float>()});
+    const auto merged = static_cast<double>(merge_rays(measurements, spacing, 0.1).rays.size());
+    EXPECT_NEAR(merged, expected, 0.05 * expected) << towards.transpose();
+  }
+}
+
+TEST(MergeRays, cellsBehindTheCameraAreNotThoseBeforeIt) {
+  RangeMeasurements measurements;
+  measurements.origins = {{0, 0, 0}};
+  for (int turn = 0; turn < 8; ++turn) {  // on a circle around the mean direction, and two opposed ones nearby
+    const double angle = (turn + 0.5) * std::numbers::pi / 4.0;
+    for (const double z : {0.3, -0.3})
+      measurements.rays.push_back({Vector3(std::cos(angle), std::sin(angle), z).normalized().cast<float>()});
+    measurements.rays.push_back({{0.0f, 0.0f, 1.0f}});
+  }
+  const RangeMeasurements merged = merge_rays(measurements, 0.25, 0.1);
+  EXPECT_EQ(merged.rays.size(), 17u) << "the eight alike are one";
 }
 
 TEST(MergeRays, aHundredThousandRaysKeepTheirWeight) {

@@ -88,6 +88,24 @@ TEST(ReadOut, MeasuresHowFarRaysEndBehindACentre) {
   }
 }
 
+// Voxels, ranges and places are sums of powers of two: the ray ends on the face to the last bit.
+TEST(ReadOut, ARayThatEndsOnAFaceEndsInTheVoxelThatItWouldGoOnInto) {
+  const VoxelGrid grid{0.125, {0, 0, 0}, {8, 1, 1}};
+  for (const bool upwards : {true, false})
+    for (const ForwardModel kind : {ForwardModel::attenuation, ForwardModel::paper}) {
+      RangeMeasurements measurements{3.0, {{upwards ? -0.5 : 1.5, 0.0625, 0.0625}}, {}};
+      measurements.rays.push_back({{0.5f, 0.0625f, 0.0625f}, 0, 1, false});
+      ForwardSensorModel model;
+      model.kind = kind;
+      model.sigma = 0.05;
+      const auto counts = ray_counts(RayLists(grid, measurements, model));
+      for (int v = 0; v < 8; ++v) {
+        EXPECT_EQ(counts[v].ended, v == (upwards ? 4 : 3) ? 1.0f : 0.0f) << v << upwards;
+        EXPECT_EQ(counts[v].passed, (upwards ? v < 4 : v > 3) ? 1.0f : 0.0f) << v << upwards;
+      }
+    }
+}
+
 /// A posterior written by hand over 3 x 3 x 3 voxels.
 struct ByHand {
   GibbsPosterior posterior;
