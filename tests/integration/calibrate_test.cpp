@@ -200,6 +200,17 @@ TEST_F(Calibrate, AnObjectLargerThanTheRegionIsRefusedAsByScan) {
 }
 
 // The exit code of every command that its user stops.
+// Who leaves an option out learns there what it is then.
+TEST_F(Calibrate, ItsHelpTellsBoundsAndDefaults) {
+  const Result help = nextview("help calibrate");
+  ASSERT_EQ(help.exit_code, 0) << help.err;
+  for (const char* told :
+       {"INPUT TEXT=[bunny,slotted_plate]", "--fit TEXT:{sensor-model,new-surface}=sensor-model",
+        "--views INT:INT in [1 - 100]=[4,20]", "--parts INT:INT in [1 - 1000]=24", "--band INT:INT in [0 - 100]=3",
+        "--out DIR=calibration", "--voxel FLOAT:NONNEGATIVE=0", "--stand-off FLOAT:POSITIVE=0.7"})
+    EXPECT_THAT(help.out, HasSubstr(told));
+}
+
 TEST_F(Calibrate, CtrlCStopsIt) {
   const Result result = nextview_interrupted(
       0.4, "calibrate sphere --held-out box --no-pictures --sensor.width 320 --sensor.height 240 --out " + in("out"));

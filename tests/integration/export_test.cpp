@@ -96,6 +96,20 @@ TEST_F(Export, PicturesHaveTheirSizeAndTheirConfiguration) {
   EXPECT_THAT(told.out, HasSubstr("gain = 'occlusion-aware'"));
 }
 
+TEST_F(Export, PicturesAreLookedAtFromAnyDirectionOfTheSphere) {
+  const std::string picture = "export " + in("out") + " picture " + in("a.png") + " --size 64x48 --look-from ";
+  write("picture", "usual.png", "--size 64x48");
+  for (const char* direction : {"-360,-90", "360,90", "'30, -12.5'"}) {
+    write("picture", "a.png", std::string("--size 64x48 --look-from ") + direction);
+    EXPECT_NE(bytes("a.png"), bytes("usual.png")) << direction;
+  }
+  write("picture", "a.png", "--size 64x48 --look-from -50,24");  // the default
+  EXPECT_EQ(bytes("a.png") == bytes("usual.png"), true);
+  for (const char* direction :
+       {"360.5,0", "-360.5,0", "0,90.5", "0,-90.5", "nan,0", "0,inf", "30", "30,", "30;20", "30,20,10", "30,20x"})
+    expect_refused(picture + "'" + direction + "'", "the second from -90 to 90, not '" + std::string(direction) + "'");
+}
+
 TEST_F(Export, ATurntableReplacesAnEarlierOneAndNothingElse) {
   write("turntable", "turn", "--frames 4 --size 160x100");
   EXPECT_NE(bytes("turn/frame_00001.png"), bytes("turn/frame_00002.png"));
