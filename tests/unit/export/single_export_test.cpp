@@ -203,5 +203,23 @@ TEST_F(SingleExport, FramesReplaceEarlierFramesAndNothingElse) {
   EXPECT_THROW(make_frame_folder(folder / "frame_notes.png"), std::runtime_error);
 }
 
+TEST_F(SingleExport, FramesAreThoseWithFiveDigitsOrMore) {
+  const fs::path folder = folder_ / "frames";
+  make_frame_folder(folder);
+  EXPECT_EQ(frame_name(123456), "frame_123456.png") << "more frames than five digits count";
+  for (const char* frame : {"frame_00000.png", "frame_99999.png", "frame_123456.png"}) {
+    std::ofstream(folder / frame) << "an earlier frame";
+    make_frame_folder(folder);
+    EXPECT_TRUE(fs::is_empty(folder)) << frame;
+  }
+  for (const char* other : {"frame_0001.png", "frame_0000x.png", "frame_00001.jpg", "Frame_00001.png", "notes"}) {
+    std::ofstream(folder / other) << "mine";
+    EXPECT_THROW(make_frame_folder(folder), std::invalid_argument) << other;
+    EXPECT_TRUE(fs::remove(folder / other));
+  }
+  fs::create_directory(folder / "frame_00001.png");
+  EXPECT_THROW(make_frame_folder(folder), std::invalid_argument) << "a folder is no picture";
+}
+
 }  // namespace
 }  // namespace nextview
