@@ -13,6 +13,7 @@
 #include "core/file/read_file.hpp"
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
+#include "tests/render/animation_pictures.hpp"
 #include "tests/render/render_test.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
 #include "ui/demo/demo_frames.hpp"
@@ -208,12 +209,32 @@ TEST_F(Demos, FramesAndTheirListAreReplacedByThoseOfTheNextRun) {
   EXPECT_EQ(read_manifest(folder_ / "out")->files.size(), 3u);
 }
 
+TEST_F(Demos, WhatIsWrittenIsWhatIsPlayedAndItsAnimationShowsIt) {
+  const Demo played = demo("title \"A\" 1\nwait 1.25\ncaption \"b\"\nwait 1\n");
+  const auto expected = frames(played, small);
+  EXPECT_EQ(expected.size(), 9u) << "of 2.25 s";
+  OutputFolder out(folder_ / "out", {});
+  out.begin("demo");
+  std::vector<int> told;
+  EXPECT_EQ(write_demo(played, small, out, [&](int number) { told.push_back(number); }, {}), 9);
+  EXPECT_THAT(told, ::testing::ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
+  std::vector<Image> written;
+  for (int number = 1; number <= 9; ++number)
+    written.push_back(read_png(folder_ / "out" / fmt::format("frame_{:05}.png", number)));
+  expect_same(written, expected);
+  write_video(folder_ / "out", small.frames_per_second, folder_ / "a.png");
+  expect_same(animation_pictures(folder_ / "a.png"), expected);
+}
+
 TEST_F(Demos, AVideoNeedsItsProgramAndAnEndingThatItKnows) {
   EXPECT_THROW(require_video("a.avi"), std::invalid_argument);
   EXPECT_NO_THROW(require_video("a.png")) << "that needs no other program";
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", ("/nowhere::" + (folder_ / "none").string()).c_str(), 1);
   EXPECT_THROW(require_video("a.mp4"), std::runtime_error);
+  EXPECT_THROW(require_video("a.webm"), std::runtime_error);
+  EXPECT_NO_THROW(require_video("a.png"));
+  EXPECT_THROW(require_video("a"), std::invalid_argument) << "whatever program there is";
   ::setenv("PATH", path.c_str(), 1);
 }
 
@@ -227,6 +248,7 @@ TEST_F(Demos, AVideoIsMadeByItsProgramWhichSaysWhyItCannot) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", ("/nowhere:" + folder_.string() + ":" + path).c_str(), 1);
   EXPECT_NO_THROW(require_video(video));
+  EXPECT_NO_THROW(require_video("a.mp4"));
   write_video(folder_ / "frames", 24, video);
   EXPECT_THAT(read_file(video), HasSubstr("-framerate\n24\n-i\n" + (folder_ / "frames/frame_%05d.png").string()));
   write_file(folder_ / "ffmpeg.broken", "");
