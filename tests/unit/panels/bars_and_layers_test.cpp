@@ -6,6 +6,7 @@
 
 #include "tests/unit/panels/made_scan.hpp"
 #include "tests/unit/panels/seen.hpp"
+#include "ui/commands/layer_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -185,6 +186,52 @@ TEST_F(Layers, EachLineSwitchesItsOwn) {
     EXPECT_EQ(text_of(click_on(desk_, label, "Layers")), command) << label;
   EXPECT_EQ(text_of(click_on(desk_, "y", "Layers")), "slice-axis y");
   EXPECT_EQ(text_of(click_on(desk_, "all", "Layers")), "slice-axis none");
+}
+
+TEST_F(Layers, KeysStandAtTheRightBesideWhatTheySwitch) {
+  desk_.frames();
+  const auto all = seen_texts();
+  std::vector<float> ends;
+  for (const auto& [label, command] : {std::pair{"Object", &command::toggle_object},
+                                       {"Point cloud", &command::toggle_cloud},
+                                       {"Octree", &command::toggle_octree},
+                                       {"Candidate views", &command::toggle_views},
+                                       {"Rays", &command::toggle_rays}}) {
+    const std::string keys = command->keys();
+    ASSERT_FALSE(keys.empty()) << label;
+    const SeenText* name = find_text(all, label, "Layers");
+    ASSERT_NE(name, nullptr) << label;
+    const auto key = std::ranges::find_if(all, [&](const SeenText& t) {
+      return t.window == "Layers" && t.text == keys && std::abs(t.middle() - name->middle()) < 3;
+    });
+    ASSERT_NE(key, all.end()) << label << ": " << keys << " is not seen";
+    EXPECT_GT(key->from.x, name->to.x);
+    ends.push_back(key->to.x);
+  }
+  const ImGuiWindow* panel = ImGui::FindWindowByName("Layers");
+  for (const float end : ends) {
+    EXPECT_NEAR(end, ends.front(), 1.0f) << "one beneath the other";
+    EXPECT_TRUE(end < panel->InnerClipRect.Max.x && end > panel->InnerClipRect.Max.x - 30) << end;
+  }
+}
+
+TEST_F(Layers, ASectionIsMovedAndTurnedOverOnceThereIsOne) {
+  EXPECT_THAT(panel(), Not(HasSubstr("Turn over")));
+  EXPECT_THAT(panel(), Not(HasSubstr("at [mm]")));
+  layers().section = Section{2, 0.0123, false};
+  EXPECT_THAT(panel(), HasSubstr("at [mm] 12.3"));
+  EXPECT_EQ(text_of(click_on(desk_, "Turn over", "Layers")), "flip-section");
+  const auto all = seen_texts();
+  const SeenText* value = find_text(all, "12.3", "Layers");
+  ASSERT_NE(value, nullptr);
+  desk_.click(value->from.x + 40, value->middle());
+  const auto calls = desk_.frames();
+  ASSERT_FALSE(calls.empty());
+  EXPECT_EQ(calls.back().command->name, "section-at");
+  const double at = std::stod(calls.back().values().at(0)), top = scan_->mesh->bounding_box().max().z();
+  EXPECT_TRUE(at > 0.0133 && at <= top) << at << " m of " << top;
+  desk_.snapshot = std::make_shared<SessionSnapshot>();
+  EXPECT_THAT(panel(), Not(HasSubstr("Turn over"))) << "nothing is there to be cut";
 }
 
 TEST_F(Layers, ListsNameWhatTheyChoose) {

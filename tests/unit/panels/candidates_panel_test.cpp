@@ -49,6 +49,19 @@ TEST_F(CandidatesPanel, EachNumberStandsInItsColumnWithItsUnit) {
   EXPECT_THAT(panel(), HasSubstr("candidate gain cost [m] utility"));
 }
 
+TEST_F(CandidatesPanel, TheTableIsInSmallLettersAndTheButtonsAreNot) {
+  desk_.frames();
+  const auto all = seen_texts();
+  const auto height = [&](const char* text) {
+    const SeenText* found = find_text(all, text, "Candidates");
+    return found ? found->to.y - found->from.y : 0;
+  };
+  EXPECT_GT(height("160"), 5);
+  EXPECT_EQ(height("160"), height("gain [nats]"));
+  EXPECT_EQ(height("160"), height("ranked by occlusion-aware"));
+  EXPECT_GT(height("Take the proposal"), height("160"));
+}
+
 TEST_F(CandidatesPanel, WaysAroundASmallPartAreInMillimetres) {
   for (Candidate& candidate : scan_->records.back().candidates) candidate.cost *= 0.01;
   EXPECT_THAT(panel(), HasSubstr("cost [mm]"));

@@ -158,6 +158,38 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   EXPECT_THAT(panel(), HasSubstr("Gibbs not informed"));
 }
 
+/// A strip a chain, from the first sweep at the left to the last at the right.
+TEST_F(InspectedVoxel, ItsTraceIsMarkedWhereItWasNotFree) {
+  GibbsMap gibbs;
+  gibbs.views = 2;
+  gibbs.posterior = std::make_shared<const GibbsPosterior>();
+  gibbs.voxels = LaidOutVoxels(*scan_->voxels);
+  gibbs.config.model.kind = ForwardModel::attenuation;
+  gibbs.config.model.attenuations = {1, 2};
+  ASSERT_EQ(gibbs.config.model.levels(), 3);
+  scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
+  desk_.inspection.voxel->trace = {{0, 2, 0, 0, 2}, {0, 0}, {1, 2}};
+  EXPECT_THAT(panel(), HasSubstr("its level after each sweep, a strip a chain"));
+  std::vector<ImRect> strips;
+  for (const ImRect& area : seen_areas(theme::sky, "Inspector"))
+    if (area.GetHeight() < 14) strips.push_back(area);
+  ASSERT_EQ(strips.size(), 3u);
+  const auto expect_marks = [&](double depth, const std::vector<std::array<double, 3>>& expected) {
+    const auto marks = seen_areas(mix(theme::sky, theme::occupied, depth), "Inspector");
+    ASSERT_EQ(marks.size(), expected.size());
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      const auto& [strip, from, to] = expected[i];
+      const ImRect& place = strips[std::size_t(strip)];
+      EXPECT_NEAR(marks[i].Min.x, place.Min.x + from * place.GetWidth(), 0.5);
+      EXPECT_NEAR(marks[i].Max.x, place.Min.x + to * place.GetWidth(), 0.5);
+      EXPECT_EQ(marks[i].Min.y, place.Min.y);
+      EXPECT_EQ(marks[i].Max.y, place.Max.y);
+    }
+  };
+  expect_marks(1.0, {{0, 0.2, 0.4}, {0, 0.8, 1.0}, {2, 0.5, 1.0}});
+  expect_marks(0.7, {{2, 0.0, 0.5}});  // the lower level is paler
+}
+
 TEST_F(InspectedVoxel, AnotherVoxelsAnswerIsNotShown) {
   desk_.window.selection.voxel = voxel_ + 1;
   EXPECT_THAT(panel(), HasSubstr("Looking …"));

@@ -112,6 +112,26 @@ TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
   EXPECT_EQ(now().gibbs->views, 3u);
 }
 
+TEST_F(SessionRunnerTest, ARefinementThatIsCancelledWhileItMergesEndsAtOnce) {
+  runner_.load(small_scan(), job_control());
+  steps(3);
+  std::stop_source stop;
+  int views = 0;
+  SessionRunner::JobControl stopping = job_control();
+  stopping.stop = stop.get_token();
+  stopping.progress = [&](double fraction, std::string_view what) {
+    EXPECT_THAT(std::string(what), testing::HasSubstr("merging"));
+    EXPECT_NEAR(fraction, 0.0, 0.1) << "that is the least of it";
+    if (++views == 2) stop.request_stop();
+  };
+  const auto before = runner_.snapshot();
+  EXPECT_THROW(runner_.refine(2, 30, stopping), Stopped);
+  EXPECT_EQ(views, 2) << "the third was merged";
+  EXPECT_EQ(runner_.snapshot(), before);
+  runner_.refine(2, 30, job_control());
+  EXPECT_EQ(now().gibbs->views, 3u) << "it goes on where it was";
+}
+
 TEST_F(SessionRunnerTest, ExportsWhatAScanWrites) {
   runner_.load(small_scan(), job_control());
   EXPECT_THROW(runner_.write(folder_ / "none", job_control()), std::invalid_argument);

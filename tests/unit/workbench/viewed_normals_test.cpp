@@ -61,5 +61,45 @@ TEST(ViewedNormals, OfTwoPlatesAreNotMixedAtTheStep) {
   EXPECT_LT(tilted, scan.hits.size() / 15) << "more than the cells at the step";
 }
 
+/// A strip of a wall, a hundred times as long as wide, seen from beneath: it rises by an angle from one long side to
+/// the other, and lies along y or along x.
+Scan scan_of_strip(bool along_y, double angle) {
+  Scan scan;
+  scan.origin = {0, 0, -1};
+  for (int across = -1; across <= 1; ++across)
+    for (int along = -150; along <= 150; ++along) {
+      const double a = 0.001 * across, b = 0.001 * along;
+      scan.hits.emplace_back(float(along_y ? a : b), float(along_y ? b : a), float(std::tan(angle) * a));
+    }
+  return scan;
+}
+
+TEST(ViewedNormals, OfAStripTwoCellsWideAreThoseOfItsWall) {
+  for (const bool along_y : {true, false})
+    for (const double angle : {-0.6, 0.0, 0.6}) {
+      const Scan scan = scan_of_strip(along_y, angle);
+      const Vector3 wall(along_y ? std::sin(angle) : 0, along_y ? 0 : std::sin(angle), -std::cos(angle));
+      for (const Eigen::Vector3f& normal : viewed_normals(scan, 1))
+        ASSERT_GT(normal.cast<double>().dot(wall), 0.999) << along_y << " at " << angle;
+    }
+}
+
+/// A wall that is seen slantwise, from a camera anywhere that looks anywhere.
+TEST(ViewedNormals, OfAWallAreItsOwnFromAnywhere) {
+  for (const Vector3& forward : {Vector3(1, 0, 0), Vector3(0, 0, -1), Vector3(-0.3, 0.9, 0.2)}) {
+    const Vector3 ahead = forward.normalized(), right = ahead.unitOrthogonal(), up = ahead.cross(right);
+    const Vector3 wall = (-ahead + 0.5 * right - 0.3 * up).normalized();
+    Scan scan;
+    scan.origin = Vector3(3, -2, 1);
+    const Vector3 middle = scan.origin + 0.8 * ahead;
+    for (int row = -40; row <= 40; ++row)
+      for (int column = -40; column <= 40; ++column) {
+        const Vector3 sight = ahead + 0.004 * (row * up + column * right);
+        scan.hits.push_back((scan.origin + (middle - scan.origin).dot(wall) / sight.dot(wall) * sight).cast<float>());
+      }
+    for (const Eigen::Vector3f& normal : viewed_normals(scan, 1)) ASSERT_GT(normal.cast<double>().dot(wall), 0.999);
+  }
+}
+
 }  // namespace
 }  // namespace nextview
