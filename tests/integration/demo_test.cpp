@@ -143,6 +143,32 @@ TEST_F(Demos, AWindowShowsTheSameFrames) {
   EXPECT_GE(next, expected.size() - 1);
 }
 
+TEST_F(Demos, ACaptionsTimeStandsStillWhileTheSessionWorks) {
+  User user(tiny_scan(), 320, 180, 0.25);
+  user.run("caption \"A sphere\" 100\n");
+  const Presentation& shown = user.window().state().presentation;
+  constexpr double frame = 0.05;
+  const double begin = shown.time;
+  user.window().draw(frame);
+  EXPECT_NEAR(shown.time - begin, frame, 1e-9) << "nothing runs";
+  int worked = 0;
+  double passed = 0;
+  for (int view = 0; view < 4; ++view) {
+    user.type(key('S'));
+    do {
+      const bool works = user.worker().progress().busy;
+      const double before = shown.time;
+      user.window().draw(frame);
+      if (!works) continue;
+      ++worked;
+      passed += shown.time - before;
+    } while (user.worker().progress().busy || !user.window().is_still());
+  }
+  EXPECT_EQ(user.session().records.size(), 4u);
+  EXPECT_GE(worked, 4) << "it was never looked while the session worked";
+  EXPECT_LT(passed, 1.5 * frame) << "of " << worked << " frames; what works may end just before one is drawn";
+}
+
 TEST_F(Demos, TheOperatorPausesSkipsAndTakesOver) {
   OffscreenTarget target(320, 180);
   SessionWorker worker;

@@ -6,6 +6,7 @@
 
 #include "tests/integration/user.hpp"
 #include "tests/unit/workbench/small_scan.hpp"
+#include "ui/workbench/inspector.hpp"
 
 namespace nextview {
 namespace {
@@ -92,6 +93,38 @@ TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
   EXPECT_NEAR(shown().second, first.second, 1e-6);
   EXPECT_EQ(most(), first_most);
   EXPECT_NE(most(), locked_most);
+}
+
+/// The rays of a view have the contributions of that view's own, whichever is looked at.
+TEST_F(SceneRanges, RaysAreThoseOfTheViewThatIsLookedAt) {
+  user_.run("step\nstep\n");
+  const RaysLayer& rays = user_.window().scene().layers().rays();
+  const auto box = [&] {
+    Eigen::AlignedBox3d all;
+    for (const Vector3& point : rays.outline()) all.extend(point);
+    return all;
+  };
+  const Eigen::AlignedBox3d of_next = box();
+  ASSERT_FALSE(of_next.isEmpty());
+  const SessionSnapshot s = user_.session();
+  int looked_at = 0;
+  for (std::size_t k = 0; k < s.candidates.size(); ++k) {
+    if (!s.available(k) || k == s.next_candidate) continue;
+    user_.run("select-view " + std::to_string(k) + "\n");
+    Inspector inspector;
+    const Inspection inspection = inspector.inspect(user_.worker().snapshot(), user_.window().state().selection);
+    ASSERT_TRUE(inspection.view && inspection.view->explanation);
+    double most = 0;
+    for (const auto& ray : inspection.view->explanation->rays) most = std::max(most, ray.contribution);
+    ASSERT_FALSE(rays.legends().empty()) << k << ": no ray is shown";
+    EXPECT_NEAR(rays.legends()[0].range->high, most, 1e-6 * most) << k;
+    EXPECT_LT(box().exteriorDistance(s.candidates[k].translation()), 1e-6) << k << ": they begin at its camera";
+    EXPECT_FALSE(box().isApprox(of_next)) << k;
+    ++looked_at;
+  }
+  EXPECT_GT(looked_at, 2);
+  user_.run("select-next\n");
+  EXPECT_TRUE(box().isApprox(of_next));
 }
 
 TEST_F(SceneRanges, ASliceShowsFewerVoxelsAndAnotherPlaceOthers) {

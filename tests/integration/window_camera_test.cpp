@@ -1,5 +1,6 @@
 // How the scene's camera follows hand and keys, what is measured with clicks, and what else of the window has a size.
 #include <gtest/gtest.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 
 #include <cmath>
 
@@ -39,6 +40,23 @@ TEST_F(WindowCamera, ADragTurnsAroundWhatIsUnderThePointer) {
   user_.wait();
   EXPECT_FALSE(scene().camera_pose().isApprox(before));
   EXPECT_LT((pixel_of(scene().pivot()) - grasped).norm(), 0.5) << "it slipped away";
+  user_.release();
+  user_.wait();
+}
+
+TEST_F(WindowCamera, EdgesAreRoughWhileItMovesAndSmoothOnceItRests) {
+  const auto samples = [&] { return user_.target().window().GetMultiSamples(); };
+  const Eigen::Vector2d place = pixel_of(on_sphere(0.3, 0.2));
+  user_.move(place.x(), place.y());
+  user_.press();
+  user_.wait();
+  EXPECT_EQ(samples(), RenderTarget::smooth_samples);
+  user_.move(place.x() + 60, place.y());
+  for (int i = 0; i < 3; ++i) user_.window().draw(1.0 / 60);
+  EXPECT_EQ(samples(), 0) << "somebody waits for each of these pictures";
+  EXPECT_FALSE(user_.window().is_drawn_well());
+  user_.wait();
+  EXPECT_EQ(samples(), RenderTarget::smooth_samples);
   user_.release();
   user_.wait();
 }

@@ -36,6 +36,7 @@ class WindowQuestion : public testing::TestWithParam<std::pair<int, int>> {
   void ask() {
     user_.run("step");
     before_ = user_.look();
+    looked_along_ = user_.window().scene().camera_pose().linear().col(2);
     user_.type(key('S'));
     const auto asked = [&] { return user_.worker().progress().doubtful != nullptr; };
     while (!asked() || user_.window().seconds_to_next_frame() == 0.0) user_.window().draw(1.0 / 60);
@@ -43,6 +44,7 @@ class WindowQuestion : public testing::TestWithParam<std::pair<int, int>> {
 
   User user_{inaccurate(), GetParam().first, GetParam().second};
   Image before_;
+  Vector3 looked_along_ = Vector3::Zero();
 };
 
 TEST_P(WindowQuestion, ShowsBothCloudsInTheirColoursUntilItIsAnswered) {
@@ -50,6 +52,8 @@ TEST_P(WindowQuestion, ShowsBothCloudsInTheirColoursUntilItIsAnswered) {
   Scene& scene = user_.window().scene().layers();
   EXPECT_TRUE(scene.fit().visible());
   EXPECT_FALSE(scene.octree().visible());
+  EXPECT_TRUE(user_.window().scene().camera_pose().linear().col(2).isApprox(looked_along_, 1e-6))
+      << "it is seen from the side that was looked at";
   const Rectangle place = user_.window().layout().scene;
   // Above the question, whose words cover the lower end.
   const Rectangle clouds{place.x, place.y, place.width, 0.55 * place.height};
