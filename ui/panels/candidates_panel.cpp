@@ -17,17 +17,23 @@ namespace {
 /// The largest of each column over the candidates that are left: full bars.
 struct Largest {
   double gain = 0.0, cost = 0.0, utility = 0.0;
+  bool gains_are_whole = true;  ///< counts
 
   explicit Largest(const std::vector<Candidate>& candidates) {
     for (const Candidate& c : candidates) {
       if (!c.available) continue;
       gain = std::max(gain, c.gain);
+      gains_are_whole = gains_are_whole && c.gain == std::round(c.gain);
       cost = std::max(cost, c.cost);
       utility = std::max(utility, std::abs(c.utility));
     }
   }
-  /// Around a small part all ways are short: in metres they would be 0.00.
-  bool costs_in_mm() const { return cost > 0 && cost < 0.1; }
+  /// Four digits of the largest, and as many decimals for all, so that they stand one below the other.
+  int gain_decimals() const {
+    if (gains_are_whole || !(gain > 0)) return 0;
+    return std::clamp(3 - static_cast<int>(std::floor(std::log10(gain))), 0, 6);
+  }
+  bool costs_in_mm() const { return cost > 0 && cost < 1.0; }  // as the sentence above the table says lengths
 };
 
 /// A number at the right of its cell over a bar; negative values have a paler bar.
@@ -68,10 +74,11 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
     return;
   }
   const Colour colour = is_proposed(s, candidate) ? theme::chosen : theme::series[0];
-  number_cell(context, readable(c.gain), c.gain, largest.gain, colour);
+  number_cell(context, fmt::format("{:.{}f}", c.gain, largest.gain_decimals()), c.gain, largest.gain, colour);
   ImGui::TableNextColumn();
-  number_cell(context, fmt::format("{:.2f}", (largest.costs_in_mm() ? 1e3 : 1.0) * c.cost), c.cost, largest.cost,
-              theme::muted);
+  const std::string cost = largest.costs_in_mm() ? fmt::format("{:.{}f}", 1e3 * c.cost, largest.cost < 0.1 ? 1 : 0)
+                                                 : fmt::format("{:.2f}", c.cost);
+  number_cell(context, cost, c.cost, largest.cost, theme::muted);
   ImGui::TableNextColumn();
   number_cell(context, fmt::format("{:.4f}", c.utility), c.utility, largest.utility, colour);
 }

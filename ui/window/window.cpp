@@ -127,12 +127,14 @@ void prepare(GLFWwindow* window, Interface& interface) {
                            [window](const std::string& text) { glfwSetClipboardString(window, text.c_str()); }});
 }
 
-/// On a display that is smaller than the usual window, the window takes what there is.
+/// The usual size; on a large display two thirds of it, on a small one what there is.
 std::array<int, 2> first_size() {
   int x = 0, y = 0, wide = width, high = height;
   if (!glfwInit()) return {width, height};  // there will be a message when the window is opened
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &wide, &high);
-  const auto within = [](int usual, int there_is) { return there_is > 0 ? std::min(usual, there_is) : usual; };
+  const auto within = [](int usual, int there_is) {
+    return there_is > 0 ? std::min(std::max(usual, 2 * there_is / 3), there_is) : usual;
+  };
   return {within(width, wide), within(height, high)};
 }
 

@@ -9,6 +9,7 @@
 namespace nextview {
 namespace {
 
+using testing::_;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -65,7 +66,17 @@ TEST_F(CandidatesPanel, TheTableIsInSmallLettersAndTheButtonsAreNot) {
 TEST_F(CandidatesPanel, WaysAroundASmallPartAreInMillimetres) {
   for (Candidate& candidate : scan_->records.back().candidates) candidate.cost *= 0.01;
   EXPECT_THAT(panel(), HasSubstr("cost [mm]"));
-  EXPECT_THAT(rows().front(), HasSubstr("160 7.50 0.2000"));
+  EXPECT_THAT(rows().front(), HasSubstr("160 7.5 0.2000"));
+  for (Candidate& candidate : scan_->records.back().candidates) candidate.cost *= 10;
+  EXPECT_THAT(rows().front(), HasSubstr("160 75 0.2000")) << "whole ones where they are long";
+}
+
+TEST_F(CandidatesPanel, GainsHaveAsManyDecimalsAsTheLargestHasDigitsLeft) {
+  for (Candidate& candidate : scan_->records.back().candidates) candidate.gain *= 0.1251;  // 20.016 at most
+  EXPECT_THAT(rows(), ElementsAre(HasSubstr(" 20.02 "), HasSubstr(" 5.00 "), HasSubstr(" 2.50 "), HasSubstr(" 1.25 "),
+                                  HasSubstr(" 0.63 "), HasSubstr(" 10.01 "), _, _));
+  for (Candidate& candidate : scan_->records.back().candidates) candidate.gain *= 1e-3;
+  EXPECT_THAT(rows().front(), HasSubstr(" 0.02002 "));
 }
 
 TEST_F(CandidatesPanel, TheFormulaHasTheWeightsOfThePlanner) {
