@@ -11,6 +11,8 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "core/map/brick_memory.hpp"
+
 namespace nextview {
 namespace {
 
@@ -85,16 +87,15 @@ class KnownStates {
   std::array<std::uint16_t, 256> states_{};
 };
 
-/// Calls `visit(place, brick, number, count)` for each row of voxels of the grid that is in a brick: where its first
-/// one stands in a field, and in the brick.
+/// Calls `visit(place, number, count)` for each row of voxels of the grid that is in a brick: where its first one
+/// stands in a field, and in the brick.
 template <class Visit>
 void for_each_row(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t b, Visit visit) {
-  const Brick& brick = *voxels.bricks()[b];
   const Eigen::Vector3i first = voxels.cell(b * VoxelBricks::brick_voxels);
   const Eigen::Vector3i size = (grid.size - first).cwiseMin(VoxelBricks::edge);
   for (int z = 0; z < size.z(); ++z)
     for (int y = 0; y < size.y(); ++y)
-      visit(place_with_margin(grid, first.x(), first.y() + y, first.z() + z), brick,
+      visit(place_with_margin(grid, first.x(), first.y() + y, first.z() + z),
             std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge, std::size_t(size.x()));
 }
 
@@ -119,17 +120,26 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
   states.assign(places_with_margin(grid) + StateField::read_beyond / sizeof(State), StateField::outside);
   Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
   for_ranges_of_bricks(voxels, [&](const auto& range) {
-    KnownStates state(numbering);
+    KnownStates known(numbering);
+    const auto state = [&](const Brick& brick, std::size_t i) {
+      return static_cast<State>(known(brick, i, scoring.gain.needs_occlusion));
+    };
+    BrickMemory<std::optional<State>> of_uniform;  // most are: where nothing is, or nothing was seen
     std::array<State, VoxelBricks::edge> row{};
     for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b) {
+      const Brick& brick = *voxels.bricks()[b];
+      const std::optional<State> of_all =
+          of_uniform.of(brick, [&] { return brick.is_uniform() ? std::optional(state(brick, 0)) : std::nullopt; });
+      if (of_all) row.fill(*of_all);
       std::size_t before = VoxelBricks::brick_voxels;  // the row that was visited last: none of this brick yet
-      for_each_row(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t first, std::size_t count) {
-        // Most are as the one before: where nothing is, or nothing was seen.
-        if (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before))
-          for (std::size_t i = 0; i < count; ++i)
-            row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
+      for_each_row(grid, voxels, b, [&](std::size_t place, std::size_t first, std::size_t count) {
+        if (!of_all && (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before)))
+          for (std::size_t i = 0; i < count; ++i) row[i] = state(brick, first + i);
         before = first;
-        std::copy_n(row.begin(), count, states.begin() + std::ptrdiff_t(place));
+        if (count == row.size())
+          std::memcpy(&states[place], row.data(), sizeof row);  // of a size that the compiler knows: a move
+        else
+          std::memcpy(&states[place], row.data(), count * sizeof(State));
       });
     }
   });
@@ -143,9 +153,9 @@ void fill_places(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring
   field.passes.assign(places_with_margin(grid), -2.0);
   for_ranges_of_bricks(voxels, [&](const auto& range) {
     for (std::size_t b = range.begin(); b != range.end(); ++b)
-      for_each_row(grid, voxels, b, [&](std::size_t place, const Brick& brick, std::size_t first, std::size_t count) {
+      for_each_row(grid, voxels, b, [&](std::size_t place, std::size_t first, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-          const Voxel voxel = brick[first + i];
+          const Voxel voxel = (*voxels.bricks()[b])[first + i];
           field.worth[place + i] = scoring.worth(voxel);
           field.passes[place + i] = scoring.ends(voxel) ? -scoring.passes(voxel) : scoring.passes(voxel);
         }

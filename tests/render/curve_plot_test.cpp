@@ -125,6 +125,13 @@ TEST(Chart, EachSeriesIsALineInItsColour) {
   EXPECT_LT(spot(image, theme::series[2]).pixels, 5) << "there is no third";
 }
 
+TEST(Page, WhatCannotBePaintedIsToldToWhoAsked) {
+  for (int again = 0; again < 3; ++again)
+    EXPECT_THROW(draw_page(width, height, [](vtkContext2D&) { throw std::invalid_argument("no"); }),
+                 std::invalid_argument);
+  EXPECT_EQ(drawn(rising(0)).width, width) << "and the next page can be";
+}
+
 TEST(Chart, EachStandsInItsPartOfThePage) {
   OffscreenTarget target(640, 400);
   const ChartContent empty{"t", "view", "", "gain", "", {}, {}, true};

@@ -11,6 +11,7 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <exception>
 #include <sstream>
 
 #include "ui/render_target/offscreen_target.hpp"
@@ -24,11 +25,16 @@ class Page : public vtkContextItem {
   vtkTypeMacro(Page, vtkContextItem)
 
       bool Paint(vtkContext2D* context) override {
-    paint(*context);
+    try {
+      paint(*context);
+    } catch (...) {  // VTK would not survive that it is left in the middle of a frame
+      failure = std::current_exception();
+    }
     return true;
   }
 
   std::function<void(vtkContext2D&)> paint;
+  std::exception_ptr failure;
 };
 
 vtkStandardNewMacro(Page);
@@ -50,6 +56,7 @@ Image draw_page(int width, int height, const std::function<void(vtkContext2D&)>&
   Image image = target.read_back();
   actor->GetScene()->SetRenderer(nullptr);
   target.window().RemoveRenderer(renderer);
+  if (page->failure) std::rethrow_exception(page->failure);
   return image;
 }
 
