@@ -17,7 +17,7 @@ void mark_visited(const VoxelGrid& grid, const Scan& ideal, BitMask& visited, co
     }
   const auto row = [&](std::size_t number) {
     const int y = int(number % std::size_t(grid.size.y())), z = int(number / std::size_t(grid.size.y()));
-    return marks.row(0, y, z);
+    return marks.row({0, y, z});
   };
   visited.add_rows(std::size_t(grid.size.x()), row);
 }

@@ -17,13 +17,25 @@ using Integers = hn::RebindToSigned<Doubles>;
 using Vector = hn::Vec<Doubles>;
 using IntegerVector = hn::Vec<Integers>;
 using Mask = hn::Mask<Doubles>;
+using Floats = hn::Rebind<float, Doubles>;
+using FloatVector = hn::Vec<Floats>;
 
 constexpr Doubles doubles;
 constexpr Integers integers;
+constexpr Floats floats;
 constexpr std::size_t most_lanes = hn::MaxLanes(doubles);
 
 HWY_INLINE IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
   return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
+}
+
+HWY_INLINE Mask none() { return hn::Lt(hn::Zero(doubles), hn::Zero(doubles)); }
+
+/// As ray_length has it.
+HWY_INLINE Vector length_of(const FloatVector (&way)[3]) {
+  const FloatVector squares =
+      hn::Add(hn::Add(hn::Mul(way[0], way[0]), hn::Mul(way[1], way[1])), hn::Mul(way[2], way[2]));
+  return hn::Sqrt(hn::PromoteTo(doubles, squares));
 }
 
 }  // namespace nextview::HWY_NAMESPACE

@@ -5,12 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 
+#include "core/map/occlusion_marks.hpp"
 #include "core/map/ray_marks.hpp"
 #include "core/map/traversal.hpp"
 #include "core/map/uniform_bricks.hpp"
@@ -28,40 +27,17 @@ bool all_same(std::span<const std::uint8_t> touches) {
   return std::memcmp(&touches[0], &touches[1], touches.size() - 1) == 0;  // each is as the one after it
 }
 
-/// How far each place of a map's bricks lies behind a surface, 0 where it does not. It is of one scan: a copy of the
-/// map has none. Only where something is said it takes memory: the system gives the rest no pages.
-class Distances {
- public:
-  explicit Distances(std::size_t bricks)
-      : places_(static_cast<std::uint16_t*>(std::calloc(bricks * volume, sizeof(std::uint16_t))), &std::free),
-        is_marked_(bricks) {
-    if (!places_ && bricks > 0) throw std::bad_alloc();
-  }
-
-  /// The smallest of several says how far it is. From several threads.
-  void mark(std::size_t place, std::uint16_t distance) {
-    std::atomic_ref<std::uint16_t> nearest(places_.get()[place]);
-    std::uint16_t seen = nearest.load(std::memory_order_relaxed);
-    while ((seen == 0 || distance < seen) &&
-           !nearest.compare_exchange_weak(seen, distance, std::memory_order_relaxed)) {
-    }
-    std::atomic_ref(is_marked_[place / volume]).store(1, std::memory_order_relaxed);
-  }
-
-  /// Calls `visit(brick, its distances)` for the bricks where any is not 0, several at once.
-  template <class Visit>
-  void for_each_brick(Visit visit) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, is_marked_.size(), 256), [&](const auto& range) {
-      for (std::size_t brick = range.begin(); brick != range.end(); ++brick)
-        if (is_marked_[brick]) visit(brick, &places_.get()[brick * volume]);
-    });
-  }
-
- private:
-  static constexpr std::size_t volume = VoxelBricks::brick_voxels;
-  std::unique_ptr<std::uint16_t, decltype(&std::free)> places_;
-  std::vector<std::uint8_t> is_marked_;
-};
+/// Calls `visit(first, cell, count)` for each row of voxels of the grid along x in a brick: where it begins in the
+/// brick and in the grid.
+template <class Visit>
+void for_each_row(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t brick, Visit visit) {
+  const Eigen::Vector3i first = voxels.cell(brick * VoxelBricks::brick_voxels);
+  const Eigen::Vector3i size = (grid.size - first).cwiseMin(VoxelBricks::edge);
+  for (int z = 0; z < size.z(); ++z)
+    for (int y = 0; y < size.y(); ++y)
+      visit(std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge, first + Eigen::Vector3i(0, y, z),
+            std::size_t(size.x()));
+}
 
 /// Before any of it is taken: memory that is promised and not there ends the program without a word.
 const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
@@ -106,12 +82,9 @@ void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
   }
   add(
       [&](std::size_t brick, Touches& touches) {
-        const Eigen::Vector3i first = voxels_.cell(brick * VoxelBricks::brick_voxels);
-        const Eigen::Vector3i size = (grid_.size - first).cwiseMin(VoxelBricks::edge);
-        for (int z = 0; z < size.z(); ++z)
-          for (int y = 0; y < size.y(); ++y)
-            std::memcpy(&touches[std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge],
-                        marks.row(first.x(), first.y() + y, first.z() + z), std::size_t(size.x()));
+        for_each_row(grid_, voxels_, brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+          std::memcpy(&touches[first], marks.row(cell), count);
+        });
       },
       scan.origin);
 }
@@ -207,39 +180,30 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
 }
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
-  const Eigen::Vector3f origin = scan.origin.cast<float>();
-  Distances nearest_behind(voxels_.brick_count());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.hits.size(), 1024), [&](const auto& range) {
-    if (stop.stop_requested()) return;
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Eigen::Vector3f& point = scan.hits[i];
-      const double length = ray_length(origin, point);
-      if (length > scan.max_range || length == 0.0 || !grid_.contains(grid_.cell_at(point.cast<double>()))) continue;
-      const Eigen::Vector3f end = point_on_ray(origin, point, length + distance);
-      int behind = -1;  // the return's own voxel is no. 0
-      walk_segment(grid_, point, end, [&](int x, int y, int z) {
-        if (!grid_.contains({x, y, z}) || ++behind > 65535) return false;
-        if (behind == 0) return true;
-        nearest_behind.mark(voxels_.place(x, y, z), static_cast<std::uint16_t>(behind));
-        return true;
-      });
-    }
-  });
-  throw_if_stopped(stop);
+  OcclusionMarks marks(grid_);
+  marks.mark(scan.origin.cast<float>(), scan.hits, scan.max_range, distance, stop);
+  using Numbers = std::array<std::uint16_t, VoxelBricks::brick_voxels>;
   VoxelBricks after = voxels_;
   const auto bricks = after.change_bricks();
-  nearest_behind.for_each_brick([&](std::size_t brick, const std::uint16_t* nearest) {
-    const auto better = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
-      if (nearest[i] == 0 || voxels.measured(i)) return false;
-      const std::uint16_t known = voxels.occlusion_distance(i);
-      return known == 0 || nearest[i] < known;
-    };
-    std::size_t i = 0;
-    while (i < VoxelBricks::brick_voxels && !better(*bricks[brick], i)) ++i;
-    if (i == VoxelBricks::brick_voxels) return;  // and it stays shared
-    VoxelBricks::Brick& voxels = bricks[brick].change();
-    for (; i < VoxelBricks::brick_voxels; ++i)
-      if (better(voxels, i)) voxels.set_occlusion_distance(i, nearest[i]);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 64), [&](const auto& range) {
+    for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
+      Numbers nearest{};
+      for_each_row(grid_, voxels_, brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+        std::memcpy(&nearest[first], marks.row(cell), count * sizeof nearest[0]);
+      });
+      if (nearest == Numbers{}) continue;
+      const auto better = [&](const VoxelBricks::Brick& voxels, std::size_t i) {
+        if (nearest[i] == 0 || voxels.measured(i)) return false;
+        const std::uint16_t known = voxels.occlusion_distance(i);
+        return known == 0 || nearest[i] < known;
+      };
+      std::size_t i = 0;
+      while (i < nearest.size() && !better(*bricks[brick], i)) ++i;
+      if (i == nearest.size()) continue;  // and it stays shared
+      VoxelBricks::Brick& voxels = bricks[brick].change();
+      for (; i < nearest.size(); ++i)
+        if (better(voxels, i)) voxels.set_occlusion_distance(i, nearest[i]);
+    }
   });
   voxels_ = std::move(after);
 }

@@ -25,7 +25,7 @@ class RayMarks {
   void set(const Eigen::Vector3i& cell, std::uint8_t mark) { marks_[place(cell.x(), cell.y(), cell.z())] = mark; }
   std::uint8_t at(const Eigen::Vector3i& cell) const { return marks_[place(cell.x(), cell.y(), cell.z())]; }
   /// The marks of the voxels from this one on, along x, up to the grid's edge.
-  const std::uint8_t* row(int x, int y, int z) const { return &marks_[place(x, y, z)]; }
+  const std::uint8_t* row(const Eigen::Vector3i& cell) const { return &marks_[place(cell.x(), cell.y(), cell.z())]; }
 
  private:
   /// Around the grid lies a margin of one voxel, where rays may leave marks too: so they need not ask where they are.

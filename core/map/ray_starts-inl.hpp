@@ -18,13 +18,6 @@ HWY_BEFORE_NAMESPACE();
 namespace nextview::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::Rebind<float, Doubles>;
-using FloatVector = hn::Vec<Floats>;
-
-constexpr Floats floats;
-
-HWY_INLINE Mask none() { return hn::Lt(hn::Zero(doubles), hn::Zero(doubles)); }
-
 /// Rays at the grid's face or where they begin, one a lane. Places are whole numbers, and all fit into 53 bits.
 struct RayStarts {
   Vector next[3];   ///< distance at which the next face across each axis is met [m]
@@ -69,11 +62,6 @@ struct Ends {
   Vector length;
   Mask is_finite;  ///< what is longer than single precision can tell has no direction
 };
-HWY_INLINE Vector length_of(const FloatVector (&way)[3]) {
-  const FloatVector squares =
-      hn::Add(hn::Add(hn::Mul(way[0], way[0]), hn::Mul(way[1], way[1])), hn::Mul(way[2], way[2]));
-  return hn::Sqrt(hn::PromoteTo(doubles, squares));
-}
 HWY_INLINE Ends ends_of(const RayBatch& batch, const float* ends) {
   Ends e;
   hn::LoadInterleaved3(floats, ends, e.at[0], e.at[1], e.at[2]);

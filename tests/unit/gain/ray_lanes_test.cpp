@@ -2,8 +2,6 @@
 #include "core/gain/ray_lanes.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
-#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include "core/gain/map_rays.hpp"
@@ -11,6 +9,7 @@
 #include "core/gain/view_score.hpp"
 #include "core/map/traversal.hpp"
 #include "tests/unit/gain/evidence_maps.hpp"
+#include "tests/unit/map/instruction_sets.hpp"
 #include "tests/unit/map/random_scans.hpp"
 
 namespace nextview {
@@ -60,20 +59,8 @@ MadeMap scanned_map(std::mt19937& random, const Vector3i& size, double resolutio
   return made;
 }
 
-/// Runs the test on one instruction set after the other.
-class RayLanesOn : public ::testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override { choose(GetParam()); }
-  void TearDown() override { choose(0); }
-
- private:
-  static void choose(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();  // chosen anew by the next call
-  }
-};
-INSTANTIATE_TEST_SUITE_P(InstructionSets, RayLanesOn, ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
-                         [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
+class RayLanesOn : public OnInstructionSet {};
+INSTANTIATE_TEST_SUITE_P(InstructionSets, RayLanesOn, instruction_sets(), instruction_set_name);
 
 TEST_P(RayLanesOn, GainsAreThoseOfRaysOneByOneToTheLastBit) {
   std::mt19937 random(3);

@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
-#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <limits>
 
 #include "core/map/traversal.hpp"
+#include "tests/unit/map/instruction_sets.hpp"
 #include "tests/unit/map/random_scans.hpp"
 
 namespace nextview {
@@ -41,20 +40,8 @@ std::vector<std::uint8_t> marked(const VoxelGrid& grid, const Eigen::Vector3f& o
   return all;
 }
 
-/// Runs the test on one instruction set after the other.
-class RayMarksOn : public ::testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override { choose(GetParam()); }
-  void TearDown() override { choose(0); }
-
- private:
-  static void choose(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();  // chosen anew by the next call
-  }
-};
-INSTANTIATE_TEST_SUITE_P(InstructionSets, RayMarksOn, ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
-                         [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
+class RayMarksOn : public OnInstructionSet {};
+INSTANTIATE_TEST_SUITE_P(InstructionSets, RayMarksOn, instruction_sets(), instruction_set_name);
 
 TEST_P(RayMarksOn, AreThoseOfThePlainWalk) {
   std::mt19937 random(7);

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <span>
+#include <stop_token>
+
+#include "core/map/voxel_grid.hpp"
+
+namespace nextview {
+
+/// How many voxels behind the nearest return each voxel of a grid lies, on the way of a ray that goes on beyond it:
+/// many rays at once, in the lanes of the processor's vector registers. The voxels are those of walk_segment from the
+/// return on, to the last rounding, on any instruction set and any number of threads.
+class OcclusionMarks {
+ public:
+  /// @throws std::bad_alloc
+  explicit OcclusionMarks(const VoxelGrid& grid);
+
+  /// Behind each return [m, world] that lies in the grid and no farther from `origin` than `max_range` [m]: the voxels
+  /// up to `distance` [m], without its own, which would be no. 0, and the last one. @throws Stopped
+  void mark(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> returns, double max_range, double distance,
+            const std::stop_token& stop = {});
+  /// The numbers of the voxels from this one on, along x, up to the grid's edge; 0: behind no return.
+  const std::uint16_t* row(const Eigen::Vector3i& cell) const {
+    const Eigen::Vector3i at = cell + Eigen::Vector3i::Ones();
+    return &numbers_[(std::size_t(at.z()) * (grid_.size.y() + 2) + at.y()) * (grid_.size.x() + 2) + at.x()];
+  }
+
+ private:
+  VoxelGrid grid_;
+  /// Around the grid lies a margin of one voxel, where rays may leave numbers too: so they need not ask where they are.
+  /// Only where there are any it takes memory: the system gives the rest no pages.
+  std::unique_ptr<std::uint16_t[], decltype(&std::free)> numbers_;
+};
+
+}  // namespace nextview
