@@ -87,18 +87,6 @@ class KnownStates {
   std::array<std::uint16_t, 256> states_{};
 };
 
-/// Calls `visit(place, number, count)` for each row of voxels of the grid that is in a brick: where its first one
-/// stands in a field, and in the brick.
-template <class Visit>
-void for_each_row(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t b, Visit visit) {
-  const Eigen::Vector3i first = voxels.cell(b * VoxelBricks::brick_voxels);
-  const Eigen::Vector3i size = (grid.size - first).cwiseMin(VoxelBricks::edge);
-  for (int z = 0; z < size.z(); ++z)
-    for (int y = 0; y < size.y(); ++y)
-      visit(place_with_margin(grid, first.x(), first.y() + y, first.z() + z),
-            std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge, std::size_t(size.x()));
-}
-
 /// Whether two rows of a brick are kept as the same.
 bool same_rows(const Brick& brick, std::size_t a, std::size_t b) {
   const auto same = [&](const auto& values) {
@@ -132,7 +120,8 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
           of_uniform.of(brick, [&] { return brick.is_uniform() ? std::optional(state(brick, 0)) : std::nullopt; });
       if (of_all) row.fill(*of_all);
       std::size_t before = VoxelBricks::brick_voxels;  // the row that was visited last: none of this brick yet
-      for_each_row(grid, voxels, b, [&](std::size_t place, std::size_t first, std::size_t count) {
+      voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+        const std::size_t place = place_with_margin(grid, cell.x(), cell.y(), cell.z());
         if (!of_all && (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before)))
           for (std::size_t i = 0; i < count; ++i) row[i] = state(brick, first + i);
         before = first;
@@ -153,7 +142,8 @@ void fill_places(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring
   field.passes.assign(places_with_margin(grid), -2.0);
   for_ranges_of_bricks(voxels, [&](const auto& range) {
     for (std::size_t b = range.begin(); b != range.end(); ++b)
-      for_each_row(grid, voxels, b, [&](std::size_t place, std::size_t first, std::size_t count) {
+      voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+        const std::size_t place = place_with_margin(grid, cell.x(), cell.y(), cell.z());
         for (std::size_t i = 0; i < count; ++i) {
           const Voxel voxel = (*voxels.bricks()[b])[first + i];
           field.worth[place + i] = scoring.worth(voxel);

@@ -27,18 +27,6 @@ bool all_same(std::span<const std::uint8_t> touches) {
   return std::memcmp(&touches[0], &touches[1], touches.size() - 1) == 0;  // each is as the one after it
 }
 
-/// Calls `visit(first, cell, count)` for each row of voxels of the grid along x in a brick: where it begins in the
-/// brick and in the grid.
-template <class Visit>
-void for_each_row(const VoxelGrid& grid, const VoxelBricks& voxels, std::size_t brick, Visit visit) {
-  const Eigen::Vector3i first = voxels.cell(brick * VoxelBricks::brick_voxels);
-  const Eigen::Vector3i size = (grid.size - first).cwiseMin(VoxelBricks::edge);
-  for (int z = 0; z < size.z(); ++z)
-    for (int y = 0; y < size.y(); ++y)
-      visit(std::size_t(z * VoxelBricks::edge + y) * VoxelBricks::edge, first + Eigen::Vector3i(0, y, z),
-            std::size_t(size.x()));
-}
-
 /// Before any of it is taken: memory that is promised and not there ends the program without a word.
 const VoxelGrid& require_memory_for(const VoxelGrid& grid) {
   constexpr std::uint64_t small = std::uint64_t{16} << 20;  // asking takes as long as making such a map
@@ -82,7 +70,7 @@ void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
   }
   add(
       [&](std::size_t brick, Touches& touches) {
-        for_each_row(grid_, voxels_, brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+        voxels_.for_each_row(brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
           std::memcpy(&touches[first], marks.row(cell), count);
         });
       },
@@ -188,7 +176,7 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std:
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 64), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
       Numbers nearest{};
-      for_each_row(grid_, voxels_, brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+      voxels_.for_each_row(brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
         std::memcpy(&nearest[first], marks.row(cell), count * sizeof nearest[0]);
       });
       if (nearest == Numbers{}) continue;

@@ -98,6 +98,15 @@ class VoxelBricks {
     const std::size_t p = place(x, y, z);
     return (*(*table_)[p / brick_voxels])[p % brick_voxels];
   }
+  /// Calls `visit(first, cell, count)` for each row of voxels along x that a brick has in the grid: the number of its
+  /// first one in the brick, its position in the grid, and how many there are.
+  template <class Visit>
+  void for_each_row(std::size_t brick, Visit visit) const {
+    const Eigen::Vector3i lowest = cell(brick * brick_voxels), size = (size_ - lowest).cwiseMin(edge);
+    for (int z = 0; z < size.z(); ++z)
+      for (int y = 0; y < size.y(); ++y)
+        visit(std::size_t(z * edge + y) * edge, lowest + Eigen::Vector3i(0, y, z), std::size_t(size.x()));
+  }
   /// By the grid's number. Slower than walking.
   Voxel operator[](std::size_t voxel) const;
 
