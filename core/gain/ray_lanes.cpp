@@ -31,14 +31,8 @@ struct Walk {
 
 /// Takes each ray one voxel on, as VoxelWalk::advance does; those that have ended stay where they are.
 HWY_INLINE void advance(Walk& w) {
-  const Mask x_before_y = hn::Lt(w.next[0], w.next[1]);
-  const Mask along_x = hn::And(x_before_y, hn::Lt(w.next[0], w.next[2]));
-  const Mask along_y = hn::AndNot(x_before_y, hn::Lt(w.next[1], w.next[2]));
-  const IntegerVector step = pick(along_x, w.step[0], pick(along_y, w.step[1], w.step[2]));
+  const IntegerVector step = step_on(w.next, w.delta, w.step);
   w.place = hn::Add(w.place, hn::BitCast(integers, hn::IfThenElseZero(w.live, hn::BitCast(doubles, step))));
-  w.next[0] = hn::IfThenElse(along_x, hn::Add(w.next[0], w.delta[0]), w.next[0]);
-  w.next[1] = hn::IfThenElse(along_y, hn::Add(w.next[1], w.delta[1]), w.next[1]);
-  w.next[2] = hn::IfThenElse(hn::Or(along_x, along_y), w.next[2], hn::Add(w.next[2], w.delta[2]));
 }
 
 /// Rays on their way through a field: `Field::visit(walk, row, exit)` adds what they find in the voxels that they are

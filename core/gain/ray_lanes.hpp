@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/map/voxel_grid.hpp"
+#include "core/map/grid_margin.hpp"
 
 namespace nextview {
 
@@ -15,15 +15,6 @@ struct RaysThroughGrid {
   std::span<const Vector3> directions;  ///< of unit length, world
   double max_range;                     ///< [m]
 };
-
-/// Where a voxel of a grid stands in an array that has a margin of one voxel around the grid, so that rays in lanes
-/// learn there that they have left it.
-inline std::size_t place_with_margin(const VoxelGrid& grid, int x, int y, int z) {
-  return (std::size_t(z + 1) * (grid.size.y() + 2) + (y + 1)) * (grid.size.x() + 2) + (x + 1);
-}
-inline std::size_t places_with_margin(const VoxelGrid& grid) {
-  return std::size_t(grid.size.x() + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);
-}
 
 /// What a ray finds in the voxels of a grid. Voxels in few states, as those of an occupancy map, are kept as numbers of
 /// these: a byte each where that is enough, else two. Where every voxel differs (a Gibbs map) `worth` and `passes` have

@@ -125,10 +125,7 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
         if (!of_all && (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before)))
           for (std::size_t i = 0; i < count; ++i) row[i] = state(brick, first + i);
         before = first;
-        if (count == row.size())
-          std::memcpy(&states[place], row.data(), sizeof row);  // of a size that the compiler knows: a move
-        else
-          std::memcpy(&states[place], row.data(), count * sizeof(State));
+        std::copy_n(row.begin(), count, &states[place]);
       });
     }
   });

@@ -29,6 +29,17 @@ HWY_INLINE IntegerVector pick(Mask mask, IntegerVector yes, IntegerVector no) {
   return hn::BitCast(integers, hn::IfThenElse(mask, hn::BitCast(doubles, yes), hn::BitCast(doubles, no)));
 }
 
+/// Takes each ray to its next face, as VoxelWalk::advance does: what its place grows by.
+HWY_INLINE IntegerVector step_on(Vector (&next)[3], const Vector (&delta)[3], const IntegerVector (&step)[3]) {
+  const Mask x_before_y = hn::Lt(next[0], next[1]);
+  const Mask along_x = hn::And(x_before_y, hn::Lt(next[0], next[2]));
+  const Mask along_y = hn::AndNot(x_before_y, hn::Lt(next[1], next[2]));
+  next[0] = hn::IfThenElse(along_x, hn::Add(next[0], delta[0]), next[0]);
+  next[1] = hn::IfThenElse(along_y, hn::Add(next[1], delta[1]), next[1]);
+  next[2] = hn::IfThenElse(hn::Or(along_x, along_y), next[2], hn::Add(next[2], delta[2]));
+  return pick(along_x, step[0], pick(along_y, step[1], step[2]));
+}
+
 HWY_INLINE Mask none() { return hn::Lt(hn::Zero(doubles), hn::Zero(doubles)); }
 
 /// As ray_length has it.

@@ -49,13 +49,7 @@ class WalkBehind {
   /// Stores where the rays get to with a step, as VoxelWalk::advance takes it, the finished ones at 0 in the margin.
   /// Whether any is on its way.
   HWY_INLINE bool advance(std::int64_t* places) {
-    const Mask x_before_y = hn::Lt(next_[0], next_[1]);
-    const Mask along_x = hn::And(x_before_y, hn::Lt(next_[0], next_[2]));
-    const Mask along_y = hn::AndNot(x_before_y, hn::Lt(next_[1], next_[2]));
-    place_ = hn::Add(place_, pick(along_x, step_[0], pick(along_y, step_[1], step_[2])));
-    next_[0] = hn::IfThenElse(along_x, hn::Add(next_[0], delta_[0]), next_[0]);
-    next_[1] = hn::IfThenElse(along_y, hn::Add(next_[1], delta_[1]), next_[1]);
-    next_[2] = hn::IfThenElse(hn::Or(along_x, along_y), next_[2], hn::Add(next_[2], delta_[2]));
+    place_ = hn::Add(place_, step_on(next_, delta_, step_));
     const Vector exit = hn::Min(hn::Min(next_[0], next_[1]), next_[2]);
     const Mask at_end = hn::MaskFromVec(hn::BitCast(doubles, hn::VecFromMask(integers, hn::Eq(place_, end_))));
     active_ = hn::AndNot(hn::Or(at_end, hn::Gt(exit, stop_)), active_);
@@ -140,15 +134,11 @@ namespace {
 
 HWY_EXPORT(mark_behind);
 
-std::size_t places_of(const VoxelGrid& grid) {
-  return (std::size_t(grid.size.x()) + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);
-}
-
 }  // namespace
 
 OcclusionMarks::OcclusionMarks(const VoxelGrid& grid)
     : grid_(grid),
-      numbers_(static_cast<std::uint16_t*>(std::calloc(places_of(grid), sizeof(std::uint16_t))), &std::free) {
+      numbers_(static_cast<std::uint16_t*>(std::calloc(places_with_margin(grid), sizeof(std::uint16_t))), &std::free) {
   if (!numbers_) throw std::bad_alloc();
 }
 

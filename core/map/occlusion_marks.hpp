@@ -5,7 +5,7 @@
 #include <span>
 #include <stop_token>
 
-#include "core/map/voxel_grid.hpp"
+#include "core/map/grid_margin.hpp"
 
 namespace nextview {
 
@@ -23,8 +23,7 @@ class OcclusionMarks {
             const std::stop_token& stop = {});
   /// The numbers of the voxels from this one on, along x, up to the grid's edge; 0: behind no return.
   const std::uint16_t* row(const Eigen::Vector3i& cell) const {
-    const Eigen::Vector3i at = cell + Eigen::Vector3i::Ones();
-    return &numbers_[(std::size_t(at.z()) * (grid_.size.y() + 2) + at.y()) * (grid_.size.x() + 2) + at.x()];
+    return &numbers_[place_with_margin(grid_, cell.x(), cell.y(), cell.z())];
   }
 
  private:

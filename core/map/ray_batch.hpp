@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/map/grid_margin.hpp"
 #include "core/map/traversal.hpp"
 
 namespace nextview {
@@ -23,9 +24,8 @@ inline void leave_mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std:
 template <class Visit>
 void walk_one(const RayBatch& batch, const Eigen::Vector3f& end, Visit visit) {
   const bool short_enough = ray_length(batch.origin, end) <= batch.max_range;
-  const std::size_t row = batch.grid.size.x() + 2, layer = row * (batch.grid.size.y() + 2);
   walk_segment_inside(batch.grid, batch.origin, short_enough ? end : point_on_ray(batch.origin, end, batch.max_range),
-                      [&](int x, int y, int z) { return visit((z + 1) * layer + (y + 1) * row + (x + 1)); });
+                      [&](int x, int y, int z) { return visit(place_with_margin(batch.grid, x, y, z)); });
 }
 inline void mark_one(const RayBatch& batch, const Eigen::Vector3f& end) {
   walk_one(batch, end, [&](std::size_t place) {

@@ -50,13 +50,7 @@ class ExactWalk {
     const Mask at_end = hn::MaskFromVec(hn::BitCast(doubles, hn::VecFromMask(integers, hn::Eq(place_, end_))));
     active_ = hn::AndNot(hn::Or(at_end, hn::Gt(exit, stop_)), active_);
     hn::Store(hn::BitCast(integers, hn::IfThenElseZero(active_, hn::BitCast(doubles, place_))), integers, places);
-    const Mask x_before_y = hn::Lt(next_[0], next_[1]);
-    const Mask along_x = hn::And(x_before_y, hn::Lt(next_[0], next_[2]));
-    const Mask along_y = hn::AndNot(x_before_y, hn::Lt(next_[1], next_[2]));
-    place_ = hn::Add(place_, pick(along_x, step_[0], pick(along_y, step_[1], step_[2])));
-    next_[0] = hn::IfThenElse(along_x, hn::Add(next_[0], delta_[0]), next_[0]);
-    next_[1] = hn::IfThenElse(along_y, hn::Add(next_[1], delta_[1]), next_[1]);
-    next_[2] = hn::IfThenElse(hn::Or(along_x, along_y), next_[2], hn::Add(next_[2], delta_[2]));
+    place_ = hn::Add(place_, step_on(next_, delta_, step_));
     return !hn::AllFalse(doubles, active_);
   }
 
@@ -213,8 +207,7 @@ constexpr int farthest_camera = 1 << 20;
 
 }  // namespace
 
-RayMarks::RayMarks(const VoxelGrid& grid)
-    : grid_(grid), marks_((std::size_t(grid.size.x()) + 2) * (grid.size.y() + 2) * (grid.size.z() + 2)) {}
+RayMarks::RayMarks(const VoxelGrid& grid) : grid_(grid), marks_(places_with_margin(grid)) {}
 
 void RayMarks::pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
                     const std::stop_token& stop) {

@@ -4,8 +4,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/map/grid_margin.hpp"
 #include "core/map/huge_pages.hpp"
-#include "core/map/voxel_grid.hpp"
 
 namespace nextview {
 
@@ -22,15 +22,15 @@ class RayMarks {
   void pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
             const std::stop_token& stop = {});
   /// Of a voxel of the grid.
-  void set(const Eigen::Vector3i& cell, std::uint8_t mark) { marks_[place(cell.x(), cell.y(), cell.z())] = mark; }
-  std::uint8_t at(const Eigen::Vector3i& cell) const { return marks_[place(cell.x(), cell.y(), cell.z())]; }
+  void set(const Eigen::Vector3i& cell, std::uint8_t mark) { marks_[place(cell)] = mark; }
+  std::uint8_t at(const Eigen::Vector3i& cell) const { return marks_[place(cell)]; }
   /// The marks of the voxels from this one on, along x, up to the grid's edge.
-  const std::uint8_t* row(const Eigen::Vector3i& cell) const { return &marks_[place(cell.x(), cell.y(), cell.z())]; }
+  const std::uint8_t* row(const Eigen::Vector3i& cell) const { return &marks_[place(cell)]; }
 
  private:
   /// Around the grid lies a margin of one voxel, where rays may leave marks too: so they need not ask where they are.
-  std::size_t place(int x, int y, int z) const {
-    return (std::size_t(z + 1) * (grid_.size.y() + 2) + (y + 1)) * (grid_.size.x() + 2) + (x + 1);
+  std::size_t place(const Eigen::Vector3i& cell) const {
+    return place_with_margin(grid_, cell.x(), cell.y(), cell.z());
   }
 
   VoxelGrid grid_;
