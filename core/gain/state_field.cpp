@@ -11,8 +11,6 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "core/map/brick_memory.hpp"
-
 namespace nextview {
 namespace {
 
@@ -108,24 +106,18 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
   states.assign(places_with_margin(grid) + StateField::read_beyond / sizeof(State), StateField::outside);
   Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
   for_ranges_of_bricks(voxels, [&](const auto& range) {
-    KnownStates known(numbering);
-    const auto state = [&](const Brick& brick, std::size_t i) {
-      return static_cast<State>(known(brick, i, scoring.gain.needs_occlusion));
-    };
-    BrickMemory<std::optional<State>> of_uniform;  // most are: where nothing is, or nothing was seen
+    KnownStates state(numbering);
     std::array<State, VoxelBricks::edge> row{};
     for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b) {
       const Brick& brick = *voxels.bricks()[b];
-      const std::optional<State> of_all =
-          of_uniform.of(brick, [&] { return brick.is_uniform() ? std::optional(state(brick, 0)) : std::nullopt; });
-      if (of_all) row.fill(*of_all);
       std::size_t before = VoxelBricks::brick_voxels;  // the row that was visited last: none of this brick yet
       voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
-        const std::size_t place = place_with_margin(grid, cell.x(), cell.y(), cell.z());
-        if (!of_all && (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before)))
-          for (std::size_t i = 0; i < count; ++i) row[i] = state(brick, first + i);
+        // Most are as the one before: where nothing is, or nothing was seen.
+        if (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before))
+          for (std::size_t i = 0; i < count; ++i)
+            row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
         before = first;
-        std::copy_n(row.begin(), count, &states[place]);
+        std::copy_n(row.begin(), count, &states[place_with_margin(grid, cell.x(), cell.y(), cell.z())]);
       });
     }
   });

@@ -1,7 +1,7 @@
 // What each command of scene, selection and window does to the window's state, and that it does nothing else.
 #include <gmock/gmock.h>
 
-#include "tests/unit/workbench/gated_worker.hpp"
+#include "tests/unit/commands/worker_commands.hpp"
 #include "tests/unit/workbench/inspected_scan.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/script.hpp"
@@ -264,18 +264,7 @@ TEST_F(CommandEffects, AnCustomViewStandsWhereItIsSaidAndLooksThere) {
   EXPECT_TRUE(std::holds_alternative<camera_motion::Frame>(motions[4]));
 }
 
-/// Commands that ask the worker for something, with what they ask.
-class AskedOfTheWorker : public GatedWorker {
- protected:
-  void run(const std::string& line) {
-    const auto snapshot = now();
-    const WorkerProgress progress = worker_.progress();
-    CommandTarget target{worker_, window_, *snapshot, progress};
-    execute(parse_call(line), target);
-    wait_until_idle();
-  }
-  WindowState window_;
-};
+using AskedOfTheWorker = WorkerCommands;
 
 TEST_F(AskedOfTheWorker, RefineHasItsNumbersOrThoseOfTheSettings) {
   Configuration c = small_scan();

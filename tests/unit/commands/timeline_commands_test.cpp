@@ -1,10 +1,8 @@
 // Ways along the timeline, view by view and branch by branch.
 #include <gmock/gmock.h>
 
-#include "tests/unit/workbench/gated_worker.hpp"
+#include "tests/unit/commands/worker_commands.hpp"
 #include "ui/commands/branch_commands.hpp"
-#include "ui/commands/command_target.hpp"
-#include "ui/commands/script.hpp"
 
 namespace nextview {
 namespace {
@@ -12,15 +10,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-class TimelineCommands : public GatedWorker {
+class TimelineCommands : public WorkerCommands {
  protected:
-  void run(const std::string& line) {
-    const auto snapshot = now();
-    const WorkerProgress progress = worker_.progress();
-    CommandTarget target{worker_, window_, *snapshot, progress};
-    execute(parse_call(line), target);
-    wait_until_idle();
-  }
   std::string error_of(const std::string& line) {
     try {
       run(line);
@@ -31,8 +22,6 @@ class TimelineCommands : public GatedWorker {
   }
   std::size_t views() { return now()->records.size(); }
   std::string branch() { return now()->timeline->branches.current().name; }
-
-  WindowState window_;
 };
 
 TEST_F(TimelineCommands, GoAlongTheBranchByAView) {
