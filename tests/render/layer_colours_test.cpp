@@ -1,9 +1,4 @@
 #include <gmock/gmock.h>
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
-#include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkNew.h>
-#include <vtkRenderer.h>
 
 #include <cmath>
 #include <map>
@@ -11,8 +6,6 @@
 
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
-#include "ui/render_target/offscreen_target.hpp"
-#include "ui/scene/scene_overlay.hpp"
 
 /// What the layers' colours and legends say, by pixels and by words.
 namespace nextview {
@@ -187,45 +180,6 @@ TEST(MeshLayer, ClassesThatDoNotFitAreRefused) {
     EXPECT_THROW(scene.mesh().show(mesh, MeshClasses{classes, {{"one", theme::object}, {"two", theme::missed}}}),
                  std::invalid_argument);
   });
-}
-
-/// The right 250 pixels of a picture with legends, and with a label that belongs where they are.
-std::vector<std::uint8_t> beside_legends(const std::vector<Label>& labels) {
-  OffscreenTarget target(675, 490);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1, 1, 1);
-  vtkNew<vtkContextActor> actor;
-  vtkNew<SceneOverlay> overlay;
-  overlay->renderer = renderer;
-  overlay->axes = overlay->scale_bar = false;
-  for (int i = 0; i < 6; ++i)
-    overlay->legends.push_back({"legend", {{"one", theme::free}}, Legend::Range{ColourMap::score(), 0, 1, "m"}});
-  overlay->labels = labels;
-  actor->GetScene()->AddItem(overlay);
-  actor->GetScene()->SetRenderer(renderer);
-  renderer->AddActor(actor);
-  target.window().AddRenderer(renderer);
-  target.render();
-  const Image image = target.read_back();
-  actor->GetScene()->SetRenderer(nullptr);
-  target.window().RemoveRenderer(renderer);
-  std::vector<std::uint8_t> strip;
-  for (int y = 0; y < 490; ++y)
-    for (int x = 675 - 188; x < 675; ++x) strip.push_back(image.rgba[(std::size_t(y) * 675 + x) * 4]);
-  return strip;
-}
-
-TEST(SceneOverlay, LabelsKeepClearOfLegends) {
-  const auto clear = beside_legends({});
-  for (const double across : {0.1, 0.2, 0.3}) {  // from the middle towards the legends; the camera is 1 m away
-    const Label label{{Vector3(across, 0.05, 0)}, "region of interest, 1.28 m", theme::chosen};
-    EXPECT_EQ(beside_legends({label}), clear) << across;
-  }
-  const Label within{{Vector3(0.3, 0.05, 0)},
-                     "a label that is far too long to stand beside the legends anywhere in "
-                     "the picture, whatever is done about it",
-                     theme::chosen};
-  EXPECT_NE(beside_legends({within}), clear) << "this test sees a label over the legends";
 }
 
 }  // namespace

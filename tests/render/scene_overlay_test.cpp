@@ -16,8 +16,9 @@ namespace {
 constexpr int width = 500, height = 320;  // [px of the design]
 
 /// An overlay over plain white, without axes and scale bar.
-Image drawn(double scale, const std::function<void(SceneOverlay&)>& fill) {
-  OffscreenTarget target(int(width * scale), int(height * scale));
+Image drawn(double scale, const std::function<void(SceneOverlay&)>& fill,
+            const Eigen::Vector2i& size = {width, height}) {
+  OffscreenTarget target(int(size.x() * scale), int(size.y() * scale));
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   vtkNew<vtkContextActor> actor;
@@ -123,6 +124,33 @@ TEST(SceneOverlay, TheScaleBarIsAsLongAsItSays) {
     // 1, 2 or 5 times a power of ten that is at most 150 px: 0.2 m of these. Its ends are 2 px wide.
     EXPECT_NEAR(bar.sizes().x(), 0.2 * pixels_per_metre, 3) << scale;
   }
+}
+
+/// The right 188 pixels of a picture with legends, and with a label that belongs where they are.
+std::vector<std::uint8_t> beside_legends(const std::vector<Label>& labels) {
+  const auto fill = [&](SceneOverlay& overlay) {
+    for (int i = 0; i < 6; ++i)
+      overlay.legends.push_back({"legend", {{"one", theme::free}}, Legend::Range{ColourMap::score(), 0, 1, "m"}});
+    overlay.labels = labels;
+  };
+  const Image image = drawn(1.0, fill, {675, 490});
+  std::vector<std::uint8_t> strip;
+  for (int y = 0; y < 490; ++y)
+    for (int x = 675 - 188; x < 675; ++x) strip.push_back(image.rgba[(std::size_t(y) * 675 + x) * 4]);
+  return strip;
+}
+
+TEST(SceneOverlay, LabelsKeepClearOfLegends) {
+  const auto clear = beside_legends({});
+  for (const double across : {0.1, 0.2, 0.3}) {  // from the middle towards the legends; the camera is 1 m away
+    const Label label{{Vector3(across, 0.05, 0)}, "region of interest, 1.28 m", theme::chosen};
+    EXPECT_EQ(beside_legends({label}), clear) << across;
+  }
+  const Label within{{Vector3(0.3, 0.05, 0)},
+                     "a label that is far too long to stand beside the legends anywhere in "
+                     "the picture, whatever is done about it",
+                     theme::chosen};
+  EXPECT_NE(beside_legends({within}), clear) << "this test sees a label over the legends";
 }
 
 }  // namespace
