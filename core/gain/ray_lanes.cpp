@@ -156,7 +156,7 @@ HWY_INLINE Found look_up(const StateField& field, const std::vector<State>& stat
 }
 
 #if HWY_TARGET <= HWY_AVX3
-/// The same of so few states that registers hold them all: a gather takes longer than four permutations.
+/// The same of so few states that registers hold them all: a gather takes longer than two permutations of sixteen.
 class FewStates {
  public:
   static constexpr std::size_t most = 4 * most_lanes;
@@ -172,12 +172,12 @@ class FewStates {
 
   HWY_INLINE Found operator()(const StateField& field, IntegerVector place) const {
     const IntegerVector state = states_at(field.bytes, place), number = hn::ShiftRight<1>(state);
-    const auto lane = hn::IndicesFromVec(doubles, hn::And(number, hn::Set(integers, std::int64_t{most_lanes - 1})));
-    const Mask odd = hn::RebindMask(doubles, hn::TestBit(number, hn::Set(integers, std::int64_t{most_lanes})));
     const Mask upper = hn::RebindMask(doubles, hn::TestBit(number, hn::Set(integers, std::int64_t{2 * most_lanes})));
     const auto pick_from = [&](const Vector(&of)[4]) HWY_ATTR {
-      const auto at = [&](int i) HWY_ATTR { return hn::TableLookupLanes(of[i], lane); };
-      return hn::IfThenElse(upper, hn::IfThenElse(odd, at(3), at(2)), hn::IfThenElse(odd, at(1), at(0)));
+      // Highway 1.0 has no permutation of two registers; this one heeds an index's lowest four bits.
+      const auto at = [&](int i)
+                          HWY_ATTR { return Vector{_mm512_permutex2var_pd(of[i].raw, number.raw, of[i + 1].raw)}; };
+      return hn::IfThenElse(upper, at(2), at(0));
     };
     return found_in(state, pick_from(worth_), pick_from(passes_));
   }

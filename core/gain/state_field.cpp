@@ -16,10 +16,10 @@ namespace {
 
 using Brick = VoxelBricks::Brick;
 
-/// What a voxel is kept as, in one number.
+/// What a voxel is kept as, in one number; without a branch, which would be guessed wrong too often.
 std::uint64_t key_of(const Brick& brick, std::size_t i, bool with_distance) {
-  const float number = with_distance || brick.measured(i) ? brick.numbers()[i] : 0.0f;
-  return std::uint64_t{std::bit_cast<std::uint32_t>(number)} << 8 | brick.states()[i];
+  const auto heeded = -static_cast<std::uint32_t>(with_distance | brick.measured(i));
+  return std::uint64_t{std::bit_cast<std::uint32_t>(brick.numbers()[i]) & heeded} << 8 | brick.states()[i];
 }
 
 /// Whose rays are added up, and how.
@@ -88,7 +88,13 @@ class KnownStates {
 /// Whether two rows of a brick are kept as the same.
 bool same_rows(const Brick& brick, std::size_t a, std::size_t b) {
   const auto same = [&](const auto& values) {
-    return std::memcmp(&values[a], &values[b], VoxelBricks::edge * sizeof values[0]) == 0;
+    using Row = std::array<std::uint64_t, VoxelBricks::edge * sizeof values[0] / sizeof(std::uint64_t)>;
+    Row x, y;
+    std::memcpy(&x, &values[a], sizeof x);
+    std::memcpy(&y, &values[b], sizeof y);
+    std::uint64_t differs = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) differs |= x[i] ^ y[i];
+    return differs == 0;
   };
   return same(brick.numbers()) && same(brick.states());
 }
@@ -117,7 +123,11 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
           for (std::size_t i = 0; i < count; ++i)
             row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
         before = first;
-        std::copy_n(row.begin(), count, &states[place_with_margin(grid, cell.x(), cell.y(), cell.z())]);
+        State* const to = &states[place_with_margin(grid, cell.x(), cell.y(), cell.z())];
+        if (count == row.size())
+          std::memcpy(to, row.data(), sizeof row);  // of a size that the compiler knows
+        else
+          std::copy_n(row.begin(), count, to);
       });
     }
   });
