@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/progress.hpp"
 #include "app/commands/report_scans.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/output_folder.hpp"
@@ -62,7 +62,7 @@ void write_drawing(const FigureArguments& a, const std::string& name, const Vect
   write_png(image, out / (name + ".png"), configuration);
   if (drawing.is_vector()) write_file(out / (name + ".svg"), drawing.svg());
   about["configuration"] = configuration;
-  write_file(out / (name + ".json"), about.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_file(out / (name + ".json"), json_text(about, 2) + "\n");
   fmt::print("{}.png,{} .json\n", name, drawing.is_vector() ? " .svg," : "");
   std::fflush(stdout);
 }

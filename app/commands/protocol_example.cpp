@@ -4,13 +4,13 @@
 #include <stdlib.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "core/driver/driver_protocol.hpp"
 #include "core/driver/driver_server.hpp"
+#include "core/file/json_text.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/source/simulated_source.hpp"
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/file/counted.hpp"
+#include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
 
 namespace nextview {
@@ -27,7 +27,7 @@ const Json& member(const Json& object, const char* key) {
 }
 
 [[noreturn]] void wrong(const char* key, const std::string& expected, const Json& is) {
-  const std::string text = is.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(is);
   throw std::invalid_argument(fmt::format("'{}' is not {} but {}", key, expected, excerpt(text)));
 }
 
@@ -56,7 +56,7 @@ struct DriverAnswer::Object {
 };
 
 DriverAnswer::DriverAnswer(const std::string& line) : object_(std::make_unique<Object>()) {
-  object_->json = Json::parse(line, nullptr, false);
+  object_->json = parse_json_if_it_is<Json>(line);
   const Json& json = object_->json;
   if (json.is_discarded())
     throw std::invalid_argument(fmt::format("its answer is no JSON{}: {}",

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
 
 namespace nextview {
@@ -82,7 +82,7 @@ DriverProtocol::DriverProtocol(const std::vector<std::string>& words, std::funct
                                double grace, double stop_time)
     : process_(words, std::move(log), grace), name_(printable(words.front())), stop_time_(stop_time) {}
 
-DriverProtocol::~DriverProtocol() { process_.end(Json{{"id", last_id_ + 1}, {"request", "bye"}}.dump()); }
+DriverProtocol::~DriverProtocol() { process_.end(json_text(Json{{"id", last_id_ + 1}, {"request", "bye"}})); }
 
 namespace {
 
@@ -100,7 +100,7 @@ Result<T> read_answer(const Result<DriverAnswer>& answer, const Read& read, cons
 }  // namespace
 
 Result<DriverGreeting> DriverProtocol::hello(const Wait& wait) {
-  const auto answer = ask("hello", Json{{"protocol", driver_protocol_version}}.dump(), Failure::disconnected, wait);
+  const auto answer = ask("hello", json_text(Json{{"protocol", driver_protocol_version}}), Failure::disconnected, wait);
   auto greeting = read_answer<DriverGreeting>(answer, greeting_of, [&](const std::string& reason) {
     return failure(Failure::disconnected, "hello: " + reason);
   });
@@ -115,14 +115,14 @@ Result<std::vector<Reach>> DriverProtocol::reach(const Pose& from, std::span<con
   Json list = Json::array();
   for (const Pose& pose : poses) list.push_back(by_rows(pose));
   const auto answer =
-      ask("reach", Json{{"from", by_rows(from)}, {"poses", std::move(list)}}.dump(), Failure::disconnected, wait);
+      ask("reach", json_text(Json{{"from", by_rows(from)}, {"poses", std::move(list)}}), Failure::disconnected, wait);
   return read_answer<std::vector<Reach>>(
       answer, [&](const DriverAnswer& a) { return a.reaches("reach", poses.size()); },
       [&](const std::string& reason) { return failure(Failure::no_data, "reach: " + reason); });
 }
 
 Result<Pose> DriverProtocol::move(const Pose& T_world_camera, const Wait& wait) {
-  const auto answer = ask("move", Json{{"pose", by_rows(T_world_camera)}}.dump(), Failure::unreachable, wait);
+  const auto answer = ask("move", json_text(Json{{"pose", by_rows(T_world_camera)}}), Failure::unreachable, wait);
   return read_answer<Pose>(
       answer, [](const DriverAnswer& a) { return a.pose("pose"); },
       [&](const std::string& reason) { return failure(Failure::no_data, "move: " + reason); });
@@ -130,8 +130,8 @@ Result<Pose> DriverProtocol::move(const Pose& T_world_camera, const Wait& wait) 
 
 Result<CapturedFile> DriverProtocol::capture(std::uint32_t step, std::uint64_t seed,
                                              const std::filesystem::path& folder, const Wait& wait) try {
-  const auto answer =
-      ask("capture", Json{{"step", step}, {"seed", seed}, {"folder", folder.string()}}.dump(), Failure::no_data, wait);
+  const auto answer = ask("capture", json_text(Json{{"step", step}, {"seed", seed}, {"folder", folder.string()}}),
+                          Failure::no_data, wait);
   return read_answer<CapturedFile>(answer, captured_file_of, [&](const std::string& reason) {
     return failure(Failure::no_data, "capture: " + reason);
   });
@@ -189,7 +189,7 @@ Result<DriverAnswer> DriverProtocol::settle(DriverAnswer answer, const std::stri
 /// Asks the driver to stop, which the open request then answers to; ends it if it cannot.
 std::optional<Failure> DriverProtocol::stop_or_end(const std::string& request) {
   if (can_stop_) {
-    process_.send(Json{{"id", ++last_id_}, {"request", "stop"}}.dump());
+    process_.send(json_text(Json{{"id", ++last_id_}, {"request", "stop"}}));
     return std::nullopt;
   }
   process_.end();
@@ -207,7 +207,7 @@ Failure DriverProtocol::silent(const std::string& request, double seconds, bool 
 
 /// Nobody waits for what it does any more: it is not to go on moving.
 void DriverProtocol::abandon() {
-  if (can_stop_) process_.send(Json{{"id", ++last_id_}, {"request", "stop"}}.dump());
+  if (can_stop_) process_.send(json_text(Json{{"id", ++last_id_}, {"request", "stop"}}));
 }
 
 Failure DriverProtocol::closed() {

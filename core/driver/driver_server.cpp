@@ -4,7 +4,6 @@
 
 #include <istream>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <stdexcept>
 #include <stop_token>
@@ -12,6 +11,7 @@
 
 #include "core/driver/driver_answer.hpp"
 #include "core/driver/driver_protocol.hpp"
+#include "core/file/json_text.hpp"
 #include "core/file/npy_file.hpp"
 
 namespace nextview {
@@ -40,7 +40,7 @@ class Server {
 
   void run(std::istream& requests) {
     for (std::string line; std::getline(requests, line);) {
-      const Json request = Json::parse(line, nullptr, false);
+      const Json request = parse_json_if_it_is<Json>(line);
       if (!request.is_object() || !request.contains("id") || !request.contains("request")) {
         say({{"id", 0}, {"error", "expected a JSON object with 'id' and 'request'"}});
         continue;
@@ -68,7 +68,7 @@ class Server {
 
   void say(const Json& answer) {
     const std::lock_guard lock(mutex_);
-    answers_ << answer.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
+    answers_ << json_text(answer) << '\n' << std::flush;
   }
 
   Json answer(const Json& request) {

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/config/settings_file.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
+#include "core/file/json_text.hpp"
 
 namespace nextview {
 namespace {
@@ -62,7 +61,7 @@ std::string calibration_json(const MapCalibration& calibration) {
                                 {"held_out", e.held_out},
                                 {"voxels", e.voxels},
                                 {"gibbs_map_stationary", e.gibbs_stationary}});
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 #include "core/export/new_surface_calibration_files.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "core/config/settings_file.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 
 namespace nextview {
 namespace {
@@ -21,7 +20,7 @@ std::string calibration_json(const NewSurfaceCalibration& calibration, const New
                                        {"found_in_free", calibration.found_free},
                                        {"found_in_occupied", calibration.found_occupied},
                                        {"cells", calibration.cells}};
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace

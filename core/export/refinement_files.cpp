@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/export/diagnostics_text.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 #include "core/map/octree_file.hpp"
 
 namespace nextview {
@@ -52,11 +51,11 @@ Json to_json(const MapScores& scores) {
 
 std::string metrics_json(const RefinementJob& job, const Refinement& r) {
   Json json = {{"name", job.name}, {"views", job.scans.size()}, {"model", name(job.sampler.model.kind)}};
-  json["diagnostics"] = Json::parse(diagnostics_json(r.posterior.diagnostics));
+  json["diagnostics"] = parse_json<Json>(diagnostics_json(r.posterior.diagnostics));
   json["rank_correlation_of_candidates"] = r.rank_correlation;
   if (r.scores_before) json["conventional"] = to_json(*r.scores_before);
   if (r.scores_after) json["gibbs"] = to_json(*r.scores_after);
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace

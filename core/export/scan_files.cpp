@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/evaluation/accuracy.hpp"
 #include "core/evaluation/openings.hpp"
 #include "core/export/scan_tables.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 #include "core/map/octree_file.hpp"
 #include "core/session/timings.hpp"
 
@@ -122,7 +121,7 @@ std::string metrics_json(const Session& session, const PointCloud& cloud) {
       json["surface_left"]["true_share"] = 1.0 - records.back().coverage_visible;
     if (session.known_object()) json.update(evaluation_json(session, cloud));
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace

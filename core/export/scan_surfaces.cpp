@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 #include "core/surface/seen_part.hpp"
 #include "core/surface/surface_file.hpp"
 
@@ -105,7 +105,7 @@ std::vector<std::string> write_surfaces(std::span<const ScanSurface> surfaces, O
     if (seen.surface_area() > 0.0) write_stl(seen, claim(s.name + ".stl"), "what was seen");
     if (unseen.surface_area() > 0.0) write_stl(unseen, claim(s.name + "_unseen.stl"), "the hull of what no view saw");
   }
-  write_file(claim("surfaces.json"), json.dump(2) + "\n");
+  write_file(claim("surfaces.json"), json_text(json, 2) + "\n");
   return names;
 }
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include "core/file/json_text.hpp"
 
 namespace nextview {
 namespace {
@@ -75,7 +75,7 @@ std::string views_json(const Session& session) {
                      {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}},
                      {"look_direction", {look.x(), look.y(), look.z()}}});
   }
-  return views.dump(2) + "\n";
+  return json_text(views, 2) + "\n";
 }
 
 std::string views_txt(const Session& session) {

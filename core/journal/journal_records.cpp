@@ -4,7 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
+
+#include "core/file/json_text.hpp"
 
 namespace nextview {
 namespace {
@@ -137,7 +138,7 @@ std::string beginning_record(const JournalInput& input, const std::string& setti
       {"record", "session"}, {"version", version}, {"program", "nextview " NEXTVIEW_VERSION}, {"input", input.path}};
   if (input.hash) json.update(to_json(*input.hash));
   json["toml"] = settings;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string settings_record(const std::string& text) {
@@ -162,30 +163,29 @@ std::string step_record(const JournalStep& step) {
   if (step.registration) json["registration"] = to_json(*step.registration);
   json["scan"] = step.scan;
   json.update(to_json(step.hash));
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string position_record(std::uint32_t number) {
-  return Json::object({{"record", "at"}, {"number", number}}).dump();
+  return json_text(Json::object({{"record", "at"}, {"number", number}}));
 }
 
 std::string branches_record(const Branches& branches) {
   Json list = Json::array();
   for (const Branch& branch : branches.all) list.push_back({{"name", branch.name}, {"tip", branch.tip}});
-  return Json::object({{"record", "branches"}, {"branches", list}, {"on", branches.on}})
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(Json::object({{"record", "branches"}, {"branches", list}, {"on", branches.on}}));
 }
 
 std::string outcome_record(std::uint32_t number, const std::map<std::string, double>& outcome) {
   Json values = Json::object();
   for (const auto& [name, value] : outcome) values[name] = to_json(value);
-  return Json::object({{"record", "outcome"}, {"number", number}, {"values", values}}).dump();
+  return json_text(Json::object({{"record", "outcome"}, {"number", number}, {"values", values}}));
 }
 
-std::string closing_record() { return Json::object({{"record", "closed"}}).dump(); }
+std::string closing_record() { return json_text(Json::object({{"record", "closed"}})); }
 
 bool read_record(const std::string& record, Journal& journal) {
-  const Json json = Json::parse(record);
+  const Json json = parse_json<Json>(record);
   const auto kind = json.at("record").get<std::string>();
   journal.closed = kind == "closed";
   if (kind == "session") {

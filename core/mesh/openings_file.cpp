@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 #include "core/mesh/parts.hpp"
 
 namespace nextview {
@@ -68,7 +68,7 @@ Opening opening_of(const Json& json) {
 /// The reader's own messages quote the file's bytes, whatever they are; these do not.
 Json parsed(const std::string& text) {
   try {
-    return Json::parse(text);
+    return parse_json<Json>(text);
   } catch (const Json::parse_error& error) {
     throw std::runtime_error(error.byte > text.size() ? "ends in the middle: truncated, or no JSON"
                                                       : fmt::format("is no JSON from byte {} on", error.byte));

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
 
 namespace nextview {
 namespace {
@@ -166,7 +166,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
   if (!fs::exists(fs::symlink_status(file, ignored))) return std::nullopt;
   try {
     if (!is_plain_file(file)) throw std::runtime_error("no file");
-    return manifest_of(Json::parse(read_file(file, largest_manifest)));
+    return manifest_of(parse_json<Json>(read_file(file, largest_manifest)));
   } catch (const std::exception&) {  // the reader's own messages quote the file's bytes, whatever they are
     throw std::runtime_error(fmt::format(
         "{}: is no list of results by Nextview; give another folder, or move this file away", file.string()));
@@ -178,7 +178,7 @@ void write_manifest(const Manifest& manifest, const fs::path& folder) {
   if (const auto& object = manifest.object)
     json["object"] = {{"file", object->file}, {"bytes", object->hash.bytes}, {"crc32", object->hash.crc32}};
   json["files"] = manifest.files;
-  write_file(folder / manifest_name, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / manifest_name, json_text(json, 2) + "\n");
 }
 
 std::vector<std::string> results_without_manifest(const fs::path& folder) {

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "core/file/json_text.hpp"
+#include "core/file/read_file.hpp"
 
 namespace nextview {
 namespace {
@@ -60,7 +61,7 @@ void forget(std::vector<CameraBookmark>& cameras, const std::string& name) {
 std::string cameras_json(const std::vector<CameraBookmark>& cameras) {
   Json all = Json::array();
   for (const CameraBookmark& camera : cameras) all.push_back(to_json(camera));
-  return Json{{"cameras", all}}.dump(2) + "\n";
+  return json_text(Json{{"cameras", all}}, 2) + "\n";
 }
 
 std::vector<CameraBookmark> read_cameras(const std::filesystem::path& folder) {
@@ -69,9 +70,8 @@ std::vector<CameraBookmark> read_cameras(const std::filesystem::path& folder) {
   if (!std::filesystem::is_regular_file(file, none)) return {};
   try {
     if (std::filesystem::file_size(file) > largest_file) throw std::runtime_error("it is too large");
-    std::ifstream stream(file);
     std::vector<CameraBookmark> cameras;
-    const Json all = Json::parse(stream);
+    const Json all = parse_json<Json>(read_file(file));
     if (!all.at("cameras").is_array()) throw std::runtime_error("is no list of cameras");
     for (const Json& json : all.at("cameras")) keep(cameras, from_json(json));
     return cameras;

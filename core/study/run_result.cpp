@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/memory/available_memory.hpp"
@@ -60,13 +60,13 @@ std::string to_json(const RunResult& result, const std::string& key, const Study
   Json& measured = json["measured"] = Json::object();
   for (const auto& [measure, values] : result.measured)
     for (const MeasuredValue& m : values) measured[measure].push_back({m.at, m.value});
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 RunResult read_result(const std::filesystem::path& file) {
   const std::string text = read_file(file, largest_result);
   try {
-    const Json json = Json::parse(text);
+    const Json json = parse_json<Json>(text);
     RunResult result;
     result.failure = json.at("failure").get<std::string>();
     for (const auto& [measure, values] : json.at("measured").items())

@@ -5,10 +5,10 @@
 #include <sys/file.h>
 
 #include <cerrno>
-#include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
+#include "core/file/json_text.hpp"
 #include "core/file/temporary_file.hpp"
 #include "core/results/output_folder.hpp"
 
@@ -35,7 +35,7 @@ std::string text_if_there(const fs::path& file) { return is_there(file) ? read_f
 
 bool is_study(const fs::path& folder) {
   try {
-    const Json json = Json::parse(read_file(folder / study_json_name));
+    const Json json = parse_json<Json>(read_file(folder / study_json_name));
     return json.at("program").get<std::string>().starts_with("nextview ") && json.contains("study");
   } catch (const std::exception&) {
     return false;
@@ -58,7 +58,7 @@ void require_suitable(const fs::path& folder, const StudyTexts& study, bool resu
 std::string study_json(const Study& study, const StudyKeys& keys) {
   Json json = {{"program", "nextview " NEXTVIEW_VERSION}, {"study", study.name}, {"runs", study.size()}};
   json["objects"] = keys.inputs;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 /// What killed programs left, in any of the folders.

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
+#include "core/file/json_text.hpp"
 #include "core/study/summary_rows.hpp"
 
 namespace nextview {
@@ -43,15 +43,14 @@ class SummaryFiles {
   SummaryFiles(const Study& study, const fs::path& out)
       : csv_(out / "summary.csv"), json_(out / "summary.json"), runs_(out / "runs.csv") {
     csv_.stream() << "part,block,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
-    json_.stream() << "{\"program\": \"nextview " NEXTVIEW_VERSION "\", \"study\": "
-                   << Json(study.name).dump(-1, ' ', false, Json::error_handler_t::replace) << ", \"rows\": [";
+    json_.stream() << "{\"program\": \"nextview " NEXTVIEW_VERSION "\", \"study\": " << json_text(Json(study.name))
+                   << ", \"rows\": [";
     runs_.stream() << "run,key,part,object,sensor,views,method,start,seed,measure,value,failure\n";
   }
 
   void add(const SummaryRow& row) {
     csv_.stream() << csv_row(row);
-    json_.stream() << (rows_++ == 0 ? "\n" : ",\n")
-                   << json_row(row).dump(-1, ' ', false, Json::error_handler_t::replace);
+    json_.stream() << (rows_++ == 0 ? "\n" : ",\n") << json_text(json_row(row));
   }
   void add(const FinishedRun& run) {
     const char* measure = main_measure(run.run.part);

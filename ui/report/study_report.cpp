@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/file/file_hash.hpp"
+#include "core/file/json_text.hpp"
 #include "core/file/read_file.hpp"
 #include "core/study/study_folder.hpp"
 #include "ui/report/html.hpp"
@@ -18,14 +17,14 @@ using Json = nlohmann::ordered_json;
 
 Json study_json(const fs::path& folder) {
   const fs::path file = folder / study_json_name;
-  Json json = Json::parse(read_file(file), nullptr, false);
+  Json json = parse_json_if_it_is<Json>(read_file(file));
   if (!json.is_object() || !json.contains("program") || !json.contains("runs") || !json.contains("objects"))
     throw std::runtime_error(file.string() + ": is not that of a study");
   return json;
 }
 
 std::string text_of(const Json& value) {
-  return html_text(value.is_string() ? value.get<std::string>() : value.dump());
+  return html_text(value.is_string() ? value.get<std::string>() : json_text(value));
 }
 
 /// What it is, and how to have it again.

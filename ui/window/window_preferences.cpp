@@ -1,10 +1,10 @@
 #include "ui/window/window_preferences.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/json_text.hpp"
+#include "core/file/read_file.hpp"
 
 namespace nextview {
 namespace {
@@ -15,8 +15,7 @@ constexpr const char* file_name = "window.json";
 
 WindowPreferences read_preferences(const std::filesystem::path& state, const WindowPreferences& otherwise) {
   try {
-    std::ifstream stream(state / file_name);
-    const auto json = nlohmann::json::parse(stream);
+    const auto json = parse_json<nlohmann::json>(read_file(state / file_name));
     const auto size = [&](const char* name, double usual) {
       return std::clamp(json.value(name, usual), PlaceSizes::smallest, PlaceSizes::largest);
     };
@@ -40,7 +39,7 @@ void keep_preferences(const std::filesystem::path& state, const WindowPreference
                                          {"left", preferences.place_sizes.left},
                                          {"right", preferences.place_sizes.right},
                                          {"lower", preferences.place_sizes.lower}};
-    write_file(state / file_name, json.dump(2) + "\n");
+    write_file(state / file_name, json_text(json, 2) + "\n");
   } catch (const std::exception&) {  // they are a comfort alone
   }
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
@@ -55,7 +55,7 @@ FittedCircle fitted(const FittedCircle& circle, std::span<const Eigen::Vector3f>
       right -= slope * error;
       squares += error * error;
     }
-    const Vector3 by = normal.ldlt().solve(right);
+    const Vector3 by = normal.inverse() * right;
     if (!by.allFinite()) return circle;
     fit += by;
     if (by.norm() < 1e-9 * circle.radius) break;

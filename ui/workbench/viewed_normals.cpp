@@ -10,14 +10,21 @@ constexpr double hits_per_cell = 6.0;  // averages noise, and keeps edges
 constexpr int most_cells = 400;        // along a side of the picture
 constexpr double steepest = 3.0;       // a neighbour farther behind than so many cells is another surface's
 
+/// The least rotation that takes this direction to z. Eigen's FromTwoVectors gives the same, by a singular value
+/// decomposition, which the compiler takes seconds for.
+Eigen::Matrix3d turn_to_z(const Vector3& direction) {
+  const double w = std::sqrt(std::max(0.0, (1.0 + direction.z()) / 2));
+  if (w < 1e-6) return Vector3(1, -1, -1).asDiagonal();
+  return Eigen::Quaterniond(w, direction.y() / (2 * w), -direction.x() / (2 * w), 0.0).toRotationMatrix();
+}
+
 /// The scan as a coarse picture: of each cell the mean of its hits.
 class CellPicture {
  public:
   explicit CellPicture(const Scan& scan) : origin_(scan.origin) {
     Vector3 forward = Vector3::Zero();
     for (const Eigen::Vector3f& hit : scan.hits) forward += (hit.cast<double>() - origin_).normalized();
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(forward, Vector3::UnitZ());
-    R_ = turn.toRotationMatrix();
+    R_ = turn_to_z(forward.normalized());
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector3f& hit : scan.hits) box.extend(place(hit));
     low_ = box.min();
