@@ -149,8 +149,9 @@ bool are_settled(const Configuration& c, std::initializer_list<const char*> leng
 void require_region_cube(const Configuration& c) {
   if (!are_settled(c, {"map.region_edge", "map.resolution"})) return;
   const double voxels = c.map.region_edge / c.map.resolution;
-  require(voxels >= 1.0 && voxels <= 512.0,
-          fmt::format("map.region_edge / map.resolution must be from 1 to 512 voxels, not {}", voxels));
+  require(voxels >= 1.0 && voxels <= most_voxels_along_side,
+          fmt::format("map.region_edge / map.resolution must be from 1 to {} voxels, not {}", most_voxels_along_side,
+                      voxels));
 }
 
 void require_region(const Configuration& c) {
@@ -160,9 +161,9 @@ void require_region(const Configuration& c) {
   require(box.sizes().minCoeff() > 0.0, fmt::format("map.region, {}, must be a box with a volume", map.region));
   const bool settled = are_settled(c, {"map.resolution"});
   const Vector3 voxels = box.sizes() / map.resolution;
-  require(
-      !settled || (voxels.minCoeff() >= 1.0 - 1e-6 && voxels.maxCoeff() <= 512.0 + 1e-6),
-      fmt::format("map.region, {}, must be from 1 to 512 voxels of {} m along each side", map.region, map.resolution));
+  require(!settled || (voxels.minCoeff() >= 1.0 - 1e-6 && voxels.maxCoeff() <= most_voxels_along_side + 1e-6),
+          fmt::format("map.region, {}, must be from 1 to {} voxels of {} m along each side", map.region,
+                      most_voxels_along_side, map.resolution));
   const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   const double limit = settled ? std::min(1000.0, 32768.0 * map.resolution) : 1000.0;
   require(farthest <= limit, fmt::format("map.region, {}, must lie within {} m of the origin", map.region, limit));

@@ -39,12 +39,15 @@ struct VoxelGrid {
   }
 };
 
+/// As many as a region of interest may have along a side.
+inline constexpr int most_voxels_along_side = 1024;
+
 /// The region of interest: a cube of `edge` [m] around `centre`, snapped to the lattice (edge to the next whole number
 /// of voxels).
-/// @throws std::invalid_argument if it has no voxels, or more than 2^31 of them.
+/// @throws std::invalid_argument if it has no voxels, or too many along a side, or lies too far off for octrees.
 VoxelGrid region_of_interest(const Vector3& centre, double edge, double resolution);
 /// The same of a box [m, world]: all voxels that it reaches into.
-/// @throws std::invalid_argument as above, 1024 voxels along each side
+/// @throws std::invalid_argument as above
 VoxelGrid region_of_interest(const Eigen::AlignedBox3d& box, double resolution);
 
 }  // namespace nextview

@@ -16,7 +16,7 @@ std::string complaint(const Configuration& configuration) {
   }
 }
 
-// 512 voxels along each side, 1000 m from the origin, and as far as octrees number voxels of that size: 2^15.
+// 1024 voxels along each side, 1000 m from the origin, and as far as octrees number voxels of that size: 2^15.
 TEST(Region, MustBeABoxThatAMapCanHold) {
   const auto refusal = [](const std::string& region, double resolution) {
     Configuration configuration;
@@ -24,13 +24,13 @@ TEST(Region, MustBeABoxThatAMapCanHold) {
     give(configuration, "map.resolution", std::to_string(resolution), "map.resolution");
     return complaint(configuration);
   };
-  EXPECT_EQ(refusal("0 0 0 5.12 1 0.01", 0.01), "");
-  EXPECT_EQ(refusal("5.12 1 0.01 0 0 0", 0.01), "") << "the corners in any order";
+  EXPECT_EQ(refusal("0 0 0 10.24 1 0.01", 0.01), "");
+  EXPECT_EQ(refusal("10.24 1 0.01 0 0 0", 0.01), "") << "the corners in any order";
   for (const char* flat : {"0 0 0 1 1 0", "0 0 0 1 0 1", "0 0 0 0 1 1"})
     EXPECT_EQ(refusal(flat, 0.01), std::string("map.region, ") + flat + ", must be a box with a volume");
-  for (const char* wrong : {"0 0 0 5.13 1 1", "0 0 0 1 5.13 1", "0 0 0 1 1 0.009"})
+  for (const char* wrong : {"0 0 0 10.25 1 1", "0 0 0 1 10.25 1", "0 0 0 1 1 0.009"})
     EXPECT_EQ(refusal(wrong, 0.01),
-              std::string("map.region, ") + wrong + ", must be from 1 to 512 voxels of 0.01 m along each side");
+              std::string("map.region, ") + wrong + ", must be from 1 to 1024 voxels of 0.01 m along each side");
   EXPECT_EQ(refusal("326 0 0 327 1 1", 0.01), "");
   EXPECT_EQ(refusal("327 0 0 328 1 1", 0.01), "map.region, 327 0 0 328 1 1, must lie within 327.68 m of the origin");
   EXPECT_EQ(refusal("0 0 -328 1 1 -327", 0.01),
@@ -42,18 +42,18 @@ TEST(Region, MustBeABoxThatAMapCanHold) {
 }
 
 // Lengths that the object decides are not held against each other before it is known.
-TEST(Region, ACubeHasOneToFiveHundredAndTwelveVoxels) {
+TEST(Region, ACubeHasOneToOneThousandAndTwentyFourVoxels) {
   const auto refusal = [](const char* edge, const char* resolution) {
     Configuration configuration;
     give(configuration, "map.region_edge", edge, "map.region_edge");
     if (resolution) give(configuration, "map.resolution", resolution, "map.resolution");
     return complaint(configuration);
   };
-  EXPECT_EQ(refusal("512", "1"), "");
+  EXPECT_EQ(refusal("1024", "1"), "");
   EXPECT_EQ(refusal("1", "1"), "");
-  EXPECT_EQ(refusal("513", "1"), "map.region_edge / map.resolution must be from 1 to 512 voxels, not 513");
-  EXPECT_EQ(refusal("0.5", "1"), "map.region_edge / map.resolution must be from 1 to 512 voxels, not 0.5");
-  EXPECT_EQ(refusal("513", nullptr), "");
+  EXPECT_EQ(refusal("1025", "1"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 1025");
+  EXPECT_EQ(refusal("0.5", "1"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 0.5");
+  EXPECT_EQ(refusal("1025", nullptr), "");
 }
 
 TEST(Region, IsTheCubeOfItsEdgeWhereNoBoxIsGiven) {
