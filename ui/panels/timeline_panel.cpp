@@ -14,7 +14,8 @@ namespace nextview {
 namespace {
 
 // [px] on a display that does not scale
-constexpr float label_width = 158, start_width = 20, picture_width = 60, picture_height = 45, gap = 6, row_gap = 10;
+constexpr float label_width = 158, start_width = 20, picture_width = 60, picture_height = 45, picture_gap = 6,
+                row_gap = 10;
 
 /// What a view came to, in a few characters.
 std::string brief(const SessionSnapshot& s, const StepRecord& record) {
@@ -55,8 +56,8 @@ struct TimelinePanel::Row {
   float branches_off = 0;  ///< where the views that it shares are, from above [px, screen]
 
   float x(const Style& style, std::size_t view) const {  ///< of the view's left edge; 0: before the first
-    return corner.x +
-           style.px(view == 0 ? label_width : label_width + start_width + float(view - 1) * (picture_width + gap));
+    return corner.x + style.px(view == 0 ? label_width
+                                         : label_width + start_width + float(view - 1) * (picture_width + picture_gap));
   }
 };
 
@@ -124,7 +125,8 @@ void draw_cell(const PanelContext& context, const TimelineStep* step, const ImVe
     return style.small->CalcTextSizeA(style.small->FontSize, FLT_MAX, 0, text.c_str()).x;
   };
   std::string text = step->record ? fmt::format("{} · {}", view, brief(s, *step->record)) : fmt::format("{}", view);
-  if (width_of(text) > to.x - from.x + style.px(gap)) text = fmt::format("{}", view);  // its tooltip says the rest
+  if (width_of(text) > to.x - from.x + style.px(picture_gap))
+    text = fmt::format("{}", view);  // its tooltip says the rest
   const float width = width_of(text);
   list.AddText(style.small, style.small->FontSize, {(from.x + to.x - width) / 2, to.y + style.px(1)},
                to_imgui_u32(is_here ? theme::chosen : theme::soft_ink), text.c_str());
@@ -137,7 +139,7 @@ void TimelinePanel::draw_cells(const PanelContext& context, const Row& row) {
   const bool current = row.branch == timeline.branches.on;
   const auto here = std::ranges::find(row.line, timeline.at, &TimelineStep::number);
   for (std::size_t view = row.shared == 0 && row.branch == 0 ? 0 : row.shared + 1; view <= row.line.size(); ++view) {
-    const float width = style.px(view == 0 ? start_width - gap : picture_width);
+    const float width = style.px(view == 0 ? start_width - picture_gap : picture_width);
     const ImVec2 from{row.x(style, view), row.corner.y}, to{from.x + width, from.y + style.px(picture_height)};
     const TimelineStep* const step = view == 0 ? nullptr : row.line[view - 1];
     const bool later =
@@ -169,7 +171,8 @@ void TimelinePanel::draw_row(const PanelContext& context, const Row& row) {
   const float middle = row.corner.y + style.px(picture_height / 2);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (row.branch > 0) {  // where it leaves the row above
-    const float x = row.x(style, row.shared) + style.px(row.shared == 0 ? (start_width - gap) / 2 : picture_width / 2);
+    const float x =
+        row.x(style, row.shared) + style.px(row.shared == 0 ? (start_width - picture_gap) / 2 : picture_width / 2);
     list.AddLine({x, row.branches_off}, {x, middle}, to_imgui_u32(theme::muted), style.px(1.5f));
     list.AddLine({x, middle}, {row.x(style, row.shared + 1), middle}, to_imgui_u32(theme::muted), style.px(1.5f));
     if (row.line.size() == row.shared) list.AddCircleFilled({x, middle}, style.px(4), to_imgui_u32(theme::muted));
@@ -193,7 +196,7 @@ void TimelinePanel::draw(const PanelContext& context, const Rectangle& rectangle
     rows.push_back({b, timeline->line(timeline->branches.all[b]), 0, {}, 0});
     longest = std::max(longest, rows.back().line.size());
   }
-  const float wide = style.px(label_width + start_width + float(longest) * (picture_width + gap) + 24);
+  const float wide = style.px(label_width + start_width + float(longest) * (picture_width + picture_gap) + 24);
   const Panel panel("Timeline", rectangle, 0, wide);
   if (!timeline) return;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging_ = false;

@@ -33,7 +33,7 @@ std::string title(const SessionSnapshot& s, const ViewSelection& view) {
 }
 
 /// Which view: the next one, the views taken, the candidates.
-void draw_choice(const PanelContext& context) {
+void draw_view_choice(const PanelContext& context) {
   const SessionSnapshot& s = context.snapshot;
   const ViewSelection& view = context.window.selection.view;
   ImGui::SetNextItemWidth(-FLT_MIN);
@@ -209,7 +209,7 @@ void draw_buttons(const PanelContext& context) {
 void draw_view_panel(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("View", rectangle, 0, context.style.px(right_panel_width));
   if (!context.snapshot.loaded()) return;
-  draw_choice(context);
+  draw_view_choice(context);
   draw_buttons(context);
   const auto& view = context.inspection.view;
   if (!context.snapshot.finished.empty() && context.window.selection.view.kind == ViewSelection::Kind::next)

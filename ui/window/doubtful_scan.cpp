@@ -13,11 +13,11 @@ namespace nextview {
 namespace {
 
 /// Points of each cloud drawn at most.
-constexpr std::size_t max_points = 40'000;
+constexpr std::size_t most_points = 40'000;
 
 std::vector<Eigen::Vector3f> some(std::span<const Eigen::Vector3f> points) {
   std::vector<Eigen::Vector3f> kept;
-  const std::size_t stride = points.size() / max_points + 1;
+  const std::size_t stride = points.size() / most_points + 1;
   for (std::size_t i = 0; i < points.size(); i += stride) kept.push_back(points[i]);
   return kept;
 }
