@@ -134,8 +134,9 @@ struct Found {
 };
 
 /// What voxels have that are kept as numbers of states: twice the number, and 1 where a ray goes no farther.
-template <class State>
-HWY_INLINE IntegerVector states_at(const std::vector<State>& states, IntegerVector place) {
+template <class States>
+HWY_INLINE IntegerVector states_at(const States& states, IntegerVector place) {
+  using State = typename States::value_type;
   constexpr std::int64_t bits = (std::int64_t{1} << (8 * sizeof(State))) - 1;
   const auto* const begin = reinterpret_cast<const std::int64_t*>(states.data());
   const IntegerVector offset = hn::ShiftLeft<sizeof(State) / 2>(place);
@@ -148,8 +149,8 @@ HWY_INLINE Found found_in(IntegerVector state, Vector worth, Vector passes) {
           where(hn::Eq(hn::And(state, one), one))};
 }
 
-template <class State>
-HWY_INLINE Found look_up(const StateField& field, const std::vector<State>& states, IntegerVector place) {
+template <class States>
+HWY_INLINE Found look_up(const StateField& field, const States& states, IntegerVector place) {
   const IntegerVector state = states_at(states, place), number = hn::ShiftRight<1>(state);
   return found_in(state, hn::GatherIndex(doubles, field.worth.data(), number),
                   hn::GatherIndex(doubles, field.passes.data(), number));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/map/grid_margin.hpp"
+#include "core/map/huge_pages.hpp"
 
 namespace nextview {
 
@@ -24,8 +25,8 @@ struct StateField {
   static constexpr std::size_t read_beyond = 8;  ///< bytes behind the last state, which are read along with it
 
   /// Twice the number of the state, and 1 if a ray goes no farther; by place_with_margin. At most one is not empty.
-  std::vector<std::uint8_t> bytes;
-  std::vector<std::uint16_t> shorts;
+  std::vector<std::uint8_t, HugePages<std::uint8_t>> bytes;
+  std::vector<std::uint16_t, HugePages<std::uint16_t>> shorts;
   /// What a voxel adds, times the ray's visibility. By the state's number, 0 for the margin; without states by place.
   std::vector<double> worth;
   /// What share of the visibility goes on; 1 - p. Without states its sign bit says that a ray goes no farther, and the

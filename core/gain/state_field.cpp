@@ -11,6 +11,8 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "core/map/parallel_fill.hpp"
+
 namespace nextview {
 namespace {
 
@@ -106,20 +108,25 @@ void for_ranges_of_bricks(const VoxelBricks& voxels, Work work) {
 }
 
 /// Fills `states`, one of the field's, with what the voxels are kept as. Whether there were few enough of them.
-template <class State>
+template <class States>
 bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring& scoring, StateField& field,
-                   std::vector<State>& states) {
-  states.assign(places_with_margin(grid) + StateField::read_beyond / sizeof(State), StateField::outside);
+                   States& states) {
+  using State = typename States::value_type;
+  states.resize(places_with_margin(grid) + StateField::read_beyond / sizeof(State));
+  fill_in_parallel(states, State{StateField::outside});
   Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
   for_ranges_of_bricks(voxels, [&](const auto& range) {
     KnownStates state(numbering);
     std::array<State, VoxelBricks::edge> row{};
+    const Brick* alike = nullptr;  // the last brick, if its voxels are all the same: many places share such a one
     for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b) {
       const Brick& brick = *voxels.bricks()[b];
-      std::size_t before = VoxelBricks::brick_voxels;  // the row that was visited last: none of this brick yet
+      constexpr std::size_t none = VoxelBricks::brick_voxels;
+      std::size_t before = &brick == alike ? 0 : none;  // the row of this brick that is known
+      if (before == none) alike = brick.is_uniform() ? &brick : nullptr;
       voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
         // Most are as the one before: where nothing is, or nothing was seen.
-        if (before == VoxelBricks::brick_voxels || !same_rows(brick, first, before))
+        if (before == none || !(alike || same_rows(brick, first, before)))
           for (std::size_t i = 0; i < count; ++i)
             row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
         before = first;

@@ -105,7 +105,7 @@ TEST_F(CalibrateNewSurface, MistakesAreOneLineAndExitCode2) {
   expect_error(fit + " scene.txt", "finished scans");
   expect_error("calibrate --fit surface", "--fit");
   expect_error(fit + " --map.region_edge 0.3" + coarse + " box", "map.region_edge");
-  expect_error(fit + " --map.region_edge 4", "map.region_edge");
+  expect_error(fit + " --map.region_edge 40", "map.region_edge");
   expect_error(fit + " --planner.gain random", "--planner.gain");
 }
 

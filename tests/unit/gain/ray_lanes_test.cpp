@@ -168,8 +168,9 @@ TEST(RayLanes, AreTheSameOnAnyNumberOfThreads) {
 }
 
 /// That a map's voxels are in as many states as `kept` says, and are scored as rays one by one score them.
-void expect_same_scores(const VoxelGrid& grid, const VoxelBricks& voxels, std::vector<std::uint8_t> StateField::*bytes,
-                        std::vector<std::uint16_t> StateField::*shorts, std::mt19937& random) {
+void expect_same_scores(const VoxelGrid& grid, const VoxelBricks& voxels,
+                        decltype(StateField::bytes) StateField::*bytes,
+                        decltype(StateField::shorts) StateField::*shorts, std::mt19937& random) {
   const MapRays rays(grid, voxels, 0.5, 1.5);
   const std::vector<Pose> views = some_views(random);
   for (const Gain& g : gains()) {
