@@ -125,9 +125,10 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
       std::size_t before = &brick == alike ? 0 : none;  // the row of this brick that is known
       if (before == none) alike = brick.is_uniform() ? &brick : nullptr;
       voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
-        // Most are as the one before: where nothing is, or nothing was seen.
+        // Most are as the one before: where nothing is, or nothing was seen. Else all of it is numbered: where the
+        // brick stands once more, more of it may be in the grid.
         if (before == none || !(alike || same_rows(brick, first, before)))
-          for (std::size_t i = 0; i < count; ++i)
+          for (std::size_t i = 0; i < row.size(); ++i)
             row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
         before = first;
         State* const to = &states[place_with_margin(grid, cell.x(), cell.y(), cell.z())];

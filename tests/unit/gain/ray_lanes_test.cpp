@@ -208,6 +208,15 @@ TEST_P(RayLanesOn, HoweverManyStatesVoxelsAreIn) {
   expect_same_scores(most.map.grid(), most.map.voxels(), nullptr, nullptr, random);
 }
 
+// Places share the brick of what nobody has seen, and at the grid's edges only a part of it is in the grid.
+TEST_P(RayLanesOn, BricksThatPlacesShare) {
+  std::mt19937 random(10);
+  MadeMap made({44, 20, 21});
+  MadeMap::for_each(Vector3i(33, 0, 0), Vector3i(36, 19, 20), [&](const Vector3i& cell) { made.set(cell, -2.0); });
+  made.map.mark_occlusions(random_scans::scan(random, random_scans::origins().front(), 0.02, 20), 0.1);
+  expect_same_scores(made.map.grid(), made.map.voxels(), &StateField::bytes, nullptr, random);
+}
+
 // As of a Gibbs map, whose probabilities and entropies follow from nothing.
 TEST_P(RayLanesOn, VoxelsThatAreToldAsTheyAre) {
   std::mt19937 random(9);
