@@ -191,10 +191,10 @@ class StateChain final : public Chain {
     return level;
   }
 
-  double set(std::uint32_t voxel, std::uint8_t level) {
-    if (state_.map()[voxel] == level) return 0.0;
+  void set(std::uint32_t voxel, std::uint8_t level) {
+    if (state_.map()[voxel] == level) return;
     ++changed_;
-    return state_.set(voxel, level);
+    state_.set(voxel, level);
   }
 
   struct Look {

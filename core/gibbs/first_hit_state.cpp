@@ -26,7 +26,7 @@ float FirstHitState::value(std::uint32_t ray, std::uint32_t first) const {
   return first < lists_.incidences_end(ray) ? lists_.incidence(first).value : lists_.open_value(ray);
 }
 
-double FirstHitState::set(std::uint32_t voxel, std::uint8_t level) {
+double FirstHitState::change(std::uint32_t voxel, std::uint8_t level) {
   if (map_[voxel] == level) return 0.0;
   map_[voxel] = level;
   double change = 0.0;

@@ -15,7 +15,8 @@ class FirstHitState {
   std::span<const std::uint8_t> map() const { return map_; }
   void reset(std::vector<std::uint8_t> map);
   std::size_t bytes() const;
-  double set(std::uint32_t voxel, std::uint8_t level);
+  double change(std::uint32_t voxel, std::uint8_t level);
+  void set(std::uint32_t voxel, std::uint8_t level) { change(voxel, level); }
   /// `negligible` makes no difference: terms of either sign follow each other here. Returns false.
   bool conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const;
   double log_likelihood() const;

@@ -30,7 +30,7 @@ class NeighbourMoves {
       if (!neighbour(a, static_cast<int>(3.0 * u[0]), b)) continue;
       const std::uint8_t level_a = state_.map()[a], level_b = state_.map()[b];
       if (level_a == level_b) continue;
-      const double change = state_.set(a, level_b) + state_.set(b, level_a);
+      const double change = state_.change(a, level_b) + state_.change(b, level_a);
       if (std::log(u[1]) <= change) {
         changed += 2;
         continue;
@@ -64,7 +64,7 @@ class NeighbourMoves {
     if (levels.front() == levels.back()) return 0;
     const auto arrange = [&](const std::array<std::uint8_t, 4>& to) {
       double change = 0.0;
-      for (int k = 0; k < 4; ++k) change += state_.set(voxels[k], to[k]);
+      for (int k = 0; k < 4; ++k) change += state_.change(voxels[k], to[k]);
       return change;
     };
     std::array<std::array<std::uint8_t, 4>, 24> arrangements;

@@ -34,6 +34,9 @@ class EvidenceCursor {
 /// log of the sum of what these are the logarithms of.
 double log_sum(std::span<const double> logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
+  // Before a ray has spoken all are the prior's; most voxels are asked about only then.
+  static const std::array<double, 6> log_of = {0.0, 0.0, std::log(2.0), std::log(3.0), std::log(4.0), std::log(5.0)};
+  if (std::ranges::all_of(logs, [&](double log) { return log == largest; })) return largest + log_of[logs.size()];
   double sum = 0.0;
   for (const double log : logs) sum += std::exp(log - largest);
   return largest + std::log(sum);
@@ -87,14 +90,14 @@ float SurvivalState::near_sum(std::uint32_t ray) const {
   return sum;
 }
 
-double SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
+template <class Heard>
+void SurvivalState::change_voxel(std::uint32_t voxel, std::uint8_t level, Heard heard) {
   const std::uint8_t old = map_[voxel];
-  if (old == level) return 0.0;
+  if (old == level) return;
   map_[voxel] = level;
-  LogProduct change;
   const auto refresh = [&](std::uint32_t ray) {
     const Hot now = hot(cold_[ray].near_sum * passing(cold_[ray].depth));
-    change.multiply((1.0 + now.s) / (1.0 + hot_[ray].s), lists_.evidence(ray));
+    heard(ray, hot_[ray], now);
     hot_[ray] = now;
   };
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
@@ -105,7 +108,18 @@ double SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
     cold_[entry.ray()].depth += depth_[level][entry.chord()] - depth_[old][entry.chord()];
     refresh(entry.ray());
   }
+}
+
+double SurvivalState::change(std::uint32_t voxel, std::uint8_t level) {
+  LogProduct change;
+  change_voxel(voxel, level, [&](std::uint32_t ray, const Hot& before, const Hot& now) {
+    change.multiply((1.0 + now.s) / (1.0 + before.s), lists_.evidence(ray));
+  });
   return change.sum();
+}
+
+void SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
+  change_voxel(voxel, level, [](std::uint32_t, const Hot&, const Hot&) {});
 }
 
 bool SurvivalState::conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {

@@ -22,7 +22,9 @@ class SurvivalState {
   std::size_t bytes() const;
 
   /// Changes one voxel. Returns by how much that changes log p(z | m).
-  double set(std::uint32_t voxel, std::uint8_t level);
+  double change(std::uint32_t voxel, std::uint8_t level);
+  /// The same where nobody asks by how much.
+  void set(std::uint32_t voxel, std::uint8_t level);
 
   /// Adds log p(z | m with q) - log p(z | m with 0) to log_weights[q - 1] for each level q >= 1 (Eqs. 6-8); they hold
   /// the log prior odds before. Exact, except that the sum stops once the weights together are sure to be below
@@ -46,6 +48,9 @@ class SurvivalState {
   static constexpr int depth_unit = 4096;
   static constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
 
+  /// `heard(ray, before, now)` of each ray that notices.
+  template <class Heard>
+  void change_voxel(std::uint32_t voxel, std::uint8_t level, Heard heard);
   static float passing(std::int32_t depth);
   static Hot hot(float s) { return {s, 1.0f / (1.0f + s)}; }
   float near_sum(std::uint32_t ray) const;
