@@ -11,9 +11,8 @@ namespace {
 template <class T>
 void fill(std::span<T> array, T value) {
   constexpr std::size_t part = std::size_t{1} << 20;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, array.size(), part), [&](const auto& range) {
-    std::ranges::fill(array.subspan(range.begin(), range.size()), value);
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, array.size(), part),
+                    [&](const auto& range) { std::ranges::fill(array.subspan(range.begin(), range.size()), value); });
 }
 
 }  // namespace
