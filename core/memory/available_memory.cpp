@@ -1,6 +1,7 @@
 #include "core/memory/available_memory.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -101,6 +102,8 @@ std::string gigabytes(std::uint64_t bytes) {
 std::uint64_t available_memory(const fs::path& root) {
   return std::min({left_by_limits(), left_by_machine(root), left_by_groups(root)});
 }
+
+void return_freed_memory() { ::malloc_trim(0); }
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice) {
   constexpr std::uint64_t reserve = std::uint64_t{48} << 20;  // for what is small, and for the stacks of threads

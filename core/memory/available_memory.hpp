@@ -19,4 +19,8 @@ std::uint64_t available_memory(const std::filesystem::path& root = "/");
 /// @throws OutOfMemory "WHAT needs 2.3 GB, 0.8 GB are available: ADVICE" if `bytes` are not available.
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice);
 
+/// Gives the system what was freed here and there, which the allocator would keep: a window that opens session after
+/// session does not grow. Takes some milliseconds.
+void return_freed_memory();
+
 }  // namespace nextview

@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/memory/available_memory.hpp"
 #include "core/progress/stopped.hpp"
 #include "ui/workbench/overloaded.hpp"
 #include "ui/workbench/request_kind.hpp"
@@ -163,6 +164,7 @@ void SessionWorker::run(std::stop_token stop) {
       next_play_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(pause);
     }
     news();
+    if (is<request::Load>(request->second) || is<request::OpenFile>(request->second)) return_freed_memory();
   }
 }
 

@@ -2,10 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "tests/unit/memory/in_child.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
@@ -111,6 +113,27 @@ TEST(AvailableMemory, FollowsTheLimitsOfTheProcess) {
   };
   EXPECT_TRUE(limited(RLIMIT_AS));
   EXPECT_TRUE(limited(RLIMIT_DATA));
+}
+
+/// Of this process [bytes].
+std::uint64_t resident_memory() {
+  std::uint64_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * std::uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(FreedMemory, IsTheSystemsAgain) {
+  if (!memory_can_be_limited) GTEST_SKIP() << "built with sanitizers, which have an allocator of their own";
+  constexpr std::size_t block = 64 << 10, count = 1024;
+  std::vector<std::vector<char>> blocks, kept;
+  for (std::size_t i = 0; i < count; ++i) {
+    blocks.emplace_back(block, 'x');
+    if (i % 64 == 0) kept.emplace_back(block, 'x');  // between the others: the allocator keeps what lies before them
+  }
+  blocks.clear();
+  const std::uint64_t before = resident_memory();
+  return_freed_memory();
+  EXPECT_LT(resident_memory() + (std::uint64_t{block} * count) / 2, before);
 }
 
 }  // namespace
