@@ -38,7 +38,7 @@ TEST(PublishedSetting, BoundsAreKept) {
   EXPECT_EQ(complaint("map.region", "0.4,0.4,0.8, -0.4,-0.4,0"), "") << "corners in any order";
   for (const char* bad : {"1", "0 0 0 1 1 0", "0 0 0 1 1 nan", "5000 0 0 5001 1 1"})
     EXPECT_THAT(complaint("map.region", bad), HasSubstr("map.region")) << bad;
-  for (const char* bad : {"0 0 0 1 1 5.2", "0 0 0 1 1 0.001"}) {
+  for (const char* bad : {"0 0 0 1 1 10.3", "0 0 0 1 1 0.001"}) {
     EXPECT_EQ(complaint("map.region", bad), "") << "may suit the voxels that the object will have";
     EXPECT_THAT(complaint("map.region", bad, "0.01"), HasSubstr("map.region")) << bad;
   }
@@ -55,10 +55,10 @@ TEST(PublishedSetting, BoundsAreKept) {
 
 TEST(PublishedSetting, TheRegionsLimitsAreThoseOfVoxels) {
   Configuration c;
-  c.map.region = "0 0 0 5.12 0.01 1";
+  c.map.region = "0 0 0 10.24 0.01 1";
   EXPECT_NO_THROW(c.validate());
   c.map.resolution = 0.009;
-  EXPECT_THROW(c.validate(), std::invalid_argument) << "more than 512 of them";
+  EXPECT_THROW(c.validate(), std::invalid_argument) << "more than 1024 of them";
   c.map.region_edge = 100;
   c.map.resolution = 0.01;
   EXPECT_NO_THROW(c.validate()) << "the cube's edge plays no part";

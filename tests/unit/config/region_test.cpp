@@ -49,11 +49,11 @@ TEST(Region, ACubeHasOneToOneThousandAndTwentyFourVoxels) {
     if (resolution) give(configuration, "map.resolution", resolution, "map.resolution");
     return complaint(configuration);
   };
-  EXPECT_EQ(refusal("1024", "1"), "");
-  EXPECT_EQ(refusal("1", "1"), "");
-  EXPECT_EQ(refusal("1025", "1"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 1025");
-  EXPECT_EQ(refusal("0.5", "1"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 0.5");
-  EXPECT_EQ(refusal("1025", nullptr), "");
+  EXPECT_EQ(refusal("512", "0.5"), "");
+  EXPECT_EQ(refusal("0.5", "0.5"), "");
+  EXPECT_EQ(refusal("512.5", "0.5"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 1025");
+  EXPECT_EQ(refusal("0.25", "0.5"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 0.5");
+  EXPECT_EQ(refusal("1000", nullptr), "");
 }
 
 TEST(Region, IsTheCubeOfItsEdgeWhereNoBoxIsGiven) {
