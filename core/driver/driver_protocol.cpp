@@ -211,7 +211,7 @@ void DriverProtocol::abandon() {
 }
 
 Failure DriverProtocol::closed() {
-  const Failure why = failure(Failure::disconnected, process_.end_reason());
+  Failure why = failure(Failure::disconnected, process_.end_reason());
   process_.end();
   return why;
 }
