@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/json_text.hpp"
@@ -69,13 +70,13 @@ ReconstructionInput input_of(const Session& session) {
 }  // namespace
 
 std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& progress, std::stop_token stop) {
-  return scan_surfaces(input_of(session), progress, stop);
+  return scan_surfaces(input_of(session), progress, std::move(stop));
 }
 
 ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress, std::stop_token stop) {
   ReconstructionInput input = input_of(session);
   input.true_mesh = nullptr;
-  return scan_surface(input, source, progress, stop);
+  return scan_surface(input, source, progress, std::move(stop));
 }
 
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement, const Progress& progress,
@@ -86,7 +87,7 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
   return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
                         truth ? &truth->samples : nullptr,
                         truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
-                       progress, stop);
+                       progress, std::move(stop));
 }
 
 std::vector<std::string> write_surfaces(std::span<const ScanSurface> surfaces, OutputFolder& out) {

@@ -52,13 +52,13 @@ Opening::Kind kind(const Json& opening) {
 
 Opening opening_of(const Json& json) {
   if (!json.is_object()) throw std::runtime_error(fmt::format("must be an object, not {}", json.type_name()));
-  const Opening opening{kind(json),
-                        length(json, "width"),
-                        length(json, "length"),
-                        length(json, "depth"),
-                        vector(json, "centre"),
-                        vector(json, "axis"),
-                        vector(json, "along")};
+  Opening opening{kind(json),
+                  length(json, "width"),
+                  length(json, "length"),
+                  length(json, "depth"),
+                  vector(json, "centre"),
+                  vector(json, "axis"),
+                  vector(json, "along")};
   const bool unit = std::abs(opening.axis.norm() - 1.0) < rounding && std::abs(opening.along.norm() - 1.0) < rounding;
   if (!unit || std::abs(opening.axis.dot(opening.along)) > rounding)
     throw std::runtime_error("'axis' and 'along' must be of unit length and at right angles");

@@ -186,6 +186,7 @@ std::vector<NamedPose> read_poses(const fs::path& file, PoseFormat format, PoseD
       format == PoseFormat::matrix4x4 ? matrices(file, text, notice) : quaternions(file, text, format);
   if (found.empty()) throw std::runtime_error(fmt::format("{}: holds no pose", file.string()));
   std::vector<NamedPose> poses;
+  poses.reserve(found.size());
   for (const FoundPose& pose : found) poses.push_back(named_pose(file, pose, direction, axes));
   return poses;
 }
