@@ -73,10 +73,11 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
   return scan_surfaces(input_of(session), progress, std::move(stop));
 }
 
-ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress, std::stop_token stop) {
+ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress,
+                         const std::stop_token& stop) {
   ReconstructionInput input = input_of(session);
   input.true_mesh = nullptr;
-  return scan_surface(input, source, progress, std::move(stop));
+  return scan_surface(input, source, progress, stop);
 }
 
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement, const Progress& progress,

@@ -20,7 +20,7 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
 
 /// One of the two of a session, without comparing it with the truth. @throws Stopped
 ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress = {},
-                         std::stop_token stop = {});
+                         const std::stop_token& stop = {});
 
 /// Writes of each surface that is not empty NAME.ply (the whole; metres, coloured by uncertainty), NAME.stl (what was
 /// seen of it; millimetres) and, if something was not, NAME_unseen.stl (the rest, which closes it); and surfaces.json:
