@@ -32,7 +32,8 @@ Likelihood of_log_odds(double score, double, double weight, double found) {
 
 }  // namespace
 
-void NewSurfaceObservations::add(const SurfaceEvidence& evidence, std::size_t voxel, double weight, bool found) {
+void NewSurfaceObservations::add(const SurfaceEvidence& evidence, const Eigen::Vector3i& voxel, double weight,
+                                 bool found) {
   if (!(weight > 0.0)) return;  // of a camera inside the voxel; a cell of nothing would have no mean features
   const Kind kind = evidence.kind(voxel);
   Key key{static_cast<std::int16_t>(kind), static_cast<std::int16_t>(std::lround(20.0 * std::log(evidence.size())))};

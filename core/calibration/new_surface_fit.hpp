@@ -12,7 +12,7 @@ class NewSurfaceObservations {
  public:
   /// A ray came to a voxel; `found`: it met surface there that no view had covered. `weight`: the area across it, in
   /// any unit. @pre evidence.may_hold_surface(voxel)
-  void add(const SurfaceEvidence& evidence, std::size_t voxel, double weight, bool found);
+  void add(const SurfaceEvidence& evidence, const Eigen::Vector3i& voxel, double weight, bool found);
   /// What was found had this slant: area of the surface over area across the ray.
   void add_slant(double weight, double slant) { across_ += weight, along_ += weight * slant; }
   void add(const NewSurfaceObservations& other);

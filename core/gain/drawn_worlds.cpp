@@ -46,7 +46,7 @@ std::vector<float> depths(const SurfaceEvidence& evidence, const NewSurfaceField
   const Lattice lattice(field.grid());
   std::vector<float> depth(field.grid().voxel_count()), more(depth.size(), 0.0f);
   lattice.each(false, [&](int i, const Eigen::Vector3i& cell) {
-    const Kind kind = evidence.kind(i);
+    const Kind kind = evidence.kind(cell);
     depth[i] = kind == Kind::free ? 0.0f : infinity;
     if (kind != Kind::unmeasured) return;
     more[i] = -std::log1p(-std::min(field.at(i), 0.999f));
@@ -55,7 +55,7 @@ std::vector<float> depths(const SurfaceEvidence& evidence, const NewSurfaceField
   for (int sweep = 0; sweep < 4; ++sweep) {  // ways with few turns back
     const int step = sweep % 2 == 0 ? -1 : 1;
     lattice.each(sweep % 2 == 1, [&](int i, const Eigen::Vector3i& cell) {
-      if (evidence.kind(i) != Kind::unmeasured) return;
+      if (evidence.kind(cell) != Kind::unmeasured) return;
       for (int axis = 0; axis < 3; ++axis)
         if (unsigned(cell[axis] + step) < unsigned(lattice.size[axis]))
           depth[i] = std::min(depth[i], depth[i + step * lattice.strides[axis]] + more[i]);
@@ -91,8 +91,8 @@ class Solids {
     const DepthQuantile quantile;
     const auto spread = [&](int at) { return std::hypot(part(at), 1.0f - part(at)); };
     lattice_.each(false, [&](int i, const Eigen::Vector3i& cell) {
-      if (evidence.kind(i) == Kind::free) limits_[i] = -infinity;
-      if (evidence.kind(i) == Kind::unmeasured)
+      if (evidence.kind(cell) == Kind::free) limits_[i] = -infinity;
+      if (evidence.kind(cell) == Kind::unmeasured)
         limits_[i] = quantile(limits_[i]) * spread(cell.x()) * spread(cell.y()) * spread(cell.z());
     });
   }
@@ -138,13 +138,13 @@ std::vector<float> new_surface(const SurfaceEvidence& evidence, const NewSurface
   std::vector<float> shares(blocks.size(), 0.0f);
   lattice.each(false, [&](int i, const Eigen::Vector3i& cell) {
     if (!blocks[i]) {
-      if (evidence.kind(i) == Kind::free) shares[i] = field.at(i);
+      if (evidence.kind(cell) == Kind::free) shares[i] = field.at(i);
       return;
     }
     bool is_bare = lattice.is_at_rim(cell);
     for (int axis = 0; axis < 3 && !is_bare; ++axis)
       is_bare = !blocks[i - lattice.strides[axis]] || !blocks[i + lattice.strides[axis]];
-    if (is_bare) shares[i] = evidence.kind(i) == Kind::occupied ? -field.at(i) : 1.0f;
+    if (is_bare) shares[i] = evidence.kind(cell) == Kind::occupied ? -field.at(i) : 1.0f;
   });
   return shares;
 }

@@ -33,13 +33,21 @@ void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& 
 }  // namespace
 
 NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model)
-    : grid_(evidence.grid()), chances_(places_with_margin(grid_), ChanceField::outside) {
-  const std::size_t rows = std::size_t(grid_.size.y()) * grid_.size.z();
+    : grid_(evidence.grid()), chances_(places_with_margin(grid_)) {
+  const int nx = grid_.size.x(), ny = grid_.size.y(), nz = grid_.size.z();
+  const std::size_t rows = std::size_t(ny + 2) * std::size_t(nz + 2);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, 32), [&](const auto& range) {
     for (std::size_t row = range.begin(); row != range.end(); ++row) {
-      const int y = static_cast<int>(row % grid_.size.y()), z = static_cast<int>(row / grid_.size.y());
-      float* const chances = &chances_[place_with_margin(grid_, 0, y, z)];
-      for (int x = 0; x < grid_.size.x(); ++x) chances[x] = model.chance(evidence, grid_.index({x, y, z}));
+      const int y = static_cast<int>(row % std::size_t(ny + 2)) - 1,
+                z = static_cast<int>(row / std::size_t(ny + 2)) - 1;
+      float* const chances = &chances_[row * std::size_t(nx + 2)] + 1;
+      const bool is_margin = y < 0 || y == ny || z < 0 || z == nz;
+      std::fill_n(chances, nx, is_margin ? ChanceField::outside : 0.0f);
+      chances[-1] = chances[nx] = ChanceField::outside;
+      if (is_margin) continue;
+      evidence.all_that_may_hold_surface().for_each_in_row(y, z, [&](int x) {
+        chances[x] = model.chance(evidence, {x, y, z});
+      });
     }
   });
 }

@@ -26,7 +26,7 @@ class NewSurfaceField {
 
  private:
   VoxelGrid grid_;
-  std::vector<float> chances_;  ///< with margin
+  std::vector<float, HugePages<float>> chances_;  ///< with margin
 };
 
 /// How far rays are followed, and what an area across them is worth.

@@ -21,16 +21,16 @@ NewSurfaceModel NewSurfaceModel::fitted() {
           1.694};
 }
 
-float NewSurfaceModel::chance(const SurfaceEvidence& evidence, std::size_t voxel) const {
-  if (!evidence.may_hold_surface(voxel)) return 0.0f;
-  switch (evidence.kind(voxel)) {
+float NewSurfaceModel::chance(const SurfaceEvidence& evidence, const Eigen::Vector3i& cell) const {
+  if (!evidence.may_hold_surface(cell)) return 0.0f;
+  switch (evidence.kind(cell)) {
     case SurfaceEvidence::Kind::unmeasured:  // a rate times the voxel's share of the object's size
       return static_cast<float>(
-          -std::expm1(-std::exp(linear(unmeasured, evidence.unmeasured(voxel))) / evidence.size()));
+          -std::expm1(-std::exp(linear(unmeasured, evidence.unmeasured(cell))) / evidence.size()));
     case SurfaceEvidence::Kind::free:
-      return static_cast<float>(probability(linear(free, evidence.measured(voxel))));
+      return static_cast<float>(probability(linear(free, evidence.measured(cell))));
     case SurfaceEvidence::Kind::occupied:  // never 0, whose sign would say nothing
-      return -std::max(1e-9f, static_cast<float>(probability(linear(occupied, evidence.measured(voxel)))));
+      return -std::max(1e-9f, static_cast<float>(probability(linear(occupied, evidence.measured(cell)))));
   }
   return 0.0f;
 }

@@ -24,7 +24,7 @@ struct NewSurfaceModel {
 
   /// The probability that a ray which gets to a voxel meets new surface there. Negative, that with the other sign: it
   /// goes no farther.
-  float chance(const SurfaceEvidence& evidence, std::size_t voxel) const;
+  float chance(const SurfaceEvidence& evidence, const Eigen::Vector3i& cell) const;
 };
 std::vector<Setting> settings(NewSurfaceModel& model);
 

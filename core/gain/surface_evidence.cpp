@@ -5,8 +5,10 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/map/distance_transform.hpp"
 
@@ -19,26 +21,92 @@ constexpr double outlier_share = 0.001;
 
 using Kind = SurfaceEvidence::Kind;
 
-const std::array<Eigen::Vector3i, 9> hull_directions = {
-    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}};
+/// How far along each of the hull's directions a cell lies: the axes, and the diagonals between two of them.
+std::array<int, 9> along_directions(const Eigen::Vector3i& cell) {
+  const int x = cell.x(), y = cell.y(), z = cell.z();
+  return {x, y, z, x + y, x - y, x + z, x - z, y + z, y - z};
+}
 
-bool is_occupied(const Voxel& voxel, double threshold) { return voxel.measured && voxel.probability >= threshold; }
+/// What the voxels of a brick are, row by row, a bit each.
+class BrickKinds {
+ public:
+  using Brick = VoxelBricks::Brick;
+  static constexpr int edge = VoxelBricks::edge;
+  std::array<std::uint8_t, std::size_t{edge} * edge> occupied{}, unmeasured{};
+
+  explicit BrickKinds(double threshold) : threshold_(threshold) {}
+  /// Where a row begins in its brick.
+  static Eigen::Vector3i cell(int row) { return {0, row % edge, row / edge}; }
+
+  /// Bricks that many places share come one after the other: they are read once.
+  void read(const Brick& brick) {
+    if (&brick == read_) return;
+    read_ = &brick;
+    if (brick.is_uniform()) {
+      occupied.fill(is_occupied(brick, 0) ? 0xff : 0);
+      unmeasured.fill(brick.measured(0) ? 0 : 0xff);
+      return;
+    }
+    for (std::size_t row = 0; row < occupied.size(); ++row) {
+      unsigned are_occupied = 0, are_unmeasured = 0;
+      for (std::size_t i = 0; i < edge; ++i) {
+        are_occupied |= unsigned(is_occupied(brick, row * edge + i)) << i;
+        are_unmeasured |= unsigned(!brick.measured(row * edge + i)) << i;
+      }
+      occupied[row] = static_cast<std::uint8_t>(are_occupied);
+      unmeasured[row] = static_cast<std::uint8_t>(are_unmeasured);
+    }
+  }
+
+ private:
+  bool is_occupied(const Brick& brick, std::size_t i) {
+    if (!brick.measured(i)) return false;
+    if (!brick.follows_from_log_odds()) return brick[i].probability >= threshold_;
+    // The larger its log-odds the likelier: most are beyond others whose probability was looked at.
+    const float log_odds = brick.log_odds(i);
+    if (log_odds >= occupied_from_) return true;
+    if (log_odds <= free_to_) return false;
+    const bool is = brick[i].probability >= threshold_;
+    (is ? occupied_from_ : free_to_) = log_odds;
+    return is;
+  }
+
+  double threshold_;
+  float free_to_ = -std::numeric_limits<float>::infinity(), occupied_from_ = std::numeric_limits<float>::infinity();
+  const Brick* read_ = nullptr;
+};
 
 /// Where the occupied voxels are, in the order of the bricks.
 std::vector<Eigen::Vector3i> occupied_cells(const VoxelBricks& voxels, double threshold) {
   std::vector<std::vector<Eigen::Vector3i>> of_brick(voxels.brick_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
+    BrickKinds kinds(threshold);
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
-      const VoxelBricks::Brick& all = *voxels.bricks()[brick];
-      if (all.is_uniform() && !is_occupied(all[0], threshold)) continue;
-      for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i)
-        if (all.measured(i) && is_occupied(all[i], threshold))
-          of_brick[brick].push_back(voxels.cell(brick * VoxelBricks::brick_voxels + i));
+      if (voxels.is_untouched(brick)) continue;
+      kinds.read(*voxels.bricks()[brick]);
+      const Eigen::Vector3i lowest = voxels.cell(brick * VoxelBricks::brick_voxels);
+      for (int row = 0; row < int(kinds.occupied.size()); ++row)
+        for (unsigned bits = kinds.occupied[std::size_t(row)]; bits != 0; bits &= bits - 1)
+          of_brick[brick].push_back(lowest + BrickKinds::cell(row) + std::countr_zero(bits) * Eigen::Vector3i::UnitX());
     }
   });
   std::vector<Eigen::Vector3i> cells;
   for (const auto& some : of_brick) cells.insert(cells.end(), some.begin(), some.end());
   return cells;
+}
+
+/// Of its probability: other maps than the conventional one have no log-odds. A map has few different ones, and
+/// logarithms are expensive: each thread remembers those that it met last.
+float log_odds_of(float probability) {
+  struct Known {
+    float probability = 0.5f, log_odds = 0.0f;
+  };
+  constexpr int places = 8;  // as a power of 2
+  constinit thread_local std::array<Known, 1 << places> remembered{};
+  Known& known = remembered[std::bit_cast<std::uint32_t>(probability) * 2654435769u >> (32 - places)];
+  if (known.probability != probability)
+    known = {probability, static_cast<float>(log_odds(std::clamp(double(probability), 1e-3, 1 - 1e-3)))};
+  return known.log_odds;
 }
 
 /// The range of the values without the outliers at both ends.
@@ -55,34 +123,33 @@ std::pair<int, int> bounds(std::vector<int>& values) {
 
 double SurfaceEvidence::Hull::outside(const Eigen::Vector3i& cell) const {
   constexpr double of_diagonal = std::numbers::sqrt2 / 2;
-  double outside = -std::numeric_limits<double>::infinity();
-  for (int d = 0; d < directions; ++d) {
-    const int along = hull_directions[d].dot(cell);
-    const double beyond = std::max(along - highest[d], lowest[d] - along);
-    outside = std::max(outside, d < 3 ? beyond : of_diagonal * beyond);
-  }
-  return outside;
+  const std::array<int, directions> along = along_directions(cell);
+  const auto beyond = [&](int d) { return std::max(along[d] - highest[d], lowest[d] - along[d]); };
+  int by_axes = beyond(0), by_diagonals = beyond(3);
+  for (int d = 1; d < 3; ++d) by_axes = std::max(by_axes, beyond(d));
+  for (int d = 4; d < directions; ++d) by_diagonals = std::max(by_diagonals, beyond(d));
+  return std::max(double(by_axes), of_diagonal * by_diagonals);
 }
 
 SurfaceEvidence::Hull SurfaceEvidence::hull_of(const std::vector<Eigen::Vector3i>& occupied) {
   Hull hull;
-  std::vector<int> along(occupied.size());
-  for (int d = 0; d < Hull::directions; ++d) {
-    std::transform(occupied.begin(), occupied.end(), along.begin(),
-                   [&](const Eigen::Vector3i& cell) { return hull_directions[d].dot(cell); });
+  tbb::parallel_for(0, Hull::directions, [&](int d) {
+    std::vector<int> along(occupied.size());
+    std::ranges::transform(occupied, along.begin(),
+                           [&](const Eigen::Vector3i& cell) { return along_directions(cell)[d]; });
     std::tie(hull.lowest[d], hull.highest[d]) = bounds(along);
-  }
+  });
   return hull;
 }
 
 SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
                                  double occupancy_threshold)
-    : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()} {
+    : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()}, voxels_(voxels), occlusions_(occlusions) {
   const std::vector<Eigen::Vector3i> occupied = occupied_cells(voxels, occupancy_threshold);
   if (occupied.empty()) return;
   hull_ = hull_of(occupied);
   set_region(grid, hull_);
-  read_voxels(voxels, occlusions, occupancy_threshold);
+  read_kinds(occupancy_threshold);
   measure_distances();
 }
 
@@ -99,62 +166,61 @@ void SurfaceEvidence::set_region(const VoxelGrid& whole, const Hull& hull) {
   grid_.size = (highest + around + Eigen::Vector3i::Ones()).cwiseMin(whole.size) - offset_;
 }
 
-void SurfaceEvidence::read_voxels(const VoxelBricks& voxels, const VoxelBricks& occlusions, double threshold) {
-  const std::size_t count = grid_.voxel_count();
-  kinds_.resize(count);
-  log_odds_.resize(count);
-  behind_.resize(count);
-  tbb::parallel_for(0, grid_.size.z(), [&](int z) {
-    std::size_t i = std::size_t(z) * grid_.size.y() * grid_.size.x();
-    float last = 0.5f, its_log_odds = 0.0f;  // neighbours are often alike
-    for (int y = 0; y < grid_.size.y(); ++y)
-      for (int x = 0; x < grid_.size.x(); ++x, ++i) {
-        const Voxel& voxel = voxels.at(x + offset_.x(), y + offset_.y(), z + offset_.z());
-        kinds_[i] = is_occupied(voxel, threshold) ? Kind::occupied : voxel.measured ? Kind::free : Kind::unmeasured;
-        // Of its probability: other maps than the conventional one have no log-odds.
-        if (voxel.probability != last) {
-          last = voxel.probability;
-          its_log_odds = static_cast<float>(log_odds(std::clamp(double(last), 1e-3, 1 - 1e-3)));
+void SurfaceEvidence::read_kinds(double threshold) {
+  occupied_ = unmeasured_ = BitRows(grid_.size);
+  constexpr int edge = BrickKinds::edge;
+  const Eigen::Vector3i first = offset_ / edge, last = (offset_ + grid_.size - Eigen::Vector3i::Ones()) / edge;
+  // A layer of bricks each: what is written for one lies in rows of its own.
+  tbb::parallel_for(first.z(), last.z() + 1, [&](int brick_z) {
+    BrickKinds kinds(threshold);
+    for (int brick_y = first.y(); brick_y <= last.y(); ++brick_y)
+      for (int brick_x = first.x(); brick_x <= last.x(); ++brick_x) {
+        const Eigen::Vector3i lowest = edge * Eigen::Vector3i(brick_x, brick_y, brick_z);
+        const std::size_t place = voxels_.place(lowest.x(), lowest.y(), lowest.z());
+        kinds.read(*voxels_.bricks()[place / VoxelBricks::brick_voxels]);
+        for (int row = 0; row < edge * edge; ++row) {
+          const Eigen::Vector3i cell = lowest + BrickKinds::cell(row) - offset_;
+          if (!grid_.contains({0, cell.y(), cell.z()})) continue;
+          occupied_.set_eight(cell, kinds.occupied[std::size_t(row)]);
+          unmeasured_.set_eight(cell, kinds.unmeasured[std::size_t(row)]);
         }
-        if (voxel.measured)
-          log_odds_[i] = its_log_odds;
-        else
-          behind_[i] = occlusions.at(x + offset_.x(), y + offset_.y(), z + offset_.z()).occlusion_distance;
       }
   });
 }
 
 void SurfaceEvidence::measure_distances() {
-  const auto are = [&](Kind kind) {
-    std::vector<std::uint8_t> of_kind(kinds_.size());
-    std::transform(kinds_.begin(), kinds_.end(), of_kind.begin(), [&](Kind k) { return k == kind; });
-    return of_kind;
-  };
-  tbb::parallel_invoke(
-      [&] {
-        const auto occupied = are(Kind::occupied);
-        to_occupied_ = squared_distances(occupied, grid_.size);
-        occupied_around_ = neighbour_counts(occupied, grid_.size);
-      },
-      [&] { to_free_ = squared_distances(are(Kind::free), grid_.size); },
-      [&] { unmeasured_around_ = neighbour_counts(are(Kind::unmeasured), grid_.size); });
+  const BitRows either = BitRows::either(occupied_, unmeasured_);
+  unmeasured_before_ = unmeasured_.counts_before();
+  tbb::parallel_invoke([&] { to_occupied_ = squared_distances(unmeasured_, occupied_); },
+                       [&] { to_free_ = squared_distances(unmeasured_, either.complement()); },
+                       [&] {
+                         may_hold_surface_ = either;
+                         may_hold_surface_.grow({});
+                       });
   // Nothing is farther off than the object is large, or its margin is wide.
-  const auto farthest = static_cast<std::size_t>(size_ * size_) + 2;
-  for (std::size_t squared = 0; squared < farthest; ++squared)
-    log_shares_.push_back(static_cast<float>(0.5 * std::log(std::max<double>(1.0, double(squared))) - std::log(size_)));
+  log_shares_.resize(static_cast<std::size_t>(size_ * size_) + 2);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, log_shares_.size(), 1024), [&](const auto& range) {
+    for (std::size_t squared = range.begin(); squared != range.end(); ++squared)
+      log_shares_[squared] =
+          static_cast<float>(0.5 * std::log(std::max<double>(1.0, double(squared))) - std::log(size_));
+  });
 }
 
 float SurfaceEvidence::log_share(std::int32_t squared_distance) const {
   return log_shares_[std::min<std::size_t>(std::size_t(squared_distance), log_shares_.size() - 1)];
 }
 
-SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(std::size_t voxel) const {
-  const Eigen::Vector3i cell = grid_.cell(static_cast<std::uint32_t>(voxel)) + offset_;
-  const float to_free = log_share(to_free_[voxel]);
-  const std::int32_t behind = std::min<std::int32_t>(behind_[voxel], 10000);
-  const auto outside = static_cast<float>(hull_.outside(cell) / size_);
+SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(const Eigen::Vector3i& cell) const {
+  const std::size_t number = unmeasured_.rank(cell, unmeasured_before_);
+  const Eigen::Vector3i in_whole = cell + offset_;
+  const std::size_t place = occlusions_.place(in_whole.x(), in_whole.y(), in_whole.z());
+  const VoxelBricks::Brick& brick = *occlusions_.bricks()[place / VoxelBricks::brick_voxels];
+  const float to_free = log_share(to_free_[number]);
+  const std::int32_t behind =
+      std::min<std::int32_t>(brick.occlusion_distance(place % VoxelBricks::brick_voxels), 10000);
+  const auto outside = static_cast<float>(hull_.outside(in_whole) / size_);
   return {1.0f,
-          log_share(to_occupied_[voxel]),
+          log_share(to_occupied_[number]),
           to_free,
           to_free * to_free,
           behind == 0 ? 1.0f : 0.0f,
@@ -164,9 +230,11 @@ SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(std::size_t voxel) const
           std::min(outside, 0.0f)};
 }
 
-SurfaceEvidence::Measured SurfaceEvidence::measured(std::size_t voxel) const {
-  return {1.0f, log_odds_[voxel], std::log1p(float(unmeasured_around_[voxel])),
-          occupied_around_[voxel] > 0 ? 1.0f : 0.0f, float(occupied_around_[voxel])};
+SurfaceEvidence::Measured SurfaceEvidence::measured(const Eigen::Vector3i& cell) const {
+  const Eigen::Vector3i in_whole = cell + offset_;
+  const int unmeasured = unmeasured_.neighbours(cell), occupied = occupied_.neighbours(cell);
+  return {1.0f, log_odds_of(voxels_.at(in_whole.x(), in_whole.y(), in_whole.z()).probability),
+          std::log1p(float(unmeasured)), occupied > 0 ? 1.0f : 0.0f, float(occupied)};
 }
 
 }  // namespace nextview

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/map/occupancy.hpp"
+#include "core/map/bit_rows.hpp"
 #include "core/map/voxel_bricks.hpp"
 #include "core/map/voxel_grid.hpp"
 
@@ -32,15 +32,17 @@ class SurfaceEvidence {
   const VoxelGrid& grid() const { return grid_; }
   const Eigen::AlignedBox3d& object() const { return object_; }  ///< what is known of it [m, world]
   double size() const { return size_; }                          ///< of the object as far as it is known [voxels]
-  Kind kind(std::size_t voxel) const { return kinds_[voxel]; }
-  /// @pre kind(voxel) == Kind::unmeasured
-  Unmeasured unmeasured(std::size_t voxel) const;
-  /// @pre kind(voxel) != Kind::unmeasured
-  Measured measured(std::size_t voxel) const;
-  /// Whether a measured voxel has an unmeasured or occupied one beside it, or is occupied: no surface is in any other.
-  bool may_hold_surface(std::size_t voxel) const {
-    return kinds_[voxel] != Kind::free || unmeasured_around_[voxel] + occupied_around_[voxel] > 0;
+  Kind kind(const Eigen::Vector3i& cell) const {
+    return occupied_.at(cell) ? Kind::occupied : unmeasured_.at(cell) ? Kind::unmeasured : Kind::free;
   }
+  /// @pre kind(cell) == Kind::unmeasured
+  Unmeasured unmeasured(const Eigen::Vector3i& cell) const;
+  /// @pre kind(cell) != Kind::unmeasured
+  Measured measured(const Eigen::Vector3i& cell) const;
+  /// Whether a voxel is unmeasured or occupied, or has such a one beside it: no surface is in any other.
+  bool may_hold_surface(const Eigen::Vector3i& cell) const { return may_hold_surface_.at(cell); }
+  /// Those voxels.
+  const BitRows& all_that_may_hold_surface() const { return may_hold_surface_; }
 
  private:
   /// The bounds of the occupied voxels along x, y, z and the six diagonals between two of them.
@@ -52,7 +54,7 @@ class SurfaceEvidence {
   };
   static Hull hull_of(const std::vector<Eigen::Vector3i>& occupied);
   void set_region(const VoxelGrid& whole, const Hull& hull);
-  void read_voxels(const VoxelBricks& voxels, const VoxelBricks& occlusions, double occupancy_threshold);
+  void read_kinds(double occupancy_threshold);
   void measure_distances();
   float log_share(std::int32_t squared_distance) const;
 
@@ -61,11 +63,10 @@ class SurfaceEvidence {
   Eigen::AlignedBox3d object_;
   double size_ = 1.0;
   Hull hull_{};
-  std::vector<Kind> kinds_;
-  std::vector<float> log_odds_;
-  std::vector<std::uint16_t> behind_;
-  std::vector<std::uint8_t> unmeasured_around_, occupied_around_;
-  std::vector<std::int32_t> to_occupied_, to_free_;  ///< squared [voxels^2]
+  VoxelBricks voxels_, occlusions_;  ///< of the whole grid
+  BitRows occupied_, unmeasured_, may_hold_surface_;
+  std::vector<std::uint32_t> unmeasured_before_;     ///< BitRows::counts_before
+  std::vector<std::int32_t> to_occupied_, to_free_;  ///< of the unmeasured ones, squared [voxels^2]
   std::vector<float> log_shares_;                    ///< by squared distance
 };
 

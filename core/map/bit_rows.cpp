@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "core/progress/stopped.hpp"
@@ -33,12 +34,23 @@ void BitRows::flip(const Eigen::Vector3i& cell) {
   std::atomic_ref(word_of(cell)).fetch_xor(bit_of(cell), std::memory_order_relaxed);
 }
 
+void BitRows::set_eight(const Eigen::Vector3i& first, std::uint8_t bits) {
+  const std::size_t row = begin(first.y(), first.z());
+  for (const int x : {first.x(), first.x() + 7}) {  // both may lie in the same word
+    if (x < 0 || x >= static_cast<int>(64 * row_words_)) continue;
+    const int shift = first.x() - x / 64 * 64;
+    const std::uint64_t own = shift >= 0 ? std::uint64_t{bits} << shift : std::uint64_t{bits} >> -shift;
+    words_[row + x / 64] |= std::size_t(x) / 64 + 1 == row_words_ ? own & last_word_ : own;
+  }
+}
+
 /// Calls `visit(other, rows)` for the rows that lie one after the other along y or z, at the place `other` along the
 /// third axis: `rows(k)` says where each begins. Several at once.
 template <class Visit>
 void BitRows::for_each_column_of_rows(int axis, const std::stop_token& stop, Visit visit) {
   tbb::parallel_for(0, axis == 1 ? size_.z() : size_.y(), [&](int other) {
-    if (!stop.stop_requested()) visit(other, [&, other](int k) { return axis == 1 ? row(k, other) : row(other, k); });
+    if (!stop.stop_requested())
+      visit(other, [&, other](int k) { return axis == 1 ? begin(k, other) : begin(other, k); });
   });
   throw_if_stopped(stop);
 }
@@ -99,6 +111,41 @@ BitRows BitRows::majority(const BitRows& a, const BitRows& b, const BitRows& c) 
   for (std::size_t w = 0; w < most.words_.size(); ++w)
     most.words_[w] = (a.words_[w] & b.words_[w]) | (c.words_[w] & (a.words_[w] | b.words_[w]));
   return most;
+}
+
+BitRows BitRows::either(const BitRows& a, const BitRows& b) {
+  BitRows both = a;
+  for (std::size_t w = 0; w < both.words_.size(); ++w) both.words_[w] |= b.words_[w];
+  return both;
+}
+
+BitRows BitRows::complement() const {
+  BitRows others = *this;
+  for (std::size_t w = 0; w < words_.size(); ++w)
+    others.words_[w] = ~words_[w] & ((w + 1) % row_words_ == 0 ? last_word_ : ~std::uint64_t{0});
+  return others;
+}
+
+int BitRows::neighbours(const Eigen::Vector3i& cell) const {
+  const int left = cell.x() - 1;
+  std::uint64_t all = 0;  // three of each row
+  for (int z = std::max(cell.z() - 1, 0); z <= std::min(cell.z() + 1, size_.z() - 1); ++z)
+    for (int y = std::max(cell.y() - 1, 0); y <= std::min(cell.y() + 1, size_.y() - 1); ++y) {
+      const std::span<const std::uint64_t> words = row(y, z);
+      const std::size_t w = std::size_t(cell.x()) / 64;
+      const int bit = cell.x() % 64;
+      std::uint64_t three = bit > 0 ? words[w] >> (bit - 1) : words[w] << 1 | (left >= 0 ? words[w - 1] >> 63 : 0);
+      if (bit == 63 && w + 1 < words.size()) three |= words[w + 1] << 2;
+      all = all << 3 | (three & 7);
+    }
+  return std::popcount(all) - at(cell);
+}
+
+std::vector<std::uint32_t> BitRows::counts_before() const {
+  std::vector<std::uint32_t> counts(words_.size() + 1);
+  for (std::size_t w = 0; w < words_.size(); ++w)
+    counts[w + 1] = counts[w] + static_cast<std::uint32_t>(std::popcount(words_[w]));
+  return counts;
 }
 
 BitMask BitRows::mask() const {

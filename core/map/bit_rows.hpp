@@ -1,5 +1,7 @@
 #pragma once
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -12,11 +14,19 @@ namespace nextview {
 /// once. All false at first. What works on all of them @throws Stopped.
 class BitRows {
  public:
-  explicit BitRows(const Eigen::Vector3i& size);
+  explicit BitRows(const Eigen::Vector3i& size = Eigen::Vector3i::Zero());
+
+  const Eigen::Vector3i& size() const { return size_; }
+  bool at(const Eigen::Vector3i& cell) const { return row(cell.y(), cell.z())[cell.x() / 64] >> (cell.x() % 64) & 1; }
+  /// Those of a row, 64 a word, the lowest first; none is set beyond the row's end.
+  std::span<const std::uint64_t> row(int y, int z) const { return {&words_[begin(y, z)], row_words_}; }
 
   /// From several threads at once.
   void set(const Eigen::Vector3i& cell);
   void flip(const Eigen::Vector3i& cell);
+  /// Sets those of eight from `first` on whose bit is 1, the lowest first; what is beyond either end of the row is left
+  /// out. Other threads may work on other rows.
+  void set_eight(const Eigen::Vector3i& first, std::uint8_t bits);
 
   /// Makes each flag the parity of those up to it along an axis, itself among them; but clears the columns that are set
   /// in `left_out`, whose size along the axis is 1.
@@ -25,12 +35,33 @@ class BitRows {
   void grow(const std::stop_token& stop);
   /// Each is what two of the three are.
   static BitRows majority(const BitRows& a, const BitRows& b, const BitRows& c);
+  static BitRows either(const BitRows& a, const BitRows& b);
+  BitRows complement() const;
+
+  /// How many of a voxel's 26 neighbours are set; beyond the box there are none.
+  int neighbours(const Eigen::Vector3i& cell) const;
+  /// How many are set before each word, x fastest, then y, then z; at last how many in all.
+  std::vector<std::uint32_t> counts_before() const;
+  /// How many are set before a voxel. @pre `counts` is counts_before()
+  std::size_t rank(const Eigen::Vector3i& cell, const std::vector<std::uint32_t>& counts) const {
+    const std::size_t word = begin(cell.y(), cell.z()) + cell.x() / 64;
+    const std::uint64_t lower = (std::uint64_t{1} << (cell.x() % 64)) - 1;
+    return counts[word] + std::size_t(std::popcount(words_[word] & lower));
+  }
+  /// Calls `visit(x)` for those of a row that are set.
+  template <class Visit>
+  void for_each_in_row(int y, int z, Visit visit) const {
+    const std::span<const std::uint64_t> words = row(y, z);
+    for (std::size_t w = 0; w < words.size(); ++w)
+      for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
+        visit(static_cast<int>(64 * w) + std::countr_zero(bits));
+  }
 
   BitMask mask() const;  ///< x fastest, then y, then z
 
  private:
-  std::size_t row(int y, int z) const { return (std::size_t(z) * size_.y() + y) * row_words_; }
-  std::uint64_t& word_of(const Eigen::Vector3i& cell) { return words_[row(cell.y(), cell.z()) + cell.x() / 64]; }
+  std::size_t begin(int y, int z) const { return (std::size_t(z) * size_.y() + y) * row_words_; }
+  std::uint64_t& word_of(const Eigen::Vector3i& cell) { return words_[begin(cell.y(), cell.z()) + cell.x() / 64]; }
   void grow_along_rows();
   template <class Visit>
   void for_each_column_of_rows(int axis, const std::stop_token& stop, Visit visit);

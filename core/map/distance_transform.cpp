@@ -1,39 +1,32 @@
 #include "core/map/distance_transform.hpp"
 
-#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <stdexcept>
 
 namespace nextview {
 namespace {
 
-void require_as_many(std::size_t values, const Eigen::Vector3i& size) {
-  if ((size.array() < 0).any() || values != std::size_t(size.x()) * size.y() * size.z())
-    throw std::invalid_argument("distance transform: the values are not as many as the voxels");
-}
-
-/// Calls `visit(first, scratch)` for the first voxel of each line along an axis, several at once.
-template <class Scratch, class Visit>
-void for_each_line(const Eigen::Vector3i& size, int axis, Visit visit) {
-  const Eigen::Vector3<std::size_t> stride(1, size.x(), std::size_t(size.x()) * size.y());
-  // Lines after one another lie side by side: what one brings into the cache the next ones find there.
-  const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-  const std::size_t lines = std::size_t(size[u]) * size[v];
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines, 64), [&](const auto& range) {
-    Scratch scratch(size[axis]);
-    for (std::size_t line = range.begin(); line != range.end(); ++line)
-      visit(line % size[u] * stride[u] + line / size[u] * stride[v], stride[axis], scratch);
-  });
-}
-
 /// The lower envelope of the parabolas (x - i)^2 + height[i], in place.
-struct Envelope {
-  explicit Envelope(int length) : heights(length), sites(length), starts(length) {}
+class Envelope {
+ public:
+  explicit Envelope(int longest) : heights(longest), sites(longest), starts(longest) {}
 
-  void lower(std::int32_t* values, std::size_t stride) {
-    const int length = static_cast<int>(heights.size());
+  void lower(std::int32_t* values, std::size_t stride, int length) {
+    // What lies beyond a zero changes nothing on this side of it.
+    for (int first = 0, last = 1; last < length; first = last++) {
+      while (last + 1 < length && values[last * stride] != 0) ++last;
+      if (last > first + 1 || values[first * stride] != 0 || values[last * stride] != 0)
+        lower_between(values + first * stride, stride, last - first + 1);
+    }
+  }
+
+ private:
+  void lower_between(std::int32_t* values, std::size_t stride, int length) {
     for (int i = 0; i < length; ++i) heights[i] = values[i * stride];
     int last = -1;
     for (int i = 0; i < length; ++i) {
@@ -48,73 +41,126 @@ struct Envelope {
     }
     if (last < 0) return;  // nothing is near this line
     for (int x = length - 1; x >= 0; --x) {
-      values[x * stride] = static_cast<std::int32_t>(at(sites[last], x));
+      values[x * stride] = at(sites[last], x);
       if (x == starts[last]) --last;
     }
   }
-
- private:
-  std::int64_t at(int site, int x) const { return std::int64_t(x - site) * (x - site) + heights[site]; }
+  std::int32_t at(int site, int x) const { return (x - site) * (x - site) + heights[site]; }
   /// The last place where `left` is not above `right`.
   int overtakes(int left, int right) const {
-    const std::int64_t above = std::int64_t(right) * right - std::int64_t(left) * left + heights[right] - heights[left];
-    if (right - left == 1) return static_cast<int>(above >> 1);  // most often, and without a division
-    const std::int64_t twice = 2 * (right - left);
-    return static_cast<int>(above >= 0 ? above / twice : -((-above + twice - 1) / twice));
+    const std::int32_t above = right * right - left * left + heights[right] - heights[left];
+    if (right - left == 1) return above >> 1;  // most often, and without a division
+    const std::int32_t twice = 2 * (right - left);
+    return above >= 0 ? above / twice : -((-above + twice - 1) / twice);
   }
 
   std::vector<std::int32_t> heights;
   std::vector<int> sites, starts;
 };
 
-/// The squared distance to the nearest feature in the same row: going up to the one before, coming back to the one
-/// after.
-void square_along_row(std::span<const std::uint8_t> is_feature, std::int32_t* squared) {
-  constexpr std::int32_t far = 1 << 14;  // whose square is infinitely_far
-  static_assert(far * far == infinitely_far);
-  std::int32_t distance = far;
-  for (std::size_t x = 0; x < is_feature.size(); ++x)
-    squared[x] = distance = is_feature[x] ? 0 : std::min(distance + 1, far);
-  distance = far;
-  for (std::size_t x = is_feature.size(); x-- > 0;) {
-    distance = std::min(squared[x], std::min(distance + 1, far));
-    squared[x] = distance * distance;
-  }
+constexpr int width = 8;               // of a slab [voxels]
+constexpr std::int32_t far = 1 << 14;  // whose square is infinitely_far
+static_assert(far * far == infinitely_far);
+
+/// Those of a row that lie in a slab, the lowest bit first.
+std::uint8_t in_slab(std::span<const std::uint64_t> row, int slab) {
+  return static_cast<std::uint8_t>(row[std::size_t(slab) * width / 64] >> (slab * width % 64));
 }
+
+/// From a place in a row to the next set flag below it, or above, itself left out [voxels]; `far` if there is none.
+std::int32_t to_lower(std::span<const std::uint64_t> row, int x) {
+  std::size_t w = std::size_t(x) / 64;
+  std::uint64_t bits = row[w] & ((std::uint64_t{1} << (x % 64)) - 1);
+  while (bits == 0 && w > 0) bits = row[--w];
+  return bits == 0 ? far : x - (static_cast<int>(64 * w) + 63 - std::countl_zero(bits));
+}
+std::int32_t to_upper(std::span<const std::uint64_t> row, int x) {
+  std::size_t w = std::size_t(x + 1) / 64;
+  if (w >= row.size()) return far;
+  std::uint64_t bits = row[w] & ~std::uint64_t{0} << ((x + 1) % 64);
+  while (bits == 0 && ++w < row.size()) bits = row[w];
+  return bits == 0 ? far : static_cast<int>(64 * w) + std::countr_zero(bits) - x;
+}
+
+/// Distances in a part of the box, `width` voxels along x and all of it along y and z: so that they stay in the cache.
+class Slab {
+ public:
+  explicit Slab(const Eigen::Vector3i& size)
+      : size_(size),
+        squared_(std::size_t(width) * size.y() * size.z()),
+        of_row_(std::size_t(size.y())),
+        envelope_(std::max(size.y(), size.z())) {}
+
+  /// Those of `from` in the slab, where `distances` has them by their rank.
+  void measure(const BitRows& from, const BitRows& to, int slab, const std::vector<std::uint32_t>& counts,
+               std::vector<std::int32_t>& distances) {
+    const std::uint8_t wanted = look_for(from, slab);
+    if (wanted == 0) return;
+    each([&](int y, int z) { square_along_row(to.row(y, z), slab, &squared_[place(y, z)]); });
+    for (int x = 0; x < width; ++x) {
+      if (!(wanted >> x & 1)) continue;
+      for (int z = 0; z < size_.z(); ++z) envelope_.lower(&squared_[place(0, z) + x], width, size_.y());
+      for (int y = 0; y < size_.y(); ++y)
+        if (of_row_[y] >> x & 1) envelope_.lower(&squared_[place(y, 0) + x], place(0, 1), size_.z());
+    }
+    each([&](int y, int z) {
+      const std::uint8_t here = in_slab(from.row(y, z), slab);
+      if (here == 0) return;
+      std::size_t to_be_set = from.rank({slab * width, y, z}, counts);
+      for (unsigned bits = here; bits != 0; bits &= bits - 1)
+        distances[to_be_set++] = squared_[place(y, z) + std::size_t(std::countr_zero(bits))];
+    });
+  }
+
+ private:
+  std::size_t place(int y, int z) const { return (std::size_t(z) * size_.y() + y) * width; }
+  template <class Visit>
+  void each(Visit visit) const {
+    for (int z = 0; z < size_.z(); ++z)
+      for (int y = 0; y < size_.y(); ++y) visit(y, z);
+  }
+  /// At which x any distance is wanted; at each y it stands in of_row_.
+  std::uint8_t look_for(const BitRows& from, int slab) {
+    std::ranges::fill(of_row_, std::uint8_t{0});
+    std::uint8_t any = 0;
+    each([&](int y, int z) { any |= of_row_[y] |= in_slab(from.row(y, z), slab); });
+    return any;
+  }
+  /// The squared distance to the nearest flag in the same row: going up to the one before, coming back to the one
+  /// after.
+  static void square_along_row(std::span<const std::uint64_t> row, int slab, std::int32_t* squared) {
+    const unsigned flags = in_slab(row, slab);
+    if (flags == 0xff) {
+      std::fill_n(squared, width, 0);
+      return;
+    }
+    std::int32_t distance = to_lower(row, slab * width) - 1;
+    for (int x = 0; x < width; ++x) squared[x] = distance = flags >> x & 1 ? 0 : std::min(distance + 1, far);
+    distance = to_upper(row, slab * width + width - 1) - 1;
+    for (int x = width; x-- > 0;) {
+      distance = std::min(squared[x], std::min(distance + 1, far));
+      squared[x] = distance * distance;
+    }
+  }
+
+  Eigen::Vector3i size_;
+  std::vector<std::int32_t> squared_;
+  std::vector<std::uint8_t> of_row_;  ///< by y: at which x any distance is wanted
+  Envelope envelope_;
+};
 
 }  // namespace
 
-std::vector<std::int32_t> squared_distances(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size) {
-  require_as_many(is_feature.size(), size);
-  std::vector<std::int32_t> squared(is_feature.size());
-  if (squared.empty()) return squared;
-  const auto length = std::size_t(size.x());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squared.size() / length, 64), [&](const auto& rows) {
-    for (std::size_t row = rows.begin(); row != rows.end(); ++row)
-      square_along_row(is_feature.subspan(row * length, length), &squared[row * length]);
-  });
-  for (const int axis : {1, 2})
-    for_each_line<Envelope>(size, axis, [&](std::size_t first, std::size_t stride, Envelope& envelope) {
-      envelope.lower(&squared[first], stride);
-    });
-  return squared;
-}
-
-std::vector<std::uint8_t> neighbour_counts(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size) {
-  require_as_many(is_feature.size(), size);
-  std::vector<std::uint8_t> counts(is_feature.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = is_feature[i] != 0;
-  if (counts.empty()) return counts;
-  for (int axis = 0; axis < 3; ++axis)  // a box's sum is three sums along lines
-    for_each_line<std::vector<std::uint8_t>>(
-        size, axis, [&](std::size_t first, std::size_t stride, std::vector<std::uint8_t>& line) {
-          for (std::size_t i = 0; i < line.size(); ++i) line[i] = counts[first + i * stride];
-          for (std::size_t i = 0; i < line.size(); ++i)
-            counts[first + i * stride] = static_cast<std::uint8_t>(line[i] + (i > 0 ? line[i - 1] : 0) +
-                                                                   (i + 1 < line.size() ? line[i + 1] : 0));
-        });
-  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] -= is_feature[i] != 0;
-  return counts;
+std::vector<std::int32_t> squared_distances(const BitRows& from, const BitRows& to) {
+  const Eigen::Vector3i& size = from.size();
+  if (size != to.size()) throw std::invalid_argument("distance transform: boxes of different sizes");
+  const std::vector<std::uint32_t> counts = from.counts_before();
+  std::vector<std::int32_t> distances(counts.back());
+  if (distances.empty()) return distances;
+  tbb::enumerable_thread_specific<Slab> slabs([&] { return Slab(size); });
+  tbb::parallel_for(0, (size.x() + width - 1) / width,
+                    [&](int slab) { slabs.local().measure(from, to, slab, counts, distances); });
+  return distances;
 }
 
 }  // namespace nextview

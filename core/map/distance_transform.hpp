@@ -1,21 +1,17 @@
 #pragma once
-#include <Eigen/Core>
 #include <cstdint>
-#include <span>
 #include <vector>
+
+#include "core/map/bit_rows.hpp"
 
 namespace nextview {
 
-/// Of no feature voxel in the whole grid.
+/// Where there is nothing to be far from.
 inline constexpr std::int32_t infinitely_far = 1 << 28;
 
-/// The squared distance from each voxel's centre to the nearest feature's [voxels^2], exactly (Meijster et al. 2000).
-/// `is_feature`: one a voxel, x fastest. The same on any number of threads.
-/// @throws std::invalid_argument if it is not as long as `size` says.
-std::vector<std::int32_t> squared_distances(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size);
-
-/// How many of the 26 neighbours of each voxel are features; beyond the grid there are none.
-/// @throws std::invalid_argument as above.
-std::vector<std::uint8_t> neighbour_counts(std::span<const std::uint8_t> is_feature, const Eigen::Vector3i& size);
+/// The squared distance from the centre of each voxel of `from` to that of the nearest of `to` [voxels^2], exactly
+/// (Meijster et al. 2000), in their order, x fastest. The same on any number of threads.
+/// @throws std::invalid_argument if they are not of the same size.
+std::vector<std::int32_t> squared_distances(const BitRows& from, const BitRows& to);
 
 }  // namespace nextview

@@ -70,7 +70,7 @@ class CandidateRays {
                         !covered_->observed()[point_of_[number]];
     walk_ray_segments(grid, views_[view].translation(), direction(view, ray), length(),
                       [&](int x, int y, int z, double enter, double exit) {
-                        const std::size_t voxel = grid.index({x, y, z});
+                        const Eigen::Vector3i voxel(x, y, z);
                         if (!evidence.may_hold_surface(voxel)) return enter <= range;
                         // An occupied voxel ends the planner's ray, though the surface may lie right behind it.
                         const bool ends = evidence.kind(voxel) == Kind::occupied;

@@ -91,22 +91,20 @@ LookDirections::Open LookDirections::from(const Vector3& place) const {
 std::vector<Vector3> frontier_places(const NewSurfaceField& field, const SurfaceEvidence& evidence, std::size_t count,
                                      double shift) {
   const VoxelGrid& grid = field.grid();
-  const std::size_t row = grid.size.x(), layer = row * grid.size.y();
-  const auto is_free = [&](std::size_t voxel) { return evidence.kind(voxel) == SurfaceEvidence::Kind::free; };
+  const auto is_free = [&](int x, int y, int z) { return evidence.kind({x, y, z}) == SurfaceEvidence::Kind::free; };
   std::vector<std::uint32_t> frontier;
   std::vector<double> until;  // sum of chances
   double all = 0.0;
   for (int z = 1; z + 1 < grid.size.z(); ++z)
     for (int y = 1; y + 1 < grid.size.y(); ++y)
-      for (int x = 1; x + 1 < grid.size.x(); ++x) {
-        const std::size_t i = z * layer + y * row + x;
-        if (field.at(i) == 0.0f || is_free(i)) continue;
-        if (!is_free(i - 1) && !is_free(i + 1) && !is_free(i - row) && !is_free(i + row) && !is_free(i - layer) &&
-            !is_free(i + layer))
-          continue;
-        frontier.push_back(static_cast<std::uint32_t>(i));
-        until.push_back(all += std::abs(field.at(i)));
-      }
+      evidence.all_that_may_hold_surface().for_each_in_row(y, z, [&](int x) {
+        if (x == 0 || x + 1 == grid.size.x() || field.at(x, y, z) == 0.0f || is_free(x, y, z)) return;
+        if (!is_free(x - 1, y, z) && !is_free(x + 1, y, z) && !is_free(x, y - 1, z) && !is_free(x, y + 1, z) &&
+            !is_free(x, y, z - 1) && !is_free(x, y, z + 1))
+          return;
+        frontier.push_back(grid.index({x, y, z}));
+        until.push_back(all += std::abs(field.at(x, y, z)));
+      });
   std::vector<Vector3> places;
   for (std::size_t k = 0; k < count && !frontier.empty(); ++k) {
     const double at = all * (double(k) + shift) / double(count);

@@ -2,9 +2,11 @@
 // against the same composed of OctoMap's own calls and what else there is. What is compared takes turns in one run, and
 // the least of the rounds counts: ratios then say something on a machine that does other things too.
 //   build/release/planning_step_benchmark [ROUNDS]           3 of them
+//   build/release/planning_step_benchmark --avx2 [ROUNDS]    as on a processor without AVX-512
 //   build/release/planning_step_benchmark --growth [ROUNDS]  how the stages grow with voxels, pixels, candidates, views
 //   build/release/planning_step_benchmark --product          one round without peers: whether it runs
 #include <fmt/format.h>
+#include <hwy/targets.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -116,9 +118,10 @@ int run(int rounds, bool with_peers) {
 int main(int argc, char** argv) {
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == "--product") return nextview::run(1, false);
-  const bool growth = first == "--growth";
-  const char* const count = growth ? (argc > 2 ? argv[2] : "3") : (argc > 1 ? argv[1] : "3");
-  const int rounds = std::max(1, std::atoi(count));
+  const bool growth = first == "--growth", avx2 = first == "--avx2";
+  const int count_at = growth || avx2 ? 2 : 1;
+  const int rounds = std::max(1, std::atoi(argc > count_at ? argv[count_at] : "3"));
+  if (avx2) hwy::DisableTargets(HWY_AVX2 - 1);  // the better an instruction set, the lower its bit
   if (!growth) return nextview::run(rounds, true);
   nextview::print_growth(rounds);
   return EXIT_SUCCESS;

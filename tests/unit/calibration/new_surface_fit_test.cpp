@@ -52,7 +52,7 @@ std::vector<SurfaceEvidence> made_up_maps() {
 
 struct Observation {
   const SurfaceEvidence* evidence;
-  std::size_t voxel;
+  Eigen::Vector3i voxel;
   double weight;
   bool found;
 };
@@ -61,11 +61,11 @@ struct Observation {
 std::vector<Observation> drawn(const std::vector<SurfaceEvidence>& maps, const NewSurfaceModel& model, int draws) {
   std::vector<Observation> all;
   for (std::size_t m = 0; m < maps.size(); ++m)
-    for (std::size_t v = 0; v < maps[m].grid().voxel_count(); ++v) {
+    for (const Eigen::Vector3i& v : evidence_maps::cells(maps[m])) {
       if (!maps[m].may_hold_surface(v)) continue;
       const double chance = std::abs(model.chance(maps[m], v));
       for (int draw = 0; draw < draws; ++draw) {
-        const auto number = CounterRandom(7, std::uint32_t(m), std::uint32_t(draw)).uniform(v);
+        const auto number = CounterRandom(7, std::uint32_t(m), std::uint32_t(draw)).uniform(maps[m].grid().index(v));
         all.push_back({&maps[m], v, 0.5 + number[1], number[0] < chance});
       }
     }
@@ -76,7 +76,7 @@ NewSurfaceObservations added(std::span<const Observation> all, double unit = 1.0
   NewSurfaceObservations observations;
   for (const Observation& one : all) {
     observations.add(*one.evidence, one.voxel, unit * one.weight, one.found);
-    if (one.found) observations.add_slant(unit * one.weight, one.voxel % 2 ? 1.5 : 1.7);
+    if (one.found) observations.add_slant(unit * one.weight, one.voxel.x() % 2 ? 1.5 : 1.7);
   }
   return observations;
 }
@@ -99,7 +99,7 @@ TEST(NewSurfaceFit, GivesTheChancesBackThatWerePlanted) {
   const NewSurfaceModel model = planted(), fitted = added(drawn(maps, model, 12)).fit();
   std::array<double, 3> count{}, error{}, sum{}, fitted_sum{};
   for (const SurfaceEvidence& evidence : maps)
-    for (std::size_t v = 0; v < evidence.grid().voxel_count(); ++v) {
+    for (const Eigen::Vector3i& v : evidence_maps::cells(evidence)) {
       if (!evidence.may_hold_surface(v)) continue;
       const double chance = std::abs(model.chance(evidence, v)), again = std::abs(fitted.chance(evidence, v));
       const auto kind = std::size_t(evidence.kind(v));
@@ -167,7 +167,7 @@ TEST(NewSurfaceFit, NoWeightIsNoObservation) {
   const auto all = drawn(maps, planted(), 1);
   NewSurfaceObservations observations;
   for (const bool found : {false, true})
-    for (std::size_t v = 0; v < maps[0].grid().voxel_count(); ++v)
+    for (const Eigen::Vector3i& v : evidence_maps::cells(maps[0]))
       if (maps[0].may_hold_surface(v)) observations.add(maps[0], v, 0.0, found);
   EXPECT_THROW(observations.fit(), std::invalid_argument);
   observations.add(added(std::span(all).last(all.size() / 2)));  // of another map: other cells
@@ -197,7 +197,7 @@ TEST(NewSurfaceFit, CertaintiesStayFinite) {
   for (Observation& one : all) one.found = !std::exchange(found[std::size_t(one.evidence->kind(one.voxel))], true);
   const NewSurfaceModel rare = added(all).fit();
   for (const double c : coefficients(rare)) EXPECT_TRUE(std::isfinite(c));
-  for (std::size_t v = 0; v < maps[0].grid().voxel_count(); ++v)
+  for (const Eigen::Vector3i& v : evidence_maps::cells(maps[0]))
     EXPECT_LT(std::abs(rare.chance(maps[0], v)), 0.2f) << "of thousands one was found";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <random>
+#include <vector>
 
 #include "core/gain/surface_evidence.hpp"
 #include "core/map/occupancy_map.hpp"
@@ -42,9 +43,16 @@ inline MadeMap random_map(std::mt19937& random, const Vector3i& size, double occ
   return made;
 }
 
-/// The number that a voxel of the whole map has in the part of it that the evidence looks at.
-inline std::size_t in_evidence(const SurfaceEvidence& evidence, const VoxelGrid& whole, const Vector3i& cell) {
-  return evidence.grid().index(cell + whole.first - evidence.grid().first);
+/// Where a voxel of the whole map lies in the part of it that the evidence looks at.
+inline Vector3i in_evidence(const SurfaceEvidence& evidence, const VoxelGrid& whole, const Vector3i& cell) {
+  return cell + whole.first - evidence.grid().first;
+}
+
+/// The voxels that the evidence looks at, x fastest.
+inline std::vector<Vector3i> cells(const SurfaceEvidence& evidence) {
+  std::vector<Vector3i> all;
+  for (std::uint32_t v = 0; v < evidence.grid().voxel_count(); ++v) all.push_back(evidence.grid().cell(v));
+  return all;
 }
 
 }  // namespace nextview::evidence_maps

@@ -68,19 +68,19 @@ TEST(NewSurfaceModel, ChancesAreThoseOfItsComments) {
   NewSurfaceModel model = NewSurfaceModel::fitted();
   model.unmeasured[0] = 1.0;  // so that neither 0 nor 1 is all there is
   std::size_t kinds[3] = {};
-  for (std::size_t v = 0; v < evidence.grid().voxel_count(); ++v) {
-    const double chance = model.chance(evidence, v);
-    ++kinds[std::size_t(evidence.kind(v))];
-    if (!evidence.may_hold_surface(v)) {
+  for (const Eigen::Vector3i& cell : evidence_maps::cells(evidence)) {
+    const double chance = model.chance(evidence, cell);
+    ++kinds[std::size_t(evidence.kind(cell))];
+    if (!evidence.may_hold_surface(cell)) {
       EXPECT_EQ(chance, 0.0);
-    } else if (evidence.kind(v) == Kind::unmeasured) {
+    } else if (evidence.kind(cell) == Kind::unmeasured) {
       // A rate per object size, along one voxel's edge.
-      const double rate = std::exp(score(model.unmeasured, evidence.unmeasured(v))) / evidence.size();
+      const double rate = std::exp(score(model.unmeasured, evidence.unmeasured(cell))) / evidence.size();
       EXPECT_NEAR(chance, 1.0 - std::exp(-rate), 1e-6);
-    } else if (evidence.kind(v) == Kind::free) {
-      EXPECT_NEAR(chance, logistic(score(model.free, evidence.measured(v))), 1e-6);
+    } else if (evidence.kind(cell) == Kind::free) {
+      EXPECT_NEAR(chance, logistic(score(model.free, evidence.measured(cell))), 1e-6);
     } else {
-      EXPECT_NEAR(chance, -logistic(score(model.occupied, evidence.measured(v))), 1e-6);
+      EXPECT_NEAR(chance, -logistic(score(model.occupied, evidence.measured(cell))), 1e-6);
     }
   }
   for (const std::size_t count : kinds) EXPECT_GT(count, 100u);
@@ -93,10 +93,10 @@ TEST(NewSurfaceModel, HoweverLargeTheCoefficientsAChanceIsOne) {
   for (const double large : {1000.0, -1000.0}) {
     NewSurfaceModel model;
     model.unmeasured.fill(large), model.free.fill(large), model.occupied.fill(large);
-    for (std::size_t v = 0; v < evidence.grid().voxel_count(); ++v) {
-      const float chance = model.chance(evidence, v);
+    for (const Eigen::Vector3i& cell : evidence_maps::cells(evidence)) {
+      const float chance = model.chance(evidence, cell);
       ASSERT_TRUE(chance >= -1.0f && chance <= 1.0f) << chance;
-      if (evidence.kind(v) == Kind::occupied)
+      if (evidence.kind(cell) == Kind::occupied)
         EXPECT_LT(chance, 0.0f) << "nothing goes through";
       else
         EXPECT_GE(chance, 0.0f);

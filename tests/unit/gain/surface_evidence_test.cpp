@@ -51,12 +51,12 @@ TEST(SurfaceEvidence, KindsAreThoseOfTheMap) {
   const VoxelGrid& whole = made.map.grid();
   for (const double threshold : {0.5, 0.7}) {
     const SurfaceEvidence evidence = made.evidence(threshold);
-    for (std::size_t v = 0; v < evidence.grid().voxel_count(); ++v) {
-      const Vector3i cell = evidence.grid().cell(std::uint32_t(v)) + evidence.grid().first - whole.first;
+    for (const Vector3i& looked_at : evidence_maps::cells(evidence)) {
+      const Vector3i cell = looked_at + evidence.grid().first - whole.first;
       const Voxel& voxel = made.map.voxels().at(cell.x(), cell.y(), cell.z());
-      ASSERT_EQ(evidence.kind(v), !voxel.measured                  ? Kind::unmeasured
-                                  : voxel.probability >= threshold ? Kind::occupied
-                                                                   : Kind::free);
+      ASSERT_EQ(evidence.kind(looked_at), !voxel.measured                  ? Kind::unmeasured
+                                          : voxel.probability >= threshold ? Kind::occupied
+                                                                           : Kind::free);
     }
     EXPECT_EQ(evidence.kind(in_evidence(evidence, whole, {10, 12, 12})), threshold < 0.6 ? Kind::occupied : Kind::free);
   }
@@ -105,17 +105,17 @@ TEST(SurfaceEvidence, InsideTheHullIsNegative) {
 TEST(SurfaceEvidence, MeasuredVoxelsByHand) {
   const MadeMap made = plate();
   const SurfaceEvidence evidence = made.evidence();
-  const auto number = [&](const Vector3i& cell) { return in_evidence(evidence, made.map.grid(), cell); };
+  const auto inside = [&](const Vector3i& cell) { return in_evidence(evidence, made.map.grid(), cell); };
   // In the plate: 8 beside it, 9 free in front, 9 unmeasured behind.
-  expect_near(evidence.measured(number({10, 12, 12})), {1, 1.25, std::log(10.0), 1, 8});
+  expect_near(evidence.measured(inside({10, 12, 12})), {1, 1.25, std::log(10.0), 1, 8});
   // Its edge y = 17: 5 beside it, 9 free, the rest unmeasured.
-  expect_near(evidence.measured(number({10, 17, 12})), {1, 1.25, std::log(13.0), 1, 5});
-  expect_near(evidence.measured(number({9, 12, 12})), {1, -1.5, 0, 1, 9});
-  expect_near(evidence.measured(number({9, 18, 12})), {1, -1.5, std::log(7.0), 1, 3});
-  expect_near(evidence.measured(number({8, 12, 12})), {1, -1.5, 0, 0, 0});
-  EXPECT_FALSE(evidence.may_hold_surface(number({8, 12, 12})));
+  expect_near(evidence.measured(inside({10, 17, 12})), {1, 1.25, std::log(13.0), 1, 5});
+  expect_near(evidence.measured(inside({9, 12, 12})), {1, -1.5, 0, 1, 9});
+  expect_near(evidence.measured(inside({9, 18, 12})), {1, -1.5, std::log(7.0), 1, 3});
+  expect_near(evidence.measured(inside({8, 12, 12})), {1, -1.5, 0, 0, 0});
+  EXPECT_FALSE(evidence.may_hold_surface(inside({8, 12, 12})));
   for (const Vector3i& cell : {Vector3i(9, 12, 12), Vector3i(10, 12, 12), Vector3i(11, 12, 12), Vector3i(9, 19, 12)})
-    EXPECT_TRUE(evidence.may_hold_surface(number(cell))) << cell.transpose();
+    EXPECT_TRUE(evidence.may_hold_surface(inside(cell))) << cell.transpose();
 }
 
 TEST(SurfaceEvidence, AgreesWithComparingAllVoxels) {
@@ -129,16 +129,16 @@ TEST(SurfaceEvidence, AgreesWithComparingAllVoxels) {
     ASSERT_NEAR(evidence.size(), twin.size, 1e-12);
     for (std::uint32_t v = 0; v < twin.grid.voxel_count(); ++v) {
       const Vector3i cell = twin.grid.cell(v);
-      ASSERT_EQ(evidence.kind(v), twin.kind(cell));
+      ASSERT_EQ(evidence.kind(cell), twin.kind(cell));
       const int unknown = twin.around(cell, Kind::unmeasured), occupied = twin.around(cell, Kind::occupied);
-      EXPECT_EQ(evidence.may_hold_surface(v), twin.kind(cell) != Kind::free || unknown + occupied > 0);
+      EXPECT_EQ(evidence.may_hold_surface(cell), twin.kind(cell) != Kind::free || unknown + occupied > 0);
       if (twin.kind(cell) == Kind::unmeasured) {
         const double free = twin.ln_distance(cell, Kind::free), outside = twin.outside(cell) / twin.size;
-        expect_near(evidence.unmeasured(v),
+        expect_near(evidence.unmeasured(cell),
                     {1, twin.ln_distance(cell, Kind::occupied), free, free * free, 1, 0,
                      std::sqrt(std::max(outside, 0.0)), std::max(outside, 0.0), std::min(outside, 0.0)});
       } else {
-        expect_near(evidence.measured(v),
+        expect_near(evidence.measured(cell),
                     {1, made.map.log_odds(v), std::log(1.0 + unknown), occupied > 0 ? 1.0 : 0.0, double(occupied)});
       }
     }
@@ -150,14 +150,13 @@ void expect_alike(const SurfaceEvidence& a, const VoxelGrid& whole_a, const Surf
                   const VoxelGrid& whole_b, const std::function<Vector3i(const Vector3i&)>& image) {
   ASSERT_EQ(a.grid().voxel_count(), b.grid().voxel_count());
   EXPECT_EQ(a.size(), b.size());
-  for (std::size_t v = 0; v < a.grid().voxel_count(); ++v) {
-    const Vector3i cell = a.grid().cell(std::uint32_t(v)) + a.grid().first - whole_a.first;
-    const std::size_t w = in_evidence(b, whole_b, image(cell));
-    ASSERT_EQ(a.kind(v), b.kind(w));
-    if (a.kind(v) == Kind::unmeasured)
-      ASSERT_EQ(a.unmeasured(v), b.unmeasured(w)) << cell.transpose();
+  for (const Vector3i& of_a : evidence_maps::cells(a)) {
+    const Vector3i of_b = in_evidence(b, whole_b, image(of_a + a.grid().first - whole_a.first));
+    ASSERT_EQ(a.kind(of_a), b.kind(of_b));
+    if (a.kind(of_a) == Kind::unmeasured)
+      ASSERT_EQ(a.unmeasured(of_a), b.unmeasured(of_b)) << of_a.transpose();
     else
-      ASSERT_EQ(a.measured(v), b.measured(w)) << cell.transpose();
+      ASSERT_EQ(a.measured(of_a), b.measured(of_b)) << of_a.transpose();
   }
 }
 

@@ -82,12 +82,11 @@ TEST(FrontierPlaces, AreBesideFreeVoxelsAndAsManyAsAskedFor) {
     ASSERT_EQ(places.size(), count);
     for (const Vector3& place : places) {
       const Vector3i cell = grid.cell_at(place);
-      EXPECT_NE(evidence.kind(grid.index(cell)), SurfaceEvidence::Kind::free);
+      EXPECT_NE(evidence.kind(cell), SurfaceEvidence::Kind::free);
       EXPECT_GT(std::abs(field_of.at(grid.index(cell))), 0.0f);
       int free_around = 0;
       for (const Vector3i& step : {Vector3i(1, 0, 0), Vector3i(0, 1, 0), Vector3i(0, 0, 1)})
-        for (const int sign : {-1, 1})
-          free_around += evidence.kind(grid.index(cell + sign * step)) == SurfaceEvidence::Kind::free;
+        for (const int sign : {-1, 1}) free_around += evidence.kind(cell + sign * step) == SurfaceEvidence::Kind::free;
       EXPECT_GT(free_around, 0);
     }
   }
