@@ -48,7 +48,7 @@ fs::path resolve_object(const std::string& name) {
   if (name == "gearbox") return default_object();
   if (name == "bunny") return "/usr/share/glmark2/models/bunny.obj";
   for (const char* ending : {"", ".ply"}) {
-    const fs::path file = assets_folder() / "objects" / (name + ending);
+    fs::path file = assets_folder() / "objects" / (name + ending);
     if (fs::is_regular_file(file)) return file;
   }
   if (is_folder) return name;  // which its reader refuses; those of known names are no hindrance

@@ -83,6 +83,7 @@ StartedProcess start_process(const std::vector<std::string>& words) {
   give_streams(orders, input, output, errors);
   give_usual_signals(orders);
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   StartedProcess started;

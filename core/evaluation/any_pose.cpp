@@ -28,7 +28,7 @@ class Poses {
     const CounterRandom random(seed, random_stream::any_pose, static_cast<std::uint32_t>(number));
     for (const bool is_front : {true, false})
       for (const Eigen::Vector3f& direction : open_directions(sample, is_front, random))
-        if (const auto pose = in_direction(sample, direction, random.uniform(0)[1])) return pose;
+        if (auto pose = in_direction(sample, direction, random.uniform(0)[1])) return pose;
     return std::nullopt;
   }
 

@@ -37,10 +37,25 @@ double measured_count(const VoxelBricks& voxels) {
   });
 }
 
+/// Entropies of a brick's voxels, asked for one after the other: many are as the one before.
+class Entropies {
+ public:
+  explicit Entropies(const Brick& brick) : brick_(brick) {}
+  double operator()(std::size_t i) {
+    if (!brick_.follows_from_log_odds()) return brick_.entropy(i);
+    if (const float log_odds = brick_.log_odds(i); log_odds != last_) last_ = log_odds, entropy_ = brick_.entropy(i);
+    return entropy_;
+  }
+
+ private:
+  const Brick& brick_;
+  float last_ = 0.0f, entropy_ = Voxel().entropy;
+};
+
 double entropy_change(const Brick& before, const Brick& after) {
+  Entropies was(before), is(after);
   double change = 0.0;
-  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i)
-    change += double(before.entropy(i)) - double(after.entropy(i));
+  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += was(i) - is(i);
   return change;
 }
 
@@ -57,8 +72,9 @@ double total_entropy(const VoxelBricks& voxels) {
     if (voxels.is_untouched(b)) return 0.0;
     const Brick& brick = *voxels.bricks()[b];
     return memory.of(brick, [&] {
+      Entropies is(brick);
       double change = 0.0;
-      for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += most - double(brick.entropy(i));
+      for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += most - is(i);
       return change;
     });
   });

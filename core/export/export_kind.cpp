@@ -48,6 +48,7 @@ const ExportEntry& export_entry(std::string_view name) {
   const auto found = std::ranges::find(entries, name, &ExportEntry::name);
   if (found != entries.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const ExportEntry& entry : entries) names.emplace_back(entry.name);
   throw std::invalid_argument(fmt::format("there is no '{}' to export, but {}; did you mean '{}'?", name,
                                           fmt::join(names, ", "), nearest(std::string(name), names)));

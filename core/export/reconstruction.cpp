@@ -112,8 +112,8 @@ std::string closedness(const Surface& surface, std::span<const BoundaryLoop> ope
 
 std::string summary(const ScanSurface& s) {
   if (s.surface.empty()) return fmt::format("none of {}: {}", s.source, s.surface.why_empty);
-  const std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
-                                       closedness(s.surface, s.openings));
+  std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
+                                 closedness(s.surface, s.openings));
   if (!s.surface_error) return text;
   return text + fmt::format("; 95 % of what was seen within {:.2f} mm of the true surface",
                             1e3 * s.surface_error->percentile_95);

@@ -22,6 +22,7 @@ constexpr std::size_t max_bytes = std::size_t{8} << 30;
 constexpr std::size_t incidence_bytes = sizeof(RayLists::Incidence) + sizeof(RayLists::NearEntry);
 
 std::uint32_t chord_code(double chord) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): none is negative, and lround() takes longer
   return std::min(static_cast<std::uint32_t>(chord * ((RayLists::chord_codes - 1) / longest_chord) + 0.5),
                   RayLists::chord_codes - 1);
 }

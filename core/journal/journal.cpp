@@ -80,9 +80,9 @@ Journal read_journal(const fs::path& folder) {
 Capture read_capture(const JournalStep& step, const fs::path& folder) {
   const fs::path file = folder / scans_name / step.scan;
   std::error_code error;
-  if (const auto type = fs::status(file, error).type(); type == fs::file_type::not_found)
-    throw CaptureLost(fmt::format("{}: is gone", file.string()));
-  else if (type != fs::file_type::regular && type != fs::file_type::none)
+  const fs::file_type type = fs::status(file, error).type();
+  if (type == fs::file_type::not_found) throw CaptureLost(fmt::format("{}: is gone", file.string()));
+  if (type != fs::file_type::regular && type != fs::file_type::none)
     throw CaptureLost(fmt::format("{}: is no regular file", file.string()));
   if (!(file_hash(file) == step.hash))
     throw CaptureLost(fmt::format("{}: is not what was captured: it is damaged, or was changed", file.string()));

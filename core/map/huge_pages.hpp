@@ -1,11 +1,24 @@
 #pragma once
 #include <sys/mman.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <new>
 #include <utility>
 
 namespace nextview {
+
+inline constexpr std::size_t huge_page = std::size_t{2} << 20;  // [bytes]
+
+/// Asks for huge pages where memory was given; a wish: without it everything works as well, slower. Not for an array of
+/// a few huge pages: to be given that, all zero, step after step takes longer than is gained by it.
+inline void ask_for_huge_pages(void* memory, std::size_t bytes) {
+  if (bytes < 8 * huge_page) return;
+  constexpr std::uintptr_t page = 4096;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory), inside = (begin + page - 1) / page * page;
+  madvise(reinterpret_cast<void*>(inside), bytes - (inside - begin), MADV_HUGEPAGE);
+}
 
 /// An allocator that asks for huge pages: rays jump through a map of many megabytes, and with small pages most of their
 /// time goes into looking up addresses. Elements that are given no value have none: who makes an array fills it.
@@ -18,13 +31,13 @@ struct HugePages {
   HugePages(const HugePages<U>&) {}
 
   T* allocate(std::size_t count) {
-    constexpr std::size_t cache_line = 64, page = std::size_t{2} << 20;
-    // To be given an array of a few huge pages, all zero, step after step takes longer than rays gain by it.
-    const bool is_huge = count * sizeof(T) >= 8 * page;
-    const std::size_t unit = is_huge ? page : cache_line, bytes = (count * sizeof(T) + unit - 1) / unit * unit;
+    constexpr std::size_t cache_line = 64;
+    if (count > std::numeric_limits<std::ptrdiff_t>::max() / 2 / sizeof(T)) throw std::bad_alloc();
+    const std::size_t unit = count * sizeof(T) >= huge_page ? huge_page : cache_line;
+    const std::size_t bytes = (count * sizeof(T) + unit - 1) / unit * unit;
     void* memory = std::aligned_alloc(unit, bytes);
     if (!memory) throw std::bad_alloc();
-    if (is_huge) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without it everything works as well, slower
+    ask_for_huge_pages(memory, bytes);
     return static_cast<T*>(memory);
   }
   template <class U>

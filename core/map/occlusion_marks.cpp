@@ -9,6 +9,7 @@
 #include <limits>
 #include <new>
 
+#include "core/map/huge_pages.hpp"
 #include "core/map/return_batch.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -140,6 +141,7 @@ OcclusionMarks::OcclusionMarks(const VoxelGrid& grid)
     : grid_(grid),
       numbers_(static_cast<std::uint16_t*>(std::calloc(places_with_margin(grid), sizeof(std::uint16_t))), &std::free) {
   if (!numbers_) throw std::bad_alloc();
+  ask_for_huge_pages(numbers_.get(), places_with_margin(grid) * sizeof(std::uint16_t));
 }
 
 void OcclusionMarks::mark(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> returns, double max_range,

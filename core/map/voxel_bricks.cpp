@@ -63,9 +63,10 @@ std::size_t VoxelBricks::Brick::measured_count() const {
 }
 
 bool VoxelBricks::Brick::is_uniform() const {
-  // Each is as the one after it.
-  return told_.empty() && std::memcmp(&states_[0], &states_[1], brick_voxels - 1) == 0 &&
-         std::memcmp(&numbers_[0], &numbers_[1], (brick_voxels - 1) * sizeof(float)) == 0;
+  // Each is as the one after it, to the bit.
+  if (!told_.empty() || std::memcmp(&states_[0], &states_[1], brick_voxels - 1) != 0) return false;
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+  return std::memcmp(&numbers_[0], &numbers_[1], (brick_voxels - 1) * sizeof(float)) == 0;
 }
 
 bool VoxelBricks::Brick::holds_nothing() const {
@@ -121,6 +122,13 @@ void VoxelBricks::Iterator::next_row() {
     x_ = 0;
     if (++y_ == bricks_->size_.y()) y_ = 0, ++z_;
   }
+  if (number_ < bricks_->size()) find();
+}
+
+/// To where x_ would be if the row went on.
+void VoxelBricks::Iterator::jump() {
+  for (const int length = bricks_->size_.x(); x_ >= length; x_ -= length)
+    if (++y_ == bricks_->size_.y()) y_ = 0, ++z_;
   if (number_ < bricks_->size()) find();
 }
 

@@ -140,11 +140,9 @@ class VoxelBricks {
     bool operator==(const Iterator& other) const { return number_ == other.number_; }
     /// So many on.
     Iterator& operator+=(std::size_t count) {
-      while (count > 0) {
-        const std::size_t here = std::min(count, left_in_row());
-        number_ += here, in_brick_ += here, x_ += static_cast<int>(here), count -= here;
-        if ((x_ & (edge - 1)) == 0 || x_ == bricks_->size_.x()) next_row();
-      }
+      const bool stays = count < left_in_row();
+      number_ += count, in_brick_ += count, x_ += static_cast<int>(count);
+      if (!stays) jump();
       return *this;
     }
     /// Of how many voxels from this one on, `most` at most, it is known at a look that they are as this one.
@@ -161,6 +159,7 @@ class VoxelBricks {
    private:
     std::size_t left_in_row() const { return std::size_t(std::min(edge - (x_ & (edge - 1)), bricks_->size_.x() - x_)); }
     void next_row();
+    void jump();
     void find();
     const VoxelBricks* bricks_ = nullptr;
     const Brick* brick_ = nullptr;

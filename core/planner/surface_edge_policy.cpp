@@ -28,6 +28,7 @@ std::vector<Edge> edges_of(const Knowledge& known) {
     ++edge.points;
   }
   std::vector<Edge> all;
+  all.reserve(edges.size());
   for (auto& [voxel, edge] : edges) all.push_back({edge.middle / edge.points, edge.points});
   return all;
 }

@@ -38,7 +38,7 @@ PngHeader parse_png_header(std::string_view data) {
   if (data.size() != 13) throw std::runtime_error("is a damaged PNG: its header has a wrong length");
   const std::int64_t width = big_endian(data), height = big_endian(data.substr(4));
   require_image_size(width, height);
-  const int bits = data[8], kind = static_cast<unsigned char>(data[9]);
+  const int bits = static_cast<unsigned char>(data[8]), kind = static_cast<unsigned char>(data[9]);
   constexpr std::array<int, 7> channels_of_kind = {1, 0, 3, 1, 2, 0, 4};
   const int channels = kind < 7 ? channels_of_kind[static_cast<std::size_t>(kind)] : 0;
   const bool small_bits = (bits == 1 || bits == 2 || bits == 4) && channels == 1;
@@ -110,7 +110,7 @@ void undo_filters(std::string& pixels, const PngHeader& header) {
   const char* above = zeros.data();
   for (std::size_t y = 0; y < static_cast<std::size_t>(header.height); ++y) {
     char* row = pixels.data() + y * (row_bytes + 1);
-    const int filter = *row++;
+    const auto filter = static_cast<unsigned char>(*row++);
     for (std::size_t i = 0; i < row_bytes; ++i) {
       const auto byte = [&](const char* from, bool there) { return there ? static_cast<unsigned char>(*from) : 0; };
       const int left = byte(row + i - (i >= step ? step : 0), i >= step), up = byte(above + i, true);
@@ -131,7 +131,7 @@ ImageValues decode_png(std::string_view bytes) {
   std::string pixels = inflate(data, (row_bytes + 1) * static_cast<std::size_t>(header.height));
   undo_filters(pixels, header);
   ImageValues image{header.width, header.height, header.channels, header.bits, {}, {}};
-  const std::size_t in_a_row = static_cast<std::size_t>(header.width * header.channels);
+  const std::size_t in_a_row = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.channels);
   image.whole.reserve(in_a_row * static_cast<std::size_t>(header.height));
   const auto bits = static_cast<std::size_t>(header.bits);
   for (std::size_t y = 0; y < static_cast<std::size_t>(header.height); ++y) {

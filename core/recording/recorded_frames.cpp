@@ -116,7 +116,7 @@ void list_graph(const DescribedDataset& dataset, Recording& recording) {
 }
 
 /// The scans of a scene, which is read as a whole.
-void list_scans(std::shared_ptr<const RecordedScene> scene, const std::vector<std::string>& names,
+void list_scans(const std::shared_ptr<const RecordedScene>& scene, const std::vector<std::string>& names,
                 Recording& recording) {
   for (std::size_t i = 0; i < scene->scans.size(); ++i)
     recording.frames.push_back({i < names.size() ? names[i] : fmt::format("scan {}", i + 1),

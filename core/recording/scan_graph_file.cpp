@@ -65,7 +65,7 @@ class FileParts {
   /// Doubles behind their number, which must be `count`.
   Eigen::VectorXd vector(std::uint32_t count) {
     if (whole() != count) throw failure(file_, "is no scan graph of OctoMap, or damaged");
-    const std::string bytes = read(8 * count);
+    const std::string bytes = read(std::uint64_t{8} * count);
     Eigen::VectorXd values(count);
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;

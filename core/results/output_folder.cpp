@@ -114,7 +114,7 @@ fs::path free_folder(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(base, ignored))) return base;
   for (int number = 2;; ++number) {
-    const fs::path candidate = base.string() + fmt::format("-{}", number);
+    fs::path candidate = base.string() + fmt::format("-{}", number);
     if (!fs::exists(fs::symlink_status(candidate, ignored))) return candidate;
   }
 }

@@ -23,7 +23,7 @@ std::filesystem::path new_captures_folder() {
 }
 
 std::string text(const Eigen::AlignedBox3d& box) {
-  const Vector3 low = box.min(), high = box.max();
+  const Vector3 &low = box.min(), &high = box.max();
   return fmt::format("{} {} {} {} {} {}", low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
 }
 
@@ -157,7 +157,7 @@ void require_goes_on(const DriverConnection& connection, const Configuration& no
     throw std::invalid_argument("map.region: a scanner needs one; connect it again, and its first scan shows it");
 }
 
-SessionParts scanner_parts(const Configuration& c, std::shared_ptr<DriverConnection> connection) {
+SessionParts scanner_parts(const Configuration& c, const std::shared_ptr<DriverConnection>& connection) {
   SessionParts parts;
   parts.name = connection->greeting().name;
   parts.source = std::make_unique<DriverSource>(connection, c.seed);

@@ -34,7 +34,7 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& configuration, 
 void require_goes_on(const DriverConnection& connection, const Configuration& now, const Configuration& wanted);
 
 /// The parts of a session that scans through it, with a configuration that follows it.
-SessionParts scanner_parts(const Configuration& configuration, std::shared_ptr<DriverConnection> connection);
+SessionParts scanner_parts(const Configuration& configuration, const std::shared_ptr<DriverConnection>& connection);
 
 /// The parts of a session that was scanned so, while the scanner is away: it can be looked at, and takes no view.
 SessionParts absent_scanner_parts(const Configuration& configuration);

@@ -67,7 +67,7 @@ std::shared_ptr<const SimulatedWorld> Session::simulate(const std::stop_token& s
   if (name_.empty()) name_ = object_name(object.file);
   object_file_ = std::move(object.file);
   object_ = std::move(object.placed);
-  const auto world = std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
+  auto world = std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
   if (!source_) source_ = std::make_unique<SimulatedSource>(world, c.seed);
   if (!c.robot.exact()) source_ = std::make_unique<InaccurateSource>(std::move(source_), c.robot, c.seed);
   return world;

@@ -33,7 +33,7 @@ std::vector<fs::path> untitled_sessions(const fs::path& state) {
 /// made now would go as the oldest.
 std::string time_after(const std::vector<fs::path>& sessions) {
   const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  const std::string text = fmt::format("{:%Y-%m-%d %H.%M.%S}", fmt::localtime(now));
+  std::string text = fmt::format("{:%Y-%m-%d %H.%M.%S}", fmt::localtime(now));
   const std::string newest = sessions.empty() ? "" : sessions.front().filename().string().substr(0, time_length);
   std::tm time{};
   if (text > newest || !::strptime(newest.c_str(), "%Y-%m-%d %H.%M.%S", &time)) return text;

@@ -144,7 +144,7 @@ std::string termination(const TerminationConfig& config, const ScanState& state)
   const auto unreachable = std::ranges::find_if(last.candidates, [&](const Candidate& candidate) {
     return !progress.candidates_left && !candidate.unreachable.empty();
   });
-  const std::string reason = termination_reason(config, progress);
+  std::string reason = termination_reason(config, progress);
   if (unreachable == last.candidates.end() || progress.views >= config.views) return reason;
   return fmt::format("{} that can be reached: {}", reason, unreachable->unreachable);
 }

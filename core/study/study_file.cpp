@@ -24,6 +24,7 @@ constexpr std::array axis_settings = {"object.file", "seed", "recorded.folder", 
 
 std::vector<std::string> known_maps() {
   std::vector<std::string> names;
+  names.reserve(baseline_maps.size() + 2);
   for (const BaselineMapInfo& map : baseline_maps) names.emplace_back(map.name);
   names.insert(names.end(), {"gibbs", "calibrated"});
   return names;
@@ -203,7 +204,7 @@ class StudyReader {
   }
 
   std::string one_of(const toml::node& node, const std::string& key, const std::vector<std::string>& known) const {
-    const std::string text = text_of(node, key);
+    std::string text = text_of(node, key);
     if (std::ranges::find(known, text) == known.end())
       throw failure(node, fmt::format("'{}' has no '{}'; did you mean '{}'?", key, text, nearest(text, known)));
     return text;
