@@ -58,6 +58,7 @@ std::vector<Vector3> latitude_rings(int count, double lowest) {
 std::vector<Vector3> fibonacci(int count) {
   const double golden_angle = pi * (3.0 - std::sqrt(5.0));
   std::vector<Vector3> directions;
+  directions.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i)
     directions.push_back(on_sphere(std::asin(1.0 - (2.0 * i + 1.0) / count), golden_angle * i));
   return directions;
@@ -65,6 +66,7 @@ std::vector<Vector3> fibonacci(int count) {
 
 std::vector<Vector3> equal_rings(int count, int rings) {
   std::vector<double> elevations;
+  elevations.reserve(std::size_t(rings));
   for (int r = 0; r < rings; ++r) elevations.push_back(rings == 1 ? 0.0 : (pi / 3) * (2.0 * r / (rings - 1) - 1.0));
   return on_rings(elevations, share_out(count, std::vector<double>(rings, 1.0)));
 }
@@ -140,6 +142,7 @@ std::vector<Pose> candidate_views(const CandidateViewsConfig& config, const Vect
                           : config.layout == ViewLayout::fibonacci ? fibonacci(config.count)
                                                                    : latitude_rings(config.count, -pi / 2);
   std::vector<Pose> views;
+  views.reserve(directions.size());
   for (const Vector3& direction : directions) views.push_back(look_at(target + config.radius * direction, target));
   return views;
 }

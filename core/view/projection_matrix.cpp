@@ -153,7 +153,7 @@ DecomposedProjection decompose_projection(const ProjectionMatrix& projection) {
   T_camera_world.linear() << (v1 / fx).transpose(), r2.transpose(), r3.transpose();
   const Vector3 centre = -m.inverse() * projection.col(3) / scale;
   T_camera_world.translation() = -(T_camera_world.linear() * centre);
-  const DecomposedProjection result{fx, fy, cx, cy, T_camera_world.inverse()};
+  DecomposedProjection result{fx, fy, cx, cy, T_camera_world.inverse()};
   if (!is_pose(result.T_world_camera)) refuse();
   return result;
 }
