@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <new>
 
-#include "core/map/huge_pages.hpp"
 #include "core/map/return_batch.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -137,19 +135,14 @@ HWY_EXPORT(mark_behind);
 
 }  // namespace
 
-OcclusionMarks::OcclusionMarks(const VoxelGrid& grid)
-    : grid_(grid),
-      numbers_(static_cast<std::uint16_t*>(std::calloc(places_with_margin(grid), sizeof(std::uint16_t))), &std::free) {
-  if (!numbers_) throw std::bad_alloc();
-  ask_for_huge_pages(numbers_.get(), places_with_margin(grid) * sizeof(std::uint16_t));
-}
+OcclusionMarks::OcclusionMarks(const VoxelGrid& grid) : grid_(grid), numbers_(places_with_margin(grid)) {}
 
 void OcclusionMarks::mark(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> returns, double max_range,
                           double distance, const std::stop_token& stop) {
   const auto mark = HWY_DYNAMIC_DISPATCH(mark_behind);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, returns.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
-    mark({grid_, origin, returns.subspan(range.begin(), range.size()), max_range, distance, numbers_.get()});
+    mark({grid_, origin, returns.subspan(range.begin(), range.size()), max_range, distance, numbers_.data()});
   });
   throw_if_stopped(stop);
 }

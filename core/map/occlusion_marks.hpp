@@ -1,11 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <span>
 #include <stop_token>
 
 #include "core/map/grid_margin.hpp"
+#include "core/map/zeroed_array.hpp"
 
 namespace nextview {
 
@@ -29,8 +28,7 @@ class OcclusionMarks {
  private:
   VoxelGrid grid_;
   /// Around the grid lies a margin of one voxel, where rays may leave numbers too: so they need not ask where they are.
-  /// Only where there are any it takes memory: the system gives the rest no pages.
-  std::unique_ptr<std::uint16_t[], decltype(&std::free)> numbers_;
+  ZeroedArray<std::uint16_t> numbers_;
 };
 
 }  // namespace nextview

@@ -9,7 +9,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/map/parallel_fill.hpp"
 #include "core/map/ray_batch.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -208,9 +207,7 @@ constexpr int farthest_camera = 1 << 20;
 
 }  // namespace
 
-RayMarks::RayMarks(const VoxelGrid& grid) : grid_(grid), marks_(places_with_margin(grid)) {
-  fill_in_parallel(marks_, std::uint8_t{0});
-}
+RayMarks::RayMarks(const VoxelGrid& grid) : grid_(grid), marks_(places_with_margin(grid)) {}
 
 void RayMarks::pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
                     const std::stop_token& stop) {

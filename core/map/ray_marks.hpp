@@ -2,10 +2,9 @@
 #include <cstdint>
 #include <span>
 #include <stop_token>
-#include <vector>
 
 #include "core/map/grid_margin.hpp"
-#include "core/map/huge_pages.hpp"
+#include "core/map/zeroed_array.hpp"
 
 namespace nextview {
 
@@ -34,7 +33,7 @@ class RayMarks {
   }
 
   VoxelGrid grid_;
-  std::vector<std::uint8_t, HugePages<std::uint8_t>> marks_;
+  ZeroedArray<std::uint8_t> marks_;
 };
 
 }  // namespace nextview
