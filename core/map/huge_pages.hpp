@@ -16,8 +16,8 @@ inline constexpr std::size_t huge_page = std::size_t{2} << 20;  // [bytes]
 inline void ask_for_huge_pages(void* memory, std::size_t bytes) {
   if (bytes < 8 * huge_page) return;
   constexpr std::uintptr_t page = 4096;
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory), inside = (begin + page - 1) / page * page;
-  madvise(reinterpret_cast<void*>(inside), bytes - (inside - begin), MADV_HUGEPAGE);
+  const std::uintptr_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
+  madvise(static_cast<char*>(memory) + before, bytes - before, MADV_HUGEPAGE);
 }
 
 /// An allocator that asks for huge pages: rays jump through a map of many megabytes, and with small pages most of their
