@@ -16,6 +16,7 @@
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/planner/gain_policies.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {
@@ -146,12 +147,20 @@ bool are_settled(const Configuration& c, std::initializer_list<const char*> leng
   return std::none_of(lengths.begin(), lengths.end(), [&](const char* key) { return awaits_object(c, key); });
 }
 
+/// To two digits. @pre length > 0
+double rounded_up(double length) {
+  const double unit = std::pow(10.0, std::floor(std::log10(length)) - 1.0);
+  return std::ceil(length / unit - 1e-9) * unit;
+}
+
 void require_region_cube(const Configuration& c) {
   if (!are_settled(c, {"map.region_edge", "map.resolution"})) return;
-  const double voxels = c.map.region_edge / c.map.resolution;
+  const double edge = c.map.region_edge, voxels = edge / c.map.resolution;
+  const std::string fits = voxels < 1.0 ? length_text(edge) + " or smaller"
+                                        : length_text(rounded_up(edge / most_voxels_along_side)) + " or larger";
   require(voxels >= 1.0 && voxels <= most_voxels_along_side,
-          fmt::format("map.region_edge / map.resolution must be from 1 to {} voxels, not {}", most_voxels_along_side,
-                      voxels));
+          fmt::format("map.region_edge / map.resolution must be from 1 to {} voxels, not {}: make voxels {}",
+                      most_voxels_along_side, voxels, fits));
 }
 
 void require_region(const Configuration& c) {

@@ -52,7 +52,8 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   EXPECT_EQ(with("[sensor]\nmax_range = 0.01\n"),
             line(file + ":2: sensor.min_range, 0.2 m, must be at most sensor.max_range, 0.01 m"));
   EXPECT_EQ(with("[map]\nregion_edge = 100\n"),
-            line(file + ":2: map.region_edge / map.resolution must be from 1 to 1024 voxels, not 10000"));
+            line(file + ":2: map.region_edge / map.resolution must be from 1 to 1024 voxels, not 10000: make voxels "
+                        "98 mm or larger"));
 }
 
 TEST_F(Messages, OfSeveralFilesTheOneIsNamedThatGaveTheSetting) {

@@ -174,7 +174,7 @@ const CommandOf<std::string> command::export_scan{
      .menu = "File",
      .text = "Export the scan…",
      .help = "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
-     .shortcuts = {{key('E'), true}},
+     .shortcuts = {{key('E'), true}, {key('S'), true}},
      .why_not = needs_view,
      .writes = true},
     argument::file("folder", "a folder; it is made if it is not there", argument::fixed({"scan"})),

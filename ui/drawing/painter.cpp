@@ -22,8 +22,15 @@ std::string title_of(const Legend& legend) {
   return has_unit ? fmt::format("{} [{}]", legend.title, legend.range->unit) : legend.title;
 }
 
-std::string named(double value, const std::string& name) {
-  return name.empty() ? short_number(value) : short_number(value) + " " + name;
+/// An end of a range, to three digits of how wide it is: what is next to nothing beside that is not spelled out.
+std::string range_end(double value, double width, const std::string& name) {
+  std::string number = short_number(value);
+  const double digits = 2.0 - std::floor(std::log10(width));
+  if (std::isfinite(digits) && digits >= 0.0 && digits <= 6.0) {
+    const double unit = std::pow(10.0, -digits);
+    number = short_number(std::round(value / unit) * unit + 0.0);  // 0 has no sign
+  }
+  return name.empty() ? number : number + " " + name;
 }
 
 }  // namespace
@@ -122,12 +129,12 @@ double Painter::legend(double x, double y, const Legend& legend) {
     frame(x, at, usual_legend_width, bar_height, theme::soft_ink);
     at -= legend_line - 2;
     const auto& [map, low, high, unit, low_name, high_name] = *legend.range;
-    text(x, at, named(low, low_name), theme::small_text, theme::soft_ink);
+    text(x, at, range_end(low, high - low, low_name), theme::small_text, theme::soft_ink);
     if (low < 0.0 && low == -high)
       text(x + 0.5 * usual_legend_width, at, "0", theme::small_text, theme::soft_ink, TextWeight::regular,
            TextAlign::centre);
-    text(x + usual_legend_width, at, named(high, high_name), theme::small_text, theme::soft_ink, TextWeight::regular,
-         TextAlign::right);
+    text(x + usual_legend_width, at, range_end(high, high - low, high_name), theme::small_text, theme::soft_ink,
+         TextWeight::regular, TextAlign::right);
   }
   return legend_height(legend);
 }

@@ -78,7 +78,7 @@ constexpr std::array group_begins = {"set",
 void draw_menu(const PanelContext& context, const std::string& menu) {
   bool any = false;
   for (const Command& command : commands()) {
-    if (command.menu != menu) continue;
+    if (command.menu != menu || &command == &command::file_dialog) continue;  // which the File menu's commands open
     if (any && std::ranges::find(group_begins, command.name) != group_begins.end()) ImGui::Separator();
     any = true;
     const bool on = command.on && command.on(context.window);

@@ -106,11 +106,15 @@ void Palette::draw_commands(const PanelContext& context) {
     if (i == chosen_ &&
         (ImGui::IsKeyPressed(static_cast<int>(Key::down)) || ImGui::IsKeyPressed(static_cast<int>(Key::up))))
       ImGui::SetScrollHereY();
+    const float name_at = std::max(style.px(300), ImGui::CalcTextSize(command.text.c_str()).x + style.px(16));
     ImGui::PushFont(style.small);
     const std::string keys = command.keys();
-    ImGui::SameLine(style.px(300));
-    ImGui::TextDisabled("%s", command.name.c_str());
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x - style.px(6));
+    const float keys_at = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x - style.px(6);
+    if (name_at + ImGui::CalcTextSize(command.name.c_str()).x + style.px(10) < keys_at) {  // else there is no room
+      ImGui::SameLine(name_at);
+      ImGui::TextDisabled("%s", command.name.c_str());
+    }
+    ImGui::SameLine(keys_at);
     ImGui::TextDisabled("%s", keys.c_str());
     ImGui::PopFont();
     if (!pressed && !(enter && i == chosen_)) continue;

@@ -66,7 +66,9 @@ Eigen::Vector2d picture_size(vtkRenderer& renderer, double scale) {
   return Eigen::Vector2d(renderer.GetSize()[0], renderer.GetSize()[1]) / scale;
 }
 
-void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, const Vector3& reference) {
+constexpr double backing_opacity = 0.72;  // of paper behind what must be legible whatever lies there
+
+void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, const Vector3& reference, bool backed) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 position(camera.GetPosition());
   const double distance = Vector3(camera.GetDirectionOfProjection()).dot(reference - position);
@@ -79,11 +81,13 @@ void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, cons
   const double longest = std::min(longest_bar, picture_size(renderer, scale).x() - x - 2 * margin);
   if (longest < min_bar) return;
   const double length = round_length(longest / pixels_per_metre), width = length * pixels_per_metre;
+  const std::string text = length_text(length);
+  if (const double half = painter.text_width(text, theme::small_text) / 2 + 5; backed)
+    painter.box(x + width / 2 - half, y + 4, 2 * half, theme::small_text + 7, theme::sky, backing_opacity);
   painter.line(x, y, x + width, y, 2, theme::ink);
   painter.line(x, y - 4, x, y + 4, 2, theme::ink);
   painter.line(x + width, y - 4, x + width, y + 4, 2, theme::ink);
-  painter.text(x + width / 2, y + 6, length_text(length), theme::small_text, theme::ink, TextWeight::regular,
-               TextAlign::centre);
+  painter.text(x + width / 2, y + 6, text, theme::small_text, theme::ink, TextWeight::regular, TextAlign::centre);
 }
 
 /// Pixels at scale 1, if in front of the camera.
@@ -160,15 +164,14 @@ double SceneOverlay::legends_height() const {
   return height;
 }
 
-/// Paper behind what must be legible whatever lies there.
+/// Of the legends.
 void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& size) const {
-  constexpr double opacity = 0.72;
   if (legends.empty()) return;
   double width = 0;
   for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
   const double height = legends_height() - margin;
   painter.box(size.x() - margin - width - 10, size.y() - margin - height + 4, width + 20, height + 4, theme::sky,
-              opacity);
+              backing_opacity);
 }
 
 bool SceneOverlay::Paint(vtkContext2D* context) {
@@ -176,7 +179,7 @@ bool SceneOverlay::Paint(vtkContext2D* context) {
   const Eigen::Vector2d size = picture_size(*renderer, scale);
   if (backed) paint_backing(painter, size);
   if (axes) paint_axes(painter, *renderer->GetActiveCamera());
-  if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference);
+  if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference, backed);
   double width = 0;
   for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
   const double left = size.x() - margin - width;

@@ -1,17 +1,26 @@
 #include "ui/window/overlay_drawing.hpp"
 
+#include <algorithm>
 #include <cfloat>
 
 namespace nextview {
 
-void draw_label(const Style& style, ImVec2 place, const std::string& text, const Colour& colour) {
-  const ImVec2 size = style.semi_bold->CalcTextSizeA(style.semi_bold->FontSize, FLT_MAX, 0, text.c_str());
-  const ImVec2 corner(place.x + style.px(10), place.y - size.y - style.px(6));
+void draw_label(const Style& style, ImVec2 place, const std::string& text, const Colour& colour,
+                const Rectangle* inside) {
+  const float border = style.px(8), wide = inside ? float(inside->width) - 2 * border : 0.0f;  // 0: as it is
+  const float height = style.semi_bold->FontSize;
+  const ImVec2 size = style.semi_bold->CalcTextSizeA(height, FLT_MAX, wide, text.c_str());
+  ImVec2 corner(place.x + style.px(10), place.y - size.y - style.px(6));
+  if (inside) {
+    const float right = float(inside->x + inside->width), bottom = float(inside->y + inside->height);
+    corner.x = std::max(std::min(corner.x, right - size.x - border), float(inside->x) + border);
+    corner.y = std::max(std::min(corner.y, bottom - size.y - border), float(inside->y) + border);
+  }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled({corner.x - style.px(5), corner.y - style.px(2)},
                      {corner.x + size.x + style.px(5), corner.y + size.y + style.px(2)},
                      to_imgui_u32(theme::paper, 0.85), style.px(3));
-  list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(colour), text.c_str());
+  list.AddText(style.semi_bold, height, corner, to_imgui_u32(colour), text.c_str(), nullptr, wide);
 }
 
 void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32 colour, float width) {

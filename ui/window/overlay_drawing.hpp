@@ -11,8 +11,9 @@ namespace nextview {
 // What is drawn over the scene, behind the panels.
 
 inline ImVec2 at(const Eigen::Vector2d& p) { return {float(p.x()), float(p.y())}; }
-/// Right above a place of the window, on paper.
-void draw_label(const Style& style, ImVec2 place, const std::string& text, const Colour& colour);
+/// Right above a place of the window, on paper; moved `inside` a part of it, if that is given.
+void draw_label(const Style& style, ImVec2 place, const std::string& text, const Colour& colour,
+                const Rectangle* inside = nullptr);
 /// Between points of the world [m].
 void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32 colour, float width);
 

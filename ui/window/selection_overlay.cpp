@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/layers/views_layer.hpp"
@@ -148,8 +149,11 @@ void draw_measurement(SceneView& view, const PanelContext& context, const Measur
   for (const Vector3& point : measurement.points)
     if (const auto place = view.project(point)) list.AddCircleFilled(at(*place), style.px(4), colour);
   const Rectangle& r = view.rectangle();
-  const std::string text = measurement.complete() ? measured_text(measurement, cloud) : measure_hint(measurement);
-  draw_label(style, {float(r.x) + style.px(14), float(r.y + r.height) - style.px(92)}, text, theme::chosen);
+  const ImVec2 corner(float(r.x) + style.px(14), float(r.y + r.height) - style.px(92));
+  if (!measurement.complete()) return draw_label(style, corner, measure_hint(measurement), theme::chosen);
+  const auto sum = std::accumulate(measurement.points.begin(), measurement.points.end(), Vector3(Vector3::Zero()));
+  const auto middle = view.project(sum / double(measurement.points.size()));
+  draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, cloud), theme::chosen, &r);
 }
 
 }  // namespace

@@ -51,8 +51,10 @@ TEST(Region, ACubeHasOneToOneThousandAndTwentyFourVoxels) {
   };
   EXPECT_EQ(refusal("512", "0.5"), "");
   EXPECT_EQ(refusal("0.5", "0.5"), "");
-  EXPECT_EQ(refusal("512.5", "0.5"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 1025");
-  EXPECT_EQ(refusal("0.25", "0.5"), "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 0.5");
+  EXPECT_EQ(refusal("512.5", "0.5"),
+            "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 1025: make voxels 510 mm or larger");
+  EXPECT_EQ(refusal("0.25", "0.5"),
+            "map.region_edge / map.resolution must be from 1 to 1024 voxels, not 0.5: make voxels 250 mm or smaller");
   EXPECT_EQ(refusal("1000", nullptr), "");
 }
 
