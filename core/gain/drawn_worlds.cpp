@@ -118,7 +118,8 @@ class Solids {
   float part(int at) const { return float(at % spacing_) / float(spacing_); }
   float between_knots(const std::vector<float>& knots, int x, int y, int z) const {
     const auto along_y = [&](int layer) {
-      const auto at = &knots[std::size_t((layer * knots_.y() + y / spacing_) * knots_.x() + x)];
+      const std::size_t row = std::size_t(layer) * std::size_t(knots_.y()) + std::size_t(y / spacing_);
+      const auto at = &knots[row * std::size_t(knots_.x()) + std::size_t(x)];
       return between(*at, at[knots_.x()], part(y));
     };
     return between(along_y(z / spacing_), along_y(z / spacing_ + 1), part(z));

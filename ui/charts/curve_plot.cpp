@@ -89,6 +89,7 @@ void paint_axes(vtkContext2D& context, const Frame& frame) {
   set_text(upright, theme::small_text, theme::soft_ink);
   upright.SetJustificationToCentered();
   upright.SetOrientation(90);
+  keep_text(upright);
   context.DrawString(float(area.left - left_room + 16), float(std::round(area.bottom + 0.5 * area.height)),
                      plot.y_label.c_str());
   upright.SetOrientation(0);

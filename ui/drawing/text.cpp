@@ -1,5 +1,7 @@
 #include "ui/drawing/text.hpp"
 
+#include <vtkFreeTypeTools.h>
+#include <vtkNew.h>
 #include <vtkTextProperty.h>
 
 #include <stdexcept>
@@ -21,6 +23,14 @@ void set_text(vtkTextProperty& property, int size, const Colour& colour, TextWei
   property.SetFontFile(font_file(weight).c_str());
   property.SetFontSize(size);
   property.SetColor(colour[0], colour[1], colour[2]);
+  keep_text(property);
+}
+
+void keep_text(vtkTextProperty& property) {
+  const vtkNew<vtkTextProperty> copy;
+  copy->ShallowCopy(&property);
+  std::size_t id = 0;
+  vtkFreeTypeTools::GetInstance()->MapTextPropertyToId(copy, &id);
 }
 
 }  // namespace nextview

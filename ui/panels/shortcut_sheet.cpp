@@ -13,7 +13,7 @@ namespace {
 constexpr std::array mouse = {
     std::pair{"Left drag", "turn the scene"},
     std::pair{"Middle or Shift + left drag", "move it"},
-    std::pair{"Wheel", "nearer, farther: to what is under the pointer"},
+    std::pair{"Wheel", "nearer to the pointer, farther"},
     std::pair{"Double click", "turn around this point"},
     std::pair{"Arrows, =, −", "turn, nearer, farther"},
     std::pair{"Tab, arrows, Space", "go through the controls, press one"},
@@ -76,9 +76,9 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
                    ImGuiWindowFlags_HorizontalScrollbar);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::PushFont(style.small);
-  constexpr std::array widths = {270.0f, 340.0f, 370.0f};
-  const int columns = window.width > style.px(1040)  ? 3
-                      : window.width > style.px(700) ? 2
+  constexpr std::array widths = {300.0f, 340.0f, 370.0f};
+  const int columns = window.width > style.px(1080)  ? 3
+                      : window.width > style.px(720) ? 2
                                                      : 1;  // the rest goes beneath
   if (ImGui::BeginTable("sheet", columns, ImGuiTableFlags_SizingFixedFit)) {
     for (int c = 0; c < columns; ++c)

@@ -82,8 +82,10 @@ void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, cons
   if (longest < min_bar) return;
   const double length = round_length(longest / pixels_per_metre), width = length * pixels_per_metre;
   const std::string text = length_text(length);
-  if (const double half = painter.text_width(text, theme::small_text) / 2 + 5; backed)
+  if (backed) {
+    const double half = painter.text_width(text, theme::small_text) / 2 + 5;
     painter.box(x + width / 2 - half, y + 4, 2 * half, theme::small_text + 7, theme::sky, backing_opacity);
+  }
   painter.line(x, y, x + width, y, 2, theme::ink);
   painter.line(x, y - 4, x, y + 4, 2, theme::ink);
   painter.line(x + width, y - 4, x + width, y + 4, 2, theme::ink);
