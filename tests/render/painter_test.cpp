@@ -138,6 +138,32 @@ TEST(Painter, LettersAreAsWideOnAnyDisplay) {
   }
 }
 
+// VTK opens a font again after some thirty others, by what a text property says by then.
+TEST(Painter, LettersKeepTheirWeightAfterManyOthers) {
+  const Colour own{0.3127, 0.1711, 0.2903};  // which nothing else has
+  const auto both = [&] {
+    return page_of([&](Painter& painter) {
+      painter.text(20, 60, "candidate 17", theme::small_text, own, TextWeight::semi_bold);
+      painter.text(20, 20, "another", theme::small_text, theme::ink);
+    });
+  };
+  const Image first = both();
+  page_of([](Painter& painter) {
+    for (int i = 0; i < 80; ++i) painter.text(20, 20, "many", 8 + i, theme::ink);
+  });
+  EXPECT_EQ(both(), first);
+}
+
+TEST(Painter, EndsOfARangeHaveTheDigitsThatTellThemApart) {
+  EXPECT_EQ(range_end(-6.075e-05, 0.0311), "-0.0001");
+  EXPECT_EQ(range_end(0.03102, 0.0311), "0.031");
+  EXPECT_EQ(range_end(-1e-9, 1.0), "0");
+  EXPECT_EQ(range_end(0.31461, 0.31461), "0.315");
+  EXPECT_EQ(range_end(2090.4, 2052.0), "2090");
+  EXPECT_EQ(range_end(1.25e-9, 1.25e-9), "1.25e-09");
+  EXPECT_EQ(range_end(5.0, 0.0), "5");
+}
+
 TEST(Painter, ALegendIsAsWideAsItsWidestLine) {
   page_of([](Painter& painter) {
     const Legend usual{"short", {{"a", theme::free}}, {}};

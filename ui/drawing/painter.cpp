@@ -22,20 +22,20 @@ std::string title_of(const Legend& legend) {
   return has_unit ? fmt::format("{} [{}]", legend.title, legend.range->unit) : legend.title;
 }
 
-/// An end of a range, to three digits of how wide it is: what is next to nothing beside that is not spelled out.
-std::string range_end(double value, double width, const std::string& name) {
-  std::string number = short_number(value);
-  const double digits = 2.0 - std::floor(std::log10(width));
-  if (std::isfinite(digits) && digits >= 0.0 && digits <= 6.0) {
-    const double unit = std::pow(10.0, -digits);
-    number = short_number(std::round(value / unit) * unit + 0.0);  // 0 has no sign
-  }
+std::string named(const std::string& number, const std::string& name) {
   return name.empty() ? number : number + " " + name;
 }
 
 }  // namespace
 
 std::string short_number(double value) { return fmt::format("{:.4g}", value); }
+
+std::string range_end(double value, double width) {
+  const double digits = 2.0 - std::floor(std::log10(width));
+  if (!(digits >= 0.0 && digits <= 6.0)) return short_number(value);
+  const double unit = std::pow(10.0, -digits);
+  return short_number(std::round(value / unit) * unit + 0.0);  // 0 has no sign
+}
 
 void Painter::text(double x, double y, const std::string& text, int size, const Colour& colour, TextWeight weight,
                    TextAlign align) {
@@ -129,11 +129,11 @@ double Painter::legend(double x, double y, const Legend& legend) {
     frame(x, at, usual_legend_width, bar_height, theme::soft_ink);
     at -= legend_line - 2;
     const auto& [map, low, high, unit, low_name, high_name] = *legend.range;
-    text(x, at, range_end(low, high - low, low_name), theme::small_text, theme::soft_ink);
+    text(x, at, named(range_end(low, high - low), low_name), theme::small_text, theme::soft_ink);
     if (low < 0.0 && low == -high)
       text(x + 0.5 * usual_legend_width, at, "0", theme::small_text, theme::soft_ink, TextWeight::regular,
            TextAlign::centre);
-    text(x + usual_legend_width, at, range_end(high, high - low, high_name), theme::small_text, theme::soft_ink,
+    text(x + usual_legend_width, at, named(range_end(high, high - low), high_name), theme::small_text, theme::soft_ink,
          TextWeight::regular, TextAlign::right);
   }
   return legend_height(legend);

@@ -50,5 +50,7 @@ inline constexpr double usual_legend_width = 168.0;
 
 /// "1234", "12.3", "0.00123": four significant digits for people.
 std::string short_number(double value);
+/// An end of a range, to three digits of how wide that is: what is next to nothing beside it is not spelled out.
+std::string range_end(double value, double width);
 
 }  // namespace nextview
