@@ -93,6 +93,20 @@ TEST_P(WordsFit, InWhatOpensAboveThem) {
   }
 }
 
+TEST_P(WordsFit, InTheListOfCommandsWhateverIsFound) {
+  const auto [width, height, scale] = GetParam();
+  Desk desk(width, height, scale);
+  desk.snapshot = states()[1].snapshot;
+  for (const Command& command : commands()) {
+    desk.window = {};
+    desk.frames();
+    desk.window.palette_open = true;
+    desk.window.palette_text = command.text;
+    SCOPED_TRACE(command.name);
+    expect_fit(desk);
+  }
+}
+
 TEST_P(WordsFit, InEveryMenu) {
   const auto [width, height, scale] = GetParam();
   Desk desk(width, height, scale);
