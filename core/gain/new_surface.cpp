@@ -40,7 +40,7 @@ NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfa
     for (std::size_t row = range.begin(); row != range.end(); ++row) {
       const int y = static_cast<int>(row % std::size_t(ny + 2)) - 1,
                 z = static_cast<int>(row / std::size_t(ny + 2)) - 1;
-      float* const chances = &chances_[row * std::size_t(nx + 2)] + 1;
+      float* const chances = &chances_[place_with_margin(grid_, 0, y, z)];
       const bool is_margin = y < 0 || y == ny || z < 0 || z == nz;
       std::fill_n(chances, nx, is_margin ? ChanceField::outside : 0.0f);
       chances[-1] = chances[nx] = ChanceField::outside;

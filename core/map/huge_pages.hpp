@@ -11,10 +11,12 @@ namespace nextview {
 
 inline constexpr std::size_t huge_page = std::size_t{2} << 20;  // [bytes]
 
-/// Asks for huge pages where memory was given; a wish: without it everything works as well, slower. Not for an array of
-/// a few huge pages: to be given that, all zero, step after step takes longer than is gained by it.
+/// Whether an array gains by them: to be given a few huge pages, all zero, step after step takes longer.
+inline bool is_for_huge_pages(std::size_t bytes) { return bytes >= 8 * huge_page; }
+
+/// Asks for huge pages where memory was given; a wish: without it everything works as well, slower.
 inline void ask_for_huge_pages(void* memory, std::size_t bytes) {
-  if (bytes < 8 * huge_page) return;
+  if (!is_for_huge_pages(bytes)) return;
   constexpr std::uintptr_t page = 4096;
   const std::uintptr_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
   madvise(static_cast<char*>(memory) + before, bytes - before, MADV_HUGEPAGE);
@@ -33,7 +35,7 @@ struct HugePages {
   T* allocate(std::size_t count) {
     constexpr std::size_t cache_line = 64;
     if (count > std::numeric_limits<std::ptrdiff_t>::max() / 2 / sizeof(T)) throw std::bad_alloc();
-    const std::size_t unit = count * sizeof(T) >= huge_page ? huge_page : cache_line;
+    const std::size_t unit = is_for_huge_pages(count * sizeof(T)) ? huge_page : cache_line;
     const std::size_t bytes = (count * sizeof(T) + unit - 1) / unit * unit;
     void* memory = std::aligned_alloc(unit, bytes);
     if (!memory) throw std::bad_alloc();

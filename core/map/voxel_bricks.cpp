@@ -117,14 +117,6 @@ VoxelBricks::Iterator::Iterator(const VoxelBricks& bricks, std::size_t voxel) : 
   find();
 }
 
-void VoxelBricks::Iterator::next_row() {
-  if (x_ == bricks_->size_.x()) {
-    x_ = 0;
-    if (++y_ == bricks_->size_.y()) y_ = 0, ++z_;
-  }
-  if (number_ < bricks_->size()) find();
-}
-
 /// To where x_ would be if the row went on.
 void VoxelBricks::Iterator::jump() {
   for (const int length = bricks_->size_.x(); x_ >= length; x_ -= length)

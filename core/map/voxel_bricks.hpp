@@ -129,7 +129,7 @@ class VoxelBricks {
     Voxel operator*() const { return (*brick_)[in_brick_]; }
     Iterator& operator++() {
       ++number_, ++in_brick_;
-      if ((++x_ & (edge - 1)) == 0 || x_ == bricks_->size_.x()) next_row();
+      if ((++x_ & (edge - 1)) == 0 || x_ == bricks_->size_.x()) jump();
       return *this;
     }
     Iterator operator++(int) {
@@ -158,7 +158,6 @@ class VoxelBricks {
 
    private:
     std::size_t left_in_row() const { return std::size_t(std::min(edge - (x_ & (edge - 1)), bricks_->size_.x() - x_)); }
-    void next_row();
     void jump();
     void find();
     const VoxelBricks* bricks_ = nullptr;
