@@ -24,6 +24,11 @@ class BitMask {
     const std::uint64_t bit = std::uint64_t{1} << (i % 64);
     words_[i / 64] = value ? words_[i / 64] | bit : words_[i / 64] & ~bit;
   }
+  /// The 64 from `first` on, the first one's bit the lowest; beyond the end 0.
+  std::uint64_t word(std::size_t first) const {
+    const std::size_t at = first / 64, shift = first % 64;
+    return words_[at] >> shift | (shift != 0 && at + 1 < words_.size() ? words_[at + 1] << (64 - shift) : 0);
+  }
   /// Sets those of the next 64 from `first` on whose bit in `word` is 1, beginning with the lowest.
   /// @pre all that it sets are there
   void add_word(std::size_t first, std::uint64_t word);

@@ -117,10 +117,12 @@ VoxelBricks::Iterator::Iterator(const VoxelBricks& bricks, std::size_t voxel) : 
   find();
 }
 
-/// To where x_ would be if the row went on.
+/// Into the next brick, or the next row.
 void VoxelBricks::Iterator::jump() {
-  for (const int length = bricks_->size_.x(); x_ >= length; x_ -= length)
+  if (x_ == bricks_->size_.x()) {
+    x_ = 0;
     if (++y_ == bricks_->size_.y()) y_ = 0, ++z_;
+  }
   if (number_ < bricks_->size()) find();
 }
 

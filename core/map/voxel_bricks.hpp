@@ -138,26 +138,8 @@ class VoxelBricks {
       return before;
     }
     bool operator==(const Iterator& other) const { return number_ == other.number_; }
-    /// So many on.
-    Iterator& operator+=(std::size_t count) {
-      const bool stays = count < left_in_row();
-      number_ += count, in_brick_ += count, x_ += static_cast<int>(count);
-      if (!stays) jump();
-      return *this;
-    }
-    /// Of how many voxels from this one on, `most` at most, it is known at a look that they are as this one.
-    std::size_t alike(std::size_t most) const {
-      if (!brick_->follows_from_log_odds()) return 1;
-      const float* const numbers = &brick_->numbers()[in_brick_];
-      const std::uint8_t* const states = &brick_->states()[in_brick_];
-      const std::size_t look_at = std::min(most, left_in_row());
-      std::size_t count = 1;
-      while (count < look_at && numbers[count] == numbers[0] && states[count] == states[0]) ++count;
-      return count;
-    }
 
    private:
-    std::size_t left_in_row() const { return std::size_t(std::min(edge - (x_ & (edge - 1)), bricks_->size_.x() - x_)); }
     void jump();
     void find();
     const VoxelBricks* bricks_ = nullptr;

@@ -181,6 +181,55 @@ TEST(MapQuality, SameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(one.calibration_error, many.calibration_error);
 }
 
+/// Some bricks hold one value, as free space does, some many, and some were never measured.
+VoxelBricks bricks_of_all_kinds(const Eigen::Vector3i& size, bool told) {
+  std::mt19937 generator(5);
+  VoxelBricks voxels(size);
+  for (int z = 0; z < size.z(); ++z)
+    for (int y = 0; y < size.y(); ++y)
+      for (int x = 0; x < size.x(); ++x) {
+        const std::size_t place = voxels.place(x, y, z), brick = place / VoxelBricks::brick_voxels;
+        if (brick % 3 == 0) continue;
+        const float log_odds = brick % 3 == 1 ? -1.9924302f : 0.25f * float(int(generator() % 20) - 8);
+        VoxelBricks::Brick& change = voxels.change_brick_of(place);
+        change.set_measured(place % VoxelBricks::brick_voxels, log_odds, VoxelClass::unknown);
+        if (!told) continue;
+        Voxel voxel = change[place % VoxelBricks::brick_voxels];
+        voxel.probability = 0.5f * voxel.probability + 1e-5f * float(generator() % 10'000);
+        change.set(place % VoxelBricks::brick_voxels, voxel);
+      }
+  return voxels;
+}
+
+TEST(MapQuality, OfBricksIsThatOfTheirVoxels) {
+  const Eigen::Vector3i size(150, 21, 13);  // whole bricks along no axis, and more than 64 along one
+  RandomCase c = random_case(std::size_t(size.prod()));
+  c.truth.grid.size = size;
+  for (std::size_t i = c.p.size() / 2; i < c.p.size(); ++i)  // far from the surface, and where nobody has looked
+    c.truth.touch.set(i, false), c.truth.centre.set(i, false), c.truth.near_surface.set(i, false),
+        c.visited[i] = i % 150 < 75;
+  const BitMask visited(c.visited);
+  const std::vector<ScoredSet> all = {ScoredSet::visited, ScoredSet::region, ScoredSet::band, ScoredSet::visited_band};
+  for (const bool told : {false, true})
+    for (const auto& sets : {all, std::vector{ScoredSet::visited, ScoredSet::visited_band}})
+      for (const auto convention : {TruthConvention::touch, TruthConvention::centre}) {
+        const VoxelBricks bricks = bricks_of_all_kinds(size, told);
+        const auto of_bricks = map_quality(bricks, c.truth, convention, sets, visited);
+        const auto of_voxels = map_quality(probabilities(bricks), c.truth, convention, sets, c.visited);
+        for (std::size_t s = 0; s < sets.size(); ++s) {
+          EXPECT_GT(of_bricks[s].voxels, 0u);
+          EXPECT_EQ(of_bricks[s].voxels, of_voxels[s].voxels);
+          EXPECT_NEAR(of_bricks[s].log_loss, of_voxels[s].log_loss, 1e-12);
+          EXPECT_NEAR(of_bricks[s].brier, of_voxels[s].brier, 1e-12);
+          EXPECT_NEAR(of_bricks[s].divergence, of_voxels[s].divergence, 1e-12 * of_voxels[s].divergence);
+          EXPECT_NEAR(of_bricks[s].divergence_outside_band, of_voxels[s].divergence_outside_band, 1e-12);
+          EXPECT_NEAR(of_bricks[s].calibration_error, of_voxels[s].calibration_error, 1e-12);
+          for (std::size_t b = 0; b < 10; ++b)
+            EXPECT_EQ(of_bricks[s].reliability[b].voxels, of_voxels[s].reliability[b].voxels) << b;
+        }
+      }
+}
+
 TEST(MapQuality, LengthsThatDifferAreRefused) {
   const GroundTruth truth = truth_of({0, 1}, {0, 0}, {1, 0});
   const std::vector<float> p = {0.1f, 0.9f};

@@ -1,0 +1,84 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/evaluation/map_quality.hpp"
+
+namespace nextview {
+
+/// What a voxel that scores may count is: these bits together.
+using VoxelFacts = unsigned;
+inline constexpr VoxelFacts is_occupied = 1, is_in_band = 2, is_visited = 4;
+inline constexpr VoxelFacts all_facts = 8;  ///< how many combinations there are
+
+/// What a voxel adds to the sums.
+struct QualityTerms {
+  double log_loss, brier, divergence;
+  std::size_t bin;
+};
+
+/// The sums over a scored set's voxels that its quality follows from.
+struct QualitySums {
+  std::size_t voxels = 0;
+  double log_loss = 0.0, brier = 0.0, divergence = 0.0, divergence_outside = 0.0;
+  struct Bin {
+    std::size_t voxels = 0, occupied = 0;
+    double probability = 0.0;
+  };
+  std::array<Bin, 10> bins;
+
+  /// So many voxels, as if one by one.
+  void add(double p, VoxelFacts facts, const QualityTerms& terms, std::size_t count);
+  QualitySums& operator+=(const QualitySums& other);
+  MapQuality quality() const;
+};
+
+/// The sums of several scored sets.
+class QualitySumsOfSets {
+ public:
+  explicit QualitySumsOfSets(std::span<const ScoredSet> sets);
+  /// Whether one of the sets counts voxels that are this.
+  bool counts(VoxelFacts facts) const { return counted_in_[facts] != 0; }
+  void add(double p, VoxelFacts facts, const QualityTerms& terms, std::size_t count);
+  QualitySumsOfSets& operator+=(const QualitySumsOfSets& other);
+  MapQuality quality(ScoredSet set) const { return sums_[static_cast<std::size_t>(set)].quality(); }
+
+ private:
+  std::array<unsigned, all_facts> counted_in_{};  ///< in which sets, a bit each
+  std::array<QualitySums, 4> sums_;
+};
+
+/// Adds voxels to sums, many in a row that are alike at once, as in free space.
+class RunsOfVoxels {
+ public:
+  explicit RunsOfVoxels(QualitySumsOfSets& sums) : sums_(sums) {}
+  ~RunsOfVoxels() { end(); }
+  RunsOfVoxels(const RunsOfVoxels&) = delete;
+
+  void add(float p, VoxelFacts facts, std::size_t count) {
+    if (p != p_ || facts != facts_) {
+      end();
+      p_ = p, facts_ = facts;
+    }
+    count_ += count;
+  }
+
+ private:
+  void end();
+  const QualityTerms& terms();
+
+  /// Voxels often have the same probability, and logarithms are expensive.
+  struct Known {
+    float p = -1.0f;
+    QualityTerms terms{};
+  };
+  QualitySumsOfSets& sums_;
+  std::array<Known, 256> known_{};
+  float p_ = 0.0f;
+  VoxelFacts facts_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace nextview
