@@ -18,7 +18,8 @@ NewSurfaceModel NewSurfaceModel::fitted() {
   return {{3.694, -0.6849, 1.459, 0.1135, -0.1162, -0.4108, -5.333, -5.231, 4.241},
           {-12.24, -0.6266, 3.005, 3.149, 0.04534},
           {-1.668, -0.3992, 0.1877, 0.2171, -0.2666},
-          1.694};
+          1.694,
+          4.5};
 }
 
 float NewSurfaceModel::chance(const SurfaceEvidence& evidence, const Eigen::Vector3i& cell) const {
@@ -63,6 +64,9 @@ std::vector<Setting> settings(NewSurfaceModel& m) {
       setting("occupied_occupied", "... times its occupied neighbours", m.occupied[4]),
       {"new_surface.slant", "", "area of the surface that rays meet, over the area across them", &m.slant,
        from_to(1, 10)},
+      {"new_surface.left_at_border", "",
+       "share of the surface that is left, over the share of the scanned points at whose border it may go on",
+       &m.left_at_border, from_to(0, 1000)},
   };
 }
 

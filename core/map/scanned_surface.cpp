@@ -30,11 +30,11 @@ Eigen::Vector3i cell_of(std::uint64_t key) {
   return {at(0), at(21), at(42)};
 }
 /// Where the cell of this key is in the table, or has its place if there is none.
-template <class Cell>
-std::size_t slot_of(std::uint64_t key, const std::vector<Cell>& cells) {
-  const std::size_t last = cells.size() - 1;
+template <class Slot>
+std::size_t slot_of(std::uint64_t key, const std::vector<Slot>& slots) {
+  const std::size_t last = slots.size() - 1;
   std::size_t slot = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 32) & last;
-  while (cells[slot].key != 0 && cells[slot].key != key) slot = (slot + 1) & last;
+  while (slots[slot].key != 0 && slots[slot].key != key) slot = (slot + 1) & last;
   return slot;
 }
 
@@ -62,7 +62,7 @@ const auto within_radius = [] {
 
 }  // namespace
 
-ScannedSurface::ScannedSurface(double radius) : radius_(radius), cells_(1024) {
+ScannedSurface::ScannedSurface(double radius) : radius_(radius), slots_(1024) {
   if (!(radius > 0.0)) throw std::invalid_argument("scanned surface: the radius must be greater than 0");
 }
 
@@ -114,9 +114,9 @@ int ScannedSurface::points_around(const Place& place) const {
 
 std::vector<Eigen::Vector3f> ScannedSurface::sparse_points(double share) const {
   std::vector<Place> places;
-  for (const Cell& cell : cells_)
+  for (const Cell& cell : cells())
     for (int s = 0; s < sub_cell_count; ++s)
-      if (cell.sub_cells >> s & 1) places.push_back({cell_of(cell.key), s});
+      if (cell.points >> s & 1) places.push_back({cell.at, s});
   std::vector<int> counts(places.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, counts.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) counts[i] = points_around(places[i]);
@@ -134,45 +134,52 @@ std::vector<Eigen::Vector3f> ScannedSurface::sparse_points(double share) const {
   return sparse;
 }
 
+std::vector<ScannedSurface::Cell> ScannedSurface::cells() const {
+  std::vector<Cell> cells;
+  for (const Slot& slot : slots_)
+    if (slot.key != 0) cells.push_back({cell_of(slot.key), slot.sub_cells});
+  return cells;
+}
+
 std::uint64_t ScannedSurface::sub_cells(const Eigen::Vector3i& cell) const {
-  return cells_[slot_of(key_of(cell), cells_)].sub_cells;
+  return slots_[slot_of(key_of(cell), slots_)].sub_cells;
 }
 
 void ScannedSurface::mark(const Place& place) {
-  if (2 * used_ >= cells_.size()) grow();
+  if (2 * used_ >= slots_.size()) grow();
   const std::uint64_t key = key_of(place.cell);
-  Cell& cell = cells_[slot_of(key, cells_)];
-  if (cell.key == 0) ++used_;
-  cell.key = key;
-  cell.sub_cells |= std::uint64_t{1} << place.sub_cell;
+  Slot& slot = slots_[slot_of(key, slots_)];
+  if (slot.key == 0) ++used_;
+  slot.key = key;
+  slot.sub_cells |= std::uint64_t{1} << place.sub_cell;
 }
 
 void ScannedSurface::grow() {
-  std::vector<Cell> before(2 * cells_.size());
-  std::swap(before, cells_);
-  for (const Cell& cell : before)
-    if (cell.key != 0) cells_[slot_of(cell.key, cells_)] = cell;
+  std::vector<Slot> before(2 * slots_.size());
+  std::swap(before, slots_);
+  for (const Slot& slot : before)
+    if (slot.key != 0) slots_[slot_of(slot.key, slots_)] = slot;
 }
 
 void ScannedSurface::archive(ByteWriter& writer) const {
-  std::vector<std::uint64_t> cells;
-  for (const Cell& cell : cells_) cells.insert(cells.end(), {cell.key, cell.sub_cells});
-  writer(area_, cells);
+  std::vector<std::uint64_t> numbers;
+  for (const Slot& slot : slots_) numbers.insert(numbers.end(), {slot.key, slot.sub_cells});
+  writer(area_, numbers);
 }
 
 void ScannedSurface::archive(ByteReader& reader) {
   double area = 0.0;
   std::vector<std::uint64_t> numbers;
   reader(area, numbers);
-  std::vector<Cell> cells;
-  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) cells.push_back({numbers[i], numbers[i + 1]});
-  const auto used = static_cast<std::size_t>(std::ranges::count_if(cells, [](const Cell& c) { return c.key != 0; }));
+  std::vector<Slot> slots;
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) slots.push_back({numbers[i], numbers[i + 1]});
+  const auto used = static_cast<std::size_t>(std::ranges::count_if(slots, [](const Slot& s) { return s.key != 0; }));
   // A full table would be searched for ever.
-  if (numbers.size() % 2 != 0 || !std::has_single_bit(cells.size()) || used > cells.size() / 2 || cells.size() < 1024 ||
+  if (numbers.size() % 2 != 0 || !std::has_single_bit(slots.size()) || used > slots.size() / 2 || slots.size() < 1024 ||
       !std::isfinite(area))
     throw std::runtime_error("it holds no scanned surface");
   area_ = area;
-  cells_ = std::move(cells);
+  slots_ = std::move(slots);
   used_ = used;
 }
 

@@ -20,21 +20,30 @@ class ScannedSurface {
   /// optical axis (of unit length, world). The same on any number of threads.
   double add(const Scan& scan, const Vector3& optical_axis, double central_solid_angle);
 
-  double area() const { return area_; }  ///< of all scans [m^2]
+  double area() const { return area_; }      ///< of all scans [m^2]
+  double radius() const { return radius_; }  ///< [m]
+
+  /// Points are told apart in cells as large as the radius.
+  struct Cell {
+    Eigen::Vector3i at;        ///< [radii]
+    std::uint64_t points = 0;  ///< a bit each, of 4 x 4 x 4 places, x fastest
+  };
+  std::vector<Cell> cells() const;  ///< that hold any point, in an order that depends on nothing but the scans
+  Cell cell(const Eigen::Vector3i& at) const { return {at, sub_cells(at)}; }
 
   /// Points around which there are few: within the radius fewer than `share` of what is usual, the median over all
   /// points. Points are those told apart, each at the middle of its place. The same order every time.
   std::vector<Eigen::Vector3f> sparse_points(double share) const;
 
-  std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
+  std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
 
   /// Writes what was seen, or reads it again: the radius stays. @throws std::runtime_error if it is none
   void archive(ByteWriter& writer) const;
   void archive(ByteReader& reader);
 
  private:
-  struct Cell {
-    std::uint64_t key = 0;        ///< of its place; 0: no cell
+  struct Slot {
+    std::uint64_t key = 0;        ///< of its cell; 0: no cell
     std::uint64_t sub_cells = 0;  ///< those with a point, of 4 x 4 x 4, a bit each
   };
   /// Where a point lies: its cell, and its sub-cell there.
@@ -51,7 +60,7 @@ class ScannedSurface {
 
   double radius_;
   double area_ = 0.0;
-  std::vector<Cell> cells_;  ///< a hash table with open addressing, of a power of two
+  std::vector<Slot> slots_;  ///< a hash table with open addressing, of a power of two
   std::size_t used_ = 0;
 };
 

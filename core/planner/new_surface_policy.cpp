@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/planner/open_border.hpp"
 #include "core/planner/remaining_plan.hpp"
 
 namespace nextview {
@@ -79,7 +80,10 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
   if (!(seen > 0.0)) return std::move(forecast.areas);
   SetCover few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
   for (std::size_t& view : few.views) view = available[view];
-  return {std::move(forecast.areas), forecast.all / (forecast.all + seen), std::move(few.views), few.is_least};
+  // The forecast knows voxels; what is less than one of them shows where the scanned surface ends.
+  const double at_border = std::min(1.0, model_.left_at_border * open_border(state.known));
+  const double left = std::max(forecast.all / (forecast.all + seen), at_border);
+  return {std::move(forecast.areas), left, std::move(few.views), few.is_least};
 }
 
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {

@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "core/map/scanned_surface.hpp"
+
+namespace nextview {
+
+/// Where what was scanned of a surface ends: around a point of its border more than a third of the tangent plane is
+/// empty (the angle criterion; Bendels, Schnabel and Klein 2006).
+struct SurfaceBorder {
+  struct Point {
+    Eigen::Vector3f at, outward;  ///< [m, world], and the middle of what is empty, a unit vector
+  };
+  std::vector<Point> points;
+  std::size_t looked_at = 0;  ///< points of the surface, these among them: a sample of it
+};
+
+/// Points are looked at a half of the surface's radius apart, in every so-many-th cell of it, about `most` in all. The
+/// same on any number of threads.
+SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most = 10'000);
+
+/// As far as a point's surroundings reach [m].
+double border_reach(const ScannedSurface& surface);
+
+}  // namespace nextview
