@@ -15,26 +15,27 @@ namespace {
 
 using Brick = VoxelBricks::Brick;
 
+/// Two sums over bricks.
+struct Sums {
+  double entropy = 0.0;  ///< [nats]
+  std::size_t voxels = 0;
+
+  Sums operator+(const Sums& other) const { return {entropy + other.entropy, voxels + other.voxels}; }
+};
+
 /// The sum of `term(brick, memory)` over bricks. Split and joined in the same places on any number of threads, so that
 /// it rounds alike.
 template <class Term>
-double sum(std::size_t bricks, Term term) {
+Sums sum(std::size_t bricks, Term term) {
   constexpr std::size_t at_once = 64;
   return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, bricks, at_once), 0.0,
-      [&](const auto& range, double part) {
-        BrickMemory<double> memory;
-        for (std::size_t b = range.begin(); b != range.end(); ++b) part += term(b, memory);
+      tbb::blocked_range<std::size_t>(0, bricks, at_once), Sums(),
+      [&](const auto& range, Sums part) {
+        BrickMemory<Sums> memory;
+        for (std::size_t b = range.begin(); b != range.end(); ++b) part = part + term(b, memory);
         return part;
       },
       std::plus<>());
-}
-
-double measured_count(const VoxelBricks& voxels) {
-  return sum(voxels.brick_count(), [&](std::size_t b, BrickMemory<double>& memory) {
-    const Brick& brick = *voxels.bricks()[b];
-    return memory.of(brick, [&] { return double(brick.measured_count()); });
-  });
 }
 
 /// Entropies of a brick's voxels, asked for one after the other: many are as the one before.
@@ -52,42 +53,45 @@ class Entropies {
   float last_ = 0.0f, entropy_ = Voxel().entropy;
 };
 
-double entropy_change(const Brick& before, const Brick& after) {
+/// What a brick's voxels are known better than if nothing were, and how many are measured.
+Sums known(const Brick& brick) {
+  Entropies is(brick);
+  Sums known{0.0, brick.measured_count()};
+  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) known.entropy += double(Voxel().entropy) - is(i);
+  return known;
+}
+
+Sums change(const Brick& before, const Brick& after) {
   Entropies was(before), is(after);
-  double change = 0.0;
-  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += was(i) - is(i);
+  Sums change;
+  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) {
+    change.entropy += was(i) - is(i);
+    change.voxels += after.measured(i) && !before.measured(i);
+  }
   return change;
 }
 
 }  // namespace
 
-double unmeasured_entropy(const VoxelBricks& voxels) {  // Eq. 18
-  return double(voxels.size()) - measured_count(voxels);
-}
-
-double total_entropy(const VoxelBricks& voxels) {
+MapEntropy map_entropy(const VoxelBricks& voxels) {
   // Where bricks stick out of the grid their voxels are as uncertain as they can be.
-  const double most = double(Voxel().entropy);
-  const double known = sum(voxels.brick_count(), [&](std::size_t b, BrickMemory<double>& memory) {
-    if (voxels.is_untouched(b)) return 0.0;
+  const Sums known_of_all = sum(voxels.brick_count(), [&](std::size_t b, BrickMemory<Sums>& memory) {
+    if (voxels.is_untouched(b)) return Sums();
     const Brick& brick = *voxels.bricks()[b];
-    return memory.of(brick, [&] {
-      Entropies is(brick);
-      double change = 0.0;
-      for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) change += most - is(i);
-      return change;
-    });
+    return memory.of(brick, [&] { return known(brick); });
   });
-  return (double(voxels.size()) * most - known) / std::numbers::ln2;
+  const double most = double(voxels.size()) * double(Voxel().entropy);
+  return {double(voxels.size()) - double(known_of_all.voxels), (most - known_of_all.entropy) / std::numbers::ln2};
 }
 
-double realised_gain(const VoxelBricks& before, const VoxelBricks& after) {  // Eq. 12
+MapChange map_change(const VoxelBricks& before, const VoxelBricks& after) {
   if (before.edges() != after.edges())
-    throw std::invalid_argument(fmt::format("realised gain: {} voxels before, {} after", before.size(), after.size()));
-  return sum(before.brick_count(), [&](std::size_t b, BrickMemory<double>& memory) {
+    throw std::invalid_argument(fmt::format("map change: {} voxels before, {} after", before.size(), after.size()));
+  const Sums all = sum(before.brick_count(), [&](std::size_t b, BrickMemory<Sums>& memory) {
     const auto &was = before.bricks()[b], &is = after.bricks()[b];
-    return was.shares_with(is) ? 0.0 : memory.of(*was, *is, [&] { return entropy_change(*was, *is); });
+    return was.shares_with(is) ? Sums() : memory.of(*was, *is, [&] { return change(*was, *is); });
   });
+  return {all.voxels, all.entropy};
 }
 
 }  // namespace nextview

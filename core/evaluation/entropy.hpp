@@ -3,15 +3,19 @@
 
 namespace nextview {
 
-/// Entropy of the maximum-likelihood map (Eq. 18) [bits]: a measured voxel is decided, an unmeasured one is worth one
-/// bit.
-double unmeasured_entropy(const VoxelBricks& voxels);
+/// How uncertain a map is [bits].
+struct MapEntropy {
+  double unmeasured = 0.0;  ///< of the maximum-likelihood map (Eq. 18): an unmeasured voxel is worth a bit, others none
+  double total = 0.0;       ///< the sum of H(p) over the voxels
+};
+MapEntropy map_entropy(const VoxelBricks& voxels);
 
-/// The full entropy, the sum of H(p) over the voxels [bits].
-double total_entropy(const VoxelBricks& voxels);
-
-/// Realised gain (Eq. 12) [nats]: the entropy that the voxels lost from `before` to `after`; negative if they became
-/// less certain. Takes the longer, the more bricks have changed. @throws std::invalid_argument if sizes differ.
-double realised_gain(const VoxelBricks& before, const VoxelBricks& after);
+/// What a map learned from `before` to `after`. Takes the longer, the more bricks have changed.
+struct MapChange {
+  std::size_t newly_measured = 0;  ///< voxels
+  double realised_gain = 0.0;      ///< the entropy that they lost (Eq. 12) [nats]; negative: they became less certain
+};
+/// @throws std::invalid_argument if sizes differ.
+MapChange map_change(const VoxelBricks& before, const VoxelBricks& after);
 
 }  // namespace nextview

@@ -1,12 +1,6 @@
 #include "core/session/scan_loop.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
-#include <functional>
-
 #include "core/evaluation/entropy.hpp"
-#include "core/map/brick_memory.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/progress/stopwatch.hpp"
@@ -22,26 +16,6 @@ void report(const Progress& progress, const std::stop_token& stop, double fracti
   throw_if_stopped(stop);
 }
 
-/// How many voxels a map has measured that an earlier state of it had not.
-std::size_t newly_measured(const VoxelBricks& before, const VoxelBricks& after) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, after.brick_count(), 64), std::size_t{0},
-      [&](const auto& range, std::size_t count) {
-        BrickMemory<std::size_t> memory;
-        for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
-          const auto &was = before.bricks()[brick], &is = after.bricks()[brick];
-          if (was.shares_with(is)) continue;
-          count += memory.of(*was, *is, [&] {
-            std::size_t newly = 0;
-            for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) newly += is->measured(i) && !was->measured(i);
-            return newly;
-          });
-        }
-        return count;
-      },
-      std::plus<>());
-}
-
 FusionConfig fusion(const ScanSetup& setup) {
   const Configuration& c = setup.configuration;
   return {c.map.insertion, setup.planner->needs().occlusions ? occlusion_distance(c) : 0.0, c.gibbs.view_sweeps};
@@ -50,11 +24,15 @@ FusionConfig fusion(const ScanSetup& setup) {
 /// What the view did to the maps, as numbers of its record.
 void compare_maps(const Knowledge& before, const Knowledge& after, StepRecord& record) {
   Stopwatch watch(record.seconds.evaluate);
-  record.new_voxels = newly_measured(before.map.voxels(), after.map.voxels());
-  record.entropy = unmeasured_entropy(after.map.voxels());
-  record.total_entropy = total_entropy(after.planning_voxels());
-  record.realised_gain = realised_gain(before.planning_voxels(), after.planning_voxels());  // Eq. 12
+  const MapChange change = map_change(before.map.voxels(), after.map.voxels());
+  const MapEntropy entropy = map_entropy(after.map.voxels());
+  record.new_voxels = change.newly_measured;
+  record.realised_gain = change.realised_gain;
+  record.entropy = entropy.unmeasured;
+  record.total_entropy = entropy.total;
   if (!after.posterior) return;
+  record.realised_gain = map_change(before.planning_voxels(), after.planning_voxels()).realised_gain;
+  record.total_entropy = map_entropy(after.planning_voxels()).total;
   record.refinement.emplace();
   record.refinement->diagnostics = after.posterior->posterior().diagnostics;
   auto refined = after.posterior->voxels().begin();

@@ -31,9 +31,9 @@ double bits(double p) { return -p * std::log2(p) - (1.0 - p) * std::log2(1.0 - p
 
 TEST(Entropy, AnUnmeasuredMapHasOneBitAVoxel) {
   const VoxelBricks voxels({128, 128, 128});
-  EXPECT_EQ(unmeasured_entropy(voxels), 2097152.0);
-  EXPECT_NEAR(total_entropy(voxels), 2097152.0, 0.1);
-  EXPECT_EQ(unmeasured_entropy(VoxelBricks()), 0.0);
+  EXPECT_EQ(map_entropy(voxels).unmeasured, 2097152.0);
+  EXPECT_NEAR(map_entropy(voxels).total, 2097152.0, 0.1);
+  EXPECT_EQ(map_entropy(VoxelBricks()).unmeasured, 0.0);
 }
 
 TEST(Entropy, MeasuredVoxelsAreDecidedInTheOneAndKeepTheirDoubtInTheOther) {
@@ -43,34 +43,38 @@ TEST(Entropy, MeasuredVoxelsAreDecidedInTheOneAndKeepTheirDoubtInTheOther) {
     unmeasured += v.measured ? 0 : 1;
     total += bits(v.probability);
   }
-  EXPECT_EQ(unmeasured_entropy(voxels), unmeasured);
-  EXPECT_NEAR(total_entropy(voxels), total, 1e-6 * total);
+  EXPECT_EQ(map_entropy(voxels).unmeasured, unmeasured);
+  EXPECT_NEAR(map_entropy(voxels).total, total, 1e-6 * total);
 }
 
-TEST(Entropy, RealisedGainIsWhatTheVoxelsLost) {
+TEST(Entropy, AChangeIsWhatTheVoxelsLostAndThoseNewlyMeasured) {
   const auto before = random_voxels(2, 10), after = random_voxels(3, 10);
   double lost = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i)
+  std::size_t newly = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
     lost += (bits(before[i].probability) - bits(after[i].probability)) * std::log(2.0);
-  EXPECT_NEAR(realised_gain(before, after), lost, 0.01);
-  EXPECT_EQ(realised_gain(before, before), 0.0);
-  EXPECT_EQ(realised_gain(before, after), -realised_gain(after, before));  // nats, and signed
+    newly += after[i].measured && !before[i].measured;
+  }
+  EXPECT_EQ(map_change(before, after).newly_measured, newly);
+  EXPECT_NEAR(map_change(before, after).realised_gain, lost, 0.01);
+  EXPECT_EQ(map_change(before, before).realised_gain, 0.0);
+  EXPECT_EQ(map_change(before, after).realised_gain, -map_change(after, before).realised_gain);  // nats, and signed
   const VoxelBricks unknown({10, 1, 1});
   const VoxelBricks certain({10, 1, 1}, std::vector<Voxel>(10, {0.0f, 0.0f, VoxelClass::free, true, 0}));
-  EXPECT_NEAR(realised_gain(unknown, certain), 10.0 * std::log(2.0), 1e-6);
-  EXPECT_NEAR(realised_gain(certain, unknown), -10.0 * std::log(2.0), 1e-6);
+  EXPECT_NEAR(map_change(unknown, certain).realised_gain, 10.0 * std::log(2.0), 1e-6);
+  EXPECT_NEAR(map_change(certain, unknown).realised_gain, -10.0 * std::log(2.0), 1e-6);
 }
 
 TEST(Entropy, LengthsThatDifferAreRefused) {
   const VoxelBricks two({2, 1, 1}), three({3, 1, 1});
-  EXPECT_THROW(realised_gain(two, three), std::invalid_argument);
+  EXPECT_THROW(map_change(two, three), std::invalid_argument);
 }
 
 TEST(Entropy, SameBitsOnAnyNumberOfThreads) {
   const auto voxels = random_voxels(4, 40);
-  const double many = total_entropy(voxels);
+  const double many = map_entropy(voxels).total;
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(total_entropy(voxels), many);
+  EXPECT_EQ(map_entropy(voxels).total, many);
 }
 
 }  // namespace

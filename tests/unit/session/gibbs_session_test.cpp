@@ -28,7 +28,7 @@ TEST(GibbsSession, PlansOnThePosterior) {
     ASSERT_EQ(voxels[v].probability, posterior.touch[v]);
     ASSERT_EQ(voxels[v].measured, posterior.informed[v] != 0);
   }
-  EXPECT_EQ(last.total_entropy, total_entropy(voxels));
+  EXPECT_EQ(last.total_entropy, map_entropy(voxels).total);
   // Scored anew through rays of our own, the candidates come out as recorded.
   const Configuration& c = session.configuration();
   const MapRays rays(posterior.grid, voxels, c.map.model.occupancy_threshold, c.planner.ray_length);

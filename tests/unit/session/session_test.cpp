@@ -62,7 +62,7 @@ TEST(Session, RecordsAgreeWithTheMap) {
     EXPECT_EQ(r.entropy, double(session.map().voxels().size() - measured));  // Eq. 18: a bit a voxel
     EXPECT_NEAR(r.total_entropy * std::numbers::ln2, entropy, 1e-6 * entropy);
     EXPECT_NEAR(r.realised_gain, entropy_before - entropy, 1e-6 * entropy_before);  // Eq. 12
-    EXPECT_EQ(r.realised_gain, realised_gain(before, session.planning_voxels()));
+    EXPECT_EQ(r.realised_gain, map_change(before, session.planning_voxels()).realised_gain);
     EXPECT_EQ(r.points, session.scans().back()->hits.size());
     EXPECT_LE(r.points, r.hits);
     EXPECT_GT(r.points, 100u);
