@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/map/ray_batch.hpp"
@@ -157,6 +159,19 @@ class FixedWalk {
 };
 #endif
 
+/// A mark at each place. All places are read before the first mark is left, two at a time, so that they have room in
+/// the registers.
+template <class Place, std::size_t count, std::size_t... word>
+HWY_INLINE void leave_marks(std::uint8_t* marks, const Place (&places)[count], std::index_sequence<word...>) {
+  std::uint64_t words[sizeof...(word)];
+  ((std::memcpy(&words[word], reinterpret_cast<const char*>(places) + 8 * word, 8)), ...);
+  if constexpr (sizeof(Place) == 8) {
+    (leave_mark(marks[words[word]]), ...);
+  } else {
+    ((leave_mark(marks[static_cast<std::uint32_t>(words[word])]), leave_mark(marks[words[word] >> 32])), ...);
+  }
+}
+
 /// Leaves the marks of rays; returns the ends of those that are undecided. One walk at a time stays in the registers,
 /// and while its marks are left its next step is made.
 template <class Walk>
@@ -172,10 +187,7 @@ std::vector<Eigen::Vector3f> walk_rays(const RayBatch& batch) {
     if (count < lanes) ends = (std::copy_n(ends, 3 * count, some.data()), some.data());
     Walk walk;
     walk.begin(batch, ends, count);
-    while (walk.advance(places)) {
-#pragma GCC unroll 16
-      for (std::size_t i = 0; i < Walk::most_lanes; ++i) leave_mark(marks[places[i]]);
-    }
+    while (walk.advance(places)) leave_marks(marks, places, std::make_index_sequence<sizeof(places) / 8>());
     walk.keep_undecided(ends, undecided);
   }
   return undecided;
