@@ -24,17 +24,25 @@ PlanningStep::PlanningStep(const PlanningStepSize& size)
       candidates(views_around(configuration.views, size.candidates)),
       bundle(RayBundle::regular(DepthCamera(configuration.sensor).camera())),
       map(region_of_interest(Vector3::Zero(), 1.28, size.resolution), InverseSensorModel{}),
-      scan(sense(20)) {
-  for (int v = 0; v < size.views_before; ++v) map.insert(sense(9 * v % 48));
+      scan(sense(next_view)) {
+  for (const int view : views_before(size.views_before)) map.insert(sense(view));
 }
 
+std::vector<int> PlanningStep::views_before(int count) {
+  std::vector<int> views;
+  for (int v = 0; v < count; ++v) views.push_back(9 * v % 48);
+  return views;
+}
+
+Pose PlanningStep::view(int number) const { return views_around(configuration.views, 48)[number]; }
+
 Scan PlanningStep::sense(int view) const {
-  const Pose at = views_around(configuration.views, 48)[view];
+  const Pose at = this->view(view);
   return back_project(camera.sense(scene, at, 1, view), at, max_range);
 }
 
 std::vector<Eigen::Vector3f> PlanningStep::image_rays(int view) const {
-  const Pose at = views_around(configuration.views, 48)[view];
+  const Pose at = this->view(view);
   std::vector<Eigen::Vector3f> rays;
   for (int v = 0; v < camera.config().height; ++v)
     for (int u = 0; u < camera.config().width; ++u)

@@ -24,6 +24,8 @@ struct PlanningStepSize {
 /// The parts of a planning step: sense, insert, score. Its map has seen a few views.
 struct PlanningStep {
   static constexpr double max_range = 1.5;  ///< [m]
+  static constexpr int next_view = 20;
+  static std::vector<int> views_before(int count = PlanningStepSize{}.views_before);
 
   Configuration configuration;
   TriangleMesh mesh = load_mesh(default_object());
@@ -36,7 +38,8 @@ struct PlanningStep {
   std::size_t voxel_steps = 0;  ///< that could matter when it was last scored
 
   explicit PlanningStep(const PlanningStepSize& size = {});
-  /// A view of the object, one of 48 around it, whatever the candidates are.
+  /// One of 48 around the object, whatever the candidates are.
+  Pose view(int number) const;
   Scan sense(int view) const;
   /// Of the pixels of the camera at one of these views: unit directions.
   std::vector<Eigen::Vector3f> image_rays(int view) const;

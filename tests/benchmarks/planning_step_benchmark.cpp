@@ -34,28 +34,31 @@ struct Peers {
   OctomapStep octomap;
   NanoVdbMap nano_vdb;
   SingleRays single_rays;
+  std::vector<std::unique_ptr<MapPeer>> others;
 
-  explicit Peers(const PlanningStep& step) : octomap(step), nano_vdb(step.map), single_rays(step.mesh) {}
+  explicit Peers(const PlanningStep& step) : octomap(step), nano_vdb(step.map), single_rays(step.mesh) {
+    for (const MakePeer make : peer_makers()) others.push_back(make(step));
+  }
 };
 
 /// `peers`: null if there are none.
 std::vector<Line> lines(PlanningStep& s, Peers* peers) {
-  static const std::vector<Eigen::Vector3f> pixels = s.image_rays(20);
+  static const std::vector<Eigen::Vector3f> pixels = s.image_rays(PlanningStep::next_view);
   static std::vector<MeshRayCaster::Hit> found(pixels.size());
   const Vector3 eye = s.scan.origin;
   const auto step = [&s] {
-    s.scan = s.sense(20);
+    s.scan = s.sense(PlanningStep::next_view);
     s.insert();
     s.score();
   };
   const auto octomap_step = [&s, peers] {
-    s.scan = s.sense(20);
+    s.scan = s.sense(PlanningStep::next_view);
     peers->octomap.insert(s.scan, false);
     peers->octomap.score(s);
   };
   const auto insert = [&s] { s.insert(); };
   const auto score = [&s] { s.score(); };
-  return {
+  std::vector<Line> all = {
       {"cast an image's rays",
        [&s, eye] {
          // In parts, as sense() casts them.
@@ -65,23 +68,28 @@ std::vector<Line> lines(PlanningStep& s, Peers* peers) {
          });
        },
        "Embree, ray by ray (rtcIntersect1)", [&s, eye, peers] { peers->single_rays.cast(eye, pixels, s.max_range); }},
-      {"sense, back-project", [&s] { s.scan = s.sense(20); }},
+      {"sense, back-project", [&s] { s.scan = s.sense(PlanningStep::next_view); }},
       {"insert", insert, "OctoMap: insertPointCloud", [&s, peers] { peers->octomap.insert(s.scan, false); }},
-      {"insert", insert, "... discretised and lazy", [&s, peers] { peers->octomap.insert(s.scan, true); }},
-      {"score, occlusion-aware", score, "OctoMap: castRay, computeRayKeys, search",
-       [&s, peers] { peers->octomap.score(s); }},
-      {"score, occlusion-aware", score, "NanoVDB: DDA, getValue (all threads)",
-       [&s, peers] { peers->nano_vdb.score(s); }},
-      {"score, new-surface", [&s] { s.score_new_surface(); }},
-      {"whole step", step, "composed of OctoMap's calls", octomap_step},
-  };
+      {"insert", insert, "... discretised and lazy", [&s, peers] { peers->octomap.insert(s.scan, true); }}};
+  const std::span others = peers ? std::span(peers->others) : std::span<std::unique_ptr<MapPeer>>();
+  for (const auto& peer : others) all.push_back({"insert", insert, peer->insertion(), [&peer] { peer->insert(); }});
+  all.push_back({"score, occlusion-aware", score, "OctoMap: castRay, computeRayKeys, search",
+                 [&s, peers] { peers->octomap.score(s); }});
+  all.push_back({"score, occlusion-aware", score, "NanoVDB: DDA, getValue (all threads)",
+                 [&s, peers] { peers->nano_vdb.score(s); }});
+  for (const auto& peer : others)
+    if (!peer->scoring().empty())
+      all.push_back({"score, occlusion-aware", score, peer->scoring(), [&s, &peer] { peer->score(s); }});
+  all.push_back({"score, new-surface", [&s] { s.score_new_surface(); }});
+  all.push_back({"whole step", step, "composed of OctoMap's calls", octomap_step});
+  return all;
 }
 
 void print(const std::vector<Line>& table, const PlanningStep& s) {
-  fmt::print("{:<22}{:>8}{:>10}  {:<42}{:>8}{:>10}{:>8}{:>10}\n", "[ms]", "waited", "processor", "peer", "waited",
+  fmt::print("{:<22}{:>8}{:>10}  {:<46}{:>8}{:>10}{:>8}{:>10}\n", "[ms]", "waited", "processor", "peer", "waited",
              "processor", "ratio", "per core");
   for (const Line& line : table) {
-    fmt::print("{:<22}{:>8.1f}{:>10.1f}  {:<42}", line.name, line.ours.waited, line.ours.processor, line.peer);
+    fmt::print("{:<22}{:>8.1f}{:>10.1f}  {:<46}", line.name, line.ours.waited, line.ours.processor, line.peer);
     if (std::isfinite(line.peers.waited))
       fmt::print("{:>8.1f}{:>10.1f}{:>8.1f}{:>10.1f}", line.peers.waited, line.peers.processor,
                  line.peers.waited / line.ours.waited, line.peers.processor / line.ours.processor);
@@ -97,16 +105,27 @@ void print(const std::vector<Line>& table, const PlanningStep& s) {
         peers.waited / ours.waited, ours.waited, peers.waited);
 }
 
+/// Of the region, before what is timed: a map that does less is none to compare with.
+void print_occupied(const PlanningStep& s, const Peers& peers) {
+  const auto is_occupied = [](const Voxel& voxel) { return voxel.measured && voxel.probability > 0.5f; };
+  fmt::print("Occupied voxels: {}; OctoMap {}", std::ranges::count_if(s.map.voxels(), is_occupied),
+             peers.octomap.occupied(s.map.grid()));
+  for (const auto& peer : peers.others) fmt::print("; {} {}", peer->insertion(), peer->occupied(s.map.grid()));
+  fmt::print("\n\n");
+}
+
 int run(int rounds, bool with_peers) {
   PlanningStep step;
   std::optional<Peers> peers;
   if (with_peers) peers.emplace(step);
+  if (peers && !peers->others.empty()) print_occupied(step, *peers);
   std::vector<Line> table = lines(step, with_peers ? &*peers : nullptr);
   for (int round = 0; round < rounds; ++round)
     for (Line& line : table) {
       // What is fast gets more turns: its least is then as sure as the other's.
       for (int turn = 0; turn < (with_peers ? 10 : 1); ++turn) line.ours.keep(line.product);
-      if (with_peers && line.theirs) line.peers.keep(line.theirs);
+      for (int turn = 0; with_peers && line.theirs && (turn == 0 || (turn < 10 && line.peers.waited < 200.0)); ++turn)
+        line.peers.keep(line.theirs);
     }
   print(table, step);
   return EXIT_SUCCESS;

@@ -3,19 +3,27 @@
 #include <embree3/rtcore.h>
 #include <nanovdb/NanoVDB.h>
 #include <nanovdb/util/GridBuilder.h>
-#include <nanovdb/util/HDDA.h>
-#include <nanovdb/util/Ray.h>
-#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
-#include <cmath>
+#include "tests/benchmarks/planning_step_walk.hpp"
 
 namespace nextview {
 
+Eigen::Vector3f beyond_range(const Scan& scan, const Eigen::Vector3f& miss) {
+  const Eigen::Vector3f origin = scan.origin.cast<float>();
+  return origin + 1.01f * (miss - origin);
+}
+
+std::vector<MakePeer>& peer_makers() {
+  static std::vector<MakePeer> makers;
+  return makers;
+}
+
 OctomapStep::OctomapStep(const PlanningStep& step)
     : tree_(step.map.grid().resolution), discretised_tree_(step.map.grid().resolution) {
-  for (int v = 0; v < PlanningStepSize{}.views_before; ++v)
-    for (const bool discretised : {false, true}) insert(step.sense(9 * v), discretised);
+  for (const int view : PlanningStep::views_before())
+    for (const bool discretised : {false, true}) insert(step.sense(view), discretised);
 }
 
 void OctomapStep::insert(const Scan& scan, bool discretised) {
@@ -23,8 +31,8 @@ void OctomapStep::insert(const Scan& scan, bool discretised) {
   octomap::Pointcloud cloud;
   const Eigen::Vector3f origin = scan.origin.cast<float>();
   for (const auto& p : scan.hits) cloud.push_back(p.x(), p.y(), p.z());
-  for (const auto& p : scan.misses) {  // a little beyond the range, so that they carve and do not hit
-    const Eigen::Vector3f q = origin + 1.01f * (p - origin);
+  for (const auto& p : scan.misses) {
+    const Eigen::Vector3f q = beyond_range(scan, p);
     cloud.push_back(q.x(), q.y(), q.z());
   }
   into.insertPointCloud(cloud, octomap::point3d(origin.x(), origin.y(), origin.z()), scan.max_range, discretised,
@@ -59,9 +67,18 @@ double OctomapStep::score(const PlanningStep& step) const {
   return best;
 }
 
+std::size_t OctomapStep::occupied(const VoxelGrid& grid) const {
+  return occupied_voxels(grid, [this] {
+    const auto zero = tree_.coordToKey(0.0);
+    return [this, zero](int x, int y, int z) {
+      const octomap::OcTreeNode* node = tree_.search(octomap::OcTreeKey(zero + x, zero + y, zero + z));
+      return node ? node->getOccupancy() : 0.5;
+    };
+  });
+}
+
 struct NanoVdbMap::Grid {
   nanovdb::GridHandle<> handle;
-  double resolution;
 };
 
 NanoVdbMap::NanoVdbMap(const OccupancyMap& map) : grid_(std::make_unique<Grid>()) {
@@ -74,41 +91,17 @@ NanoVdbMap::NanoVdbMap(const OccupancyMap& map) : grid_(std::make_unique<Grid>()
     if (voxel.measured) accessor.setValue(nanovdb::Coord(cell.x(), cell.y(), cell.z()), voxel.probability);
   }
   grid_->handle = builder.getHandle<>();
-  grid_->resolution = grid.resolution;
 }
 
 NanoVdbMap::~NanoVdbMap() = default;
 
 double NanoVdbMap::score(const PlanningStep& step) const {
-  using Ray = nanovdb::Ray<double>;
   const nanovdb::NanoGrid<float>& grid = *grid_->handle.grid<float>();
-  const double reach = PlanningStep::max_range / grid_->resolution;
-  const auto score_view = [&](const Pose& view) {
-    const auto accessor = grid.tree().getAccessor();
-    const Vector3 o = view.translation() / grid_->resolution;
-    double sum = 0.0;
-    for (const Vector3& direction : step.bundle.directions) {
-      const Vector3 d = view.linear() * direction;
-      const Ray ray({o.x(), o.y(), o.z()}, {d.x(), d.y(), d.z()}, 0.0, reach);
-      nanovdb::DDA<Ray> walk(ray);
-      double visibility = 1.0;
-      do {
-        const double p = accessor.getValue(walk.voxel());
-        sum += visibility * entropy(p);
-        visibility *= 1.0 - p;
-        if (p > 0.5) break;
-      } while (walk.step());
-    }
-    return sum;
-  };
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, step.candidates.size(), 1), 0.0,
-      [&](const auto& range, double best) {
-        for (std::size_t v = range.begin(); v != range.end(); ++v)
-          best = std::max(best, score_view(step.candidates[v]));
-        return best;
-      },
-      [](double a, double b) { return std::max(a, b); });
+  return best_score(step, [&grid] {
+    return [accessor = grid.tree().getAccessor()](int x, int y, int z) {
+      return accessor.getValue(nanovdb::Coord(x, y, z));
+    };
+  });
 }
 
 struct SingleRays::Scene {
