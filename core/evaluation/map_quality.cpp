@@ -64,7 +64,7 @@ class Truth {
   bool only_visited_;
 };
 
-/// `add(i, runs)` for all i below `parts`. Split and joined in the same places on any number of threads, so that the
+/// `add(i, alike)` for all i below `parts`. Split and joined in the same places on any number of threads, so that the
 /// sums round alike.
 template <class Add>
 std::vector<MapQuality> qualities(std::span<const ScoredSet> sets, std::size_t parts, std::size_t at_once, Add add) {
@@ -72,8 +72,8 @@ std::vector<MapQuality> qualities(std::span<const ScoredSet> sets, std::size_t p
       tbb::blocked_range<std::size_t>(0, parts, at_once), QualitySumsOfSets(sets),
       [&](const auto& range, QualitySumsOfSets sums) {
         {
-          RunsOfVoxels runs(sums);
-          for (std::size_t i = range.begin(); i != range.end(); ++i) add(i, runs);
+          AlikeVoxels alike(sums);
+          for (std::size_t i = range.begin(); i != range.end(); ++i) add(i, alike);
         }
         return sums;
       },
@@ -108,7 +108,7 @@ class BrickStrips {
 
   std::size_t count() const { return along_x_ * voxels_.brick_edges().y() * voxels_.brick_edges().z(); }
 
-  void add(std::size_t strip, RunsOfVoxels& runs) const {
+  void add(std::size_t strip, AlikeVoxels& alike) const {
     const int first = static_cast<int>(strip % along_x_) * strip_bricks;
     const std::size_t bricks_before = strip / along_x_ * std::size_t(voxels_.brick_edges().x());
     Rows rows{};
@@ -129,9 +129,9 @@ class BrickStrips {
       if ((any.counted >> (k * edge) & 255) == 0) continue;
       const Brick& brick = *voxels_.bricks()[bricks_before + first + k];
       if (is_uniform.of(brick, [&] { return brick.is_uniform(); }))
-        add_uniform(brick[0].probability, rows, any, k * edge, runs);
+        add_uniform(brick[0].probability, rows, any, k * edge, alike);
       else
-        add_each(brick, rows, k * edge, runs);
+        add_each(brick, rows, k * edge, alike);
     }
   }
 
@@ -139,21 +139,27 @@ class BrickStrips {
   static constexpr int edge = VoxelBricks::edge, strip_bricks = 8;
   using Rows = std::array<RowTruth, std::size_t{edge} * edge>;
 
-  static void add_uniform(float p, const Rows& rows, const RowTruth& any, int shift, RunsOfVoxels& runs) {
+  static void add_uniform(float p, const Rows& rows, const RowTruth& any, int shift, AlikeVoxels& alike) {
     for (VoxelFacts facts = 0; facts < all_facts; ++facts) {
-      if ((facts & is_occupied && !any.occupied) || (facts & is_in_band && !any.in_band)) continue;
+      if ((facts & is_occupied && !any.occupied) || (facts & is_in_band && !any.in_band) ||
+          (facts & is_visited && !any.visited))
+        continue;
       std::size_t count = 0;
-      for (const RowTruth& row : rows) count += std::size_t(std::popcount(row.those(facts) >> shift & 255));
-      if (count > 0) runs.add(p, facts, count);
+      for (std::size_t r = 0; r < rows.size(); r += edge) {
+        std::uint64_t layer = 0;  // counting bits takes longer than collecting them
+        for (std::size_t y = 0; y < edge; ++y) layer = layer << edge | (rows[r + y].those(facts) >> shift & 255);
+        count += std::size_t(std::popcount(layer));
+      }
+      if (count > 0) alike.add(p, facts, count);
     }
   }
 
-  static void add_each(const Brick& brick, const Rows& rows, int shift, RunsOfVoxels& runs) {
+  static void add_each(const Brick& brick, const Rows& rows, int shift, AlikeVoxels& alike) {
     Probabilities probability(brick);
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::uint64_t left = rows[r].counted >> shift & 255; left != 0; left &= left - 1) {
         const auto i = std::size_t(std::countr_zero(left));
-        runs.add(probability(r * edge + i), rows[r].of(shift + i), 1);
+        alike.add(probability(r * edge + i), rows[r].of(shift + i), 1);
       }
   }
 
@@ -183,12 +189,12 @@ std::vector<MapQuality> map_quality(std::span<const float> probabilities, const 
   const BitMask mask(visited);
   const Truth is(truth, convention, sets, visited.empty() ? nullptr : &mask);
   const std::size_t voxels = probabilities.size();
-  return qualities(sets, (voxels + 63) / 64, 512, [&](std::size_t part, RunsOfVoxels& runs) {
+  return qualities(sets, (voxels + 63) / 64, 512, [&](std::size_t part, AlikeVoxels& alike) {
     const std::size_t first = 64 * part;
     const RowTruth row = is.row(first, std::min<std::size_t>(64, voxels - first));
     for (std::uint64_t left = row.counted; left != 0; left &= left - 1) {
       const auto i = std::size_t(std::countr_zero(left));
-      runs.add(probabilities[first + i], row.of(i), 1);
+      alike.add(probabilities[first + i], row.of(i), 1);
     }
   });
 }
@@ -198,7 +204,7 @@ std::vector<MapQuality> map_quality(const VoxelBricks& voxels, const GroundTruth
   check_lengths(voxels.size(), truth, sets, visited.size());
   const Truth is(truth, convention, sets, visited.size() == voxels.size() ? &visited : nullptr);
   const BrickStrips strips(voxels, is);
-  return qualities(sets, strips.count(), 16, [&](std::size_t strip, RunsOfVoxels& runs) { strips.add(strip, runs); });
+  return qualities(sets, strips.count(), 16, [&](std::size_t strip, AlikeVoxels& alike) { strips.add(strip, alike); });
 }
 
 MapQuality map_quality(std::span<const float> probabilities, const GroundTruth& truth, TruthConvention convention,

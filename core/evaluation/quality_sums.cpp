@@ -87,16 +87,13 @@ QualitySumsOfSets& QualitySumsOfSets::operator+=(const QualitySumsOfSets& other)
   return *this;
 }
 
-void RunsOfVoxels::end() {
-  if (count_ > 0 && sums_.counts(facts_)) sums_.add(p_, facts_, terms(), count_);
-  count_ = 0;
+AlikeVoxels::~AlikeVoxels() {
+  for (std::size_t i = 0; i < counts_.size(); ++i) flush(counts_[i], static_cast<VoxelFacts>(i % all_facts));
 }
 
-const QualityTerms& RunsOfVoxels::terms() {
-  const bool occupied = facts_ & is_occupied;
-  Known& known = known_[(std::bit_cast<std::uint32_t>(p_) * 0x9e3779b1u >> 25) * 2 + occupied];
-  if (known.p != p_) known = {p_, terms_of(p_, occupied)};
-  return known.terms;
+void AlikeVoxels::flush(Count& count, VoxelFacts facts) {
+  if (count.voxels > 0) sums_.add(count.p, facts, terms_of(count.p, facts & is_occupied), count.voxels);
+  count.voxels = 0;
 }
 
 }  // namespace nextview

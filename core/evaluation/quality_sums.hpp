@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -50,35 +51,35 @@ class QualitySumsOfSets {
   std::array<QualitySums, 4> sums_;
 };
 
-/// Adds voxels to sums, many in a row that are alike at once, as in free space.
-class RunsOfVoxels {
+/// Counts voxels that are alike before it adds them to sums: an occupancy map has few different probabilities, and
+/// logarithms and rounding one by one are expensive.
+class AlikeVoxels {
  public:
-  explicit RunsOfVoxels(QualitySumsOfSets& sums) : sums_(sums) {}
-  ~RunsOfVoxels() { end(); }
-  RunsOfVoxels(const RunsOfVoxels&) = delete;
+  explicit AlikeVoxels(QualitySumsOfSets& sums) : sums_(sums), counts_(slots * all_facts) {}
+  ~AlikeVoxels();
+  AlikeVoxels(const AlikeVoxels&) = delete;
 
   void add(float p, VoxelFacts facts, std::size_t count) {
-    if (p != p_ || facts != facts_) {
-      end();
-      p_ = p, facts_ = facts;
+    const std::size_t slot = std::bit_cast<std::uint32_t>(p) * 0x9e3779b1u >> (32 - slot_bits);
+    Count& counted = counts_[slot * all_facts + facts];
+    if (counted.p != p) {
+      flush(counted, facts);
+      counted.p = p;
     }
-    count_ += count;
+    counted.voxels += count;
   }
 
  private:
-  void end();
-  const QualityTerms& terms();
-
-  /// Voxels often have the same probability, and logarithms are expensive.
-  struct Known {
+  static constexpr int slot_bits = 7;
+  static constexpr std::size_t slots = std::size_t{1} << slot_bits;
+  struct Count {
     float p = -1.0f;
-    QualityTerms terms{};
+    std::size_t voxels = 0;
   };
+  void flush(Count& count, VoxelFacts facts);
+
   QualitySumsOfSets& sums_;
-  std::array<Known, 256> known_{};
-  float p_ = 0.0f;
-  VoxelFacts facts_ = 0;
-  std::size_t count_ = 0;
+  std::vector<Count> counts_;  ///< the facts of a slot side by side
 };
 
 }  // namespace nextview
