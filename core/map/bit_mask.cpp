@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -21,8 +22,16 @@ void for_each_word(std::size_t size, Visit visit) {
 
 /// At most 64 bytes, a bit each.
 std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
+  constexpr std::uint64_t lowest_bits = 0x0101010101010101, gather = 0x0102040810204080;
   std::uint64_t word = 0;
-  for (std::size_t i = 0; i < count; ++i) word |= std::uint64_t{bytes[i] != 0} << i;
+  for (std::size_t i = 0; i < count; i += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, bytes + i, std::min<std::size_t>(8, count - i));
+    if (eight == 0) continue;
+    for (const int shift : {4, 2, 1})
+      eight |= eight >> shift;                            // into each byte's lowest bit, if any of its bits is set
+    word |= ((eight & lowest_bits) * gather >> 56) << i;  // the product has them side by side at its top
+  }
   return word;
 }
 

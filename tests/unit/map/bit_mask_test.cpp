@@ -51,6 +51,8 @@ TEST(BitMask, TakesWordsFromAnywhereAndRefusesThoseOfAnother) {
     std::vector<std::size_t> set;
     mask.for_each([&](std::size_t i) { set.push_back(i - first); });
     EXPECT_EQ(set, (std::vector<std::size_t>{0, 1, 3})) << first;
+    EXPECT_EQ(mask.word(first), 0b1011u);
+    EXPECT_EQ(mask.word(first + 1), 0b101u);
     mask.set(first, false);
     EXPECT_FALSE(mask[first]);
   }
