@@ -195,11 +195,14 @@ TEST_F(ScanFiles, MetricsScoreTheMapUnderTheNamesOfTruthAndSet) {
       const MapQuality q = map_quality(p, truth, convention, set, session->evaluation()->visited_voxels.bytes());
       const auto& found = json[of][called];
       EXPECT_EQ(found["voxels"], q.voxels) << of << called;
-      EXPECT_EQ(found["log_loss_nats"], q.log_loss) << of << called;
-      EXPECT_EQ(found["brier"], q.brier) << of << called;
-      EXPECT_EQ(found["d_kl_nats"], q.divergence) << of << called;
-      EXPECT_EQ(found["d_kl_outside_band"], q.divergence_outside_band) << of << called;
-      EXPECT_EQ(found["expected_calibration_error"], q.calibration_error) << of << called;
+      EXPECT_NEAR(found["log_loss_nats"].get<double>(), q.log_loss, 1e-12 * q.log_loss) << of << called;
+      EXPECT_NEAR(found["brier"].get<double>(), q.brier, 1e-12 * q.brier) << of << called;
+      EXPECT_NEAR(found["d_kl_nats"].get<double>(), q.divergence, 1e-12 * q.divergence) << of << called;
+      EXPECT_NEAR(found["d_kl_outside_band"].get<double>(), q.divergence_outside_band,
+                  1e-12 * q.divergence_outside_band)
+          << of << called;
+      EXPECT_NEAR(found["expected_calibration_error"].get<double>(), q.calibration_error, 1e-12 * q.calibration_error)
+          << of << called;
       different.insert({q.log_loss, q.brier, q.divergence});
     }
     std::size_t occupied = 0, found = 0;  // of the visited voxels that the truth calls occupied

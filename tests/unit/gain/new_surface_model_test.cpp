@@ -17,6 +17,7 @@ std::vector<double> values(const NewSurfaceModel& model) {
   all.insert(all.end(), model.free.begin(), model.free.end());
   all.insert(all.end(), model.occupied.begin(), model.occupied.end());
   all.push_back(model.slant);
+  all.push_back(model.left_at_border);
   return all;
 }
 

@@ -123,8 +123,8 @@ TEST(SessionRecords, QualityIsOfTheVisitedVoxels) {
   const StepRecord& r = session.records().back();
   const GroundTruth& truth = session.known_object()->truth();
   const auto score = [&](const VoxelBricks& voxels, ScoredSet set) {
-    return map_quality(probabilities(voxels), truth, TruthConvention::touch, set,
-                       session.evaluation()->visited_voxels.bytes());
+    return map_quality(voxels, truth, TruthConvention::touch, std::span(&set, 1), session.evaluation()->visited_voxels)
+        .front();
   };
   EXPECT_TRUE(same_quality(r.quality, score(session.map().voxels(), ScoredSet::visited)));
   EXPECT_TRUE(same_quality(r.quality_near_surface, score(session.map().voxels(), ScoredSet::visited_band)));
