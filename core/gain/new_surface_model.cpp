@@ -19,7 +19,7 @@ NewSurfaceModel NewSurfaceModel::fitted() {
           {-12.24, -0.6266, 3.005, 3.149, 0.04534},
           {-1.668, -0.3992, 0.1877, 0.2171, -0.2666},
           1.694,
-          4.5};
+          5.8};
 }
 
 float NewSurfaceModel::chance(const SurfaceEvidence& evidence, const Eigen::Vector3i& cell) const {

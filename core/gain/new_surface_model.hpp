@@ -17,7 +17,7 @@ struct NewSurfaceModel {
   double slant = 1.7;  ///< area of the surface that rays meet, over the area across them
   /// Share of the surface that is left, over the share of the scanned points where it may go on (open_border): the
   /// median of made-up parts late in their scans. It is no part of the fit.
-  double left_at_border = 4.5;
+  double left_at_border = 5.8;
   /// Of surface whose area across the rays is so many m^2 [cm^2].
   double square_centimetres(double across) const { return 1e4 * slant * across; }
 
