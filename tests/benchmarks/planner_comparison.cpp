@@ -31,7 +31,9 @@ struct Options {
   std::vector<std::string> policies = {"set-cover",       "default",         "paper",      "surface-edge-density",
                                        "proximity-count", "average-entropy", "area-factor"};
   int views = 12, width = 320, random_seeds = 5;
-  double noise = 0.001, resolution = 0.01, cost_weight = -1.0;
+  double size = 0.5;                        // longest side [m]
+  double noise = 0.001, resolution = 0.01;  // [m], of objects of half a metre: both follow the size
+  double cost_weight = -1.0;
   std::string config;
   std::vector<std::string> set;
   std::vector<int> at;
@@ -73,11 +75,11 @@ Configuration configuration(const Options& options, const std::string& object, c
     c.planner.gain = policy;
   }
   c.object.file = object;
-  c.object.longest_side = 0.5;  // all alike, so that means mean something
+  c.object.longest_side = options.size;  // all alike, so that means mean something
   c.sensor.height = c.sensor.height * options.width / c.sensor.width;
   c.sensor.width = options.width;
-  c.sensor.range_noise = options.noise;
-  c.map.resolution = options.resolution;
+  give(c, "sensor.range_noise", fmt::format("{:.6g}", options.noise * options.size / 0.5), "--noise");
+  give(c, "map.resolution", fmt::format("{:.6g}", options.resolution * options.size / 0.5), "--resolution");
   if (options.cost_weight >= 0.0 && policy != "paper") c.planner.weights.cost = options.cost_weight;
   c.termination = {};
   c.termination.views = options.views;
@@ -232,8 +234,10 @@ int main(int argc, char** argv) {
   picture->needs(app.add_option("--from", from, "a CSV file that this program printed"));
   app.add_option("--views", options.views)->check(CLI::Range(1, 100));
   app.add_option("--width", options.width, "of the image [px]")->check(CLI::Range(16, 4096));
-  app.add_option("--noise", options.noise, "[m]");
-  app.add_option("--resolution", options.resolution, "[m]");
+  app.add_option("--size", options.size, "longest side of the objects [m]; all other lengths follow it")
+      ->check(CLI::Range(0.001, 1000.0));
+  app.add_option("--noise", options.noise, "[m], of objects of half a metre");
+  app.add_option("--resolution", options.resolution, "[m], of objects of half a metre");
   app.add_option("--cost-weight", options.cost_weight, "of Eq. 13, but for the paper's plan");
   app.add_option("--random-seeds", options.random_seeds)->check(CLI::Range(1, 100));
   CLI11_PARSE(app, argc, argv);
