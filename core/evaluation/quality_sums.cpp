@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "core/evaluation/repeated_sum.hpp"
-
 namespace nextview {
 namespace {
 
@@ -27,15 +25,16 @@ bool counts(ScoredSet set, VoxelFacts facts) {
 }  // namespace
 
 void QualitySums::add(double p, VoxelFacts facts, const QualityTerms& terms, std::size_t count) {
+  const double n = static_cast<double>(count);
   voxels += count;
-  add_times(log_loss, terms.log_loss, count);
-  add_times(brier, terms.brier, count);
-  add_times(divergence, terms.divergence, count);
-  if (!(facts & is_in_band)) add_times(divergence_outside, terms.divergence, count);
+  log_loss += n * terms.log_loss;
+  brier += n * terms.brier;
+  divergence += n * terms.divergence;
+  if (!(facts & is_in_band)) divergence_outside += n * terms.divergence;
   Bin& bin = bins[terms.bin];
   bin.voxels += count;
   bin.occupied += facts & is_occupied ? count : 0;
-  add_times(bin.probability, p, count);
+  bin.probability += n * p;
 }
 
 QualitySums& QualitySums::operator+=(const QualitySums& other) {

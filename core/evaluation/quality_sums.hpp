@@ -30,7 +30,7 @@ struct QualitySums {
   };
   std::array<Bin, 10> bins;
 
-  /// So many voxels, as if one by one.
+  /// So many voxels that are alike.
   void add(double p, VoxelFacts facts, const QualityTerms& terms, std::size_t count);
   QualitySums& operator+=(const QualitySums& other);
   MapQuality quality() const;
@@ -52,7 +52,7 @@ class QualitySumsOfSets {
 };
 
 /// Counts voxels that are alike before it adds them to sums: an occupancy map has few different probabilities, and
-/// logarithms and rounding one by one are expensive.
+/// logarithms are expensive.
 class AlikeVoxels {
  public:
   explicit AlikeVoxels(QualitySumsOfSets& sums) : sums_(sums), counts_(slots * all_facts) {}
