@@ -16,7 +16,7 @@ constexpr int divisions = 4;  // of a cell along each axis
 constexpr int sub_cell_count = divisions * divisions * divisions;
 
 /// Places beyond are taken for the last one: that is thousands of kilometres, or a radius that is next to nothing.
-constexpr int farthest = (1 << 20) - 2;
+constexpr int farthest = (1 << 20) - 3;  // two cells on there are keys, too
 
 constexpr int offset = 1 << 20;  // in a key no part is below 0
 
