@@ -38,34 +38,19 @@ Sums sum(std::size_t bricks, Term term) {
       std::plus<>());
 }
 
-/// Entropies of a brick's voxels, asked for one after the other: many are as the one before.
-class Entropies {
- public:
-  explicit Entropies(const Brick& brick) : brick_(brick) {}
-  double operator()(std::size_t i) {
-    if (!brick_.follows_from_log_odds()) return brick_.entropy(i);
-    if (const float log_odds = brick_.log_odds(i); log_odds != last_) last_ = log_odds, entropy_ = brick_.entropy(i);
-    return entropy_;
-  }
-
- private:
-  const Brick& brick_;
-  float last_ = 0.0f, entropy_ = Voxel().entropy;
-};
-
 /// What a brick's voxels are known better than if nothing were, and how many are measured.
 Sums known(const Brick& brick) {
-  Entropies is(brick);
+  BrickBeliefs is(brick);
   Sums known{0.0, brick.measured_count()};
-  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) known.entropy += double(Voxel().entropy) - is(i);
+  for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) known.entropy += double(Voxel().entropy) - is.entropy(i);
   return known;
 }
 
 Sums change(const Brick& before, const Brick& after) {
-  Entropies was(before), is(after);
+  BrickBeliefs was(before), is(after);
   Sums change;
   for (std::size_t i = 0; i < VoxelBricks::brick_voxels; ++i) {
-    change.entropy += was(i) - is(i);
+    change.entropy += double(was.entropy(i)) - double(is.entropy(i));
     change.voxels += after.measured(i) && !before.measured(i);
   }
   return change;

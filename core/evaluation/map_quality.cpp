@@ -83,21 +83,6 @@ std::vector<MapQuality> qualities(std::span<const ScoredSet> sets, std::size_t p
   return result;
 }
 
-/// The probabilities of a brick's voxels, asked for one after the other: many are as the one before.
-class Probabilities {
- public:
-  explicit Probabilities(const Brick& brick) : brick_(brick) {}
-  float operator()(std::size_t i) {
-    if (!brick_.follows_from_log_odds()) return brick_[i].probability;
-    if (const float log_odds = brick_.log_odds(i); log_odds != last_) last_ = log_odds, p_ = brick_[i].probability;
-    return p_;
-  }
-
- private:
-  const Brick& brick_;
-  float last_ = 0.0f, p_ = 0.5f;
-};
-
 /// Eight bricks in a row along x: their voxels' truth is read 64 a time.
 class BrickStrips {
  public:
@@ -155,11 +140,11 @@ class BrickStrips {
   }
 
   static void add_each(const Brick& brick, const Rows& rows, int shift, AlikeVoxels& alike) {
-    Probabilities probability(brick);
+    BrickBeliefs believed(brick);
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::uint64_t left = rows[r].counted >> shift & 255; left != 0; left &= left - 1) {
         const auto i = std::size_t(std::countr_zero(left));
-        alike.add(probability(r * edge + i), rows[r].of(shift + i), 1);
+        alike.add(believed.probability(r * edge + i), rows[r].of(shift + i), 1);
       }
   }
 

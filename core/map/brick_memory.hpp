@@ -32,4 +32,23 @@ class BrickMemory {
   std::array<Known, 64> known_{};
 };
 
+/// What is believed of a brick's voxels, asked for one after the other: many are as the one before.
+class BrickBeliefs {
+ public:
+  explicit BrickBeliefs(const VoxelBricks::Brick& brick) : brick_(brick) {}
+  float probability(std::size_t i) { return as_believed(i).probability; }
+  float entropy(std::size_t i) { return as_believed(i).entropy; }
+
+ private:
+  const Voxel& as_believed(std::size_t i) {
+    const float log_odds = brick_.log_odds(i);
+    if (log_odds != log_odds_ || !brick_.follows_from_log_odds()) log_odds_ = log_odds, voxel_ = brick_[i];
+    return voxel_;
+  }
+
+  const VoxelBricks::Brick& brick_;
+  float log_odds_ = 0.0f;
+  Voxel voxel_;  ///< that was asked about last, or one as likely; of log-odds 0: an unmeasured one
+};
+
 }  // namespace nextview
