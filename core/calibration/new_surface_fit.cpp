@@ -47,7 +47,7 @@ void NewSurfaceObservations::add(const SurfaceEvidence& evidence, const Eigen::V
     for (std::size_t k = 0; k < features.size(); ++k) cell.features[k] += weight * features[k];
   };
   if (kind == Kind::unmeasured)
-    count(evidence.unmeasured(voxel), unmeasured_steps);
+    count(evidence.unmeasured(evidence.block_of(voxel)), unmeasured_steps);
   else
     count(evidence.measured(voxel), measured_steps);
 }

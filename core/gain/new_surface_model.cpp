@@ -22,12 +22,16 @@ NewSurfaceModel NewSurfaceModel::fitted() {
           5.8};
 }
 
+float NewSurfaceModel::chance_in_block(const SurfaceEvidence& evidence, const Eigen::Vector3i& block) const {
+  // A rate times the voxel's share of the object's size.
+  return static_cast<float>(-std::expm1(-std::exp(linear(unmeasured, evidence.unmeasured(block))) / evidence.size()));
+}
+
 float NewSurfaceModel::chance(const SurfaceEvidence& evidence, const Eigen::Vector3i& cell) const {
   if (!evidence.may_hold_surface(cell)) return 0.0f;
   switch (evidence.kind(cell)) {
-    case SurfaceEvidence::Kind::unmeasured:  // a rate times the voxel's share of the object's size
-      return static_cast<float>(
-          -std::expm1(-std::exp(linear(unmeasured, evidence.unmeasured(cell))) / evidence.size()));
+    case SurfaceEvidence::Kind::unmeasured:
+      return chance_in_block(evidence, evidence.block_of(cell));
     case SurfaceEvidence::Kind::free:
       return static_cast<float>(probability(linear(free, evidence.measured(cell))));
     case SurfaceEvidence::Kind::occupied:  // never 0, whose sign would say nothing

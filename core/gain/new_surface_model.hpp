@@ -28,6 +28,8 @@ struct NewSurfaceModel {
   /// The probability that a ray which gets to a voxel meets new surface there. Negative, that with the other sign: it
   /// goes no farther.
   float chance(const SurfaceEvidence& evidence, const Eigen::Vector3i& cell) const;
+  /// The same of each of the unmeasured voxels in a block (SurfaceEvidence::unmeasured).
+  float chance_in_block(const SurfaceEvidence& evidence, const Eigen::Vector3i& block) const;
 };
 std::vector<Setting> settings(NewSurfaceModel& model);
 

@@ -143,12 +143,13 @@ SurfaceEvidence::Hull SurfaceEvidence::hull_of(const std::vector<Eigen::Vector3i
 }
 
 SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
-                                 double occupancy_threshold)
+                                 double occupancy_threshold, double finest)
     : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()}, voxels_(voxels), occlusions_(occlusions) {
   const std::vector<Eigen::Vector3i> occupied = occupied_cells(voxels, occupancy_threshold);
   if (occupied.empty()) return;
   hull_ = hull_of(occupied);
   set_region(grid, hull_);
+  while (2 * block_edge_ <= finest * size_) block_edge_ *= 2;
   read_kinds(occupancy_threshold);
   measure_distances();
 }
@@ -190,9 +191,14 @@ void SurfaceEvidence::read_kinds(double threshold) {
 
 void SurfaceEvidence::measure_distances() {
   const BitRows either = BitRows::either(occupied_, unmeasured_);
-  unmeasured_before_ = unmeasured_.counts_before();
-  tbb::parallel_invoke([&] { to_occupied_ = squared_distances(unmeasured_, occupied_); },
-                       [&] { to_free_ = squared_distances(unmeasured_, either.complement()); },
+  const auto blocks = [&](BitRows voxels) {
+    for (int edge = 1; edge < block_edge_; edge *= 2) voxels = voxels.halved();
+    return voxels;
+  };
+  unmeasured_blocks_ = blocks(unmeasured_);
+  blocks_before_ = unmeasured_blocks_.counts_before();
+  tbb::parallel_invoke([&] { to_occupied_ = squared_distances(unmeasured_blocks_, blocks(occupied_)); },
+                       [&] { to_free_ = squared_distances(unmeasured_blocks_, blocks(either.complement())); },
                        [&] {
                          may_hold_surface_ = either;
                          may_hold_surface_.grow({});
@@ -206,25 +212,41 @@ void SurfaceEvidence::measure_distances() {
   });
 }
 
-float SurfaceEvidence::log_share(std::int32_t squared_distance) const {
-  return log_shares_[std::min<std::size_t>(std::size_t(squared_distance), log_shares_.size() - 1)];
+float SurfaceEvidence::log_share(std::size_t squared_distance) const {
+  return log_shares_[std::min(squared_distance, log_shares_.size() - 1)];
 }
 
-SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(const Eigen::Vector3i& cell) const {
-  const std::size_t number = unmeasured_.rank(cell, unmeasured_before_);
-  const Eigen::Vector3i in_whole = cell + offset_;
+float SurfaceEvidence::log_share_of_blocks(std::int32_t squared_distance) const {
+  // What lies in the same block is half an edge away.
+  const auto squared_edge = static_cast<std::size_t>(block_edge_ * block_edge_);
+  return log_share(std::max(std::size_t(squared_distance) * squared_edge, squared_edge / 4));
+}
+
+Eigen::Vector3i SurfaceEvidence::first_unmeasured(const Eigen::Vector3i& block) const {
+  const Eigen::Vector3i lowest = block_edge_ * block,
+                        beyond = (lowest.array() + block_edge_).cwiseMin(grid_.size.array());
+  for (int z = lowest.z(); z < beyond.z(); ++z)
+    for (int y = lowest.y(); y < beyond.y(); ++y)
+      for (int x = lowest.x(); x < beyond.x(); ++x)
+        if (unmeasured_.at({x, y, z})) return {x, y, z};
+  return lowest;
+}
+
+SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(const Eigen::Vector3i& block) const {
+  const std::size_t number = unmeasured_blocks_.rank(block, blocks_before_);
+  const Eigen::Vector3i in_whole = first_unmeasured(block) + offset_;
   const std::size_t place = occlusions_.place(in_whole.x(), in_whole.y(), in_whole.z());
   const VoxelBricks::Brick& brick = *occlusions_.bricks()[place / VoxelBricks::brick_voxels];
-  const float to_free = log_share(to_free_[number]);
+  const float to_free = log_share_of_blocks(to_free_[number]);
   const std::int32_t behind =
       std::min<std::int32_t>(brick.occlusion_distance(place % VoxelBricks::brick_voxels), 10000);
   const auto outside = static_cast<float>(hull_.outside(in_whole) / size_);
   return {1.0f,
-          log_share(to_occupied_[number]),
+          log_share_of_blocks(to_occupied_[number]),
           to_free,
           to_free * to_free,
           behind == 0 ? 1.0f : 0.0f,
-          behind == 0 ? 0.0f : log_share(behind * behind),
+          behind == 0 ? 0.0f : log_share(std::size_t(behind * behind)),
           std::sqrt(std::max(outside, 0.0f)),
           std::max(outside, 0.0f),
           std::min(outside, 0.0f)};

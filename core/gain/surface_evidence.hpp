@@ -23,10 +23,14 @@ class SurfaceEvidence {
   /// 0; its occupied neighbours. Of 26 each.
   using Measured = std::array<float, 5>;
 
+  /// Voxels that are smaller than this share of the object are unmeasured in blocks of more: finer is not known where
+  /// nothing was measured, and the work would grow with the volume.
+  static constexpr double finest_share = 1.0 / 128;
+
   /// `occlusions` knows how far voxels lie behind a surface; it is the conventional map where `voxels` are another's.
   /// Up to a thousandth of the occupied voxels along any direction may be outliers, which the object's box leaves out.
   SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
-                  double occupancy_threshold);
+                  double occupancy_threshold, double finest = finest_share);
 
   /// The part of the map that is looked at, in the same lattice; of no voxels if none is occupied.
   const VoxelGrid& grid() const { return grid_; }
@@ -35,8 +39,14 @@ class SurfaceEvidence {
   Kind kind(const Eigen::Vector3i& cell) const {
     return occupied_.at(cell) ? Kind::occupied : unmeasured_.at(cell) ? Kind::unmeasured : Kind::free;
   }
-  /// @pre kind(cell) == Kind::unmeasured
-  Unmeasured unmeasured(const Eigen::Vector3i& cell) const;
+  /// Of a block of unmeasured voxels, those of its first one, x fastest; distances are its own, to blocks that hold any
+  /// such voxel. @pre it holds an unmeasured voxel
+  Unmeasured unmeasured(const Eigen::Vector3i& block) const;
+  /// Along its edge [voxels], a power of two; 1: voxels are looked at one by one.
+  int block_edge() const { return block_edge_; }
+  Eigen::Vector3i block_of(const Eigen::Vector3i& cell) const { return cell / block_edge_; }
+  /// The blocks that hold an unmeasured voxel.
+  const BitRows& unmeasured_blocks() const { return unmeasured_blocks_; }
   /// @pre kind(cell) != Kind::unmeasured
   Measured measured(const Eigen::Vector3i& cell) const;
   /// Whether a voxel is unmeasured or occupied, or has such a one beside it: no surface is in any other.
@@ -56,7 +66,9 @@ class SurfaceEvidence {
   void set_region(const VoxelGrid& whole, const Hull& hull);
   void read_kinds(double occupancy_threshold);
   void measure_distances();
-  float log_share(std::int32_t squared_distance) const;
+  Eigen::Vector3i first_unmeasured(const Eigen::Vector3i& block) const;
+  float log_share(std::size_t squared_distance) const;
+  float log_share_of_blocks(std::int32_t squared_distance) const;
 
   VoxelGrid grid_;
   Eigen::Vector3i offset_ = Eigen::Vector3i::Zero();  ///< of grid_ in the whole grid [voxels]
@@ -65,8 +77,10 @@ class SurfaceEvidence {
   Hull hull_{};
   VoxelBricks voxels_, occlusions_;  ///< of the whole grid
   BitRows occupied_, unmeasured_, may_hold_surface_;
-  std::vector<std::uint32_t> unmeasured_before_;     ///< BitRows::counts_before
-  std::vector<std::int32_t> to_occupied_, to_free_;  ///< of the unmeasured ones, squared [voxels^2]
+  int block_edge_ = 1;
+  BitRows unmeasured_blocks_;
+  std::vector<std::uint32_t> blocks_before_;         ///< BitRows::counts_before of unmeasured_blocks_
+  std::vector<std::int32_t> to_occupied_, to_free_;  ///< of those, squared [blocks^2]
   std::vector<float> log_shares_;                    ///< by squared distance
 };
 

@@ -12,6 +12,16 @@ namespace {
 
 std::uint64_t bit_of(const Eigen::Vector3i& cell) { return std::uint64_t{1} << (cell.x() % 64); }
 
+/// Of each two bits next to each other, from the lowest on, whether any is set: in the lower half.
+std::uint64_t any_of_pairs(std::uint64_t word) {
+  word = (word | word >> 1) & 0x5555555555555555;
+  word = (word | word >> 1) & 0x3333333333333333;
+  word = (word | word >> 2) & 0x0f0f0f0f0f0f0f0f;
+  word = (word | word >> 4) & 0x00ff00ff00ff00ff;
+  word = (word | word >> 8) & 0x0000ffff0000ffff;
+  return (word | word >> 16) & 0xffffffff;
+}
+
 /// Of each bit, the parity of those up to it.
 std::uint64_t parities(std::uint64_t word) {
   for (int shift = 1; shift < 64; shift *= 2) word ^= word << shift;
@@ -124,6 +134,21 @@ BitRows BitRows::complement() const {
   for (std::size_t w = 0; w < words_.size(); ++w)
     others.words_[w] = ~words_[w] & ((w + 1) % row_words_ == 0 ? last_word_ : ~std::uint64_t{0});
   return others;
+}
+
+BitRows BitRows::halved() const {
+  BitRows half((size_.array() + 1) / 2);
+  tbb::parallel_for(0, half.size_.z(), [&](int z) {
+    for (int y = 0; y < half.size_.y(); ++y)
+      for (std::size_t w = 0; w < row_words_; ++w) {
+        std::uint64_t any = 0;
+        for (int fine_z = 2 * z; fine_z < std::min(2 * z + 2, size_.z()); ++fine_z)
+          for (int fine_y = 2 * y; fine_y < std::min(2 * y + 2, size_.y()); ++fine_y)
+            any |= words_[begin(fine_y, fine_z) + w];
+        half.words_[half.begin(y, z) + w / 2] |= any_of_pairs(any) << (32 * (w % 2));
+      }
+  });
+  return half;
 }
 
 int BitRows::neighbours(const Eigen::Vector3i& cell) const {

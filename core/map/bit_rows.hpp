@@ -37,6 +37,8 @@ class BitRows {
   static BitRows majority(const BitRows& a, const BitRows& b, const BitRows& c);
   static BitRows either(const BitRows& a, const BitRows& b);
   BitRows complement() const;
+  /// A flag for each 2 x 2 x 2 voxels, or as many as lie in the box: whether any of them is set.
+  BitRows halved() const;
 
   /// How many of a voxel's 26 neighbours are set; beyond the box there are none.
   int neighbours(const Eigen::Vector3i& cell) const;

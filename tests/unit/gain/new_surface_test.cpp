@@ -249,6 +249,24 @@ TEST(NewSurface, ViewsAlongAnAxisAreLikeTheirNeighbours) {
   }
 }
 
+TEST(NewSurface, AFieldHasTheChanceOfEachVoxelAndAMargin) {
+  std::mt19937 random(11);
+  const auto made = evidence_maps::random_map(random, {17, 14, 11}, 0.2, 0.8);
+  for (const double finest : {SurfaceEvidence::finest_share, 0.1, 0.25}) {
+    const SurfaceEvidence evidence = made.evidence(0.5, finest);
+    ASSERT_EQ(evidence.block_edge(), finest < 0.1 ? 1 : finest < 0.2 ? 2 : 4);
+    const NewSurfaceModel model = NewSurfaceModel::fitted();
+    const NewSurfaceField field(evidence, model);
+    const Eigen::Vector3i& size = field.grid().size;
+    for (int z = -1; z <= size.z(); ++z)
+      for (int y = -1; y <= size.y(); ++y)
+        for (int x = -1; x <= size.x(); ++x) {
+          const bool is_inside = field.grid().contains({x, y, z});
+          ASSERT_EQ(field.at(x, y, z), is_inside ? model.chance(evidence, {x, y, z}) : ChanceField::outside);
+        }
+  }
+}
+
 TEST(NewSurface, OfAMapWithNothingOccupiedIsZero) {
   MadeMap made({20, 20, 20});
   made.set_box({3, 3, 3}, {12, 12, 12}, -1.0);

@@ -145,6 +145,44 @@ TEST(SurfaceEvidence, AgreesWithComparingAllVoxels) {
   }
 }
 
+TEST(SurfaceEvidence, ALargeObjectIsUnmeasuredInBlocks) {
+  std::mt19937 random(5);
+  for (const int edge : {2, 4}) {
+    const MadeMap made = evidence_maps::random_map(random, {17, 14, 11}, 0.2, 0.97);
+    const Twin twin(made);
+    const SurfaceEvidence evidence = made.evidence(0.5, 1.01 * edge / twin.size);
+    ASSERT_EQ(evidence.block_edge(), edge);
+    ASSERT_EQ(evidence.grid().size, twin.grid.size);
+    std::array<std::vector<Vector3i>, 3> blocks;  // that hold a voxel of each kind
+    for (const Vector3i& cell : evidence_maps::cells(evidence))
+      blocks[std::size_t(twin.kind(cell))].push_back(evidence.block_of(cell));
+    std::vector<Vector3i> seen;
+    for (const Vector3i& cell : evidence_maps::cells(evidence)) {  // of a block the first comes first
+      const Vector3i block = evidence.block_of(cell);
+      if (twin.kind(cell) != Kind::unmeasured || std::ranges::find(seen, block) != seen.end()) continue;
+      seen.push_back(block);
+      ASSERT_TRUE(evidence.unmeasured_blocks().at(block));
+      const auto ln_distance = [&](Kind to) {
+        double nearest = 1e9;
+        for (const Vector3i& other : blocks[std::size_t(to)])
+          nearest = std::min(nearest, (other - block).cast<double>().norm());
+        return std::log(std::max(edge * nearest, edge / 2.0) / twin.size);
+      };
+      const double free = ln_distance(Kind::free), outside = twin.outside(cell) / twin.size;
+      expect_near(evidence.unmeasured(block), {1, ln_distance(Kind::occupied), free, free * free, 1, 0,
+                                               std::sqrt(std::max(outside, 0.0)), std::max(outside, 0.0),
+                                               std::min(outside, 0.0)});
+    }
+    EXPECT_GT(seen.size(), 20u);
+  }
+}
+
+TEST(SurfaceEvidence, OfTheUsualSizeVoxelsAreLookedAtOneByOne) {
+  EXPECT_EQ(plate().evidence().block_edge(), 1);
+  EXPECT_EQ(plate().evidence(0.5, 1.9 / plate_size).block_edge(), 1);
+  EXPECT_EQ(plate().evidence(0.5, 2.1 / plate_size).block_edge(), 2);
+}
+
 /// The same features in the voxels that `image` takes the first map's to.
 void expect_alike(const SurfaceEvidence& a, const VoxelGrid& whole_a, const SurfaceEvidence& b,
                   const VoxelGrid& whole_b, const std::function<Vector3i(const Vector3i&)>& image) {

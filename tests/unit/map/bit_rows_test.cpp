@@ -33,6 +33,18 @@ TEST(BitRows, NeighboursAndGrowthAreWhatComparingAllFinds) {
     }
 }
 
+TEST(BitRows, HalvedIsAnyOfEight) {
+  std::mt19937 random(7);
+  for (const Vector3i& size : row_sizes)
+    for (const double share : {0.05, 0.6}) {
+      const BitRows rows = random_rows(random, size, share), half = rows.halved();
+      ASSERT_EQ(half.size(), Vector3i((size.array() + 1) / 2));
+      BitRows expected(half.size());
+      for (const Vector3i& cell : cells(rows)) expected.set(cell / 2);
+      ASSERT_EQ(cells(half), cells(expected)) << size.transpose();
+    }
+}
+
 TEST(BitRows, RanksCountThoseBefore) {
   std::mt19937 random(2);
   for (const Vector3i& size : row_sizes) {
