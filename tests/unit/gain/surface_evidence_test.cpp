@@ -169,9 +169,9 @@ TEST(SurfaceEvidence, ALargeObjectIsUnmeasuredInBlocks) {
         return std::log(std::max(edge * nearest, edge / 2.0) / twin.size);
       };
       const double free = ln_distance(Kind::free), outside = twin.outside(cell) / twin.size;
-      expect_near(evidence.unmeasured(block), {1, ln_distance(Kind::occupied), free, free * free, 1, 0,
-                                               std::sqrt(std::max(outside, 0.0)), std::max(outside, 0.0),
-                                               std::min(outside, 0.0)});
+      expect_near(evidence.unmeasured(block),
+                  {1, ln_distance(Kind::occupied), free, free * free, 1, 0, std::sqrt(std::max(outside, 0.0)),
+                   std::max(outside, 0.0), std::min(outside, 0.0)});
     }
     EXPECT_GT(seen.size(), 20u);
   }
