@@ -27,6 +27,22 @@ std::array<int, 9> along_directions(const Eigen::Vector3i& cell) {
   return {x, y, z, x + y, x - y, x + z, x - z, y + z, y - z};
 }
 
+/// The least log-odds of which an occupancy map makes at least this probability; infinite if none does.
+float least_log_odds(double probability) {
+  const auto reaches = [&](float log_odds) {
+    return double(static_cast<float>(belief(log_odds).probability)) >= probability;
+  };
+  constexpr float largest = 1e4f;
+  float below = -largest, from = largest;  // the larger the log-odds the likelier
+  if (reaches(below)) return -std::numeric_limits<float>::infinity();
+  if (!reaches(from)) return std::numeric_limits<float>::infinity();
+  while (std::nextafter(below, from) < from) {
+    const float middle = below + (from - below) / 2.0f;
+    (reaches(middle) ? from : below) = middle;
+  }
+  return from;
+}
+
 /// What the voxels of a brick are, row by row, a bit each.
 class BrickKinds {
  public:
@@ -34,7 +50,7 @@ class BrickKinds {
   static constexpr int edge = VoxelBricks::edge;
   std::array<std::uint8_t, std::size_t{edge} * edge> occupied{}, unmeasured{};
 
-  explicit BrickKinds(double threshold) : threshold_(threshold) {}
+  explicit BrickKinds(double threshold) : threshold_(threshold), occupied_from_(least_log_odds(threshold)) {}
   /// Where a row begins in its brick.
   static Eigen::Vector3i cell(int row) { return {0, row % edge, row / edge}; }
 
@@ -59,20 +75,13 @@ class BrickKinds {
   }
 
  private:
-  bool is_occupied(const Brick& brick, std::size_t i) {
-    if (!brick.measured(i)) return false;
-    if (!brick.follows_from_log_odds()) return brick[i].probability >= threshold_;
-    // The larger its log-odds the likelier: most are beyond others whose probability was looked at.
-    const float log_odds = brick.log_odds(i);
-    if (log_odds >= occupied_from_) return true;
-    if (log_odds <= free_to_) return false;
-    const bool is = brick[i].probability >= threshold_;
-    (is ? occupied_from_ : free_to_) = log_odds;
-    return is;
+  bool is_occupied(const Brick& brick, std::size_t i) const {
+    if (!brick.follows_from_log_odds()) return brick.measured(i) && brick[i].probability >= threshold_;
+    return unsigned(brick.measured(i)) & unsigned(brick.numbers()[i] >= occupied_from_);  // without a branch
   }
 
   double threshold_;
-  float free_to_ = -std::numeric_limits<float>::infinity(), occupied_from_ = std::numeric_limits<float>::infinity();
+  float occupied_from_;
   const Brick* read_ = nullptr;
 };
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/map/return_batch.hpp"
+#include "core/map/voxel_bricks.hpp"
 #include "core/progress/stopped.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -134,6 +135,23 @@ namespace {
 HWY_EXPORT(mark_behind);
 
 }  // namespace
+
+VoxelGrid region_behind(const VoxelGrid& grid, const Scan& scan, double distance) {
+  Eigen::Vector3i lowest = grid.size, highest = -Eigen::Vector3i::Ones();
+  for (const Eigen::Vector3f& hit : scan.hits) {
+    const Vector3 at = hit.cast<double>();
+    const Eigen::Vector3i cell = grid.cell_at(at);
+    if (!grid.contains(cell)) continue;
+    const Eigen::Vector3i end = grid.cell_at(at + distance * (at - scan.origin).stableNormalized());
+    lowest = lowest.cwiseMin(cell).cwiseMin(end);
+    highest = highest.cwiseMax(cell).cwiseMax(end);
+  }
+  constexpr int edge = VoxelBricks::edge;
+  // A voxel more, for rounding.
+  const Eigen::Vector3i first = (lowest.array() - 1).max(0) / edge * edge;
+  const Eigen::Vector3i beyond = ((highest.array() + 1 + edge) / edge * edge).min(grid.size.array());
+  return {grid.resolution, grid.first + first, (beyond - first).cwiseMax(0)};
+}
 
 OcclusionMarks::OcclusionMarks(const VoxelGrid& grid) : grid_(grid), numbers_(places_with_margin(grid)) {}
 

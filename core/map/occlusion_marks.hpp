@@ -3,10 +3,15 @@
 #include <span>
 #include <stop_token>
 
+#include "core/cloud/point_cloud.hpp"
 #include "core/map/grid_margin.hpp"
 #include "core/map/zeroed_array.hpp"
 
 namespace nextview {
+
+/// The part of a grid, in whole bricks of it (VoxelBricks), that holds all ways of `distance` [m] on behind returns in
+/// it; of no voxels if there is no such return.
+VoxelGrid region_behind(const VoxelGrid& grid, const Scan& scan, double distance);
 
 /// How many voxels behind the nearest return each voxel of a grid lies, on the way of a ray that goes on beyond it:
 /// many rays at once, in the lanes of the processor's vector registers. The voxels are those of walk_segment from the

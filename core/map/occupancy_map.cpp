@@ -168,16 +168,19 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
 }
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
-  OcclusionMarks marks(grid_);
+  const VoxelGrid region = region_behind(grid_, scan, distance);
+  OcclusionMarks marks(region);
   marks.mark(scan.origin.cast<float>(), scan.hits, scan.max_range, distance, stop);
   using Numbers = std::array<std::uint16_t, VoxelBricks::brick_voxels>;
   VoxelBricks after = voxels_;
   const auto bricks = after.change_bricks();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 64), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
+      const Eigen::Vector3i in_region = grid_.first - region.first;
+      if (!region.contains(voxels_.cell(brick * VoxelBricks::brick_voxels) + in_region)) continue;
       Numbers nearest{};
       voxels_.for_each_row(brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
-        std::memcpy(&nearest[first], marks.row(cell), count * sizeof nearest[0]);
+        std::memcpy(&nearest[first], marks.row(cell + in_region), count * sizeof nearest[0]);
       });
       if (nearest == Numbers{}) continue;
       const auto better = [&](const VoxelBricks::Brick& voxels, std::size_t i) {

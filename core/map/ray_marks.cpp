@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/map/ray_batch.hpp"
+#include "core/map/ray_tiles.hpp"
 #include "core/progress/stopped.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -216,6 +217,7 @@ HWY_EXPORT(mark_rays);
 
 /// Farther off than this [voxels], stepping to the grid rounds too coarsely for the lanes.
 constexpr int farthest_camera = 1 << 20;
+constexpr std::size_t largest_cached = 256 * 256 * 256;  // [voxels]
 
 }  // namespace
 
@@ -226,9 +228,12 @@ void RayMarks::pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector
   const Eigen::Vector3i from = grid_.cell_at(origin.cast<double>());
   const bool far = from.cwiseAbs().maxCoeff() > farthest_camera;
   const auto mark = HWY_DYNAMIC_DISPATCH(mark_rays);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 1024), [&](const auto& range) {
+  // The marks of a larger grid have no room in the processor's own cache.
+  const PointCloud tiles = grid_.voxel_count() > largest_cached ? in_tiles(origin, ends) : PointCloud();
+  const std::span<const Eigen::Vector3f> ordered = tiles.empty() ? ends : std::span(tiles);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ordered.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
-    const RayBatch batch{grid_, origin, ends.subspan(range.begin(), range.size()), max_range, marks_.data()};
+    const RayBatch batch{grid_, origin, ordered.subspan(range.begin(), range.size()), max_range, marks_.data()};
     if (far) {
       for (const Eigen::Vector3f& end : batch.ends) mark_one(batch, end);
     } else {

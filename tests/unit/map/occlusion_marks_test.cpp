@@ -97,6 +97,29 @@ TEST_P(OcclusionMarksOn, OfWildReturns) {
   }
 }
 
+TEST(OcclusionMarks, TheRegionBehindHoldsAllThatIsMarked) {
+  std::mt19937 random(14);
+  bool smaller = false;
+  for (const double resolution : {0.01, 0.013})
+    for (const Vector3& origin : random_scans::origins())
+      for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{40}}) {
+        const VoxelGrid grid = region_of_interest(Vector3(0.02, -0.01, 0.0), 0.6, resolution);
+        const Scan scan = random_scans::scan(random, origin, resolution, count);
+        const VoxelGrid region = region_behind(grid, scan, 0.15);
+        const Eigen::Vector3i first = region.first - grid.first;
+        EXPECT_EQ(Eigen::Vector3i(first - first / 8 * 8), Eigen::Vector3i::Zero().eval()) << "whole bricks";
+        OcclusionMarks in_region(region);
+        in_region.mark(origin.cast<float>(), scan.hits, any_range, 0.15);
+        const Numbers all = marked_behind(grid, origin.cast<float>(), scan.hits, any_range, 0.15);
+        for (std::uint32_t v = 0; v < grid.voxel_count(); ++v) {
+          const Eigen::Vector3i cell = grid.cell(v) - first;
+          ASSERT_EQ(region.contains(cell) ? *in_region.row(cell) : 0, all[v]);
+        }
+        smaller |= region.voxel_count() < grid.voxel_count() / 2;
+      }
+  EXPECT_TRUE(smaller);
+}
+
 TEST(OcclusionMarks, AreTheSameFromAnyNumberOfThreadsAndEndWhenAsked) {
   std::mt19937 random(13);
   const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.6, 0.01);

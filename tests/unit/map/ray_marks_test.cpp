@@ -40,6 +40,17 @@ std::vector<std::uint8_t> marked(const VoxelGrid& grid, const Eigen::Vector3f& o
   return all;
 }
 
+TEST(RayMarks, OfAGridThatHasNoRoomInTheCacheAreTheSame) {
+  std::mt19937 random(9);
+  const VoxelGrid grid{0.002, {-150, -130, -120}, {300, 260, 225}};
+  for (const Vector3& origin : {Vector3(0.9, 0.1, 0.2), Vector3(0.01, 0.0, 0.02)}) {
+    Scan scan = random_scans::scan(random, origin, grid.resolution, 2000);
+    random_scans::add_passes(scan, random, 300);
+    const Eigen::Vector3f from = origin.cast<float>();
+    EXPECT_EQ(marked(grid, from, scan.hits, 1.5), walked(grid, from, scan.hits, 1.5)) << origin.transpose();
+  }
+}
+
 class RayMarksOn : public OnInstructionSet {};
 INSTANTIATE_TEST_SUITE_P(InstructionSets, RayMarksOn, instruction_sets(), instruction_set_name);
 
