@@ -141,11 +141,29 @@ class BrickStrips {
 
   static void add_each(const Brick& brick, const Rows& rows, int shift, AlikeVoxels& alike) {
     BrickBeliefs believed(brick);
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      for (std::uint64_t left = rows[r].counted >> shift & 255; left != 0; left &= left - 1) {
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const std::uint64_t counted = rows[r].counted >> shift & 255;
+      if (counted == 0) continue;
+      const auto first = std::size_t(std::countr_zero(counted));
+      const VoxelFacts facts = rows[r].of(shift + first);
+      if ((rows[r].those(facts) >> shift & 255) == counted && same_log_odds(brick, r * edge)) {
+        alike.add(believed.probability(r * edge + first), facts, std::size_t(std::popcount(counted)));
+        continue;
+      }
+      for (std::uint64_t left = counted; left != 0; left &= left - 1) {
         const auto i = std::size_t(std::countr_zero(left));
         alike.add(believed.probability(r * edge + i), rows[r].of(shift + i), 1);
       }
+    }
+  }
+
+  /// Whether the voxels of a row are all as likely, if they are measured.
+  static bool same_log_odds(const Brick& brick, std::size_t first) {
+    bool same = brick.follows_from_log_odds();
+    for (std::size_t i = 1; i < edge; ++i)
+      same &=
+          (brick.numbers()[first + i] == brick.numbers()[first]) & (brick.measured(first + i) == brick.measured(first));
+    return same;
   }
 
   const VoxelBricks& voxels_;

@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 
+#include "core/map/ray_tiles.hpp"
 #include "core/map/return_batch.hpp"
 #include "core/map/voxel_bricks.hpp"
 #include "core/progress/stopped.hpp"
@@ -158,9 +159,12 @@ OcclusionMarks::OcclusionMarks(const VoxelGrid& grid) : grid_(grid), numbers_(pl
 void OcclusionMarks::mark(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> returns, double max_range,
                           double distance, const std::stop_token& stop) {
   const auto mark = HWY_DYNAMIC_DISPATCH(mark_behind);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, returns.size(), 1024), [&](const auto& range) {
+  const PointCloud tiles =
+      grid_.voxel_count() * sizeof(std::uint16_t) > tiles_pay_from ? in_tiles(origin, returns) : PointCloud();
+  const std::span<const Eigen::Vector3f> ordered = tiles.empty() ? returns : std::span(tiles);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ordered.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
-    mark({grid_, origin, returns.subspan(range.begin(), range.size()), max_range, distance, numbers_.data()});
+    mark({grid_, origin, ordered.subspan(range.begin(), range.size()), max_range, distance, numbers_.data()});
   });
   throw_if_stopped(stop);
 }

@@ -217,7 +217,6 @@ HWY_EXPORT(mark_rays);
 
 /// Farther off than this [voxels], stepping to the grid rounds too coarsely for the lanes.
 constexpr int farthest_camera = 1 << 20;
-constexpr std::size_t largest_cached = 256 * 256 * 256;  // [voxels]
 
 }  // namespace
 
@@ -228,8 +227,7 @@ void RayMarks::pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector
   const Eigen::Vector3i from = grid_.cell_at(origin.cast<double>());
   const bool far = from.cwiseAbs().maxCoeff() > farthest_camera;
   const auto mark = HWY_DYNAMIC_DISPATCH(mark_rays);
-  // The marks of a larger grid have no room in the processor's own cache.
-  const PointCloud tiles = grid_.voxel_count() > largest_cached ? in_tiles(origin, ends) : PointCloud();
+  const PointCloud tiles = grid_.voxel_count() > tiles_pay_from ? in_tiles(origin, ends) : PointCloud();
   const std::span<const Eigen::Vector3f> ordered = tiles.empty() ? ends : std::span(tiles);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ordered.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
