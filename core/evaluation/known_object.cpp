@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -91,7 +92,10 @@ void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, c
   const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
   const Scan scan = back_project(ideal, T_world_camera, camera_.config().max_range, stop);
   mark_visited(truth_.grid, scan, state.visited_voxels, stop);
-  for (const std::uint32_t s : samples_seen(T_world_camera, stop)) state.seen[s] = 1;
+  std::vector<std::uint32_t> unseen;
+  std::ranges::copy_if(all_samples_, std::back_inserter(unseen), [&](std::uint32_t s) { return !state.seen[s]; });
+  for (const std::uint32_t s : visible_samples(surface(), *scene_, camera_, T_world_camera, unseen, any_slant, stop))
+    state.seen[s] = 1;
   state.coverage.add(points, stop);
   state.coverage_paper.add(points, stop);
 }

@@ -97,7 +97,7 @@ class BrickStrips {
     const int first = static_cast<int>(strip % along_x_) * strip_bricks;
     const std::size_t bricks_before = strip / along_x_ * std::size_t(voxels_.brick_edges().x());
     Rows rows{};
-    RowTruth any;
+    std::uint64_t any_counted = 0;
     const Eigen::Vector3i lowest_cell = voxels_.cell((bricks_before + first) * VoxelBricks::brick_voxels);
     const Eigen::Vector3i edges = voxels_.edges();
     for (int z = lowest_cell.z(); z < std::min(lowest_cell.z() + edge, edges.z()); ++z)
@@ -105,16 +105,15 @@ class BrickStrips {
         RowTruth& row = rows[(z & 7) * edge + (y & 7)];
         const std::size_t at = (std::size_t(z) * edges.y() + y) * edges.x() + lowest_cell.x();
         row = truth_.row(at, std::min<std::size_t>(64, edges.x() - lowest_cell.x()));
-        any.counted |= row.counted, any.occupied |= row.occupied, any.in_band |= row.in_band;
-        any.visited |= row.visited;
+        any_counted |= row.counted;
       }
-    if (any.counted == 0) return;
+    if (any_counted == 0) return;
     BrickMemory<bool> is_uniform;
     for (int k = 0; k < std::min(strip_bricks, voxels_.brick_edges().x() - first); ++k) {
-      if ((any.counted >> (k * edge) & 255) == 0) continue;
+      if ((any_counted >> (k * edge) & 255) == 0) continue;
       const Brick& brick = *voxels_.bricks()[bricks_before + first + k];
       if (is_uniform.of(brick, [&] { return brick.is_uniform(); }))
-        add_uniform(brick[0].probability, rows, any, k * edge, alike);
+        add_uniform(brick[0].probability, rows, k * edge, alike);
       else
         add_each(brick, rows, k * edge, alike);
     }
@@ -124,11 +123,19 @@ class BrickStrips {
   static constexpr int edge = VoxelBricks::edge, strip_bricks = 8;
   using Rows = std::array<RowTruth, std::size_t{edge} * edge>;
 
-  static void add_uniform(float p, const Rows& rows, const RowTruth& any, int shift, AlikeVoxels& alike) {
+  static void add_uniform(float p, const Rows& rows, int shift, AlikeVoxels& alike) {
+    std::uint64_t any_with[3] = {}, any_without[3] = {};  // occupied, in the band, visited
+    for (const RowTruth& row : rows) {
+      const std::uint64_t is[3] = {row.occupied, row.in_band, row.visited};
+      for (int k = 0; k < 3; ++k) any_with[k] |= row.counted & is[k], any_without[k] |= row.counted & ~is[k];
+    }
+    const auto is_none = [&](VoxelFacts facts) {
+      for (unsigned k = 0; k < 3; ++k)
+        if (((facts >> k & 1 ? any_with : any_without)[k] >> shift & 255) == 0) return true;
+      return false;
+    };
     for (VoxelFacts facts = 0; facts < all_facts; ++facts) {
-      if ((facts & is_occupied && !any.occupied) || (facts & is_in_band && !any.in_band) ||
-          (facts & is_visited && !any.visited))
-        continue;
+      if (is_none(facts)) continue;
       std::size_t count = 0;
       for (std::size_t r = 0; r < rows.size(); r += edge) {
         std::uint64_t layer = 0;  // counting bits takes longer than collecting them
