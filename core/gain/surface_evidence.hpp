@@ -25,7 +25,7 @@ class SurfaceEvidence {
 
   /// Voxels that are smaller than this share of the object are unmeasured in blocks of more: finer is not known where
   /// nothing was measured, and the work would grow with the volume.
-  static constexpr double finest_share = 1.0 / 128;
+  static constexpr double finest_share = 1.0 / 64;
 
   /// `occlusions` knows how far voxels lie behind a surface; it is the conventional map where `voxels` are another's.
   /// Up to a thousandth of the occupied voxels along any direction may be outliers, which the object's box leaves out.
