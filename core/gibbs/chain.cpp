@@ -163,8 +163,10 @@ class StateChain final : public Chain {
     const auto used = std::span(weights).first(state_.levels() - 1);
     std::fill(used.begin(), used.end(), log_prior_odds_);
     // Eq. 8: the prior, and of each ray what it says for the level less what it says for free.
-    const bool settled = state_.conditional(voxel, exact && !mean ? limit : negligible_in_mean, used);
-    if (settled && exact && !mean) {
+    const bool only_drawn = exact && !mean;
+    const bool settled =
+        state_.conditional(voxel, only_drawn ? std::log(limit) : log_negligible_in_mean_, !only_drawn, used);
+    if (settled && only_drawn) {
       set(voxel, 0);
       return;
     }
@@ -209,6 +211,7 @@ class StateChain final : public Chain {
   std::uint32_t sweep_ = 0;
   std::size_t changed_ = 0;
   double log_prior_odds_;
+  const double log_negligible_in_mean_ = std::log(negligible_in_mean);
   State state_;
   NeighbourMoves<State> moves_;
   std::vector<Look> looks_;  ///< scratch of update_unsettled

@@ -17,8 +17,8 @@ class FirstHitState {
   std::size_t bytes() const;
   double change(std::uint32_t voxel, std::uint8_t level);
   void set(std::uint32_t voxel, std::uint8_t level) { change(voxel, level); }
-  /// `negligible` makes no difference: terms of either sign follow each other here. Returns false.
-  bool conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const;
+  /// What is negligible makes no difference: terms of either sign follow each other here. Returns false.
+  bool conditional(std::uint32_t voxel, double log_negligible, bool bounds, std::span<double> log_weights) const;
   double log_likelihood() const;
   void add_reach(std::vector<float>& reach, float enough) const;
 

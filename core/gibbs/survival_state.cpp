@@ -122,19 +122,20 @@ void SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
   change_voxel(voxel, level, [](std::uint32_t, const Hot&, const Hot&) {});
 }
 
-bool SurvivalState::conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {
+bool SurvivalState::conditional(std::uint32_t voxel, double log_negligible, bool bounds,
+                                std::span<double> log_weights) const {
   if (lists_.is_near(voxel)) near_terms(voxel, log_weights);
   switch (levels_) {
     case 2:
-      return front_terms<2>(voxel, negligible, log_weights);
+      return front_terms<2>(voxel, log_negligible, bounds, log_weights);
     case 3:
-      return front_terms<3>(voxel, negligible, log_weights);
+      return front_terms<3>(voxel, log_negligible, bounds, log_weights);
     case 4:
-      return front_terms<4>(voxel, negligible, log_weights);
+      return front_terms<4>(voxel, log_negligible, bounds, log_weights);
     case 5:
-      return front_terms<5>(voxel, negligible, log_weights);
+      return front_terms<5>(voxel, log_negligible, bounds, log_weights);
     default:
-      return front_terms<6>(voxel, negligible, log_weights);
+      return front_terms<6>(voxel, log_negligible, bounds, log_weights);
   }
 }
 
@@ -178,11 +179,11 @@ SurvivalState::Hot SurvivalState::without(RayLists::FrontEntry entry, std::uint8
 
 /// The terms of Eq. 8 of the rays whose range lies behind the voxel.
 template <int Levels>
-bool SurvivalState::front_terms(std::uint32_t voxel, double negligible, std::span<double> log_weights) const {
+bool SurvivalState::front_terms(std::uint32_t voxel, double log_negligible, bool bounds,
+                                std::span<double> log_weights) const {
   constexpr double least_product = 1e-200;  // far enough from where numbers end for a part's factors more
   const auto entries = lists_.front(voxel);
   const std::uint8_t level = map_[voxel];
-  const double log_negligible = std::log(negligible);
   EvidenceCursor cursor(lists_.weight_runs());
   std::size_t part = 1;  // one ray often settles it; if not, look at more before asking again
   for (std::size_t k = 0; k < entries.size();) {
@@ -204,8 +205,10 @@ bool SurvivalState::front_terms(std::uint32_t voxel, double negligible, std::spa
       largest = *std::max_element(products.begin() + 1, products.end());
       least = *std::min_element(products.begin() + 1, products.end());
     }
+    const bool settled = largest < enough;
+    if (settled && !bounds) return true;
     for (int q = 1; q < Levels; ++q) log_weights[q - 1] += evidence * std::log(products[q]);
-    if (largest < enough) return true;
+    if (settled) return true;
   }
   return false;
 }

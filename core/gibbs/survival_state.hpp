@@ -28,8 +28,8 @@ class SurvivalState {
 
   /// Adds log p(z | m with q) - log p(z | m with 0) to log_weights[q - 1] for each level q >= 1 (Eqs. 6-8); they hold
   /// the log prior odds before. Exact, except that the sum stops once the weights together are sure to be below
-  /// `negligible`: then they are upper bounds that are too, and it returns true.
-  bool conditional(std::uint32_t voxel, double negligible, std::span<double> log_weights) const;
+  /// exp(log_negligible): it returns true, and they are upper bounds that are too, if `bounds` are wanted.
+  bool conditional(std::uint32_t voxel, double log_negligible, bool bounds, std::span<double> log_weights) const;
 
   double log_likelihood() const;
 
@@ -56,7 +56,7 @@ class SurvivalState {
   float near_sum(std::uint32_t ray) const;
   void near_terms(std::uint32_t voxel, std::span<double> log_weights) const;
   template <int Levels>
-  bool front_terms(std::uint32_t voxel, double negligible, std::span<double> log_weights) const;
+  bool front_terms(std::uint32_t voxel, double log_negligible, bool bounds, std::span<double> log_weights) const;
   Hot without(RayLists::FrontEntry entry, std::uint8_t level) const;
 
   const RayLists& lists_;
