@@ -1,6 +1,5 @@
 #include "core/gain/new_surface.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
