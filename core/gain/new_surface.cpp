@@ -33,32 +33,23 @@ void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& 
 
 NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model)
     : grid_(evidence.grid()), chances_(places_with_margin(grid_)) {
-  const auto row_with_margin = [&](int y, int z) {
-    return std::span(chances_).subspan(place_with_margin(grid_, -1, y, z), std::size_t(grid_.size.x()) + 2);
-  };
-  for (const int z : {-1, grid_.size.z()})
-    for (int y = -1; y <= grid_.size.y(); ++y) std::ranges::fill(row_with_margin(y, z), ChanceField::outside);
+  fill_margin(grid_, chances_, ChanceField::outside);
   const BitRows& blocks = evidence.unmeasured_blocks();
   const int edge = evidence.block_edge();
   // A layer of blocks each.
   tbb::parallel_for(0, blocks.size().z(), [&](int block_z) {
     std::vector<float> in_blocks(std::size_t(blocks.size().x()));
-    for (const int y : {-1, grid_.size.y()})
-      for (int z = edge * block_z; z < std::min(edge * (block_z + 1), grid_.size.z()); ++z)
-        std::ranges::fill(row_with_margin(y, z), ChanceField::outside);
     for (int block_y = 0; block_y < blocks.size().y(); ++block_y) {
       blocks.for_each_in_row(block_y, block_z, [&](int x) {
         in_blocks[std::size_t(x)] = model.chance_in_block(evidence, {x, block_y, block_z});
       });
       for (int z = edge * block_z; z < std::min(edge * (block_z + 1), grid_.size.z()); ++z)
         for (int y = edge * block_y; y < std::min(edge * (block_y + 1), grid_.size.y()); ++y) {
-          const std::span<float> row = row_with_margin(y, z);
-          std::ranges::fill(row, 0.0f);
-          row.front() = row.back() = ChanceField::outside;
+          float* const row = &chances_[place_with_margin(grid_, 0, y, z)];
+          std::fill_n(row, grid_.size.x(), 0.0f);
           evidence.all_that_may_hold_surface().for_each_in_row(y, z, [&](int x) {
-            row[std::size_t(x) + 1] = evidence.kind({x, y, z}) == SurfaceEvidence::Kind::unmeasured
-                                          ? in_blocks[std::size_t(x / edge)]
-                                          : model.chance(evidence, {x, y, z});
+            row[x] = evidence.kind({x, y, z}) == SurfaceEvidence::Kind::unmeasured ? in_blocks[std::size_t(x / edge)]
+                                                                                   : model.chance(evidence, {x, y, z});
           });
         }
     }

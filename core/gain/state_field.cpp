@@ -11,7 +11,7 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "core/map/parallel_fill.hpp"
+#include "core/map/grid_margin.hpp"
 
 namespace nextview {
 namespace {
@@ -113,7 +113,7 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
                    States& states) {
   using State = typename States::value_type;
   states.resize(places_with_margin(grid) + StateField::read_beyond / sizeof(State));
-  fill_in_parallel(states, State{StateField::outside});
+  fill_margin(grid, states, State{StateField::outside});
   Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
   for_ranges_of_bricks(voxels, [&](const auto& range) {
     KnownStates state(numbering);

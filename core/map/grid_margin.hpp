@@ -1,4 +1,7 @@
 #pragma once
+#include <cstdint>
+#include <span>
+
 #include "core/map/voxel_grid.hpp"
 
 namespace nextview {
@@ -11,5 +14,10 @@ inline std::size_t place_with_margin(const VoxelGrid& grid, int x, int y, int z)
 inline std::size_t places_with_margin(const VoxelGrid& grid) {
   return (std::size_t(grid.size.x()) + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);
 }
+
+/// Gives such an array's margin a value, and what there is behind it. The voxels' places stay as they are.
+void fill_margin(const VoxelGrid& grid, std::span<std::uint8_t> array, std::uint8_t value);
+void fill_margin(const VoxelGrid& grid, std::span<std::uint16_t> array, std::uint16_t value);
+void fill_margin(const VoxelGrid& grid, std::span<float> array, float value);
 
 }  // namespace nextview
