@@ -227,13 +227,13 @@ float SurfaceEvidence::log_share(std::size_t squared_distance) const {
 
 float SurfaceEvidence::log_share_of_blocks(std::int32_t squared_distance) const {
   // What lies in the same block is half an edge away.
-  const auto squared_edge = static_cast<std::size_t>(block_edge_ * block_edge_);
+  const auto squared_edge = std::size_t(block_edge_) * std::size_t(block_edge_);
   return log_share(std::max(std::size_t(squared_distance) * squared_edge, squared_edge / 4));
 }
 
 Eigen::Vector3i SurfaceEvidence::first_unmeasured(const Eigen::Vector3i& block) const {
-  const Eigen::Vector3i lowest = block_edge_ * block,
-                        beyond = (lowest.array() + block_edge_).cwiseMin(grid_.size.array());
+  Eigen::Vector3i lowest = block_edge_ * block;
+  const Eigen::Vector3i beyond = (lowest.array() + block_edge_).cwiseMin(grid_.size.array());
   for (int z = lowest.z(); z < beyond.z(); ++z)
     for (int y = lowest.y(); y < beyond.y(); ++y)
       for (int x = lowest.x(); x < beyond.x(); ++x)
@@ -255,7 +255,7 @@ SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(const Eigen::Vector3i& b
           to_free,
           to_free * to_free,
           behind == 0 ? 1.0f : 0.0f,
-          behind == 0 ? 0.0f : log_share(std::size_t(behind * behind)),
+          behind == 0 ? 0.0f : log_share(std::size_t(behind) * std::size_t(behind)),
           std::sqrt(std::max(outside, 0.0f)),
           std::max(outside, 0.0f),
           std::min(outside, 0.0f)};

@@ -33,7 +33,7 @@ PointCloud in_tiles(const Eigen::Vector3f& origin, std::span<const Eigen::Vector
     const float per_tile = 1.0f / (tile_width * std::max(way.dot(forward), std::numeric_limits<float>::min()));
     const auto tile = [&](const Eigen::Vector3f& axis) {  // NaN is 0
       return static_cast<int>(
-          std::max(0.0f, std::min(way.dot(axis) * per_tile + tiles_across / 2, float{tiles_across - 1})));
+          std::max(0.0f, std::min(way.dot(axis) * per_tile + 0.5f * tiles_across, float{tiles_across - 1})));
     };
     tile_of[i] = static_cast<std::uint16_t>(tile(down) * tiles_across + tile(right));
     ++places[tile_of[i] + std::size_t{1}];
