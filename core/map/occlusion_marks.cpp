@@ -3,6 +3,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -138,20 +139,24 @@ HWY_EXPORT(mark_behind);
 }  // namespace
 
 VoxelGrid region_behind(const VoxelGrid& grid, const Scan& scan, double distance) {
-  Eigen::Vector3i lowest = grid.size, highest = -Eigen::Vector3i::Ones();
-  for (const Eigen::Vector3f& hit : scan.hits) {
-    const Vector3 at = hit.cast<double>();
-    const Eigen::Vector3i cell = grid.cell_at(at);
-    if (!grid.contains(cell)) continue;
-    const Eigen::Vector3i end = grid.cell_at(at + distance * (at - scan.origin).stableNormalized());
-    lowest = lowest.cwiseMin(cell).cwiseMin(end);
-    highest = highest.cwiseMax(cell).cwiseMax(end);
-  }
+  const auto ways = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, scan.hits.size(), 4096), Eigen::AlignedBox3i(),
+      [&](const auto& range, Eigen::AlignedBox3i cells) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const Vector3 at = scan.hits[i].cast<double>();
+          const Eigen::Vector3i cell = grid.cell_at(at);
+          if (!grid.contains(cell)) continue;
+          cells.extend(cell).extend(grid.cell_at(at + distance * (at - scan.origin).stableNormalized()));
+        }
+        return cells;
+      },
+      [](const Eigen::AlignedBox3i& a, const Eigen::AlignedBox3i& b) { return a.merged(b); });
+  if (ways.isEmpty()) return {grid.resolution, grid.first, Eigen::Vector3i::Zero()};
   constexpr int edge = VoxelBricks::edge;
   // A voxel more, for rounding.
-  const Eigen::Vector3i first = (lowest.array() - 1).max(0) / edge * edge;
-  const Eigen::Vector3i beyond = ((highest.array() + 1 + edge) / edge * edge).min(grid.size.array());
-  return {grid.resolution, grid.first + first, (beyond - first).cwiseMax(0)};
+  const Eigen::Vector3i first = (ways.min().array() - 1).max(0) / edge * edge;
+  const Eigen::Vector3i beyond = ((ways.max().array() + 1 + edge) / edge * edge).min(grid.size.array());
+  return {grid.resolution, grid.first + first, beyond - first};
 }
 
 OcclusionMarks::OcclusionMarks(const VoxelGrid& grid) : grid_(grid), numbers_(places_with_margin(grid)) {}
@@ -159,12 +164,10 @@ OcclusionMarks::OcclusionMarks(const VoxelGrid& grid) : grid_(grid), numbers_(pl
 void OcclusionMarks::mark(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> returns, double max_range,
                           double distance, const std::stop_token& stop) {
   const auto mark = HWY_DYNAMIC_DISPATCH(mark_behind);
-  const PointCloud tiles =
-      grid_.voxel_count() * sizeof(std::uint16_t) > tiles_pay_from ? in_tiles(origin, returns) : PointCloud();
-  const std::span<const Eigen::Vector3f> ordered = tiles.empty() ? returns : std::span(tiles);
+  const OrderedEnds ordered(origin, returns, grid_.voxel_count() * sizeof(std::uint16_t));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ordered.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
-    mark({grid_, origin, ordered.subspan(range.begin(), range.size()), max_range, distance, numbers_.data()});
+    mark({grid_, origin, ordered.part(range.begin(), range.size()), max_range, distance, numbers_.data()});
   });
   throw_if_stopped(stop);
 }

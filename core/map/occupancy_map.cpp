@@ -169,6 +169,7 @@ void OccupancyMap::register_local(const OccupancyMap& local, const Vector3& orig
 
 void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std::stop_token& stop) {
   const VoxelGrid region = region_behind(grid_, scan, distance);
+  const Eigen::Vector3i in_region = grid_.first - region.first;  // from places in the grid
   OcclusionMarks marks(region);
   marks.mark(scan.origin.cast<float>(), scan.hits, scan.max_range, distance, stop);
   using Numbers = std::array<std::uint16_t, VoxelBricks::brick_voxels>;
@@ -176,7 +177,6 @@ void OccupancyMap::mark_occlusions(const Scan& scan, double distance, const std:
   const auto bricks = after.change_bricks();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bricks.size(), 64), [&](const auto& range) {
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
-      const Eigen::Vector3i in_region = grid_.first - region.first;
       if (!region.contains(voxels_.cell(brick * VoxelBricks::brick_voxels) + in_region)) continue;
       Numbers nearest{};
       voxels_.for_each_row(brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {

@@ -227,11 +227,10 @@ void RayMarks::pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector
   const Eigen::Vector3i from = grid_.cell_at(origin.cast<double>());
   const bool far = from.cwiseAbs().maxCoeff() > farthest_camera;
   const auto mark = HWY_DYNAMIC_DISPATCH(mark_rays);
-  const PointCloud tiles = grid_.voxel_count() > tiles_pay_from ? in_tiles(origin, ends) : PointCloud();
-  const std::span<const Eigen::Vector3f> ordered = tiles.empty() ? ends : std::span(tiles);
+  const OrderedEnds ordered(origin, ends, grid_.voxel_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ordered.size(), 1024), [&](const auto& range) {
     if (stop.stop_requested()) return;
-    const RayBatch batch{grid_, origin, ordered.subspan(range.begin(), range.size()), max_range, marks_.data()};
+    const RayBatch batch{grid_, origin, ordered.part(range.begin(), range.size()), max_range, marks_.data()};
     if (far) {
       for (const Eigen::Vector3f& end : batch.ends) mark_one(batch, end);
     } else {
