@@ -1,6 +1,7 @@
 #include "core/calibration/new_surface_fit.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -60,8 +61,8 @@ void NewSurfaceObservations::add(const NewSurfaceObservations& other) {
     cell.size += more.size;
     for (std::size_t k = 0; k < most_features; ++k) cell.features[k] += more.features[k];
   }
-  across_ += other.across_;
-  along_ += other.along_;
+  slants_ += other.slants_;
+  slants_met_ += other.slants_met_;
 }
 
 double NewSurfaceObservations::found(Kind kind) const {
@@ -106,7 +107,9 @@ NewSurfaceModel NewSurfaceObservations::fit() const {
   model.unmeasured = fit_kind<std::tuple_size_v<SurfaceEvidence::Unmeasured>>(Kind::unmeasured);
   model.free = fit_kind<std::tuple_size_v<SurfaceEvidence::Measured>>(Kind::free);
   model.occupied = fit_kind<std::tuple_size_v<SurfaceEvidence::Measured>>(Kind::occupied);
-  model.slant = along_ / across_;
+  model.mean_slant = slants_met_[0] / slants_(0, 0);
+  const Eigen::Vector2d line = slants_.ldlt().solve(slants_met_);
+  model.slant = {std::clamp(line[0], 1.0, 10.0), std::clamp(line[0] + line[1], 1.0, 10.0)};  // nothing is met flatter
   return model;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -13,8 +14,13 @@ class NewSurfaceObservations {
   /// A ray came to a voxel; `found`: it met surface there that no view had covered. `weight`: the area across it, in
   /// any unit. @pre evidence.may_hold_surface(voxel)
   void add(const SurfaceEvidence& evidence, const Eigen::Vector3i& voxel, double weight, bool found);
-  /// What was found had this slant: area of the surface over area across the ray.
-  void add_slant(double weight, double slant) { across_ += weight, along_ += weight * slant; }
+  /// What was found had this slant: area of the surface over area across the ray, which met the voxel's normal
+  /// (SurfaceEvidence::normal) at an angle of so large a cosine, squared.
+  void add_slant(double weight, double squared_cosine, double slant) {
+    const Eigen::Vector2d line(1.0, squared_cosine);
+    slants_ += weight * line * line.transpose();
+    slants_met_ += weight * slant * line;
+  }
   void add(const NewSurfaceObservations& other);
 
   std::size_t cells() const { return cells_.size(); }
@@ -35,7 +41,9 @@ class NewSurfaceObservations {
   std::array<double, n> fit_kind(SurfaceEvidence::Kind kind) const;
 
   std::map<Key, Cell> cells_;  ///< in an order that does not depend on that of the rays
-  double across_ = 0.0, along_ = 0.0;
+  /// Normal equations of slant as a line over the squared cosine.
+  Eigen::Matrix2d slants_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d slants_met_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace nextview

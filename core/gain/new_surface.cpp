@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/map/traversal.hpp"
 
@@ -13,8 +14,9 @@ namespace {
 constexpr double square_centimetres = 1e4;  // in a square metre
 constexpr double negligible = 1e-3;         // reach at which a ray is given up
 
-/// Calls `visit(x, y, z, reach, found)` for the voxels of the field on a ray: how likely it gets there, and how likely
-/// it finds new surface there. What find_along_rays does for many rays at once, as it is meant to be read.
+/// Calls `visit(x, y, z, reach, area)` for the voxels of the field on a ray: how likely it gets there, and how much new
+/// surface it finds there, across the ray and per solid angle [m^2]. What find_along_rays does for many rays at once,
+/// as it is meant to be read.
 template <class Visit>
 void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& direction, double length, Visit visit) {
   const VoxelGrid& grid = field.grid();
@@ -32,43 +34,63 @@ void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& 
 }  // namespace
 
 NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model)
-    : grid_(evidence.grid()), chances_(places_with_margin(grid_)) {
+    : grid_(evidence.grid()), chances_(places_with_margin(grid_)), normals_(chances_.size()) {
   fill_margin(grid_, chances_, ChanceField::outside);
-  const BitRows& blocks = evidence.unmeasured_blocks();
+  tbb::parallel_for(0, evidence.unmeasured_blocks().size().z(),
+                    [&](int block_z) { fill_layer_of_blocks(evidence, model, block_z); });
+}
+
+void NewSurfaceField::fill_layer_of_blocks(const SurfaceEvidence& evidence, const NewSurfaceModel& model, int block_z) {
+  const BitRows& unmeasured = evidence.unmeasured_blocks();
   const int edge = evidence.block_edge();
-  // A layer of blocks each.
-  tbb::parallel_for(0, blocks.size().z(), [&](int block_z) {
-    std::vector<float> in_blocks(std::size_t(blocks.size().x()));
-    for (int block_y = 0; block_y < blocks.size().y(); ++block_y) {
-      blocks.for_each_in_row(block_y, block_z, [&](int x) {
-        in_blocks[std::size_t(x)] = model.chance_in_block(evidence, {x, block_y, block_z});
-      });
-      for (int z = edge * block_z; z < std::min(edge * (block_z + 1), grid_.size.z()); ++z)
-        for (int y = edge * block_y; y < std::min(edge * (block_y + 1), grid_.size.y()); ++y) {
-          float* const row = &chances_[place_with_margin(grid_, 0, y, z)];
-          std::fill_n(row, grid_.size.x(), 0.0f);
-          evidence.all_that_may_hold_surface().for_each_in_row(y, z, [&](int x) {
-            row[x] = evidence.kind({x, y, z}) == SurfaceEvidence::Kind::unmeasured ? in_blocks[std::size_t(x / edge)]
-                                                                                   : model.chance(evidence, {x, y, z});
-          });
-        }
-    }
-  });
+  struct Block {
+    float chance = 0.0f;                      ///< if it holds an unmeasured voxel
+    std::optional<CoarseNormal> normal = {};  ///< once it was asked for
+  };
+  std::vector<Block> row(std::size_t(unmeasured.size().x()));
+  for (int block_y = 0; block_y < unmeasured.size().y(); ++block_y) {
+    std::ranges::fill(row, Block());
+    unmeasured.for_each_in_row(block_y, block_z, [&](int x) {
+      row[std::size_t(x)].chance = model.chance_in_block(evidence, {x, block_y, block_z});
+    });
+    for (int z = edge * block_z; z < std::min(edge * (block_z + 1), grid_.size.z()); ++z)
+      for (int y = edge * block_y; y < std::min(edge * (block_y + 1), grid_.size.y()); ++y) {
+        const std::size_t first = place_with_margin(grid_, 0, y, z);
+        std::fill_n(&chances_[first], grid_.size.x(), 0.0f);
+        evidence.all_that_may_hold_surface().for_each_in_row(y, z, [&](int x) {
+          Block& block = row[std::size_t(x / edge)];
+          if (!block.normal) block.normal = evidence.normal({x / edge, block_y, block_z});
+          normals_[first + std::size_t(x)] = *block.normal;
+          chances_[first + std::size_t(x)] = evidence.kind({x, y, z}) == SurfaceEvidence::Kind::unmeasured
+                                                 ? block.chance
+                                                 : model.chance(evidence, {x, y, z});
+        });
+      }
+  }
 }
 
 namespace {
 
-/// The new surface that one view is expected to see [cm^2], and where, if `finds` is not null.
+/// The new surface that one view is expected to see [cm^2]. Calls `visit(place, area)` for where.
+template <class Visit>
 double area_of_view(const NewSurfaceField& field, const Pose& view, const RayBundle& bundle,
-                    const NewSurfaceOptions& options, Finds* finds) {
+                    const NewSurfaceOptions& options, Visit visit) {
   std::vector<Vector3> directions;
   for (const Vector3& direction : bundle.directions) directions.emplace_back(view.linear() * direction);
-  std::vector<double> of_rays(directions.size());
-  find_along_rays({field.grid(), view.translation(), directions, options.ray_length}, {field.chances(), negligible},
-                  of_rays, finds);
+  const Finds finds = find_along_rays({field.grid(), view.translation(), directions, options.ray_length},
+                                      {field.chances(), negligible});
   double area = 0.0;
-  for (std::size_t i = 0; i < of_rays.size(); ++i) area += of_rays[i] * bundle.solid_angles[i];
-  return square_centimetres * options.slant * area;
+  for (std::size_t ray = 0; ray < directions.size(); ++ray) {
+    const double worth = square_centimetres * bundle.solid_angles[ray];
+    for (std::size_t i = finds.begins[ray]; i < finds.ends[ray]; ++i) {
+      const Finds::Find& find = finds.finds[i];
+      const double slant = options.slant.at(field.normals()[find.place].squared_cosine(directions[ray]));
+      const double found = worth * slant * find.area;
+      visit(find.place, found);
+      area += found;
+    }
+  }
+  return area;
 }
 
 /// Blocks of 8 x 8 x 8 voxels.
@@ -91,14 +113,6 @@ class Parts {
   Eigen::Vector3i parts_;  ///< along each axis
 };
 
-/// Adds up, ray by ray, how much of a view's new surface lies in each part.
-void add_to_parts(const Finds& finds, const RayBundle& bundle, double worth, const Parts& parts,
-                  std::vector<float>& areas) {
-  for (std::size_t ray = 0; ray < finds.begins.size(); ++ray)
-    for (std::size_t i = finds.begins[ray]; i < finds.ends[ray]; ++i)
-      areas[parts.of(finds.finds[i].place)] += float(worth * (finds.finds[i].area * bundle.solid_angles[ray]));
-}
-
 }  // namespace
 
 std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
@@ -106,7 +120,7 @@ std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span
                                          std::stop_token stop) {
   std::vector<double> areas(views.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
-    if (!stop.stop_requested()) areas[v] = area_of_view(field, views[v], bundle, options, nullptr);
+    if (!stop.stop_requested()) areas[v] = area_of_view(field, views[v], bundle, options, [](auto...) {});
   });
   return areas;
 }
@@ -121,9 +135,10 @@ NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<
   forecast.parts.assign(views.size(), std::vector<float>(forecast.part_count, 0.0f));
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
-    Finds finds;
-    forecast.areas[v] = area_of_view(field, views[v], bundle, options, &finds);
-    add_to_parts(finds, bundle, square_centimetres * options.slant, parts, forecast.parts[v]);
+    std::vector<float>& of_parts = forecast.parts[v];
+    forecast.areas[v] = area_of_view(field, views[v], bundle, options, [&](std::uint32_t place, double area) {
+      of_parts[parts.of(place)] += static_cast<float>(area);
+    });
   });
   for (std::size_t part = 0; part < forecast.part_count; ++part) {
     float most = 0.0f;
@@ -137,27 +152,25 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
                                      const Pose& T_world_camera, const RayBundle& bundle,
                                      const NewSurfaceOptions& options) {
   ScoreExplanation explanation;
-  double area = 0.0;  // added up as for the score, to round alike
   for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
     ScoreExplanation::RayPart& part = explanation.rays.emplace_back();
     part.direction = T_world_camera.linear() * bundle.directions[i];
-    const double worth = square_centimetres * options.slant * bundle.solid_angles[i];
-    double of_ray = 0.0;
+    const double worth = square_centimetres * bundle.solid_angles[i];
     follow(field, T_world_camera.translation(), part.direction, options.ray_length,
-           [&](int x, int y, int z, double reach, double found) {
+           [&](int x, int y, int z, double reach, double area) {
+             const double slant = options.slant.at(field.normal(x, y, z).squared_cosine(part.direction));
+             const double found = worth * slant * area;
              const Eigen::Vector3i lattice = field.grid().first + Eigen::Vector3i(x, y, z), cell = lattice - grid.first;
              const Voxel& voxel = voxels.at(cell.x(), cell.y(), cell.z());
              part.voxels.push_back({{std::int16_t(lattice.x()), std::int16_t(lattice.y()), std::int16_t(lattice.z())},
                                     voxel.measured,
                                     voxel.probability,
                                     reach,
-                                    worth * found});
-             part.contribution += worth * found;
-             of_ray += found;
+                                    found});
+             part.contribution += found;
+             explanation.value += found;  // as for the score, to round alike
            });
-    area += of_ray * bundle.solid_angles[i];
   }
-  explanation.value = square_centimetres * options.slant * area;
   return explanation;
 }
 

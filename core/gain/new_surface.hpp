@@ -23,21 +23,28 @@ class NewSurfaceField {
     return at(cell.x(), cell.y(), cell.z());
   }
   std::span<const float> chances() const { return chances_; }  ///< as ChanceField has them
+  /// SurfaceEvidence::normal of a voxel's block. @pre at(x, y, z) != 0
+  CoarseNormal normal(int x, int y, int z) const { return normals_[place_with_margin(grid_, x, y, z)]; }
+  std::span<const CoarseNormal> normals() const { return normals_; }  ///< by place with margin
 
  private:
+  void fill_layer_of_blocks(const SurfaceEvidence& evidence, const NewSurfaceModel& model, int block_z);
+
   VoxelGrid grid_;
-  std::vector<float, HugePages<float>> chances_;  ///< with margin
+  std::vector<float, HugePages<float>> chances_;                ///< with margin
+  std::vector<CoarseNormal, HugePages<CoarseNormal>> normals_;  ///< likewise; without a value where none is asked for
 };
 
 /// How far rays are followed, and what an area across them is worth.
 struct NewSurfaceOptions {
   double ray_length = 1.5;  ///< [m]
-  double slant = 1.7;       ///< NewSurfaceModel::slant
+  SurfaceSlant slant = {};
 };
 
 /// The new surface that each view is expected to see [cm^2]: over its rays of solid angle dOmega and over the voxels on
 /// them, at range r, slant r^2 dOmega reach q, where reach is the probability of getting there, 1 at first, and
-/// reach (1 - q) beyond a voxel. The same on any number of threads. A requested stop leaves the rest at 0.
+/// reach (1 - q) beyond a voxel, and slant is that of the voxel's normal. The same on any number of threads. A
+/// requested stop leaves the rest at 0.
 std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
                                          const RayBundle& bundle, const NewSurfaceOptions& options,
                                          std::stop_token stop = {});

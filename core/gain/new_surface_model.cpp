@@ -15,10 +15,11 @@ double linear(const std::array<double, n>& coefficients, const std::array<float,
 }  // namespace
 
 NewSurfaceModel NewSurfaceModel::fitted() {
-  return {{3.694, -0.6849, 1.459, 0.1135, -0.1162, -0.4108, -5.333, -5.231, 4.241},
-          {-12.24, -0.6266, 3.005, 3.149, 0.04534},
-          {-1.668, -0.3992, 0.1877, 0.2171, -0.2666},
-          1.694,
+  return {{3.404, -0.8158, 1.403, 0.08738, -0.2209, -0.3874, -4.199, -7.021, 3.733},
+          {-12.14, -0.188, 2.933, 3.335, 0.05674},
+          {-1.649, -0.4838, 0.1877, 0.3231, -0.281},
+          1.689,
+          {2.085, 1.14},
           5.8};
 }
 
@@ -66,7 +67,11 @@ std::vector<Setting> settings(NewSurfaceModel& m) {
       setting("occupied_unmeasured", "... times ln(1 + its unmeasured neighbours)", m.occupied[2]),
       setting("occupied_beside_occupied", "... with an occupied neighbour", m.occupied[3]),
       setting("occupied_occupied", "... times its occupied neighbours", m.occupied[4]),
-      {"new_surface.slant", "", "area of the surface that rays meet, over the area across them", &m.slant,
+      {"new_surface.slant", "", "area of the surface that rays meet, over the area across them", &m.mean_slant,
+       from_to(1, 10)},
+      {"new_surface.slant_edge_on", "", "... of new surface whose normal should lie across the ray", &m.slant.edge_on,
+       from_to(1, 10)},
+      {"new_surface.slant_face_on", "", "... of new surface whose normal should lie along the ray", &m.slant.face_on,
        from_to(1, 10)},
       {"new_surface.left_at_border", "",
        "share of the surface that is left, over the share of the scanned points at whose border it may go on",

@@ -14,12 +14,13 @@ struct NewSurfaceModel {
   std::array<double, std::tuple_size_v<SurfaceEvidence::Unmeasured>> unmeasured{};
   /// Log-odds of new surface in a free voxel, where a ray may end, and in an occupied one, where it does.
   std::array<double, std::tuple_size_v<SurfaceEvidence::Measured>> free{}, occupied{};
-  double slant = 1.7;  ///< area of the surface that rays meet, over the area across them
+  double mean_slant = 1.7;  ///< area of the surface that rays meet, over the area across them
+  SurfaceSlant slant = {};  ///< of new surface
   /// Share of the surface that is left, over the share of the scanned points where it may go on (open_border): the
   /// median of made-up parts late in their scans. It is no part of the fit.
   double left_at_border = 5.8;
   /// Of surface whose area across the rays is so many m^2 [cm^2].
-  double square_centimetres(double across) const { return 1e4 * slant * across; }
+  double square_centimetres(double across) const { return 1e4 * mean_slant * across; }
 
   bool operator==(const NewSurfaceModel&) const = default;
   /// Fitted to simulated scans of parts that were made up for it.

@@ -36,12 +36,12 @@ HWY_INLINE void advance(Walk& w) {
 }
 
 /// Rays on their way through a field: `Field::visit(walk, row, exit)` adds what they find in the voxels that they are
-/// in, and says which go no farther; `Field::ended(lane, ray)` hears of each ray at its end.
+/// in, and says which go no farther; `Field::ended(lane, ray, sum)` hears of each ray at its end.
 template <class Field>
 class Follower {
  public:
-  Follower(const RaysThroughGrid& rays, Field& field, std::span<double> sums)
-      : field_(field), sums_(sums), entries_(entries_of(rays)), max_range_(hn::Set(doubles, rays.max_range)) {
+  Follower(const RaysThroughGrid& rays, Field& field)
+      : field_(field), entries_(entries_of(rays)), max_range_(hn::Set(doubles, rays.max_range)) {
     for (Walk& w : walks_) {
       for (int axis = 0; axis < 3; ++axis)
         w.next[axis] = w.delta[axis] = hn::Zero(doubles), w.step[axis] = hn::Zero(integers);
@@ -82,10 +82,7 @@ class Follower {
     for (std::size_t lane = 0; lane < hn::Lanes(doubles); ++lane) {
       fresh[lane] = which[lane] = 0;
       if (live >> lane & 1) continue;
-      if (w.ray[lane] >= 0) {
-        sums_[std::size_t(w.ray[lane])] = found[lane];
-        field_.ended((&w - walks_) * most_lanes + lane, std::size_t(w.ray[lane]));
-      }
+      if (w.ray[lane] >= 0) field_.ended((&w - walks_) * most_lanes + lane, std::size_t(w.ray[lane]), found[lane]);
       w.ray[lane] = -1;
       if (taken_ == entries_.entering.size()) continue;
       which[lane] = w.ray[lane] = entries_.entering[taken_++];
@@ -116,7 +113,6 @@ class Follower {
   }
 
   Field& field_;
-  std::span<double> sums_;
   Entries entries_;
   Vector max_range_;
   std::size_t taken_ = 0;  ///< of those that enter
@@ -200,6 +196,7 @@ template <class LookUp>
 struct States {
   const StateField& field;
   LookUp look_up;
+  std::span<double> sums;
   std::size_t looked_at = 0;
 
   HWY_INLINE Mask visit(Walk& w, std::size_t, Vector) {
@@ -212,13 +209,13 @@ struct States {
         hn::Lt(hn::Mul(w.left, hn::Set(doubles, field.most_worth)), hn::Mul(w.sum, hn::Set(doubles, 0x1p-54)));
     return hn::Or(lost, found.ends);
   }
-  void ended(std::size_t, std::size_t) {}
+  void ended(std::size_t, std::size_t ray, double sum) { sums[ray] = sum; }
 };
 
 template <class LookUp>
 std::size_t sum_by(const RaysThroughGrid& rays, const StateField& field, std::span<double> sums, LookUp look_up) {
-  States<LookUp> states{field, look_up};
-  Follower<States<LookUp>>(rays, states, sums).run();
+  States<LookUp> states{field, look_up, sums};
+  Follower<States<LookUp>>(rays, states).run();
   return states.looked_at;
 }
 
@@ -233,10 +230,9 @@ std::size_t sum_states(const RaysThroughGrid& rays, const StateField& field, std
   return sum_by(rays, field, sums, [](const StateField& f, IntegerVector at) { return look_up(f, at); });
 }
 
-/// `finds` may be null.
 struct Chances {
   const ChanceField& field;
-  Finds* finds;
+  Finds& finds;
   std::size_t longest;  ///< voxels that a ray may visit
   std::vector<Finds::Find> of_lane = {};
   std::array<std::size_t, rows * most_lanes> count{};
@@ -253,9 +249,7 @@ struct Chances {
     const Vector exit = hn::Max(to, w.enter);
     const Vector range = hn::Mul(hn::Set(doubles, 0.5), hn::Add(w.enter, exit));
     const Vector found = hn::IfThenZeroElse(outside, hn::Mul(w.left, hn::Abs(chance)));
-    const Vector area = hn::Mul(hn::Mul(found, range), range);
-    if (finds) note(hn::Gt(found, hn::Zero(doubles)), w.place, area, row);
-    w.sum = hn::Add(w.sum, area);
+    note(hn::Gt(found, hn::Zero(doubles)), w.place, hn::Mul(hn::Mul(found, range), range), row);
     w.left = hn::Sub(w.left, found);
     w.enter = exit;
     const Mask negligible = hn::Le(w.left, hn::Set(doubles, field.negligible));
@@ -273,20 +267,19 @@ struct Chances {
       of_lane[at * longest + count[at]++] = {static_cast<std::uint32_t>(places[lane]), areas[lane]};
     }
   }
-  void ended(std::size_t lane, std::size_t ray) {
-    if (!finds) return;
+  void ended(std::size_t lane, std::size_t ray, double) {
     const auto begin = of_lane.begin() + std::ptrdiff_t(lane * longest);
-    finds->begins[ray] = finds->finds.size();
-    finds->finds.insert(finds->finds.end(), begin, begin + std::ptrdiff_t(count[lane]));
-    finds->ends[ray] = finds->finds.size();
+    finds.begins[ray] = finds.finds.size();
+    finds.finds.insert(finds.finds.end(), begin, begin + std::ptrdiff_t(count[lane]));
+    finds.ends[ray] = finds.finds.size();
     count[lane] = 0;
   }
 };
 
-void find_chances(const RaysThroughGrid& rays, const ChanceField& field, std::span<double> sums, Finds* finds) {
+void find_chances(const RaysThroughGrid& rays, const ChanceField& field, Finds& finds) {
   Chances chances{field, finds, std::size_t(rays.grid.size.sum()) + 3};
-  if (finds) chances.of_lane.resize(rows * most_lanes * chances.longest);
-  Follower<Chances>(rays, chances, sums).run();
+  chances.of_lane.resize(rows * most_lanes * chances.longest);
+  Follower<Chances>(rays, chances).run();
 }
 
 }  // namespace nextview::HWY_NAMESPACE
@@ -306,14 +299,12 @@ std::size_t sum_along_rays(const RaysThroughGrid& rays, const StateField& field,
   return rays.grid.voxel_count() == 0 ? 0 : HWY_DYNAMIC_DISPATCH(sum_states)(rays, field, sums);
 }
 
-void find_along_rays(const RaysThroughGrid& rays, const ChanceField& field, std::span<double> sums, Finds* finds) {
-  std::ranges::fill(sums, 0.0);
-  if (finds) {
-    finds->finds.clear();
-    finds->begins.assign(rays.directions.size(), 0);
-    finds->ends.assign(rays.directions.size(), 0);
-  }
-  if (rays.grid.voxel_count() > 0) HWY_DYNAMIC_DISPATCH(find_chances)(rays, field, sums, finds);
+Finds find_along_rays(const RaysThroughGrid& rays, const ChanceField& field) {
+  Finds finds;
+  finds.begins.assign(rays.directions.size(), 0);
+  finds.ends.assign(rays.directions.size(), 0);
+  if (rays.grid.voxel_count() > 0) HWY_DYNAMIC_DISPATCH(find_chances)(rays, field, finds);
+  return finds;
 }
 
 }  // namespace nextview

@@ -58,8 +58,8 @@ struct ChanceField {
   double negligible;                      ///< reach at which a ray is given up
 };
 
-/// New surface that each ray is expected to find, range^2 reach |chance|, as the plain walk (walk_ray_segments) adds it
-/// up, to the last bit. `finds`, if not null, is overwritten by where.
-void find_along_rays(const RaysThroughGrid& rays, const ChanceField& field, std::span<double> sums, Finds* finds);
+/// The new surface that each ray is expected to find in each voxel, range^2 reach |chance|, as the plain walk
+/// (walk_ray_segments) does, to the last bit.
+Finds find_along_rays(const RaysThroughGrid& rays, const ChanceField& field);
 
 }  // namespace nextview

@@ -133,10 +133,9 @@ std::pair<int, int> bounds(std::vector<int>& values) {
 double SurfaceEvidence::Hull::outside(const Eigen::Vector3i& cell) const {
   constexpr double of_diagonal = std::numbers::sqrt2 / 2;
   const std::array<int, directions> along = along_directions(cell);
-  const auto beyond = [&](int d) { return std::max(along[d] - highest[d], lowest[d] - along[d]); };
-  int by_axes = beyond(0), by_diagonals = beyond(3);
-  for (int d = 1; d < 3; ++d) by_axes = std::max(by_axes, beyond(d));
-  for (int d = 4; d < directions; ++d) by_diagonals = std::max(by_diagonals, beyond(d));
+  int by_axes = beyond(0, along[0]), by_diagonals = beyond(3, along[3]);
+  for (int d = 1; d < 3; ++d) by_axes = std::max(by_axes, beyond(d, along[d]));
+  for (int d = 4; d < directions; ++d) by_diagonals = std::max(by_diagonals, beyond(d, along[d]));
   return std::max(double(by_axes), of_diagonal * by_diagonals);
 }
 
@@ -206,11 +205,14 @@ void SurfaceEvidence::measure_distances() {
   };
   unmeasured_blocks_ = blocks(unmeasured_);
   blocks_before_ = unmeasured_blocks_.counts_before();
+  free_blocks_ = blocks(either).complement();
   tbb::parallel_invoke([&] { to_occupied_ = squared_distances(unmeasured_blocks_, blocks(occupied_)); },
                        [&] { to_free_ = squared_distances(unmeasured_blocks_, blocks(either.complement())); },
                        [&] {
                          may_hold_surface_ = either;
                          may_hold_surface_.grow({});
+                         beside_free_blocks_ = free_blocks_;
+                         beside_free_blocks_.grow({});
                        });
   // Nothing is farther off than the object is large, or its margin is wide.
   log_shares_.resize(static_cast<std::size_t>(size_ * size_) + 2);
@@ -259,6 +261,18 @@ SurfaceEvidence::Unmeasured SurfaceEvidence::unmeasured(const Eigen::Vector3i& b
           std::sqrt(std::max(outside, 0.0f)),
           std::max(outside, 0.0f),
           std::min(outside, 0.0f)};
+}
+
+CoarseNormal SurfaceEvidence::normal(const Eigen::Vector3i& block) const {
+  if (beside_free_blocks_.at(block))
+    if (const Eigen::Vector3i to_free = free_blocks_.ways_to_neighbours(block); !to_free.isZero())
+      return CoarseNormal::along(to_free);
+  const Eigen::Vector3i middle = block_edge_ * block + offset_ + Eigen::Vector3i::Constant(block_edge_ / 2);
+  const auto beyond = [&](int axis) { return hull_.beyond(axis, middle[axis]); };
+  int nearest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (beyond(axis) > beyond(nearest)) nearest = axis;
+  return CoarseNormal::along(Eigen::Vector3i::Unit(nearest));
 }
 
 SurfaceEvidence::Measured SurfaceEvidence::measured(const Eigen::Vector3i& cell) const {

@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/gain/surface_slant.hpp"
 #include "core/map/bit_rows.hpp"
 #include "core/map/voxel_bricks.hpp"
 #include "core/map/voxel_grid.hpp"
@@ -47,6 +49,9 @@ class SurfaceEvidence {
   Eigen::Vector3i block_of(const Eigen::Vector3i& cell) const { return cell / block_edge_; }
   /// The blocks that hold an unmeasured voxel.
   const BitRows& unmeasured_blocks() const { return unmeasured_blocks_; }
+  /// How surface in a block of voxels is likely to lie: towards the free blocks beside it, of 26; where there are none
+  /// or they are all around, as the nearest side of the object's box. A block is free if all its voxels are.
+  CoarseNormal normal(const Eigen::Vector3i& block) const;
   /// @pre kind(cell) != Kind::unmeasured
   Measured measured(const Eigen::Vector3i& cell) const;
   /// Whether a voxel is unmeasured or occupied, or has such a one beside it: no surface is in any other.
@@ -59,6 +64,10 @@ class SurfaceEvidence {
   struct Hull {
     static constexpr int directions = 9;
     std::array<int, directions> lowest, highest;
+    /// How far beyond its nearer side across a direction something lies, so far along it; negative between them.
+    int beyond(int direction, int along) const {
+      return std::max(along - highest[std::size_t(direction)], lowest[std::size_t(direction)] - along);
+    }
     /// How far outside of it a cell of the whole grid lies [voxels]; negative inside.
     double outside(const Eigen::Vector3i& cell) const;
   };
@@ -78,7 +87,7 @@ class SurfaceEvidence {
   VoxelBricks voxels_, occlusions_;  ///< of the whole grid
   BitRows occupied_, unmeasured_, may_hold_surface_;
   int block_edge_ = 1;
-  BitRows unmeasured_blocks_;
+  BitRows unmeasured_blocks_, free_blocks_, beside_free_blocks_;
   std::vector<std::uint32_t> blocks_before_;         ///< BitRows::counts_before of unmeasured_blocks_
   std::vector<std::int32_t> to_occupied_, to_free_;  ///< of those, squared [blocks^2]
   std::vector<float> log_shares_;                    ///< by squared distance

@@ -151,19 +151,32 @@ BitRows BitRows::halved() const {
   return half;
 }
 
-int BitRows::neighbours(const Eigen::Vector3i& cell) const {
-  const int left = cell.x() - 1;
-  std::uint64_t all = 0;  // three of each row
+template <class Visit>
+void BitRows::for_each_three(const Eigen::Vector3i& cell, Visit visit) const {
+  const std::size_t w = std::size_t(cell.x()) / 64;
+  const int bit = cell.x() % 64;
   for (int z = std::max(cell.z() - 1, 0); z <= std::min(cell.z() + 1, size_.z() - 1); ++z)
     for (int y = std::max(cell.y() - 1, 0); y <= std::min(cell.y() + 1, size_.y() - 1); ++y) {
       const std::span<const std::uint64_t> words = row(y, z);
-      const std::size_t w = std::size_t(cell.x()) / 64;
-      const int bit = cell.x() % 64;
-      std::uint64_t three = bit > 0 ? words[w] >> (bit - 1) : words[w] << 1 | (left >= 0 ? words[w - 1] >> 63 : 0);
+      std::uint64_t three = bit > 0 ? words[w] >> (bit - 1) : words[w] << 1 | (w > 0 ? words[w - 1] >> 63 : 0);
       if (bit == 63 && w + 1 < words.size()) three |= words[w + 1] << 2;
-      all = all << 3 | (three & 7);
+      visit(static_cast<unsigned>(three & 7), y - cell.y(), z - cell.z());
     }
+}
+
+int BitRows::neighbours(const Eigen::Vector3i& cell) const {
+  unsigned all = 0;
+  for_each_three(cell, [&](unsigned three, int, int) { all = all << 3 | three; });
   return std::popcount(all) - at(cell);
+}
+
+Eigen::Vector3i BitRows::ways_to_neighbours(const Eigen::Vector3i& cell) const {
+  constexpr int counts[] = {0, 1, 1, 2, 1, 2, 2, 3};  // of three flags: not all processors have an instruction for it
+  Eigen::Vector3i sum = Eigen::Vector3i::Zero();
+  for_each_three(cell, [&](unsigned three, int y, int z) {
+    sum += Eigen::Vector3i(int(three >> 2) - int(three & 1), counts[three] * y, counts[three] * z);
+  });
+  return sum;
 }
 
 std::vector<std::uint32_t> BitRows::counts_before() const {

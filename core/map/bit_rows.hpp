@@ -42,6 +42,8 @@ class BitRows {
 
   /// How many of a voxel's 26 neighbours are set; beyond the box there are none.
   int neighbours(const Eigen::Vector3i& cell) const;
+  /// The sum of the ways to those: on which side of the voxel most of them lie [voxels].
+  Eigen::Vector3i ways_to_neighbours(const Eigen::Vector3i& cell) const;
   /// How many are set before each word, x fastest, then y, then z; at last how many in all.
   std::vector<std::uint32_t> counts_before() const;
   /// How many are set before a voxel. @pre `counts` is counts_before()
@@ -62,6 +64,10 @@ class BitRows {
   BitMask mask() const;  ///< x fastest, then y, then z
 
  private:
+  /// Calls `visit(flags, y, z)` for the rows around a cell and its own, of which `y` and `z` say how far off they are:
+  /// its flags at x - 1, x and x + 1, the lowest first. Beyond the box there are none.
+  template <class Visit>
+  void for_each_three(const Eigen::Vector3i& cell, Visit visit) const;
   std::size_t begin(int y, int z) const { return (std::size_t(z) * size_.y() + y) * row_words_; }
   std::uint64_t& word_of(const Eigen::Vector3i& cell) { return words_[begin(cell.y(), cell.z()) + cell.x() / 64]; }
   void grow_along_rows();

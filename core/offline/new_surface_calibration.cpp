@@ -66,9 +66,10 @@ class CandidateRays {
     const std::size_t number = view * rays() + ray;
     const MeshRayCaster::Hit& hit = hits_[number];
     const double range = hit.range;
+    const Vector3 towards = direction(view, ray);
     const bool is_new = !DepthImage::is_beyond_range(hit.range) && hit.cosine >= least_cosine &&
                         !covered_->observed()[point_of_[number]];
-    walk_ray_segments(grid, views_[view].translation(), direction(view, ray), length(),
+    walk_ray_segments(grid, views_[view].translation(), towards, length(),
                       [&](int x, int y, int z, double enter, double exit) {
                         const Eigen::Vector3i voxel(x, y, z);
                         if (!evidence.may_hold_surface(voxel)) return enter <= range;
@@ -78,7 +79,9 @@ class CandidateRays {
                         const double weight = setup_.bundle.solid_angles[ray] * enter * enter;
                         const bool found = is_new && (ends || exit > range);
                         to.add(evidence, voxel, weight, found);
-                        if (found) to.add_slant(weight, 1.0 / double(hit.cosine));
+                        if (found)
+                          to.add_slant(weight, evidence.normal(evidence.block_of(voxel)).squared_cosine(towards),
+                                       1.0 / double(hit.cosine));
                         return !ends && exit <= range;
                       });
   }

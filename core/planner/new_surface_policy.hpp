@@ -38,7 +38,7 @@ class NewSurfacePolicy : public Policy {
   std::shared_ptr<const Seen> see(const Knowledge& known) const;
   ScoreExplanation explanation(const Seen& seen, const PlanningState& state, const Pose& T_world_camera) const;
   NewSurfaceOptions options(const PlanningState& state) const {
-    return {state.config.ray_length, promise_kept(state.taken) * model_.slant};
+    return {state.config.ray_length, model_.slant.times(promise_kept(state.taken))};
   }
 
   NewSurfaceModel model_;

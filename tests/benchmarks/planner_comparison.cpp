@@ -33,7 +33,6 @@ struct Options {
   int views = 12, width = 320, random_seeds = 5;
   double size = 0.5;                        // longest side [m]
   double noise = 0.001, resolution = 0.01;  // [m], of objects of half a metre: both follow the size
-  double cost_weight = -1.0;
   std::string config;
   std::vector<std::string> set;
   std::vector<int> at;
@@ -55,6 +54,31 @@ struct Course {
     for (const double c : coverage) sum += c;
     return sum / double(coverage.size());
   }
+  /// Metres to a coverage, as if it grew evenly from view to view. @pre it is reached, and not by the first view
+  double way_to(double share) const {
+    const auto after = std::size_t(std::ranges::lower_bound(coverage, share) - coverage.begin());
+    const double part = (share - coverage[after - 1]) / (coverage[after] - coverage[after - 1]);
+    return path[after - 1] + part * (path[after] - path[after - 1]);
+  }
+};
+
+/// The way of a plan beside the oracle's, to the same coverage: mean over all that both reach after their first view
+/// [m].
+struct EqualCoverage {
+  double way = 0.0, oracles = 0.0;
+
+  static EqualCoverage of(const Course& course, const Course& oracle) {
+    constexpr int levels = 200;
+    const double first = std::max(course.coverage.front(), oracle.coverage.front());
+    const double last = std::min(course.coverage.back(), oracle.coverage.back());
+    EqualCoverage equal;
+    for (int i = 1; i <= levels; ++i) {
+      const double share = first + (last - first) * (i - 0.5) / levels;
+      equal.way += course.way_to(share) / levels, equal.oracles += oracle.way_to(share) / levels;
+    }
+    return equal;
+  }
+  double share() const { return way / oracles; }
 };
 
 /// Parts that come with Debian and with the program. None was learned from.
@@ -66,8 +90,17 @@ std::vector<std::string> all_objects() {
   return objects;
 }
 
+/// As --set has it.
+void set(const Options& options, Configuration& c) {
+  for (const std::string& one : options.set) {
+    const std::size_t equals = one.find('=');
+    give(c, one.substr(0, equals), equals == std::string::npos ? "" : one.substr(equals + 1), "--set " + one);
+  }
+}
+
 Configuration configuration(const Options& options, const std::string& object, const std::string& policy) {
   Configuration c;
+  set(options, c);
   if (policy == "paper") {
     const fs::path file = assets_folder() / "configurations" / "paper.toml";
     c = read_configuration(file, c);
@@ -80,7 +113,6 @@ Configuration configuration(const Options& options, const std::string& object, c
   c.sensor.width = options.width;
   give(c, "sensor.range_noise", fmt::format("{:.6g}", options.noise * options.size / 0.5), "--noise");
   give(c, "map.resolution", fmt::format("{:.6g}", options.resolution * options.size / 0.5), "--resolution");
-  if (options.cost_weight >= 0.0 && policy != "paper") c.planner.weights.cost = options.cost_weight;
   c.termination = {};
   c.termination.views = options.views;
   c.termination.surface_left = 0.0;
@@ -131,10 +163,15 @@ LeastViews least_views(const Configuration& c) {
   return {least_views(*session.known_object(), 0.95), least_views(*session.known_object(), 0.99)};
 }
 
-void print(const std::string& object, const std::string& policy, const Course& course, double gap_closed,
+/// Where a plan stands between random views (0) and the oracle (1), and its way to the same coverage over the oracle's.
+struct Standing {
+  double gap_closed, way_share;
+};
+
+void print(const std::string& object, const std::string& policy, const Course& course, const Standing& standing,
            const LeastViews& least) {
-  fmt::print("{},{},{:.2f},{:.3f},{:.2f},{},{}", object, policy, 100.0 * course.mean(), gap_closed, course.path.back(),
-             least.of_95, least.of_99);
+  fmt::print("{},{},{:.2f},{:.3f},{:.2f},{:.3f},{},{}", object, policy, 100.0 * course.mean(), standing.gap_closed,
+             course.path.back(), standing.way_share, least.of_95, least.of_99);
   for (const double coverage : course.coverage) fmt::print(",{:.2f}", 100.0 * coverage);
   fmt::print("\n");
   std::fflush(stdout);
@@ -142,12 +179,13 @@ void print(const std::string& object, const std::string& policy, const Course& c
 
 void compare(const Options& options) {
   const auto objects = options.objects.empty() ? all_objects() : options.objects;
-  std::vector<std::string> policies = {"random", "oracle"};
+  std::vector<std::string> policies = {"oracle", "random"};
   policies.insert(policies.end(), options.policies.begin(), options.policies.end());
-  fmt::print("object,policy,mean_coverage[%],gap_closed,path[m],least_views_95,least_views_99");
+  fmt::print("object,policy,mean_coverage[%],gap_closed,path[m],path_to_same/oracle,least_views_95,least_views_99");
   for (int view = 1; view <= options.views; ++view) fmt::print(",{}", view);
   fmt::print("\n");
   std::map<std::string, Course> means;
+  std::map<std::string, EqualCoverage> ways;
   const auto gap_closed = [](const Course& course, const Course& random, const Course& oracle) {
     return (course.mean() - random.mean()) / (oracle.mean() - random.mean());
   };
@@ -157,13 +195,18 @@ void compare(const Options& options) {
     for (const std::string& policy : policies) {
       const Course& course = courses.insert_or_assign(policy, course_of(options, object, policy)).first->second;
       means.try_emplace(policy, options.views).first->second.add(course, 1.0 / double(objects.size()));
-      const Course& random = courses.at("random");
-      const double closed = courses.contains("oracle") ? gap_closed(course, random, courses.at("oracle")) : 0.0;
-      print(fs::path(object).stem().string(), policy, course, closed, least);
+    }
+    for (const std::string& policy : policies) {
+      const Course &course = courses.at(policy), &oracle = courses.at("oracle");
+      const EqualCoverage equal = EqualCoverage::of(course, oracle);
+      ways[policy].way += equal.way, ways[policy].oracles += equal.oracles;
+      print(fs::path(object).stem().string(), policy, course,
+            {gap_closed(course, courses.at("random"), oracle), equal.share()}, least);
     }
   }
   for (const std::string& policy : policies)
-    print("mean", policy, means.at(policy), gap_closed(means.at(policy), means.at("random"), means.at("oracle")), {});
+    print("mean", policy, means.at(policy),
+          {gap_closed(means.at(policy), means.at("random"), means.at("oracle")), ways.at(policy).share()}, {});
 }
 
 /// The gains that were published, random views, and ours.
@@ -177,10 +220,7 @@ Configuration configuration_of_file(const Options& options) {
   Configuration c;
   read_settings(fs::exists(named) ? named : fs::path(options.config), c);
   for (const std::string& object : options.objects) give(c, "object.file", object, "--object");
-  for (const std::string& one : options.set) {
-    const std::size_t equals = one.find('=');
-    give(c, one.substr(0, equals), equals == std::string::npos ? "" : one.substr(equals + 1), "--set " + one);
-  }
+  set(options, c);
   c.termination = {};
   c.termination.views = *std::max_element(options.at.begin(), options.at.end());
   c.termination.surface_left = 0.0;
@@ -224,7 +264,7 @@ int main(int argc, char** argv) {
       app.add_option("--policy", options.policies, "default, paper, or gains; random and oracle always")
           ->delimiter(',');
   CLI::Option* config = app.add_option("--config", options.config, "a table as this configuration has it");
-  app.add_option("--set", options.set, "key=value, over the configuration")->needs(config)->allow_extra_args(false);
+  app.add_option("--set", options.set, "key=value, over the configuration")->allow_extra_args(false);
   app.add_option("--at", options.at, "columns of the table: after so many views")
       ->delimiter(',')
       ->needs(config)
@@ -238,7 +278,6 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.001, 1000.0));
   app.add_option("--noise", options.noise, "[m], of objects of half a metre");
   app.add_option("--resolution", options.resolution, "[m], of objects of half a metre");
-  app.add_option("--cost-weight", options.cost_weight, "of Eq. 13, but for the paper's plan");
   app.add_option("--random-seeds", options.random_seeds)->check(CLI::Range(1, 100));
   CLI11_PARSE(app, argc, argv);
   if (!*policies && *config) options.policies = nextview::table_policies;

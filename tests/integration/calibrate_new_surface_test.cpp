@@ -65,7 +65,8 @@ TEST_F(CalibrateNewSurface, WritesTheSameBytesOnAnyNumberOfThreadsAndScanTakesTh
   EXPECT_THAT(learned, HasSubstr("2 parts made up for it, 3 views of each, seed 1"));
   run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces --evaluation.surface_samples 1000" + coarse +
       " --config " + in("one/new_surface.toml") + " --out " + in("scan"));
-  for (const char* key : {"unmeasured", "unmeasured_from_free", "free", "occupied_occupied", "slant"}) {
+  for (const char* key :
+       {"unmeasured", "unmeasured_from_free", "free", "occupied_occupied", "slant", "slant_edge_on"}) {
     EXPECT_NE(toml_value(learned, key), "") << key;
     EXPECT_NE(toml_value(learned, key), toml_value(read("one", "config.toml"), key)) << key << " is as before";
     EXPECT_EQ(toml_value(learned, key), toml_value(read("scan", "config.toml"), key)) << key;

@@ -19,7 +19,8 @@ NewSurfaceModel planted() {
   model.unmeasured = {0.6, -0.5, 0.6, 0.2, -0.3, -0.2, -1.5, -1.0, 2.0};
   model.free = {-3.0, 0.5, 0.4, 0.6, 0.05};
   model.occupied = {-0.5, -0.6, 0.2, 0.3, -0.04};
-  model.slant = 1.6;
+  model.mean_slant = 1.6;
+  model.slant = {2.0, 1.2};
   return model;
 }
 
@@ -76,7 +77,7 @@ NewSurfaceObservations added(std::span<const Observation> all, double unit = 1.0
   NewSurfaceObservations observations;
   for (const Observation& one : all) {
     observations.add(*one.evidence, one.voxel, unit * one.weight, one.found);
-    if (one.found) observations.add_slant(unit * one.weight, one.voxel.x() % 2 ? 1.5 : 1.7);
+    if (one.found) observations.add_slant(unit * one.weight, one.voxel.x() % 3 / 2.0, 2.0 - 0.4 * (one.voxel.x() % 3));
   }
   return observations;
 }
@@ -85,7 +86,9 @@ std::vector<double> coefficients(const NewSurfaceModel& model) {
   std::vector<double> all(model.unmeasured.begin(), model.unmeasured.end());
   all.insert(all.end(), model.free.begin(), model.free.end());
   all.insert(all.end(), model.occupied.begin(), model.occupied.end());
-  all.push_back(model.slant);
+  all.push_back(model.mean_slant);
+  all.push_back(model.slant.edge_on);
+  all.push_back(model.slant.face_on);
   return all;
 }
 
@@ -110,7 +113,9 @@ TEST(NewSurfaceFit, GivesTheChancesBackThatWerePlanted) {
     EXPECT_LT(error[kind] / count[kind], 0.05) << kind;
     EXPECT_NEAR(fitted_sum[kind] / sum[kind], 1.0, 0.03) << kind;
   }
-  EXPECT_NEAR(fitted.slant, 1.6, 0.02);
+  EXPECT_NEAR(fitted.mean_slant, 1.6, 0.02);
+  EXPECT_NEAR(fitted.slant.edge_on, 2.0, 1e-9);
+  EXPECT_NEAR(fitted.slant.face_on, 1.2, 1e-9);
 }
 
 TEST(NewSurfaceFit, DoesNotDependOnTheOrderOfTheRays) {
@@ -151,14 +156,22 @@ TEST(NewSurfaceFit, WhatIsFoundIsCountedByKind) {
   EXPECT_LT(observations.cells(), all.size()) << "some voxels are alike";
 }
 
-TEST(NewSurfaceFit, TheSlantIsTheMeanByWeight) {
+TEST(NewSurfaceFit, TheSlantIsALineByWeight) {
   const auto maps = made_up_maps();
   NewSurfaceObservations observations;
   for (const Observation& one : drawn(maps, planted(), 1))
     observations.add(*one.evidence, one.voxel, one.weight, one.found);
-  observations.add_slant(2.0, 1.5);
-  observations.add_slant(1.0, 3.0);
-  EXPECT_NEAR(observations.fit().slant, 2.0, 1e-12);
+  const auto slants = [](const NewSurfaceModel& m) {
+    return std::array{m.mean_slant, m.slant.edge_on, m.slant.face_on};
+  };
+  observations.add_slant(2.0, 0.25, 2.5);
+  EXPECT_EQ(slants(observations.fit())[0], 2.5);
+  observations.add_slant(2.0, 0.75, 1.5);
+  observations.add_slant(1.0, 0.5, 2.0);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(slants(observations.fit())[i], (std::array{2.0, 3.0, 1.0})[i], 1e-12) << i;
+  observations.add_slant(100.0, 1.0, 0.1);  // as no surface is met
+  EXPECT_EQ(observations.fit().slant.face_on, 1.0);
 }
 
 // A camera in the voxel has no area across its ray.

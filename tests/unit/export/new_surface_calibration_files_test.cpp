@@ -17,7 +17,7 @@ NewSurfaceCalibration learned() {
   NewSurfaceCalibration calibration;
   double value = -1.0 / 3.0;
   for (const Setting& s : settings(calibration.model)) *std::get<double*>(s.value) = value *= -1.3;
-  calibration.model.slant = 5.0 / 3.0;
+  calibration.model.mean_slant = 5.0 / 3.0, calibration.model.slant = {7.0 / 3.0, 4.0 / 3.0};
   calibration.objects = {"part 0", "a \"name\",\nof two lines"};
   calibration.found_unmeasured = 0.7, calibration.found_free = 0.2, calibration.found_occupied = 0.1;
   calibration.cells = 77;

@@ -16,7 +16,9 @@ std::vector<double> values(const NewSurfaceModel& model) {
   std::vector<double> all(model.unmeasured.begin(), model.unmeasured.end());
   all.insert(all.end(), model.free.begin(), model.free.end());
   all.insert(all.end(), model.occupied.begin(), model.occupied.end());
-  all.push_back(model.slant);
+  all.push_back(model.mean_slant);
+  all.push_back(model.slant.edge_on);
+  all.push_back(model.slant.face_on);
   all.push_back(model.left_at_border);
   return all;
 }
@@ -115,8 +117,9 @@ TEST(NewSurfaceModel, TheFittedOneExpectsMoreWhereLessIsKnown) {
     return model.chance(evidence, evidence_maps::in_evidence(evidence, made.map.grid(), {x, y, z}));
   };
   EXPECT_GT(chance(11, 12, 12), chance(13, 12, 12)) << "farther from the surface";
-  EXPECT_GT(model.slant, 1.0);
-  EXPECT_LT(model.slant, 3.0);
+  EXPECT_GT(model.slant.face_on, 1.0);
+  EXPECT_GT(model.mean_slant, model.slant.face_on);
+  EXPECT_GT(model.slant.edge_on, model.mean_slant);
 }
 
 }  // namespace

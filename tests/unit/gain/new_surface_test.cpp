@@ -54,6 +54,15 @@ std::vector<Met> met_by(const VoxelGrid& grid, const Vector3& origin, const Vect
   return met;
 }
 
+/// As SurfaceSlant has it, where there may be surface.
+double slant_of(const NewSurfaceField& field, std::uint32_t voxel, const Vector3& direction,
+                const NewSurfaceOptions& options) {
+  if (field.at(voxel) == 0.0f) return 0.0;
+  const Vector3i cell = field.grid().cell(voxel);
+  const double cosine = field.normal(cell.x(), cell.y(), cell.z()).direction().dot(direction);
+  return options.slant.edge_on * (1 - cosine * cosine) + options.slant.face_on * cosine * cosine;
+}
+
 struct Bounds {
   double value = 0.0, negligible = 0.0;  ///< ... part of it, of rays that hardly get so far
 };
@@ -61,9 +70,11 @@ Bounds twin_of(const NewSurfaceField& field, const Pose& view, const RayBundle& 
   Bounds result;
   for (std::size_t i = 0; i < rays.directions.size(); ++i) {
     double reach = 1.0;
-    for (const Met& met : met_by(field.grid(), view.translation(), view.linear() * rays.directions[i], o.ray_length)) {
+    const Vector3 direction = view.linear() * rays.directions[i];
+    for (const Met& met : met_by(field.grid(), view.translation(), direction, o.ray_length)) {
       const double q = std::abs(field.at(met.voxel));
-      const double part = 1e4 * o.slant * met.range * met.range * rays.solid_angles[i] * reach * q;
+      const double part =
+          1e4 * slant_of(field, met.voxel, direction, o) * met.range * met.range * rays.solid_angles[i] * reach * q;
       result.value += part;
       if (reach < 2e-3) result.negligible += part;
       reach *= 1.0 - q;
@@ -80,7 +91,7 @@ TEST(NewSurface, AgreesWithTheSlabTestOfAllVoxels) {
     const MadeMap made = evidence_maps::random_map(random, {13, 11, 12}, 0.06, 0.5);
     const NewSurfaceField field(made.evidence(), model_of(unmeasured, -3.0, -0.5));
     const std::vector<Pose> views = views_around(random, 10);
-    for (const NewSurfaceOptions& options : {NewSurfaceOptions{1.5, 1.7}, NewSurfaceOptions{0.58, 1.0}}) {
+    for (const NewSurfaceOptions& options : {NewSurfaceOptions{1.5, {2.5, 1.2}}, NewSurfaceOptions{0.58, {1.0, 1.0}}}) {
       const auto found = expected_new_surface(field, views, small_bundle(), options);
       ASSERT_EQ(found.size(), views.size());
       for (std::size_t v = 0; v < views.size(); ++v) {
@@ -100,7 +111,7 @@ TEST(NewSurface, IsTheMeanOverWorlds) {
   std::mt19937 random(2);
   const MadeMap made = evidence_maps::random_map(random, {11, 12, 10}, 0.05, 0.6);
   const NewSurfaceField field(made.evidence(), model_of(0.0, -2.5, -0.5));
-  const NewSurfaceOptions options{1.5, 1.3};
+  const NewSurfaceOptions options{1.5, {2.0, 1.1}};
   const RayBundle rays = small_bundle();
   for (const Pose& view : views_around(random, 3)) {
     std::vector<std::vector<Met>> met;
@@ -115,7 +126,9 @@ TEST(NewSurface, IsTheMeanOverWorlds) {
       double area = 0.0;
       for (std::size_t i = 0; i < met.size(); ++i)
         for (const Met& at : met[i]) {
-          if (holds_surface[at.voxel]) area += 1e4 * options.slant * rays.solid_angles[i] * at.range * at.range;
+          const Vector3 direction = view.linear() * rays.directions[i];
+          if (holds_surface[at.voxel])
+            area += 1e4 * slant_of(field, at.voxel, direction, options) * rays.solid_angles[i] * at.range * at.range;
           if (holds_surface[at.voxel] || field.at(at.voxel) < 0.0f) break;
         }
       sum += area, squares += area * area;
@@ -141,16 +154,21 @@ TEST(NewSurface, OfAWallIsItsAreaTimesItsChance) {
   const Pose view = look_at(Vector3(-1.195, 0.0, 0.0), Vector3::Zero());  // 1.2 m from its middle
   const RayBundle rays = small_bundle(330, 240, 0.5);
   // Rays aside see more of the wall than lies across them: the mean cosine, over the wall.
-  double cosine = 0.0;
+  double cosine = 0.0, cubed = 0.0;
   for (int y = -20; y < 20; ++y)
-    for (int z = -15; z < 15; ++z) cosine += 1.2 / Vector3(1.2, (y + 0.5) / 100, (z + 0.5) / 100).norm() / 1200;
+    for (int z = -15; z < 15; ++z) {
+      const double one = 1.2 / Vector3(1.2, (y + 0.5) / 100, (z + 0.5) / 100).norm();
+      cosine += one / 1200, cubed += one * one * one / 1200;
+    }
   for (const double chance : {0.2, 0.9}) {
     const NewSurfaceField field(made.evidence(), of_occupied_alone(chance));
-    for (const double slant : {1.0, 1.7}) {
+    for (const SurfaceSlant& slant : {SurfaceSlant{1.7, 1.7}, SurfaceSlant{3.0, 1.0}}) {
+      // Its normal is known: all around it is unmeasured, and the object's box is as thin as the wall.
+      const double expected = slant.edge_on * (cosine - cubed) + slant.face_on * cubed;
       const double found = expected_new_surface(field, {&view, 1}, rays, {1.5, slant})[0];
-      EXPECT_NEAR(found / (slant * 1200.0 * cosine * chance), 1.0, 0.015);
+      EXPECT_NEAR(found / (1200.0 * expected * chance), 1.0, 0.015);
     }
-    EXPECT_EQ(expected_new_surface(field, {&view, 1}, rays, {1.1, 1.0})[0], 0.0) << "out of reach";
+    EXPECT_EQ(expected_new_surface(field, {&view, 1}, rays, {1.1, {}})[0], 0.0) << "out of reach";
   }
 }
 
@@ -172,7 +190,7 @@ TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
   std::mt19937 random(4);
   const MadeMap made = evidence_maps::random_map(random, {16, 14, 15}, 0.05, 0.5);
   const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
-  const NewSurfaceOptions options{1.4, 1.6};
+  const NewSurfaceOptions options{1.4, {2.2, 1.3}};
   const VoxelGrid& whole = made.map.grid();
   for (const Pose& view : views_around(random, 8)) {
     const ScoreExplanation why = explain_new_surface(field, whole, made.map.voxels(), view, small_bundle(), options);
@@ -194,7 +212,8 @@ TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
         EXPECT_EQ(voxel.probability, made.map.voxels().at(cell.x(), cell.y(), cell.z()).probability);
         EXPECT_NEAR(voxel.visibility, reach, 1e-9);
         const double range = met[next].range, q = std::abs(field.at(number));
-        EXPECT_NEAR(voxel.contribution, 1e4 * 1.6 * range * range * small_bundle().solid_angles[i] * reach * q, 1e-7);
+        const double slant = slant_of(field, number, why.rays[i].direction, options);
+        EXPECT_NEAR(voxel.contribution, 1e4 * slant * range * range * small_bundle().solid_angles[i] * reach * q, 1e-7);
         reach *= 1.0 - q;
         of_ray += voxel.contribution;
         ++next;
@@ -263,6 +282,8 @@ TEST(NewSurface, AFieldHasTheChanceOfEachVoxelAndAMargin) {
         for (int x = -1; x <= size.x(); ++x) {
           const bool is_inside = field.grid().contains({x, y, z});
           ASSERT_EQ(field.at(x, y, z), is_inside ? model.chance(evidence, {x, y, z}) : ChanceField::outside);
+          if (!is_inside || field.at(x, y, z) == 0.0f) continue;
+          ASSERT_EQ(field.normal(x, y, z).direction(), evidence.normal(evidence.block_of({x, y, z})).direction());
         }
   }
 }

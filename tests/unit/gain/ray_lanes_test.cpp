@@ -124,7 +124,7 @@ TEST_P(RayLanesOn, NewSurfaceIsThatOfRaysOneByOneToTheLastBit) {
     const NewSurfaceField field(made.evidence(), NewSurfaceModel::fitted());
     const std::vector<Pose> views = some_views(random);
     for (const double length : {1.5, 0.75}) {
-      const NewSurfaceOptions options{length, 1.7};
+      const NewSurfaceOptions options{length, {2.5, 1.2}};
       const RayBundle rays = bundle(13, 9);
       const auto areas = expected_new_surface(field, views, rays, options);
       const auto forecast = forecast_new_surface(field, views, rays, options);

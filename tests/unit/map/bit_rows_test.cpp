@@ -26,8 +26,11 @@ TEST(BitRows, NeighboursAndGrowthAreWhatComparingAllFinds) {
       const std::vector<Vector3i> set = cells(rows);
       for_each_cell(size, [&](const Vector3i& cell) {
         int around = 0;
-        for (const Vector3i& other : set) around += is_beside(cell, other) && cell != other;
+        Vector3i ways = Vector3i::Zero();
+        for (const Vector3i& other : set)
+          if (is_beside(cell, other) && cell != other) ++around, ways += other - cell;
         ASSERT_EQ(rows.neighbours(cell), around) << cell.transpose() << " of " << size.transpose();
+        ASSERT_EQ(rows.ways_to_neighbours(cell), ways) << cell.transpose() << " of " << size.transpose();
         ASSERT_EQ(grown.at(cell), around > 0 || rows.at(cell)) << cell.transpose() << " of " << size.transpose();
       });
     }
