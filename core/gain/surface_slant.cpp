@@ -27,7 +27,7 @@ constexpr int ways = 2 * CoarseNormal::farthest + 1;  // along each axis
 
 std::size_t place_of(const Eigen::Vector3i& way) {
   const Eigen::Vector3i from = way.array() + CoarseNormal::farthest;
-  return std::size_t((from.z() * ways + from.y()) * ways + from.x());
+  return (std::size_t(from.z()) * ways + std::size_t(from.y())) * ways + std::size_t(from.x());
 }
 
 using NearestOfWays = std::array<std::uint8_t, std::size_t{ways} * ways * ways>;

@@ -5,8 +5,8 @@
 
 namespace nextview {
 
-/// The normal of a surface, within 18 degrees and in either sense: one of the ways from a voxel to those up to two away.
-/// A byte, as there is one a voxel.
+/// The normal of a surface, within 18 degrees and in either sense: one of the ways from a voxel to those up to two
+/// away. A byte, as there is one a voxel.
 class CoarseNormal {
  public:
   static constexpr int farthest = 9;  ///< component of a way: that of the ways to all voxels on one side, added up
