@@ -1,7 +1,7 @@
 // Coverage against views: planners beside random views and the greedy oracle, which knows the mesh. Prints a row for
 // each object and policy as CSV, and their means; the manual's table comes from it (planning). Beside them the least
 // number of candidates that see 95 and 99 % of what any of them sees.
-//   build/release/planner_comparison                                       the objects of the table, half an hour
+//   build/release/planner_comparison                                       the objects of the table, four minutes
 //   build/release/planner_comparison --object part.stl --policy paper      some of it
 //   build/release/planner_comparison --from FILE.csv --chart FILE.png      README's picture of what it printed
 //   build/release/planner_comparison --config FILE --at 1,2,4,6,10         a table of coverage of all samples, as FILE
