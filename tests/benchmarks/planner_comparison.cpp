@@ -72,6 +72,7 @@ struct EqualCoverage {
     const double first = std::max(course.coverage.front(), oracle.coverage.front());
     const double last = std::min(course.coverage.back(), oracle.coverage.back());
     EqualCoverage equal;
+    if (last <= first) return equal;  // the first view showed all there is
     for (int i = 1; i <= levels; ++i) {
       const double share = first + (last - first) * (i - 0.5) / levels;
       equal.way += course.way_to(share) / levels, equal.oracles += oracle.way_to(share) / levels;
