@@ -109,7 +109,8 @@ NewSurfaceModel NewSurfaceObservations::fit() const {
   model.occupied = fit_kind<std::tuple_size_v<SurfaceEvidence::Measured>>(Kind::occupied);
   model.mean_slant = slants_met_[0] / slants_(0, 0);
   const Eigen::Vector2d line = slants_.ldlt().solve(slants_met_);
-  model.slant = {std::clamp(line[0], 1.0, 10.0), std::clamp(line[0] + line[1], 1.0, 10.0)};  // nothing is met flatter
+  const auto slant = [](double value) { return std::clamp(value, SurfaceSlant::least, SurfaceSlant::most); };
+  model.slant = {slant(line[0]), slant(line[0] + line[1])};
   return model;
 }
 

@@ -28,6 +28,9 @@ class CoarseNormal {
 /// The area of a surface that a ray meets, over the area across the ray: so much more the flatter it is met. What is
 /// expected where its normal is known no better than CoarseNormal knows it.
 struct SurfaceSlant {
+  static constexpr double least = 1.0;  ///< no surface is smaller than what lies across a ray
+  static constexpr double most = 10.0;  ///< flatter than that, none is seen
+
   double edge_on = 2.1;  ///< where the normal lies across the ray
   double face_on = 1.1;  ///< where it lies along it
 

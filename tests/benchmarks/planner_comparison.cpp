@@ -265,7 +265,9 @@ int main(int argc, char** argv) {
       app.add_option("--policy", options.policies, "default, paper, or gains; random and oracle always")
           ->delimiter(',');
   CLI::Option* config = app.add_option("--config", options.config, "a table as this configuration has it");
-  app.add_option("--set", options.set, "key=value, over the configuration")->allow_extra_args(false);
+  app.add_option("--set", options.set,
+                 "key=value, over the configuration; what another option or a policy sets is that")
+      ->allow_extra_args(false);
   app.add_option("--at", options.at, "columns of the table: after so many views")
       ->delimiter(',')
       ->needs(config)

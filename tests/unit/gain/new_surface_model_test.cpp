@@ -120,6 +120,7 @@ TEST(NewSurfaceModel, TheFittedOneExpectsMoreWhereLessIsKnown) {
   EXPECT_GT(model.slant.face_on, 1.0);
   EXPECT_GT(model.mean_slant, model.slant.face_on);
   EXPECT_GT(model.slant.edge_on, model.mean_slant);
+  EXPECT_LT(model.slant.edge_on, 3.0);
 }
 
 }  // namespace

@@ -102,47 +102,6 @@ TEST(SurfaceEvidence, InsideTheHullIsNegative) {
   EXPECT_EQ(solid.evidence().size(), evidence.size()) << "the box is that of what is occupied";
 }
 
-/// Towards the free voxels beside a voxel, or across the nearest side of the box; as the comment has it.
-Vector3 normal_by_comparing(const Twin& twin, const Vector3i& cell, const Vector3i& low, const Vector3i& high) {
-  Vector3i ways = Vector3i::Zero();
-  MadeMap::for_each(cell - Vector3i::Ones(), cell + Vector3i::Ones(), [&](const Vector3i& other) {
-    if (other != cell && twin.grid.contains(other) && twin.kind(other) == Kind::free) ways += other - cell;
-  });
-  if (ways.isZero()) {
-    int axis = 0;
-    (cell - high).cwiseMax(low - cell).maxCoeff(&axis);
-    ways = Vector3i::Unit(axis);
-  }
-  return CoarseNormal::along(ways).direction();
-}
-
-TEST(SurfaceEvidence, NormalsAreWhatComparingAllVoxelsFinds) {
-  std::mt19937 random(4);
-  const MadeMap made = evidence_maps::random_map(random, {13, 17, 15}, 0.1, 0.8);
-  const Twin twin(made);
-  const SurfaceEvidence evidence = made.evidence();
-  ASSERT_EQ(evidence.grid().size, made.map.grid().size) << "all of it is looked at";
-  Vector3i low = twin.grid.size, high = -Vector3i::Ones();
-  for (const Vector3i& cell : twin.of_kind[std::size_t(Kind::occupied)])
-    low = low.cwiseMin(cell), high = high.cwiseMax(cell);
-  for (const Vector3i& cell : evidence_maps::cells(evidence))
-    ASSERT_EQ(evidence.normal(cell).direction(), normal_by_comparing(twin, cell, low, high)) << cell.transpose();
-}
-
-// Blocks of 4 x 4 x 4 are free if all of them is: the plate's front, 10 voxels deep, is so in two layers.
-TEST(SurfaceEvidence, NormalsOfBlocksAreTowardsFreeBlocks) {
-  MadeMap made({32, 32, 32});
-  made.set_box({0, 0, 0}, {11, 31, 31}, -1.5);
-  made.set_box({12, 8, 9}, {12, 23, 24}, 1.25);
-  const SurfaceEvidence evidence = made.evidence(0.5, 0.2);
-  ASSERT_EQ(evidence.block_edge(), 4);
-  const auto normal = [&](const Vector3i& cell) {
-    return evidence.normal(evidence.block_of(in_evidence(evidence, made.map.grid(), cell))).direction();
-  };
-  EXPECT_EQ(normal({13, 16, 16}), Vector3(1, 0, 0)) << "free in front";
-  EXPECT_EQ(normal({18, 16, 16}), Vector3(1, 0, 0)) << "behind the plate's middle";
-}
-
 TEST(SurfaceEvidence, MeasuredVoxelsByHand) {
   const MadeMap made = plate();
   const SurfaceEvidence evidence = made.evidence();
