@@ -12,7 +12,7 @@ using Kind = SurfaceEvidence::Kind;
 
 /// Features that round to the same multiples of these are as good as equal. The square and the root follow from others.
 constexpr SurfaceEvidence::Unmeasured unmeasured_steps = {1, 0.15f, 0.15f, 1e6f, 1, 0.2f, 1e6f, 0.01f, 0.02f};
-constexpr SurfaceEvidence::Measured measured_steps = {1, 0.25f, 0.1f, 1, 1};
+constexpr SurfaceEvidence::Measured measured_steps = {1, 0.25f, 0.1f, 1, 1, 0.4f};
 
 /// The log likelihood of finding, as a function of a linear score, and its first two derivatives (the second as it is
 /// expected). `size` [voxels] of the object.
@@ -61,8 +61,8 @@ void NewSurfaceObservations::add(const NewSurfaceObservations& other) {
     cell.size += more.size;
     for (std::size_t k = 0; k < most_features; ++k) cell.features[k] += more.features[k];
   }
-  slants_ += other.slants_;
-  slants_met_ += other.slants_met_;
+  across_ += other.across_;
+  surface_ += other.surface_;
 }
 
 double NewSurfaceObservations::found(Kind kind) const {
@@ -107,10 +107,8 @@ NewSurfaceModel NewSurfaceObservations::fit() const {
   model.unmeasured = fit_kind<std::tuple_size_v<SurfaceEvidence::Unmeasured>>(Kind::unmeasured);
   model.free = fit_kind<std::tuple_size_v<SurfaceEvidence::Measured>>(Kind::free);
   model.occupied = fit_kind<std::tuple_size_v<SurfaceEvidence::Measured>>(Kind::occupied);
-  model.mean_slant = slants_met_[0] / slants_(0, 0);
-  const Eigen::Vector2d line = slants_.ldlt().solve(slants_met_);
-  const auto slant = [](double value) { return std::clamp(value, SurfaceSlant::least, SurfaceSlant::most); };
-  model.slant = {slant(line[0]), slant(line[0] + line[1])};
+  model.mean_slant = surface_ / across_;
+  model.slant = {model.mean_slant, model.mean_slant};
   return model;
 }
 

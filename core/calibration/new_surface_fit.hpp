@@ -14,19 +14,18 @@ class NewSurfaceObservations {
   /// A ray came to a voxel; `found`: it met surface there that no view had covered. `weight`: the area across it, in
   /// any unit. @pre evidence.may_hold_surface(voxel)
   void add(const SurfaceEvidence& evidence, const Eigen::Vector3i& voxel, double weight, bool found);
-  /// What was found had this slant: area of the surface over area across the ray, which met the voxel's normal
-  /// (SurfaceEvidence::normal) at an angle of so large a cosine, squared.
-  void add_slant(double weight, double squared_cosine, double slant) {
-    const Eigen::Vector2d line(1.0, squared_cosine);
-    slants_ += weight * line * line.transpose();
-    slants_met_ += weight * slant * line;
+  /// What was found had this slant: area of the surface over area across the ray.
+  void add_slant(double weight, double slant) {
+    across_ += weight;
+    surface_ += weight * slant;
   }
   void add(const NewSurfaceObservations& other);
 
   std::size_t cells() const { return cells_.size(); }
   double found(SurfaceEvidence::Kind kind) const;  ///< weight of what was found in voxels of a kind
 
-  /// The model of largest likelihood, found by Newton's method, with a weak pull towards 0.
+  /// The model of largest likelihood, found by Newton's method, with a weak pull towards 0. All its slants are the
+  /// mean.
   /// @throws std::invalid_argument if nothing was found in voxels of some kind.
   NewSurfaceModel fit() const;
 
@@ -40,10 +39,8 @@ class NewSurfaceObservations {
   template <std::size_t n>
   std::array<double, n> fit_kind(SurfaceEvidence::Kind kind) const;
 
-  std::map<Key, Cell> cells_;  ///< in an order that does not depend on that of the rays
-  /// Normal equations of slant as a line over the squared cosine.
-  Eigen::Matrix2d slants_ = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d slants_met_ = Eigen::Vector2d::Zero();
+  std::map<Key, Cell> cells_;            ///< in an order that does not depend on that of the rays
+  double across_ = 0.0, surface_ = 0.0;  ///< area of what was found
 };
 
 }  // namespace nextview

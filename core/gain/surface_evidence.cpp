@@ -151,7 +151,7 @@ SurfaceEvidence::Hull SurfaceEvidence::hull_of(const std::vector<Eigen::Vector3i
 }
 
 SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
-                                 double occupancy_threshold, double finest)
+                                 double occupancy_threshold, const OpenBorder& border, double finest)
     : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()}, voxels_(voxels), occlusions_(occlusions) {
   const std::vector<Eigen::Vector3i> occupied = occupied_cells(voxels, occupancy_threshold);
   if (occupied.empty()) return;
@@ -160,6 +160,7 @@ SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxel
   while (2 * block_edge_ <= finest * size_) block_edge_ *= 2;
   read_kinds(occupancy_threshold);
   measure_distances();
+  measure_border(border);
 }
 
 void SurfaceEvidence::set_region(const VoxelGrid& whole, const Hull& hull) {
@@ -223,6 +224,21 @@ void SurfaceEvidence::measure_distances() {
   });
 }
 
+void SurfaceEvidence::measure_border(const OpenBorder& border) {
+  blocks_ = {1.0, Eigen::Vector3i::Zero(), (grid_.size.array() + block_edge_ - 1) / block_edge_};
+  going_on_.assign(blocks_.voxel_count(), 0.0f);
+  const auto length = static_cast<float>(border.spacing / (block_edge_ * grid_.resolution));
+  for (const Eigen::Vector3f& point : border.beyond) {
+    const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
+    if (!grid_.contains(cell)) continue;
+    for (int n = 0; n < 27; ++n) {
+      const Eigen::Vector3i block = block_of(cell) + Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+      if (blocks_.contains(block)) going_on_[blocks_.index(block)] += length;
+    }
+  }
+  for (float& of_block : going_on_) of_block = std::log1p(4.0f * of_block);
+}
+
 float SurfaceEvidence::log_share(std::size_t squared_distance) const {
   return log_shares_[std::min(squared_distance, log_shares_.size() - 1)];
 }
@@ -278,8 +294,12 @@ CoarseNormal SurfaceEvidence::normal(const Eigen::Vector3i& block) const {
 SurfaceEvidence::Measured SurfaceEvidence::measured(const Eigen::Vector3i& cell) const {
   const Eigen::Vector3i in_whole = cell + offset_;
   const int unmeasured = unmeasured_.neighbours(cell), occupied = occupied_.neighbours(cell);
-  return {1.0f, log_odds_of(voxels_.at(in_whole.x(), in_whole.y(), in_whole.z()).probability),
-          std::log1p(float(unmeasured)), occupied > 0 ? 1.0f : 0.0f, float(occupied)};
+  return {1.0f,
+          log_odds_of(voxels_.at(in_whole.x(), in_whole.y(), in_whole.z()).probability),
+          std::log1p(float(unmeasured)),
+          occupied > 0 ? 1.0f : 0.0f,
+          float(occupied),
+          going_on_[blocks_.index(block_of(cell))]};
 }
 
 }  // namespace nextview

@@ -6,6 +6,7 @@
 
 #include "core/gain/surface_slant.hpp"
 #include "core/map/bit_rows.hpp"
+#include "core/map/surface_border.hpp"
 #include "core/map/voxel_bricks.hpp"
 #include "core/map/voxel_grid.hpp"
 
@@ -22,8 +23,9 @@ class SurfaceEvidence {
   /// 0; how far outside the hull of the occupied voxels it lies: root, as it is, and negative if inside.
   using Unmeasured = std::array<float, 9>;
   /// Of a measured voxel: 1; its log-odds; ln(1 + its unmeasured neighbours); 1 if it has an occupied neighbour, else
-  /// 0; its occupied neighbours. Of 26 each.
-  using Measured = std::array<float, 5>;
+  /// 0; its occupied neighbours, of 26 each; ln(1 + 4 length), where `length` [blocks] is that of the border at which
+  /// the scanned surface goes on into its block or the 26 beside it.
+  using Measured = std::array<float, 6>;
 
   /// Voxels that are smaller than this share of the object are unmeasured in blocks of more: finer is not known where
   /// nothing was measured, and the work would grow with the volume.
@@ -32,7 +34,7 @@ class SurfaceEvidence {
   /// `occlusions` knows how far voxels lie behind a surface; it is the conventional map where `voxels` are another's.
   /// Up to a thousandth of the occupied voxels along any direction may be outliers, which the object's box leaves out.
   SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
-                  double occupancy_threshold, double finest = finest_share);
+                  double occupancy_threshold, const OpenBorder& border = {}, double finest = finest_share);
 
   /// The part of the map that is looked at, in the same lattice; of no voxels if none is occupied.
   const VoxelGrid& grid() const { return grid_; }
@@ -75,6 +77,7 @@ class SurfaceEvidence {
   void set_region(const VoxelGrid& whole, const Hull& hull);
   void read_kinds(double occupancy_threshold);
   void measure_distances();
+  void measure_border(const OpenBorder& border);
   Eigen::Vector3i first_unmeasured(const Eigen::Vector3i& block) const;
   float log_share(std::size_t squared_distance) const;
   float log_share_of_blocks(std::int32_t squared_distance) const;
@@ -90,7 +93,9 @@ class SurfaceEvidence {
   BitRows unmeasured_blocks_, free_blocks_, beside_free_blocks_;
   std::vector<std::uint32_t> blocks_before_;         ///< BitRows::counts_before of unmeasured_blocks_
   std::vector<std::int32_t> to_occupied_, to_free_;  ///< of those, squared [blocks^2]
-  std::vector<float> log_shares_;                    ///< by squared distance
+  VoxelGrid blocks_;
+  std::vector<float> going_on_;    ///< by block: Measured's last
+  std::vector<float> log_shares_;  ///< by squared distance
 };
 
 }  // namespace nextview

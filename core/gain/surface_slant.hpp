@@ -25,11 +25,11 @@ class CoarseNormal {
   std::uint8_t number_;  // without a value at first, so that large arrays need not be written twice
 };
 
-/// The area of a surface that a ray meets, over the area across the ray: so much more the flatter it is met. What is
-/// expected where its normal is known no better than CoarseNormal knows it.
+/// The area of new surface over the area across the rays that should meet it: so much more the flatter it is met. What
+/// is to be expected where its normal is known no better than CoarseNormal knows it, and chances are as good as they
+/// are.
 struct SurfaceSlant {
-  static constexpr double least = 1.0;  ///< no surface is smaller than what lies across a ray
-  static constexpr double most = 10.0;  ///< flatter than that, none is seen
+  static constexpr double least = 0.0, most = 10.0;
 
   double edge_on = 2.1;  ///< where the normal lies across the ray
   double face_on = 1.1;  ///< where it lies along it

@@ -18,12 +18,10 @@ constexpr int sub_cell_count = divisions * divisions * divisions;
 /// Places beyond are taken for the last one: that is thousands of kilometres, or a radius that is next to nothing.
 constexpr int farthest = (1 << 20) - 3;  // two cells on there are keys, too
 
-constexpr int offset = 1 << 20;  // in a key no part is below 0
+constexpr int offset = 1 << 20;  // in the order no part is below 0
 
-std::uint64_t key_of(const Eigen::Vector3i& cell) {
-  return 1 + ((std::uint64_t(cell.z() + offset) << 42) | (std::uint64_t(cell.y() + offset) << 21) |
-              std::uint64_t(cell.x() + offset));
-}
+/// 0 is left for no cell.
+std::uint64_t key_of(const Eigen::Vector3i& cell) { return 1 + ScannedSurface::order(cell); }
 Eigen::Vector3i cell_of(std::uint64_t key) {
   constexpr std::uint64_t part = (1 << 21) - 1;
   const auto at = [&](int shift) { return int(((key - 1) >> shift) & part) - offset; };
@@ -61,6 +59,11 @@ const auto within_radius = [] {
 }();
 
 }  // namespace
+
+std::uint64_t ScannedSurface::order(const Eigen::Vector3i& at) {
+  return (std::uint64_t(at.z() + offset) << 42) | (std::uint64_t(at.y() + offset) << 21) |
+         std::uint64_t(at.x() + offset);
+}
 
 ScannedSurface::ScannedSurface(double radius) : radius_(radius), slots_(1024) {
   if (!(radius > 0.0)) throw std::invalid_argument("scanned surface: the radius must be greater than 0");
@@ -138,6 +141,7 @@ std::vector<ScannedSurface::Cell> ScannedSurface::cells() const {
   std::vector<Cell> cells;
   for (const Slot& slot : slots_)
     if (slot.key != 0) cells.push_back({cell_of(slot.key), slot.sub_cells});
+  std::ranges::sort(cells, {}, [](const Cell& cell) { return order(cell.at); });
   return cells;
 }
 

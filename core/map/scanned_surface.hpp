@@ -28,8 +28,9 @@ class ScannedSurface {
     Eigen::Vector3i at;        ///< [radii]
     std::uint64_t points = 0;  ///< a bit each, of 4 x 4 x 4 places, x fastest
   };
-  std::vector<Cell> cells() const;  ///< that hold any point, in an order that depends on nothing but the scans
-  Cell cell(const Eigen::Vector3i& at) const { return {at, sub_cells(at)}; }
+  std::vector<Cell> cells() const;  ///< that hold any point, in the order of their places
+  /// Of cells, and two beyond: x fastest, then y, then z. Along x they are numbered one by one.
+  static std::uint64_t order(const Eigen::Vector3i& at);
 
   /// Points around which there are few: within the radius fewer than `share` of what is usual, the median over all
   /// points. Points are those told apart, each at the middle of its place. The same order every time.

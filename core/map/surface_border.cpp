@@ -5,18 +5,19 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <span>
+#include <vector>
 
 namespace nextview {
 namespace {
 
 constexpr float reach = 1.6f;              // [radii]
 constexpr float widest_gap = 2.1f;         // that has no border in it [rad]
-constexpr std::size_t fewest = 5;          // points around one that say anything
+constexpr float fewest = 5.0f;             // points around one that say anything
 constexpr float lopsided = 0.15f * reach;  // less is never a border: half a disc is 0.42, two thirds are 0.28
 
 /// The points of a cell a half of its edge apart: each the mean of what lies in an eighth of it [radii].
@@ -36,19 +37,111 @@ void for_each_eighth(const ScannedSurface::Cell& cell, Take take) {
   }
 }
 
-/// Which way the surface is open around a point, if it is; `around` are the ways to its neighbours.
-std::optional<Eigen::Vector3f> open_way(std::span<const Eigen::Vector3f> around) {
-  if (around.size() < fewest) return std::nullopt;
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for (const Eigen::Vector3f& way : around) mean += way;
-  mean /= float(around.size() + 1);  // the point itself is one
-  if (mean.norm() < lopsided) return std::nullopt;
-  Eigen::Matrix3f spread = mean * mean.transpose();
-  for (const Eigen::Vector3f& way : around) spread += (way - mean) * (way - mean).transpose();
+/// Points by coordinate, so that many are looked at together [radii].
+class Points {
+ public:
+  std::size_t size() const { return x_.size(); }
+  Eigen::Vector3f operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  void clear() { x_.clear(), y_.clear(), z_.clear(); }
+  void add(const Eigen::Vector3f& point) { x_.push_back(point.x()), y_.push_back(point.y()), z_.push_back(point.z()); }
+  void add(const Points& from, std::size_t begin, std::size_t end) {
+    const auto some = [&](std::vector<float>& to, const std::vector<float>& of) {
+      to.insert(to.end(), of.begin() + std::ptrdiff_t(begin), of.begin() + std::ptrdiff_t(end));
+    };
+    some(x_, from.x_), some(y_, from.y_), some(z_, from.z_);
+  }
+  /// Makes them a multiple of `lanes`, by points that are far from all.
+  void fill_up() {
+    while (size() % lanes != 0) add(Eigen::Vector3f::Constant(1e15f));
+  }
+  /// How many lie within reach of a point, itself among them.
+  struct Around {
+    float count = 0.0f;
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< of the ways there
+  };
+  /// @pre fill_up()
+  Around around(const Eigen::Vector3f& point) const {
+    using Lanes = Eigen::Array<float, lanes, 1>;
+    Lanes count = Lanes::Zero(), x_sum = count, y_sum = count, z_sum = count;
+    for (std::size_t i = 0; i < size(); i += lanes) {
+      const Lanes x = Lanes::Map(&x_[i]) - point.x(), y = Lanes::Map(&y_[i]) - point.y(),
+                  z = Lanes::Map(&z_[i]) - point.z();
+      // 1 or 0, without a branch: a comparison would not be made in lanes.
+      const Lanes is_near = ((reach * reach - (x * x + y * y + z * z)) * 1e30f).max(0.0f).min(1.0f);
+      count += is_near, x_sum += is_near * x, y_sum += is_near * y, z_sum += is_near * z;
+    }
+    return {count.sum(), Eigen::Vector3f(x_sum.sum(), y_sum.sum(), z_sum.sum()) / count.sum()};
+  }
+
+ private:
+  static constexpr int lanes = 8;
+  std::vector<float> x_, y_, z_;
+};
+
+/// A surface's points, cell by cell in the order of the cells.
+struct PointsOfCells {
+  std::vector<std::uint64_t> order;  ///< of the cells
+  std::vector<std::uint32_t> begin;  ///< of each cell's points, and the end of all
+  std::vector<Eigen::Vector3i> at;
+  Points points;
+
+  explicit PointsOfCells(const ScannedSurface& surface) {
+    for (const ScannedSurface::Cell& cell : surface.cells()) {
+      order.push_back(ScannedSurface::order(cell.at));
+      begin.push_back(std::uint32_t(points.size()));
+      at.push_back(cell.at);
+      for_each_eighth(cell, [&](const Eigen::Vector3f& point) { points.add(point); });
+    }
+    begin.push_back(std::uint32_t(points.size()));
+  }
+  std::size_t cells() const { return at.size(); }
+};
+
+/// The points up to two cells around a cell. Cells are asked for in their order, so that the rows around them are found
+/// by going on.
+class Surroundings {
+ public:
+  explicit Surroundings(const PointsOfCells& all) : all_(all) {}
+
+  const Points& of(std::size_t cell) {
+    points_.clear();
+    for (int row = 0; row < rows * rows; ++row) {
+      const Eigen::Vector3i first = all_.at[cell] + Eigen::Vector3i(-2, row % rows - 2, row / rows - 2);
+      const std::uint64_t lowest = ScannedSurface::order(first);
+      std::size_t& begin = begins_[std::size_t(row)];
+      if (is_first_) begin = std::size_t(std::ranges::lower_bound(all_.order, lowest) - all_.order.begin());
+      while (begin < all_.cells() && all_.order[begin] < lowest) ++begin;
+      std::size_t end = begin;
+      while (end < all_.cells() && all_.order[end] < lowest + rows) ++end;
+      points_.add(all_.points, all_.begin[begin], all_.begin[end]);
+    }
+    is_first_ = false;
+    points_.fill_up();
+    return points_;
+  }
+
+ private:
+  static constexpr int rows = 5;  ///< of five cells each
+  const PointsOfCells& all_;
+  std::array<std::size_t, std::size_t{rows} * rows> begins_{};
+  bool is_first_ = true;
+  Points points_;
+};
+
+/// Which way the surface is open around a point, if it is.
+std::optional<Eigen::Vector3f> open_way(const Points& near, const Eigen::Vector3f& point) {
+  const Points::Around around = near.around(point);
+  if (around.count < 1.0f + fewest || around.mean.norm() < lopsided) return std::nullopt;
+  PointCloud ways;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (const Eigen::Vector3f way = near[i] - point; way.squaredNorm() < reach * reach && way != way.Zero())
+      ways.push_back(way);
+  Eigen::Matrix3f spread = around.mean * around.mean.transpose();
+  for (const Eigen::Vector3f& way : ways) spread += (way - around.mean) * (way - around.mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(spread);
   const Eigen::Vector3f u = axes.eigenvectors().col(2), v = axes.eigenvectors().col(1);
   std::vector<float> angles;
-  for (const Eigen::Vector3f& way : around) angles.push_back(std::atan2(way.dot(v), way.dot(u)));
+  for (const Eigen::Vector3f& way : ways) angles.push_back(std::atan2(way.dot(v), way.dot(u)));
   std::ranges::sort(angles);
   float gap = angles.front() + 2.0f * std::numbers::pi_v<float> - angles.back(), begin = angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i)
@@ -63,32 +156,23 @@ std::optional<Eigen::Vector3f> open_way(std::span<const Eigen::Vector3f> around)
 double border_reach(const ScannedSurface& surface) { return reach * surface.radius(); }
 
 SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most) {
-  constexpr std::size_t usual = 4;  // points in a cell
-  const std::vector<ScannedSurface::Cell> cells = surface.cells();
-  const std::size_t every = std::max<std::size_t>(1, usual * cells.size() / most);
-  std::vector<SurfaceBorder> parts((cells.size() + every - 1) / every);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts.size(), 64), [&](const auto& range) {
-    PointCloud near, around;
+  const PointsOfCells all(surface);
+  const std::size_t every = std::max<std::size_t>(1, all.points.size() / most);
+  std::vector<SurfaceBorder> parts((all.cells() + every - 1) / every);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts.size(), 256), [&](const auto& range) {
+    Surroundings surroundings(all);
     for (std::size_t p = range.begin(); p != range.end(); ++p) {
-      const ScannedSurface::Cell& cell = cells[p * every];
-      near.clear();
-      for (int z = -2; z <= 2; ++z)
-        for (int y = -2; y <= 2; ++y)
-          for (int x = -2; x <= 2; ++x)
-            for_each_eighth(surface.cell(cell.at + Eigen::Vector3i(x, y, z)),
-                            [&](const Eigen::Vector3f& point) { near.push_back(point); });
-      for_each_eighth(cell, [&](const Eigen::Vector3f& point) {
-        around.clear();
-        for (const Eigen::Vector3f& other : near)
-          if (const Eigen::Vector3f way = other - point; way.squaredNorm() < reach * reach && way != way.Zero())
-            around.push_back(way);
+      const Points& near = surroundings.of(p * every);
+      for (std::size_t i = all.begin[p * every]; i < all.begin[p * every + 1]; ++i) {
+        const Eigen::Vector3f point = all.points[i];
         ++parts[p].looked_at;
-        if (const auto outward = open_way(around))
+        if (const auto outward = open_way(near, point))
           parts[p].points.push_back({float(surface.radius()) * point, *outward});
-      });
+      }
     }
   });
   SurfaceBorder border;
+  border.spacing = 0.5 * surface.radius() * double(every);
   for (const SurfaceBorder& part : parts) {
     border.points.insert(border.points.end(), part.points.begin(), part.points.end());
     border.looked_at += part.looked_at;

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "core/calibration/slant_fit.hpp"
 #include "core/evaluation/coverage.hpp"
 #include "core/map/traversal.hpp"
 #include "core/offline/training_parts.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 /// What is met at more than 80 degrees from its normal is not seen well enough to count.
 constexpr float least_cosine = 0.17f;
+constexpr double square_centimetres = 1e4;  // in a square metre
 
 /// What the scoring rays of all candidate views meet, and whether any view has covered it yet.
 class CandidateRays {
@@ -46,6 +48,17 @@ class CandidateRays {
 
   void cover(const PointCloud& points, const std::stop_token& stop) { covered_->add(points, stop); }
 
+  /// The new surface that a candidate view would show [cm^2].
+  double shown(std::size_t view) const {
+    double area = 0.0;
+    for (std::size_t number = view * rays(); number < (view + 1) * rays(); ++number) {
+      if (!is_new(number)) continue;
+      const double range = hits_[number].range;
+      area += setup_.bundle.solid_angles[number % rays()] * range * range / double(hits_[number].cosine);
+    }
+    return square_centimetres * area;
+  }
+
   /// What the rays of one candidate view find in a map.
   NewSurfaceObservations observe(const SurfaceEvidence& evidence, std::size_t view) const {
     NewSurfaceObservations observations;
@@ -60,6 +73,12 @@ class CandidateRays {
     return views_[view].linear() * setup_.bundle.directions[ray];
   }
 
+  bool is_new(std::size_t number) const {
+    const MeshRayCaster::Hit& hit = hits_[number];
+    return !DepthImage::is_beyond_range(hit.range) && hit.cosine >= least_cosine &&
+           !covered_->observed()[point_of_[number]];
+  }
+
   void observe(const SurfaceEvidence& evidence, std::size_t view, std::size_t ray, NewSurfaceObservations& to) const {
     using Kind = SurfaceEvidence::Kind;
     const VoxelGrid& grid = evidence.grid();
@@ -67,8 +86,7 @@ class CandidateRays {
     const MeshRayCaster::Hit& hit = hits_[number];
     const double range = hit.range;
     const Vector3 towards = direction(view, ray);
-    const bool is_new = !DepthImage::is_beyond_range(hit.range) && hit.cosine >= least_cosine &&
-                        !covered_->observed()[point_of_[number]];
+    const bool is_new = this->is_new(number);
     walk_ray_segments(grid, views_[view].translation(), towards, length(),
                       [&](int x, int y, int z, double enter, double exit) {
                         const Eigen::Vector3i voxel(x, y, z);
@@ -79,9 +97,7 @@ class CandidateRays {
                         const double weight = setup_.bundle.solid_angles[ray] * enter * enter;
                         const bool found = is_new && (ends || exit > range);
                         to.add(evidence, voxel, weight, found);
-                        if (found)
-                          to.add_slant(weight, evidence.normal(evidence.block_of(voxel)).squared_cosine(towards),
-                                       1.0 / double(hit.cosine));
+                        if (found) to.add_slant(weight, 1.0 / double(hit.cosine));
                         return !ends && exit <= range;
                       });
   }
@@ -126,29 +142,50 @@ void go_anywhere(Session& session, std::uint64_t seed) {
   if (!left.empty()) session.override_next_view(left[static_cast<std::size_t>(drawn * double(left.size()))]);
 }
 
-NewSurfaceObservations scan(const TrainingObject& object, const Configuration& configuration,
-                            const std::stop_token& stop) {
+/// What was learned from scans, by rays and by whole views.
+struct Observed {
+  NewSurfaceObservations rays;
+  std::vector<ShownByViews> views;
+};
+
+/// What the candidate views that are left would show now: every other one, as neighbours see much the same.
+void observe(const Session& session, const CandidateRays& rays, double surface, Observed& to,
+             const std::stop_token& stop) {
+  ShownByViews shown{surface_evidence(session.state().known),
+                     session.setup().bundle,
+                     session.configuration().planner.ray_length,
+                     {},
+                     {},
+                     surface};
+  std::vector<std::size_t> views;
+  for (std::size_t v = session.records().size() % 2; v < session.candidates().size(); v += 2)
+    if (session.records().back().candidates[v].available) views.push_back(v);
+  std::vector<NewSurfaceObservations> of_view(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    if (!stop.stop_requested()) of_view[i] = rays.observe(shown.evidence, views[i]);
+  });
+  throw_if_stopped(stop);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    to.rays.add(of_view[i]);
+    shown.views.push_back(session.candidates()[views[i]]);
+    shown.areas.push_back(rays.shown(views[i]));
+  }
+  to.views.push_back(std::move(shown));
+}
+
+void scan(const TrainingObject& object, const Configuration& configuration, Observed& to, const std::stop_token& stop) {
   const auto world = std::make_shared<const SimulatedWorld>(object.object, configuration.sensor, stop);
   SessionParts parts;
   parts.source = std::make_unique<SimulatedSource>(world, configuration.seed);
   Session session(configuration, std::move(parts), {}, stop);
   CandidateRays rays(*world, session.setup(), session.candidates());
-  NewSurfaceObservations all;
+  const double surface = square_centimetres * object.object->mesh.surface_area();
   while (session.finished().empty()) {
     if (!session.step({}, stop)) throw Stopped();
     rays.cover(session.scans().back()->hits, stop);
-    const SurfaceEvidence evidence = surface_evidence(session.state().known);
-    std::vector<NewSurfaceObservations> of_view(session.candidates().size());
-    tbb::parallel_for(std::size_t{0}, of_view.size(), [&](std::size_t v) {
-      const bool is_turn = v % 2 == session.records().size() % 2;  // neighbours see much the same
-      if (is_turn && !stop.stop_requested() && session.records().back().candidates[v].available)
-        of_view[v] = rays.observe(evidence, v);
-    });
-    throw_if_stopped(stop);
-    for (const NewSurfaceObservations& some : of_view) all.add(some);
+    observe(session, rays, surface, to, stop);
     if (session.finished().empty() && session.records().size() % 2 == 0) go_anywhere(session, configuration.seed);
   }
-  return all;
 }
 
 }  // namespace
@@ -170,15 +207,17 @@ NewSurfaceCalibration calibrate_new_surface(std::span<const TrainingObject> obje
                                             const NewSurfaceCalibrationConfig& config, const Progress& progress,
                                             std::stop_token stop) {
   if (objects.empty()) throw std::invalid_argument("new surface: there is no object to learn from");
-  NewSurfaceObservations all;
+  Observed observed;
   NewSurfaceCalibration calibration;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (progress) progress(double(i) / double(objects.size()), "scanning " + objects[i].name);
-    all.add(scan(objects[i], configuration_of(i, configuration, config), stop));
+    scan(objects[i], configuration_of(i, configuration, config), observed, stop);
     calibration.objects.push_back(objects[i].name);
   }
   using Kind = SurfaceEvidence::Kind;
+  const NewSurfaceObservations& all = observed.rays;
   calibration.model = all.fit();
+  calibration.model.slant = fit_slant(calibration.model, observed.views);
   calibration.cells = all.cells();
   const double unmeasured = all.found(Kind::unmeasured), free = all.found(Kind::free),
                occupied = all.found(Kind::occupied), total = unmeasured + free + occupied;

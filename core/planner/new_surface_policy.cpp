@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/planner/open_border.hpp"
 #include "core/planner/remaining_plan.hpp"
 
 namespace nextview {
@@ -32,9 +31,9 @@ std::string side(const ScoreExplanation& explanation, const Vector3& centre, dou
 
 }  // namespace
 
-SurfaceEvidence surface_evidence(const Knowledge& known) {
+SurfaceEvidence surface_evidence(const Knowledge& known, const OpenBorder& border) {
   const OccupancyMap& map = known.map;
-  return {map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold};
+  return {map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold, border};
 }
 
 double promise_kept(std::span<const TakenView> taken) {
@@ -62,9 +61,10 @@ std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowle
     if (last_seen_ && is_of(*last_seen_)) return last_seen_;
     last_seen_.reset();  // before another takes as much memory
   }
-  const SurfaceEvidence evidence = surface_evidence(known);
-  auto seen = std::make_shared<const Seen>(
-      Seen{known.planning_voxels(), known.map.voxels(), evidence.object().center(), NewSurfaceField(evidence, model_)});
+  const OpenBorder border = open_border(known);
+  const SurfaceEvidence evidence = surface_evidence(known, border);
+  auto seen = std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), evidence.object().center(),
+                                                border.share, NewSurfaceField(evidence, model_)});
   const std::scoped_lock lock(seeing_);
   last_seen_ = seen;
   return seen;
@@ -74,15 +74,15 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
                                    std::stop_token stop) const {
   std::vector<Pose> views;
   for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
-  NewSurfaceForecast forecast =
-      forecast_new_surface(see(state.known)->field, views, state.bundle, options(state), stop);
-  const double seen = state.known.scanned ? model_.square_centimetres(state.known.scanned->area()) : 0.0;
-  if (!(seen > 0.0)) return std::move(forecast.areas);
-  SetCover few = covering_views(forecast, state.negligible_share * (forecast.all + seen));
+  const std::shared_ptr<const Seen> seen = see(state.known);
+  NewSurfaceForecast forecast = forecast_new_surface(seen->field, views, state.bundle, options(state), stop);
+  const double scanned = state.known.scanned ? model_.square_centimetres(state.known.scanned->area()) : 0.0;
+  if (!(scanned > 0.0)) return std::move(forecast.areas);
+  SetCover few = covering_views(forecast, state.negligible_share * (forecast.all + scanned));
   for (std::size_t& view : few.views) view = available[view];
   // The forecast knows voxels; what is less than one of them shows where the scanned surface ends.
-  const double at_border = std::min(1.0, model_.left_at_border * open_border(state.known));
-  const double left = std::max(forecast.all / (forecast.all + seen), at_border);
+  const double at_border = std::min(1.0, model_.left_at_border * seen->open_border);
+  const double left = std::max(forecast.all / (forecast.all + scanned), at_border);
   return {std::move(forecast.areas), left, std::move(few.views), few.is_least};
 }
 

@@ -3,12 +3,14 @@
 #include <mutex>
 
 #include "core/gain/new_surface.hpp"
+#include "core/planner/open_border.hpp"
 #include "core/planner/policy.hpp"
 
 namespace nextview {
 
 /// What the maps that views are planned on say of where the surface goes on.
-SurfaceEvidence surface_evidence(const Knowledge& known);
+SurfaceEvidence surface_evidence(const Knowledge& known, const OpenBorder& border);
+inline SurfaceEvidence surface_evidence(const Knowledge& known) { return surface_evidence(known, open_border(known)); }
 
 /// How well the views so far kept what was expected of them, the last ones most: found over expected new surface. 1
 /// before there is any to tell from; bounded, as one view proves little. Expectations had it as a factor already.
@@ -32,6 +34,7 @@ class NewSurfacePolicy : public Policy {
   struct Seen {
     VoxelBricks planned_on, occlusions;
     Vector3 object_centre;  ///< [m, world]
+    double open_border;     ///< OpenBorder::share
     NewSurfaceField field;
   };
   /// Made once for maps that are asked about several times in a row. From any thread.

@@ -6,19 +6,23 @@
 
 namespace nextview {
 
-double open_border(const Knowledge& known) {
-  if (!known.scanned) return 0.0;
+OpenBorder open_border(const Knowledge& known) {
+  if (!known.scanned) return {};
   const SurfaceBorder border = surface_border(*known.scanned);
-  if (border.looked_at == 0) return 0.0;
+  if (border.looked_at == 0) return {};
+  OpenBorder open;
+  open.spacing = border.spacing;
   const VoxelGrid& grid = known.map.grid();
   const double beyond = std::max(border_reach(*known.scanned), grid.resolution);
-  const auto open = std::ranges::count_if(border.points, [&](const SurfaceBorder::Point& point) {
-    const Eigen::Vector3i cell = grid.cell_at(point.at.cast<double>() + beyond * point.outward.cast<double>());
-    if (!grid.contains(cell)) return false;
+  for (const SurfaceBorder::Point& point : border.points) {
+    const Eigen::Vector3f at = point.at + float(beyond) * point.outward;
+    const Eigen::Vector3i cell = grid.cell_at(at.cast<double>());
+    if (!grid.contains(cell)) continue;
     const Voxel voxel = known.planning_voxels().at(cell.x(), cell.y(), cell.z());
-    return !voxel.measured || voxel.probability >= known.map.model().occupancy_threshold;
-  });
-  return double(open) / double(border.looked_at);
+    if (!voxel.measured || voxel.probability >= known.map.model().occupancy_threshold) open.beyond.push_back(at);
+  }
+  open.share = double(open.beyond.size()) / double(border.looked_at);
+  return open;
 }
 
 }  // namespace nextview

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/map/surface_border.hpp"
 #include "core/planner/knowledge.hpp"
 
 namespace nextview {
@@ -6,6 +7,6 @@ namespace nextview {
 /// Of the points of what was scanned, the share at which its surface ends and may go on: beyond its border
 /// (SurfaceBorder) the map has not measured free space. Where a thin sheet ends, it has. What a map cannot tell, as it
 /// is less than a voxel (the back of a thin wall, a strip in a bore), shows there. 0 if nothing was scanned.
-double open_border(const Knowledge& known);
+OpenBorder open_border(const Knowledge& known);
 
 }  // namespace nextview

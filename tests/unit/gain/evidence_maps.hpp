@@ -27,8 +27,9 @@ struct MadeMap {
       for (int y = low.y(); y <= high.y(); ++y)
         for (int x = low.x(); x <= high.x(); ++x) visit({x, y, z});
   }
-  SurfaceEvidence evidence(double threshold = 0.5, double finest = SurfaceEvidence::finest_share) const {
-    return {map.grid(), map.voxels(), map.voxels(), threshold, finest};
+  SurfaceEvidence evidence(double threshold = 0.5, double finest = SurfaceEvidence::finest_share,
+                           const OpenBorder& border = {}) const {
+    return {map.grid(), map.voxels(), map.voxels(), threshold, border, finest};
   }
 
   OccupancyMap map;

@@ -117,10 +117,12 @@ TEST(NewSurfaceModel, TheFittedOneExpectsMoreWhereLessIsKnown) {
     return model.chance(evidence, evidence_maps::in_evidence(evidence, made.map.grid(), {x, y, z}));
   };
   EXPECT_GT(chance(11, 12, 12), chance(13, 12, 12)) << "farther from the surface";
-  EXPECT_GT(model.slant.face_on, 1.0);
-  EXPECT_GT(model.mean_slant, model.slant.face_on);
-  EXPECT_GT(model.slant.edge_on, model.mean_slant);
+  EXPECT_GT(model.slant.face_on, 0.0);
+  EXPECT_GT(model.slant.edge_on, model.slant.face_on) << "the flatter surface is met the more of it there is";
   EXPECT_LT(model.slant.edge_on, 3.0);
+  EXPECT_GT(model.mean_slant, 1.0) << "no surface is smaller than what lies across a ray";
+  EXPECT_GT(model.occupied.back(), 0.0) << "where the scanned surface goes on";
+  EXPECT_GT(model.free.back(), 0.0);
 }
 
 }  // namespace
