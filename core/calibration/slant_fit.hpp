@@ -1,5 +1,5 @@
 #pragma once
-#include <span>
+#include <Eigen/Core>
 #include <vector>
 
 #include "core/gain/new_surface.hpp"
@@ -11,15 +11,26 @@ struct ShownByViews {
   SurfaceEvidence evidence;
   RayBundle bundle;
   double ray_length = 0.0;  ///< [m]
+  double surface = 0.0;     ///< of the object, all of it [cm^2]
   std::vector<Pose> views;
   std::vector<double> areas;  ///< of new surface, by view [cm^2]
-  double surface = 0.0;       ///< of the object, all of it [cm^2]
 };
 
 /// The slants with which a model expects of whole views what they showed: errors are shares of the object's surface,
 /// and their squares are least. Steeper than single rays have it: where the model expects surface that is not there,
 /// its normal is likely to point to who looks. The same on any number of threads.
-/// @throws std::invalid_argument if nothing is expected of any view.
-SurfaceSlant fit_slant(const NewSurfaceModel& model, std::span<const ShownByViews> shown);
+class SlantFit {
+ public:
+  explicit SlantFit(const NewSurfaceModel& model) : model_(model) {}
+  void add(const ShownByViews& shown);
+  /// @throws std::invalid_argument if nothing was expected of any view.
+  SurfaceSlant fit() const;
+
+ private:
+  NewSurfaceModel model_;
+  /// The normal equations: what is expected is linear in both slants.
+  Eigen::Matrix2d expected_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d met_ = Eigen::Vector2d::Zero();
+};
 
 }  // namespace nextview

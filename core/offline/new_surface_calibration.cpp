@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <functional>
 #include <stdexcept>
 
 #include "core/calibration/slant_fit.hpp"
@@ -142,50 +143,58 @@ void go_anywhere(Session& session, std::uint64_t seed) {
   if (!left.empty()) session.override_next_view(left[static_cast<std::size_t>(drawn * double(left.size()))]);
 }
 
-/// What was learned from scans, by rays and by whole views.
-struct Observed {
-  NewSurfaceObservations rays;
-  std::vector<ShownByViews> views;
+/// A scan after one of its views.
+struct Moment {
+  const TrainingObject& object;
+  const Session& session;
+  const CandidateRays& rays;
+  std::vector<std::size_t> views;  ///< that are learned from: every other one that is left, as neighbours see the same
 };
 
-/// What the candidate views that are left would show now: every other one, as neighbours see much the same.
-void observe(const Session& session, const CandidateRays& rays, double surface, Observed& to,
-             const std::stop_token& stop) {
-  ShownByViews shown{surface_evidence(session.state().known),
-                     session.setup().bundle,
-                     session.configuration().planner.ray_length,
-                     {},
-                     {},
-                     surface};
-  std::vector<std::size_t> views;
-  for (std::size_t v = session.records().size() % 2; v < session.candidates().size(); v += 2)
-    if (session.records().back().candidates[v].available) views.push_back(v);
-  std::vector<NewSurfaceObservations> of_view(views.size());
-  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-    if (!stop.stop_requested()) of_view[i] = rays.observe(shown.evidence, views[i]);
-  });
-  throw_if_stopped(stop);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    to.rays.add(of_view[i]);
-    shown.views.push_back(session.candidates()[views[i]]);
-    shown.areas.push_back(rays.shown(views[i]));
-  }
-  to.views.push_back(std::move(shown));
-}
-
-void scan(const TrainingObject& object, const Configuration& configuration, Observed& to, const std::stop_token& stop) {
+void scan(const TrainingObject& object, const Configuration& configuration, const std::stop_token& stop,
+          const std::function<void(const Moment&)>& look) {
   const auto world = std::make_shared<const SimulatedWorld>(object.object, configuration.sensor, stop);
   SessionParts parts;
   parts.source = std::make_unique<SimulatedSource>(world, configuration.seed);
   Session session(configuration, std::move(parts), {}, stop);
   CandidateRays rays(*world, session.setup(), session.candidates());
-  const double surface = square_centimetres * object.object->mesh.surface_area();
   while (session.finished().empty()) {
     if (!session.step({}, stop)) throw Stopped();
     rays.cover(session.scans().back()->hits, stop);
-    observe(session, rays, surface, to, stop);
+    Moment now{object, session, rays, {}};
+    for (std::size_t v = session.records().size() % 2; v < session.candidates().size(); v += 2)
+      if (session.records().back().candidates[v].available) now.views.push_back(v);
+    look(now);
+    throw_if_stopped(stop);
     if (session.finished().empty() && session.records().size() % 2 == 0) go_anywhere(session, configuration.seed);
   }
+}
+
+/// What the rays of the views find.
+NewSurfaceObservations found(const Moment& now, const std::stop_token& stop) {
+  const SurfaceEvidence evidence = surface_evidence(now.session.state().known);
+  std::vector<NewSurfaceObservations> of_view(now.views.size());
+  tbb::parallel_for(std::size_t{0}, now.views.size(), [&](std::size_t i) {
+    if (!stop.stop_requested()) of_view[i] = now.rays.observe(evidence, now.views[i]);
+  });
+  NewSurfaceObservations all;
+  for (const NewSurfaceObservations& some : of_view) all.add(some);
+  return all;
+}
+
+/// What the views show as a whole.
+ShownByViews shown(const Moment& now) {
+  ShownByViews shown{surface_evidence(now.session.state().known),
+                     now.session.setup().bundle,
+                     now.session.configuration().planner.ray_length,
+                     square_centimetres * now.object.object->mesh.surface_area(),
+                     {},
+                     {}};
+  for (const std::size_t view : now.views) {
+    shown.views.push_back(now.session.candidates()[view]);
+    shown.areas.push_back(now.rays.shown(view));
+  }
+  return shown;
 }
 
 }  // namespace
@@ -207,17 +216,21 @@ NewSurfaceCalibration calibrate_new_surface(std::span<const TrainingObject> obje
                                             const NewSurfaceCalibrationConfig& config, const Progress& progress,
                                             std::stop_token stop) {
   if (objects.empty()) throw std::invalid_argument("new surface: there is no object to learn from");
-  Observed observed;
   NewSurfaceCalibration calibration;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (progress) progress(double(i) / double(objects.size()), "scanning " + objects[i].name);
-    scan(objects[i], configuration_of(i, configuration, config), observed, stop);
-    calibration.objects.push_back(objects[i].name);
-  }
-  using Kind = SurfaceEvidence::Kind;
-  const NewSurfaceObservations& all = observed.rays;
+  const auto scan_all = [&](double done, const std::function<void(const Moment&)>& look) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (progress) progress(done + 0.5 * double(i) / double(objects.size()), "scanning " + objects[i].name);
+      scan(objects[i], configuration_of(i, configuration, config), stop, look);
+    }
+  };
+  NewSurfaceObservations all;
+  scan_all(0.0, [&](const Moment& now) { all.add(found(now, stop)); });
   calibration.model = all.fit();
-  calibration.model.slant = fit_slant(calibration.model, observed.views);
+  SlantFit slant(calibration.model);  // from the same scans again: to keep all their maps would take too much memory
+  scan_all(0.5, [&](const Moment& now) { slant.add(shown(now)); });
+  calibration.model.slant = slant.fit();
+  for (const TrainingObject& object : objects) calibration.objects.push_back(object.name);
+  using Kind = SurfaceEvidence::Kind;
   calibration.cells = all.cells();
   const double unmeasured = all.found(Kind::unmeasured), free = all.found(Kind::free),
                occupied = all.found(Kind::occupied), total = unmeasured + free + occupied;

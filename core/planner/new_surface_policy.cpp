@@ -54,7 +54,7 @@ double promise_kept(std::span<const TakenView> taken) {
 std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowledge& known) const {
   const auto is_of = [&](const Seen& seen) {
     return seen.planned_on.shares_all_with(known.planning_voxels()) &&
-           seen.occlusions.shares_all_with(known.map.voxels());
+           seen.occlusions.shares_all_with(known.map.voxels()) && seen.scanned == known.scanned;
   };
   {
     const std::scoped_lock lock(seeing_);
@@ -63,8 +63,9 @@ std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowle
   }
   const OpenBorder border = open_border(known);
   const SurfaceEvidence evidence = surface_evidence(known, border);
-  auto seen = std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), evidence.object().center(),
-                                                border.share, NewSurfaceField(evidence, model_)});
+  auto seen =
+      std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), known.scanned,
+                                        evidence.object().center(), border.share, NewSurfaceField(evidence, model_)});
   const std::scoped_lock lock(seeing_);
   last_seen_ = seen;
   return seen;

@@ -33,6 +33,7 @@ class NewSurfacePolicy : public Policy {
   /// What maps say, and of which voxels.
   struct Seen {
     VoxelBricks planned_on, occlusions;
+    std::shared_ptr<const ScannedSurface> scanned;
     Vector3 object_centre;  ///< [m, world]
     double open_border;     ///< OpenBorder::share
     NewSurfaceField field;

@@ -15,7 +15,7 @@ std::vector<ShownByViews> made_up_states() {
   std::vector<ShownByViews> states;
   for (const double unmeasured : {0.3, 0.6}) {
     const auto made = evidence_maps::random_map(random, Eigen::Vector3i::Constant(20), 0.1, unmeasured);
-    ShownByViews& state = states.emplace_back(ShownByViews{made.evidence(), bundle, 1.5, {}, {}, 900.0});
+    ShownByViews& state = states.emplace_back(ShownByViews{made.evidence(), bundle, 1.5, 900.0, {}, {}});
     for (const Vector3& from : {Vector3(0.8, 0.1, 0.1), Vector3(0.1, 0.5, 0.7), Vector3(-0.5, -0.6, 0.2)})
       state.views.push_back(look_at(from, Vector3::Zero()));
   }
@@ -27,11 +27,17 @@ void show(std::vector<ShownByViews>& states, const NewSurfaceModel& model, const
     state.areas = expected_new_surface({state.evidence, model}, state.views, state.bundle, {state.ray_length, slant});
 }
 
+SurfaceSlant fitted_slant(const NewSurfaceModel& model, const std::vector<ShownByViews>& states) {
+  SlantFit fit(model);
+  for (const ShownByViews& state : states) fit.add(state);
+  return fit.fit();
+}
+
 TEST(SlantFit, GivesTheSlantsBackThatWerePlanted) {
   std::vector<ShownByViews> states = made_up_states();
   const NewSurfaceModel model = NewSurfaceModel::fitted();
   show(states, model, {2.5, 0.75});
-  const SurfaceSlant fitted = fit_slant(model, states);
+  const SurfaceSlant fitted = fitted_slant(model, states);
   EXPECT_NEAR(fitted.edge_on, 2.5, 1e-6);
   EXPECT_NEAR(fitted.face_on, 0.75, 1e-6);
 }
@@ -41,22 +47,22 @@ TEST(SlantFit, ErrorsAreSharesOfTheObject) {
   const NewSurfaceModel model = NewSurfaceModel::fitted();
   show(states, model, {2.0, 2.0});
   for (double& area : states[1].areas) area *= 1.5;
-  EXPECT_GT(fit_slant(model, states).edge_on, 2.0);
+  EXPECT_GT(fitted_slant(model, states).edge_on, 2.0);
   states[1].surface *= 1e6;  // a huge object, of which all that is seen is next to nothing
-  EXPECT_NEAR(fit_slant(model, states).edge_on, 2.0, 1e-3);
+  EXPECT_NEAR(fitted_slant(model, states).edge_on, 2.0, 1e-3);
 }
 
 TEST(SlantFit, StaysInItsBounds) {
   std::vector<ShownByViews> states = made_up_states();
   const NewSurfaceModel model = NewSurfaceModel::fitted();
   show(states, model, {50.0, -3.0});
-  const SurfaceSlant fitted = fit_slant(model, states);
+  const SurfaceSlant fitted = fitted_slant(model, states);
   EXPECT_EQ(fitted.edge_on, SurfaceSlant::most);
   EXPECT_EQ(fitted.face_on, SurfaceSlant::least);
 }
 
 TEST(SlantFit, NothingToLearnFromIsRefused) {
-  EXPECT_THROW(fit_slant(NewSurfaceModel::fitted(), {}), std::invalid_argument);
+  EXPECT_THROW(SlantFit(NewSurfaceModel::fitted()).fit(), std::invalid_argument);
 }
 
 TEST(SlantFit, SameOnAnyNumberOfThreads) {
@@ -64,9 +70,9 @@ TEST(SlantFit, SameOnAnyNumberOfThreads) {
   const NewSurfaceModel model = NewSurfaceModel::fitted();
   show(states, model, {2.5, 0.75});
   for (double& area : states[0].areas) area += 3.0;
-  const SurfaceSlant many = fit_slant(model, states);
+  const SurfaceSlant many = fitted_slant(model, states);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(fit_slant(model, states), many);
+  EXPECT_EQ(fitted_slant(model, states), many);
 }
 
 }  // namespace
