@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <tuple>
 
 #include "tests/unit/map/random_scans.hpp"
 
@@ -30,6 +31,27 @@ TEST(ScannedSurface, OfAPlateIsItsArea) {
   EXPECT_NEAR(surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel), 0.04, 0.04 * 0.01);
   EXPECT_NEAR(surface.area(), 0.04, 0.0004);
   EXPECT_EQ(surface.add(plate(-0.1, 0.1), Vector3::UnitZ(), pixel), 0.0) << "nothing is new";
+}
+
+TEST(ScannedSurface, CellsComeInTheOrderOfTheirPlaces) {
+  ScannedSurface forwards(radius), backwards(radius);
+  Scan left = plate(-0.1, 0.0), right = plate(0.0, 0.1);
+  for (Eigen::Vector3f& point : left.hits) point.z() += 0.02f * point.y();
+  forwards.add(left, Vector3::UnitZ(), pixel), forwards.add(right, Vector3::UnitZ(), pixel);
+  backwards.add(right, Vector3::UnitZ(), pixel), backwards.add(left, Vector3::UnitZ(), pixel);
+  const auto cells = forwards.cells(), others = backwards.cells();
+  ASSERT_GT(cells.size(), 1000u);
+  ASSERT_EQ(cells.size(), others.size());
+  const auto less = [](const ScannedSurface::Cell& a, const ScannedSurface::Cell& b) {
+    return std::tuple(a.at.z(), a.at.y(), a.at.x()) < std::tuple(b.at.z(), b.at.y(), b.at.x());
+  };
+  EXPECT_TRUE(std::ranges::is_sorted(cells, less));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    EXPECT_EQ(cells[i].at, others[i].at);
+    EXPECT_EQ(cells[i].points, others[i].points);
+  }
+  const Eigen::Vector3i at(-1, 5, -7);
+  EXPECT_EQ(ScannedSurface::order(at + Eigen::Vector3i(3, 0, 0)), ScannedSurface::order(at) + 3);
 }
 
 TEST(ScannedSurface, PointsGetFewTowardsAnEdge) {

@@ -64,6 +64,10 @@ TEST(SurfaceBorder, ASampleSaysMuchTheSame) {
   const ScannedSurface surface = surface_of(part_of_sphere(0.0f));
   const SurfaceBorder all = surface_border(surface, 1'000'000), some = surface_border(surface, 1'000);
   EXPECT_LT(some.looked_at, 2'000u);
+  EXPECT_EQ(all.spacing, 0.5 * surface_radius);
+  EXPECT_NEAR(some.spacing * double(some.looked_at), all.spacing * double(all.looked_at),
+              0.15 * all.spacing * double(all.looked_at))
+      << "a point stands for as many more as are left out";
   EXPECT_NEAR(double(some.points.size()) / double(some.looked_at), double(all.points.size()) / double(all.looked_at),
               0.02);
 }
