@@ -61,20 +61,39 @@ class Points {
   };
   /// @pre fill_up()
   Around around(const Eigen::Vector3f& point) const {
-    using Lanes = Eigen::Array<float, lanes, 1>;
     Lanes count = Lanes::Zero(), x_sum = count, y_sum = count, z_sum = count;
-    for (std::size_t i = 0; i < size(); i += lanes) {
-      const Lanes x = Lanes::Map(&x_[i]) - point.x(), y = Lanes::Map(&y_[i]) - point.y(),
-                  z = Lanes::Map(&z_[i]) - point.z();
-      // 1 or 0, without a branch: a comparison would not be made in lanes.
-      const Lanes is_near = ((reach * reach - (x * x + y * y + z * z)) * 1e30f).max(0.0f).min(1.0f);
+    for_each_lanes(point, [&](const Lanes& is_near, const Lanes& x, const Lanes& y, const Lanes& z) {
       count += is_near, x_sum += is_near * x, y_sum += is_near * y, z_sum += is_near * z;
-    }
+    });
     return {count.sum(), Eigen::Vector3f(x_sum.sum(), y_sum.sum(), z_sum.sum()) / count.sum()};
+  }
+  /// How the ways to those are spread around their mean. @pre fill_up()
+  Eigen::Matrix3f spread(const Eigen::Vector3f& point, const Around& around) const {
+    Lanes xx = Lanes::Zero(), xy = xx, xz = xx, yy = xx, yz = xx, zz = xx;
+    for_each_lanes(point, [&](const Lanes& is_near, const Lanes& x, const Lanes& y, const Lanes& z) {
+      const Lanes near_x = is_near * x, near_y = is_near * y;
+      xx += near_x * x, xy += near_x * y, xz += near_x * z;
+      yy += near_y * y, yz += near_y * z, zz += is_near * z * z;
+    });
+    Eigen::Matrix3f squares;
+    squares << xx.sum(), xy.sum(), xz.sum(), xy.sum(), yy.sum(), yz.sum(), xz.sum(), yz.sum(), zz.sum();
+    return squares - around.count * around.mean * around.mean.transpose();
   }
 
  private:
   static constexpr int lanes = 8;
+  using Lanes = Eigen::Array<float, lanes, 1>;
+  /// Calls `visit(is_near, x, y, z)` with the ways to all points, and 1 for those within reach, else 0.
+  template <class Visit>
+  void for_each_lanes(const Eigen::Vector3f& point, Visit visit) const {
+    for (std::size_t i = 0; i < size(); i += lanes) {
+      const Lanes x = Lanes::Map(&x_[i]) - point.x(), y = Lanes::Map(&y_[i]) - point.y(),
+                  z = Lanes::Map(&z_[i]) - point.z();
+      // Without a branch: a comparison would not be made in lanes.
+      visit(((reach * reach - (x * x + y * y + z * z)) * 1e30f).max(0.0f).min(1.0f), x, y, z);
+    }
+  }
+
   std::vector<float> x_, y_, z_;
 };
 
@@ -128,18 +147,38 @@ class Surroundings {
   Points points_;
 };
 
+/// In which sixteenth of the full turn a direction lies, from 0 to 15, roughly counterclockwise from +x.
+int sixteenth(float x, float y) {
+  constexpr float tangent = 0.41421356f;  // of 22.5 degrees
+  const float ax = std::abs(x), ay = std::abs(y);
+  const int in_quarter = ay < ax ? (ay < tangent * ax ? 0 : 1) : (ax < tangent * ay ? 3 : 2);
+  if (y < 0.0f) return x < 0.0f ? 8 + in_quarter : 15 - in_quarter;
+  return x < 0.0f ? 7 - in_quarter : in_quarter;
+}
+
+/// Whether four sixteenths side by side are empty: they are wherever a gap is as wide as a border's.
+bool may_have_gap(unsigned sixteenths) {
+  unsigned empty = ~sixteenths & 0xffffu;
+  empty |= empty << 16;  // around
+  empty &= empty >> 1;
+  return (empty & empty >> 2) != 0;
+}
+
 /// Which way the surface is open around a point, if it is.
 std::optional<Eigen::Vector3f> open_way(const Points& near, const Eigen::Vector3f& point) {
   const Points::Around around = near.around(point);
   if (around.count < 1.0f + fewest || around.mean.norm() < lopsided) return std::nullopt;
-  PointCloud ways;
-  for (std::size_t i = 0; i < near.size(); ++i)
-    if (const Eigen::Vector3f way = near[i] - point; way.squaredNorm() < reach * reach && way != way.Zero())
-      ways.push_back(way);
-  Eigen::Matrix3f spread = around.mean * around.mean.transpose();
-  for (const Eigen::Vector3f& way : ways) spread += (way - around.mean) * (way - around.mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(spread);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(near.spread(point, around));
   const Eigen::Vector3f u = axes.eigenvectors().col(2), v = axes.eigenvectors().col(1);
+  if (std::hypot(around.mean.dot(u), around.mean.dot(v)) < lopsided) return std::nullopt;  // it is in the skin of noise
+  PointCloud ways;
+  unsigned sixteenths = 0;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (const Eigen::Vector3f way = near[i] - point; way.squaredNorm() < reach * reach && way != way.Zero()) {
+      ways.push_back(way);
+      sixteenths |= 1u << sixteenth(way.dot(u), way.dot(v));
+    }
+  if (!may_have_gap(sixteenths)) return std::nullopt;
   std::vector<float> angles;
   for (const Eigen::Vector3f& way : ways) angles.push_back(std::atan2(way.dot(v), way.dot(u)));
   std::ranges::sort(angles);

@@ -4,6 +4,7 @@
 #include "core/evaluation/entropy.hpp"
 #include "core/gain/new_surface.hpp"
 #include "core/gain/view_score.hpp"
+#include "core/planner/open_border.hpp"
 #include "core/session/session.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
@@ -65,7 +66,8 @@ TEST(GibbsSession, NewSurfaceIsExpectedOfThePosterior) {
   session.step();
   const OccupancyMap& map = session.map();
   const NewSurfaceModel& model = c.planner.new_surface;
-  const SurfaceEvidence evidence(map.grid(), session.planning_voxels(), map.voxels(), c.map.model.occupancy_threshold);
+  const SurfaceEvidence evidence(map.grid(), session.planning_voxels(), map.voxels(), c.map.model.occupancy_threshold,
+                                 open_border(session.state().known));
   const RayBundle bundle = RayBundle::regular(session.camera(), c.planner.ray_columns, c.planner.ray_rows);
   const std::vector<Pose>& views = session.candidates();
   const auto areas = expected_new_surface({evidence, model}, views, bundle, {c.planner.ray_length, model.slant});
