@@ -72,7 +72,7 @@ std::vector<Setting> settings(NewSurfaceModel& m) {
       setting("occupied_border", "... times ln(1 + 4 length of the border beside it where the scanned surface goes on)",
               m.occupied[5]),
       {"new_surface.slant", "", "area of the surface that rays meet, over the area across them", &m.mean_slant,
-       from_to(SurfaceSlant::least, SurfaceSlant::most)},
+       from_to(1, SurfaceSlant::most)},
       {"new_surface.slant_edge_on", "", "... of new surface that is expected with a normal across the ray",
        &m.slant.edge_on, from_to(SurfaceSlant::least, SurfaceSlant::most)},
       {"new_surface.slant_face_on", "", "... of new surface that is expected with a normal along the ray",

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -45,6 +46,16 @@ TEST(NewSurfaceModel, EverySettingIsACoefficientOfItsOwn) {
     changed.merge(of_it);
   }
   EXPECT_EQ(changed.size(), count) << "a coefficient has no setting";
+}
+
+TEST(NewSurfaceModel, NoSurfaceIsSmallerThanWhatLiesAcrossTheRays) {
+  NewSurfaceModel model;
+  auto all = settings(model);
+  Setting& slant = *std::ranges::find(all, "new_surface.slant", &Setting::key);
+  slant.set("1");
+  EXPECT_NO_THROW(slant.require_in_bounds());
+  slant.set("0.99");
+  EXPECT_ANY_THROW(slant.require_in_bounds());
 }
 
 TEST(NewSurfaceModel, ComesBackFromItsSettings) {
