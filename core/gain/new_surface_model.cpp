@@ -15,12 +15,12 @@ double linear(const std::array<double, n>& coefficients, const std::array<float,
 }  // namespace
 
 NewSurfaceModel NewSurfaceModel::fitted() {
-  return {{3.355, -0.8244, 1.386, 0.08422, -0.221, -0.3875, -4.141, -7.076, 3.394},
-          {-12.08, -0.2584, 2.886, 3.22, 0.04843, 0.4894},
-          {-1.606, -0.2946, 0.01798, 0.4026, -0.329, 1.143},
-          1.69,
-          {1.506, 0.6066},
-          5.8};
+  return {{3.385, -0.8358, 1.412, 0.08735, -0.2165, -0.3769, -4.162, -7.05, 3.615},
+          {-12.19, -0.2651, 2.917, 3.308, 0.0478, 0.3863},
+          {-1.589, -0.3397, 0.04727, 0.3876, -0.3234, 1.112},
+          1.688,
+          {1.516, 0.5926},
+          1.6};
 }
 
 float NewSurfaceModel::chance_in_block(const SurfaceEvidence& evidence, const Eigen::Vector3i& block) const {
@@ -78,7 +78,7 @@ std::vector<Setting> settings(NewSurfaceModel& m) {
       {"new_surface.slant_face_on", "", "... of new surface that is expected with a normal along the ray",
        &m.slant.face_on, from_to(SurfaceSlant::least, SurfaceSlant::most)},
       {"new_surface.left_at_border", "",
-       "share of the surface that is left, over the share of the scanned points at whose border it may go on",
+       "share of the surface that is left, over that of a strip along its border, as wide as points are told apart",
        &m.left_at_border, from_to(0, 1000)},
   };
 }

@@ -16,9 +16,10 @@ struct NewSurfaceModel {
   std::array<double, std::tuple_size_v<SurfaceEvidence::Measured>> free{}, occupied{};
   double mean_slant = 1.7;  ///< area of the surface that rays meet, over the area across them
   SurfaceSlant slant = {};  ///< of new surface
-  /// Share of the surface that is left, over the share of the scanned points where it may go on (open_border): the
-  /// median of made-up parts late in their scans. It is no part of the fit.
-  double left_at_border = 5.8;
+  /// Share of the surface that is left, over that of a strip along the border where it may go on (open_border), as wide
+  /// as the radius at which the scanned surface is told apart: the median of made-up parts of which 0.2 to 1 % are
+  /// left. It is no part of the fit.
+  double left_at_border = 1.6;
   /// Of surface whose area across the rays is so many m^2 [cm^2].
   double square_centimetres(double across) const { return 1e4 * mean_slant * across; }
 

@@ -2,11 +2,13 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace nextview {
@@ -18,15 +20,6 @@ constexpr int sub_cell_count = divisions * divisions * divisions;
 /// Places beyond are taken for the last one: that is thousands of kilometres, or a radius that is next to nothing.
 constexpr int farthest = (1 << 20) - 3;  // two cells on there are keys, too
 
-constexpr int offset = 1 << 20;  // in the order no part is below 0
-
-/// 0 is left for no cell.
-std::uint64_t key_of(const Eigen::Vector3i& cell) { return 1 + ScannedSurface::order(cell); }
-Eigen::Vector3i cell_of(std::uint64_t key) {
-  constexpr std::uint64_t part = (1 << 21) - 1;
-  const auto at = [&](int shift) { return int(((key - 1) >> shift) & part) - offset; };
-  return {at(0), at(21), at(42)};
-}
 /// Where the cell of this key is in the table, or has its place if there is none.
 template <class Slot>
 std::size_t slot_of(std::uint64_t key, const std::vector<Slot>& slots) {
@@ -60,9 +53,23 @@ const auto within_radius = [] {
 
 }  // namespace
 
-std::uint64_t ScannedSurface::order(const Eigen::Vector3i& at) {
-  return (std::uint64_t(at.z() + offset) << 42) | (std::uint64_t(at.y() + offset) << 21) |
-         std::uint64_t(at.x() + offset);
+Eigen::Vector3i ScannedSurface::cell_of(std::uint64_t key) {
+  constexpr std::uint64_t part = (1 << 21) - 1;
+  const auto at = [&](int shift) { return int(((key - 1) >> shift) & part) - offset; };
+  return {at(0), at(21), at(42)};
+}
+
+Eigen::Vector3f ScannedSurface::Cell::middle() const {
+  // Those whose place along an axis is odd, and those where it is 2 or 3.
+  constexpr std::array<std::uint64_t, 3> odd = {0xaaaaaaaaaaaaaaaa, 0xf0f0f0f0f0f0f0f0, 0xffff0000ffff0000};
+  constexpr std::array<std::uint64_t, 3> high = {0xcccccccccccccccc, 0xff00ff00ff00ff00, 0xffffffff00000000};
+  const auto count = float(std::popcount(points));
+  Eigen::Vector3f middle = at.cast<float>();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int sum = std::popcount(points & odd[axis]) + 2 * std::popcount(points & high[axis]);
+    middle[Eigen::Index(axis)] += (float(sum) / count + 0.5f) / divisions;
+  }
+  return middle;
 }
 
 ScannedSurface::ScannedSurface(double radius) : radius_(radius), slots_(1024) {
@@ -138,10 +145,12 @@ std::vector<Eigen::Vector3f> ScannedSurface::sparse_points(double share) const {
 }
 
 std::vector<ScannedSurface::Cell> ScannedSurface::cells() const {
+  std::vector<Slot> slots;
+  std::ranges::copy_if(slots_, std::back_inserter(slots), [](const Slot& slot) { return slot.key != 0; });
+  tbb::parallel_sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.key < b.key; });
   std::vector<Cell> cells;
-  for (const Slot& slot : slots_)
-    if (slot.key != 0) cells.push_back({cell_of(slot.key), slot.sub_cells});
-  std::ranges::sort(cells, {}, [](const Cell& cell) { return order(cell.at); });
+  cells.reserve(slots.size());
+  for (const Slot& slot : slots) cells.push_back({cell_of(slot.key), slot.sub_cells});
   return cells;
 }
 

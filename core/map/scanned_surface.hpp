@@ -27,10 +27,15 @@ class ScannedSurface {
   struct Cell {
     Eigen::Vector3i at;        ///< [radii]
     std::uint64_t points = 0;  ///< a bit each, of 4 x 4 x 4 places, x fastest
+    /// Of its points. @pre it has any
+    Eigen::Vector3f middle() const;
   };
   std::vector<Cell> cells() const;  ///< that hold any point, in the order of their places
   /// Of cells, and two beyond: x fastest, then y, then z. Along x they are numbered one by one.
-  static std::uint64_t order(const Eigen::Vector3i& at);
+  static std::uint64_t order(const Eigen::Vector3i& at) {
+    return (std::uint64_t(at.z() + offset) << 42) | (std::uint64_t(at.y() + offset) << 21) |
+           std::uint64_t(at.x() + offset);
+  }
 
   /// Points around which there are few: within the radius fewer than `share` of what is usual, the median over all
   /// points. Points are those told apart, each at the middle of its place. The same order every time.
@@ -43,8 +48,9 @@ class ScannedSurface {
   void archive(ByteReader& reader);
 
  private:
+  static constexpr int offset = 1 << 20;  ///< in the order no part is below 0
   struct Slot {
-    std::uint64_t key = 0;        ///< of its cell; 0: no cell
+    std::uint64_t key = 0;        ///< 1 + the order of its cell; 0: no cell
     std::uint64_t sub_cells = 0;  ///< those with a point, of 4 x 4 x 4, a bit each
   };
   /// Where a point lies: its cell, and its sub-cell there.
@@ -55,6 +61,8 @@ class ScannedSurface {
   Place place(const Eigen::Vector3f& point) const;
   bool is_new(const Place& place) const;
   int points_around(const Place& place) const;
+  static std::uint64_t key_of(const Eigen::Vector3i& cell) { return 1 + order(cell); }
+  static Eigen::Vector3i cell_of(std::uint64_t key);
   std::uint64_t sub_cells(const Eigen::Vector3i& cell) const;
   void mark(const Place& place);
   void grow();

@@ -12,19 +12,18 @@ struct SurfaceBorder {
     Eigen::Vector3f at, outward;  ///< [m, world], and the middle of what is empty, a unit vector
   };
   std::vector<Point> points;
-  std::size_t looked_at = 0;  ///< points of the surface, these among them: all, or a sample of it
-  double spacing = 0.0;       ///< how much of the border each point stands for [m]
+  double spacing = 0.0;  ///< how much of the border each point stands for [m]
 };
 
-/// Points are looked at a half of the surface's radius apart, in all cells or every so-many-th: fewer than twice
-/// `most`. The same on any number of threads.
+/// Points are looked at that are the surface's radius apart, the middle of each of its cells or of every so-many-th:
+/// fewer than twice `most`. The same on any number of threads.
 SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most = 200'000);
 
 /// Where what was scanned ends and the surface may go on.
 struct OpenBorder {
-  std::vector<Eigen::Vector3f> beyond;  ///< the border, past it [m, world]
-  double spacing = 0.0;                 ///< SurfaceBorder::spacing
-  double share = 0.0;                   ///< of the scanned points
+  std::vector<Eigen::Vector3f> beyond;                               ///< the border, past it [m, world]
+  double spacing = 0.0;                                              ///< SurfaceBorder::spacing
+  double length() const { return double(beyond.size()) * spacing; }  ///< [m]
 };
 
 /// As far as a point's surroundings reach [m].

@@ -63,9 +63,9 @@ std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowle
   }
   const OpenBorder border = open_border(known);
   const SurfaceEvidence evidence = surface_evidence(known, border);
-  auto seen =
-      std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), known.scanned,
-                                        evidence.object().center(), border.share, NewSurfaceField(evidence, model_)});
+  auto seen = std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), known.scanned,
+                                                evidence.object().center(), border.length(),
+                                                NewSurfaceField(evidence, model_)});
   const std::scoped_lock lock(seeing_);
   last_seen_ = seen;
   return seen;
@@ -77,12 +77,14 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
   for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
   const std::shared_ptr<const Seen> seen = see(state.known);
   NewSurfaceForecast forecast = forecast_new_surface(seen->field, views, state.bundle, options(state), stop);
-  const double scanned = state.known.scanned ? model_.square_centimetres(state.known.scanned->area()) : 0.0;
+  const ScannedSurface* surface = state.known.scanned.get();
+  const double scanned = surface ? model_.square_centimetres(surface->area()) : 0.0;
   if (!(scanned > 0.0)) return std::move(forecast.areas);
   SetCover few = covering_views(forecast, state.negligible_share * (forecast.all + scanned));
   for (std::size_t& view : few.views) view = available[view];
   // The forecast knows voxels; what is less than one of them shows where the scanned surface ends.
-  const double at_border = std::min(1.0, model_.left_at_border * seen->open_border);
+  const double strip = seen->border_length * surface->radius() / (model_.mean_slant * surface->area());
+  const double at_border = std::min(1.0, model_.left_at_border * strip);
   const double left = std::max(forecast.all / (forecast.all + scanned), at_border);
   return {std::move(forecast.areas), left, std::move(few.views), few.is_least};
 }

@@ -35,7 +35,7 @@ class NewSurfacePolicy : public Policy {
     VoxelBricks planned_on, occlusions;
     std::shared_ptr<const ScannedSurface> scanned;
     Vector3 object_centre;  ///< [m, world]
-    double open_border;     ///< OpenBorder::share
+    double border_length;   ///< OpenBorder::length [m]
     NewSurfaceField field;
   };
   /// Made once for maps that are asked about several times in a row. From any thread.

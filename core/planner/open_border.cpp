@@ -9,9 +9,7 @@ namespace nextview {
 OpenBorder open_border(const Knowledge& known) {
   if (!known.scanned) return {};
   const SurfaceBorder border = surface_border(*known.scanned);
-  if (border.looked_at == 0) return {};
-  OpenBorder open;
-  open.spacing = border.spacing;
+  OpenBorder open{{}, border.spacing};
   const VoxelGrid& grid = known.map.grid();
   const double beyond = std::max(border_reach(*known.scanned), grid.resolution);
   for (const SurfaceBorder::Point& point : border.points) {
@@ -21,7 +19,6 @@ OpenBorder open_border(const Knowledge& known) {
     const Voxel voxel = known.planning_voxels().at(cell.x(), cell.y(), cell.z());
     if (!voxel.measured || voxel.probability >= known.map.model().occupancy_threshold) open.beyond.push_back(at);
   }
-  open.share = double(open.beyond.size()) / double(border.looked_at);
   return open;
 }
 

@@ -6,7 +6,7 @@ namespace nextview {
 
 /// Where what was scanned ends and its surface may go on: beyond its border (SurfaceBorder) the map has not measured
 /// free space. Where a thin sheet ends, it has. What a map cannot tell, as it is less than a voxel (the back of a thin
-/// wall, a strip in a bore), shows there. Empty, with a share of 0, if nothing was scanned.
+/// wall, a strip in a bore), shows there. Empty if nothing was scanned.
 OpenBorder open_border(const Knowledge& known);
 
 }  // namespace nextview

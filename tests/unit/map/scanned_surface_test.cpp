@@ -54,6 +54,24 @@ TEST(ScannedSurface, CellsComeInTheOrderOfTheirPlaces) {
   EXPECT_EQ(ScannedSurface::order(at + Eigen::Vector3i(3, 0, 0)), ScannedSurface::order(at) + 3);
 }
 
+TEST(ScannedSurface, TheMiddleOfACellIsThatOfItsPoints) {
+  std::mt19937_64 generator(5);
+  for (int i = 0; i < 200; ++i) {
+    // From a single point to all of them.
+    const std::uint64_t points = i < 64    ? std::uint64_t{1} << i
+                                 : i == 64 ? ~std::uint64_t{0}
+                                           : generator() & generator();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (int place = 0; place < 64; ++place)
+      if (points >> place & 1)
+        sum += (Eigen::Vector3d(place % 4, place / 4 % 4, place / 16) + Eigen::Vector3d::Constant(0.5)) / 4.0, ++count;
+    const Eigen::Vector3i at(-3, 0, 7);
+    const Eigen::Vector3d middle = at.cast<double>() + sum / count;
+    EXPECT_TRUE(ScannedSurface::Cell({at, points}).middle().cast<double>().isApprox(middle, 1e-6)) << points;
+  }
+}
+
 TEST(ScannedSurface, PointsGetFewTowardsAnEdge) {
   ScannedSurface surface(radius);
   EXPECT_TRUE(surface.sparse_points(0.6).empty());

@@ -96,7 +96,7 @@ TEST_F(Policies, NewSurfaceIsOfTheMapThatIsAskedAbout) {
   known.map.insert(scanned_from(0.1));
   EXPECT_EQ(values(*remembering), values(*made("new-surface")));
   const std::vector<double> without_border = values(*remembering);
-  auto scanned = std::make_shared<ScannedSurface>(0.02);
+  auto scanned = std::make_shared<ScannedSurface>(0.01);
   scanned->add(scanned_from(0.5), Vector3::UnitZ(), 1e-6);
   known.scanned = std::move(scanned);
   EXPECT_EQ(values(*remembering), values(*made("new-surface")));
