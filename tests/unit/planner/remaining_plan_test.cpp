@@ -25,13 +25,19 @@ NewSurfaceForecast forecast(std::vector<std::vector<float>> parts) {
 }
 
 TEST(CoveringViews, TakesTheViewThatAddsMostUntilEnoughIsShown) {
-  // All: 5 + 4 + 3 + 1 = 13. View 1 shows 8; view 2 adds 1 + 2, view 3 three; the first of equals wins.
-  const auto f = forecast({{4, 0, 0, 1}, {5, 3, 0, 0}, {0, 4, 2, 0}, {0, 0, 3, 0}});
-  EXPECT_THAT(covering_views(f, 0.0).views, ElementsAre(1, 2, 0, 3));
-  EXPECT_THAT(covering_views(f, 1.5).views, ElementsAre(1, 2, 0));
-  EXPECT_THAT(covering_views(f, 2.5).views, ElementsAre(1, 2));
-  EXPECT_TRUE(covering_views(f, 2.5).is_least);
+  // All: 5 + 4 + 3 + 1 = 13. View 1 counts for 5 + 2.5; view 3 adds 3, where view 2 adds 1.5 + 1.25, and then 1.5.
+  const auto f = forecast({{3, 0, 0, 1}, {5, 2, 0, 0}, {0, 4, 1, 0}, {0, 0, 3, 0}});
+  EXPECT_THAT(covering_views(f, 0.0).views, ElementsAre(1, 3, 2, 0));
+  EXPECT_THAT(covering_views(f, 1.1).views, ElementsAre(1, 3, 2));
+  EXPECT_THAT(covering_views(f, 3.0).views, ElementsAre(1, 3));
+  EXPECT_TRUE(covering_views(f, 3.0).is_least);
   EXPECT_THAT(covering_views(f, 13.0).views, IsEmpty());
+}
+
+TEST(CoveringViews, FourFifthsOfAPartAreThePart) {
+  EXPECT_THAT(covering_views(forecast({{4.01f, 0}, {5, 0}, {0, 2}}), 0.0).views, ElementsAre(0, 2));
+  EXPECT_THAT(covering_views(forecast({{3.99f, 0}, {5, 0}, {0, 2}}), 0.0).views, ElementsAre(1, 2));
+  EXPECT_THAT(covering_views(forecast({{2, 0}, {2, 0}, {5, 0}, {0, 2}}), 0.0).views, ElementsAre(2, 3));
 }
 
 TEST(CoveringViews, EndsWhereNothingIsLeft) {
