@@ -56,7 +56,8 @@ class Ways {
       if (is_first_) i = std::size_t(std::lower_bound(order, order + size, lowest) - order);
       while (i < size && order[i] < lowest) ++i;
       begins_[std::size_t(row)] = i;
-      for (; i < size && order[i] < lowest + rows; ++i) {
+      // Each cell is there once, but in a file that somebody has made.
+      for (const std::size_t end = std::min(size, i + rows); i < end && order[i] < lowest + rows; ++i) {
         const Eigen::Vector3f way = all_.points[i] - from;
         ways_[count] = way;
         count += unsigned(way.squaredNorm() < reach * reach) & unsigned(i != point);  // without a branch
