@@ -130,9 +130,9 @@ NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<
                                         std::stop_token stop) {
   const Parts parts(field.grid());
   NewSurfaceForecast forecast;
-  forecast.part_count = parts.count();
+  forecast.most.assign(parts.count(), 0.0f);
   forecast.areas.assign(views.size(), 0.0);
-  forecast.parts.assign(views.size(), std::vector<float>(forecast.part_count, 0.0f));
+  forecast.parts.assign(views.size(), forecast.most);
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
     std::vector<float>& of_parts = forecast.parts[v];
@@ -140,8 +140,8 @@ NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<
       of_parts[parts.of(place)] += static_cast<float>(area);
     });
   });
-  for (std::size_t part = 0; part < forecast.part_count; ++part) {
-    float most = 0.0f;
+  for (std::size_t part = 0; part < forecast.most.size(); ++part) {
+    float& most = forecast.most[part];
     for (const std::vector<float>& of_view : forecast.parts) most = std::max(most, of_view[part]);
     forecast.all += most;
   }

@@ -54,9 +54,9 @@ struct NewSurfaceForecast {
   std::vector<double> areas;  ///< expected_new_surface
   /// Of each view, how much of that is in each part of the map, a block of 8 x 8 x 8 voxels.
   std::vector<std::vector<float>> parts;
-  std::size_t part_count = 0;
-  /// Of each part what the view shows that shows most of it. As views see parts from several sides it is too little,
-  /// and too much as no view knows what another would have seen.
+  std::vector<float> most;  ///< of each part, what the view shows that shows most of it
+  /// The sum of that. As views see parts from several sides it is too little, and too much as no view knows what
+  /// another would have seen.
   double all = 0.0;
 };
 NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<const Pose> views,

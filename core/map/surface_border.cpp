@@ -23,57 +23,64 @@ constexpr float lopsided = 0.15f * reach;  // less is never a border: half a dis
 /// A surface's points, one a cell, in the order of the cells [radii].
 struct PointsOfCells {
   std::vector<std::uint64_t> order;  ///< of the cells
-  std::vector<Eigen::Vector3i> at;
   std::vector<Eigen::Vector3f> points;
 
   explicit PointsOfCells(const ScannedSurface& surface) {
     const std::vector<ScannedSurface::Cell> cells = surface.cells();
-    order.resize(cells.size()), at.resize(cells.size()), points.resize(cells.size());
+    order.resize(cells.size()), points.resize(cells.size());
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
       order[c] = ScannedSurface::order(cells[c].at);
-      at[c] = cells[c].at;
       points[c] = cells[c].middle();
     });
   }
   std::size_t size() const { return points.size(); }
 };
 
-/// The ways from a point to those within reach of it.
+/// The ways from a point to those within reach of it. Points are asked for in their order, so that the rows of cells
+/// around them are found by going on.
 class Ways {
  public:
-  explicit Ways(const PointsOfCells& all) : all_(all) {}
+  /// `first`: the point that will be asked for first, or one before it.
+  Ways(const PointsOfCells& all, std::size_t first) : all_(all) {
+    for (int r = 0; r < int(rows_.size()); ++r) {
+      const Eigen::Vector3i way(-2, r % length - 2, r / length - 2);
+      Row& row = rows_[std::size_t(r)];
+      row.way = ScannedSurface::order(way) - ScannedSurface::order(Eigen::Vector3i::Zero());
+      row.begin = std::size_t(std::ranges::lower_bound(all.order, all.order[first] + row.way) - all.order.begin());
+    }
+  }
 
-  /// Points are asked for in their order, so that the rows of cells around them are found by going on.
   void find(std::size_t point) {
     const Eigen::Vector3f from = all_.points[point];
-    const Eigen::Vector3i corner = all_.at[point] - Eigen::Vector3i::Constant(2);
     const std::uint64_t* order = all_.order.data();
     const std::size_t size = all_.size();
     std::size_t count = 0;
-    for (int row = 0; row < rows * rows; ++row) {
-      const std::uint64_t lowest = ScannedSurface::order(corner + Eigen::Vector3i(0, row % rows, row / rows));
-      std::size_t i = begins_[std::size_t(row)];
-      if (is_first_) i = std::size_t(std::lower_bound(order, order + size, lowest) - order);
+    for (Row& row : rows_) {
+      const std::uint64_t lowest = order[point] + row.way;
+      std::size_t i = row.begin;
       while (i < size && order[i] < lowest) ++i;
-      begins_[std::size_t(row)] = i;
+      row.begin = i;
       // Each cell is there once, but in a file that somebody has made.
-      for (const std::size_t end = std::min(size, i + rows); i < end && order[i] < lowest + rows; ++i) {
+      for (const std::size_t end = std::min(size, i + length); i < end && order[i] < lowest + length; ++i) {
         const Eigen::Vector3f way = all_.points[i] - from;
         ways_[count] = way;
         count += unsigned(way.squaredNorm() < reach * reach) & unsigned(i != point);  // without a branch
       }
     }
     count_ = count;
-    is_first_ = false;
   }
   std::span<const Eigen::Vector3f> ways() const { return {ways_.data(), count_}; }
 
  private:
-  static constexpr int rows = 5;  ///< of five cells each
+  /// Of cells beside each other along x.
+  struct Row {
+    std::uint64_t way = 0;  ///< from a point's cell to the row's first, in the order of cells
+    std::size_t begin = 0;  ///< no cell before it is in the row
+  };
+  static constexpr int length = 5;  ///< of a row, and as many of them side by side
   const PointsOfCells& all_;
-  std::array<std::size_t, std::size_t{rows} * rows> begins_{};
-  bool is_first_ = true;
-  std::array<Eigen::Vector3f, std::size_t{rows} * rows * rows> ways_;
+  std::array<Row, std::size_t{length} * length> rows_;
+  std::array<Eigen::Vector3f, std::size_t{length} * length * length> ways_;
   std::size_t count_ = 0;
 };
 
@@ -111,7 +118,7 @@ SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most) {
   const std::size_t every = std::max<std::size_t>(1, all.size() / most);
   std::vector<std::optional<Eigen::Vector3f>> outward((all.size() + every - 1) / every);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, outward.size(), 512), [&](const auto& range) {
-    Ways ways(all);
+    Ways ways(all, range.begin() * every);
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       ways.find(i * every);
       outward[i] = open_way(ways.ways());

@@ -75,7 +75,7 @@ std::vector<std::size_t> chosen(const NewSurfaceForecast& forecast, const std::v
                                 const AdaptiveCandidatesConfig& config) {
   std::vector<std::size_t> all, left(poses.size());
   std::iota(left.begin(), left.end(), std::size_t{0});
-  std::vector<float> shown(forecast.part_count, 0.0f);
+  std::vector<float> shown(forecast.most.size(), 0.0f);
   while (all.size() < std::size_t(config.kept) && !left.empty()) {
     const bool is_for_more = all.size() % 3 == 2;
     const auto best = std::ranges::max_element(

@@ -6,14 +6,11 @@ namespace nextview {
 
 SetCover covering_views(const NewSurfaceForecast& forecast, double left) {
   constexpr float enough = 0.8f;
-  std::vector<float> most(forecast.part_count, 0.0f);
-  for (const std::vector<float>& of_view : forecast.parts)
-    std::ranges::transform(most, of_view, most.begin(), [](float a, float b) { return std::max(a, b); });
   std::vector<std::vector<Covered>> views(forecast.parts.size());
   for (std::size_t v = 0; v < views.size(); ++v)
-    for (std::uint32_t part = 0; part < most.size(); ++part)
+    for (std::uint32_t part = 0; part < forecast.most.size(); ++part)
       if (const float area = forecast.parts[v][part]; area > 0.0f)
-        views[v].push_back({part, std::min(most[part], area / enough)});
+        views[v].push_back({part, std::min(forecast.most[part], area / enough)});
   return least_cover(views, left);
 }
 

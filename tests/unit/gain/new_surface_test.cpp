@@ -232,9 +232,9 @@ TEST(NewSurface, AForecastIsThatOfEachViewPartByPart) {
   const std::vector<Pose> views = views_around(random, 12);
   const auto forecast = forecast_new_surface(field, views, small_bundle(), {});
   EXPECT_EQ(forecast.areas, expected_new_surface(field, views, small_bundle(), {}));
-  ASSERT_EQ(forecast.part_count, 4u * 4u * 4u);
+  ASSERT_EQ(forecast.most.size(), 4u * 4u * 4u);
   double all = 0.0;
-  for (std::size_t part = 0; part < forecast.part_count; ++part) {
+  for (std::size_t part = 0; part < forecast.most.size(); ++part) {
     double most = 0.0;
     for (std::size_t v = 0; v < views.size(); ++v) most = std::max(most, double(forecast.parts[v][part]));
     all += most;
@@ -242,7 +242,7 @@ TEST(NewSurface, AForecastIsThatOfEachViewPartByPart) {
   EXPECT_NEAR(forecast.all, all, 1e-6 * all);
   for (std::size_t v = 0; v < views.size(); ++v) {
     // What lies in a part is what the rays say of the voxels there.
-    std::vector<double> of_part(forecast.part_count, 0.0);
+    std::vector<double> of_part(forecast.most.size(), 0.0);
     for (const auto& ray :
          explain_new_surface(field, made.map.grid(), made.map.voxels(), views[v], small_bundle(), {}).rays)
       for (const auto& voxel : ray.voxels) {

@@ -133,7 +133,7 @@ TEST_P(RayLanesOn, NewSurfaceIsThatOfRaysOneByOneToTheLastBit) {
         EXPECT_EQ(areas[v], why.value) << v;
         EXPECT_EQ(forecast.areas[v], why.value) << v;
         // Part by part, in the order of rays and voxels: single precision tells if it is another.
-        std::vector<float> parts(forecast.part_count, 0.0f);
+        std::vector<float> parts(forecast.most.size(), 0.0f);
         const Vector3i count = (field.grid().size + Vector3i::Constant(7)) / 8;
         for (std::size_t r = 0; r < why.rays.size(); ++r)
           for (const auto& voxel : why.rays[r].voxels) {

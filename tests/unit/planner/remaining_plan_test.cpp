@@ -14,9 +14,8 @@ using testing::IsEmpty;
 
 NewSurfaceForecast forecast(std::vector<std::vector<float>> parts) {
   NewSurfaceForecast result;
-  result.part_count = parts.front().size();
-  for (std::size_t p = 0; p < result.part_count; ++p) {
-    float most = 0.0f;
+  for (std::size_t p = 0; p < parts.front().size(); ++p) {
+    float& most = result.most.emplace_back(0.0f);
     for (const auto& of_view : parts) most = std::max(most, of_view[p]);
     result.all += most;
   }
