@@ -71,17 +71,24 @@ void NewSurfaceField::fill_layer_of_blocks(const SurfaceEvidence& evidence, cons
 
 namespace {
 
-/// The new surface that one view is expected to see [cm^2]. Calls `visit(place, area)` for where.
+/// Some of a bundle's rays.
+struct RayRange {
+  const RayBundle& bundle;
+  std::size_t begin, end;
+};
+
+/// The new surface that a view's rays are expected to see [cm^2]. Calls `visit(place, area)` for where.
 template <class Visit>
-double area_of_view(const NewSurfaceField& field, const Pose& view, const RayBundle& bundle,
-                    const NewSurfaceOptions& options, Visit visit) {
+double area_seen(const NewSurfaceField& field, const Pose& view, const RayRange& rays, const NewSurfaceOptions& options,
+                 Visit visit) {
   std::vector<Vector3> directions;
-  for (const Vector3& direction : bundle.directions) directions.emplace_back(view.linear() * direction);
+  for (std::size_t ray = rays.begin; ray < rays.end; ++ray)
+    directions.emplace_back(view.linear() * rays.bundle.directions[ray]);
   const Finds finds = find_along_rays({field.grid(), view.translation(), directions, options.ray_length},
                                       {field.chances(), negligible});
   double area = 0.0;
   for (std::size_t ray = 0; ray < directions.size(); ++ray) {
-    const double worth = square_centimetres * bundle.solid_angles[ray];
+    const double worth = square_centimetres * rays.bundle.solid_angles[rays.begin + ray];
     for (std::size_t i = finds.begins[ray]; i < finds.ends[ray]; ++i) {
       const Finds::Find& find = finds.finds[i];
       const double slant = options.slant.at(field.normals()[find.place].squared_cosine(directions[ray]));
@@ -118,10 +125,16 @@ class Parts {
 std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
                                          const RayBundle& bundle, const NewSurfaceOptions& options,
                                          std::stop_token stop) {
-  std::vector<double> areas(views.size(), 0.0);
-  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
-    if (!stop.stop_requested()) areas[v] = area_of_view(field, views[v], bundle, options, [](auto...) {});
+  constexpr std::size_t rays_a_part = 1024;  // so that two views of many rays keep more than two threads busy
+  const std::size_t rays = bundle.directions.size(), parts = (rays + rays_a_part - 1) / rays_a_part;
+  std::vector<double> of_parts(views.size() * parts, 0.0);
+  tbb::parallel_for(std::size_t{0}, of_parts.size(), [&](std::size_t i) {
+    const std::size_t begin = i % parts * rays_a_part;
+    const RayRange range{bundle, begin, std::min(begin + rays_a_part, rays)};
+    if (!stop.stop_requested()) of_parts[i] = area_seen(field, views[i / parts], range, options, [](auto...) {});
   });
+  std::vector<double> areas(views.size(), 0.0);
+  for (std::size_t i = 0; i < of_parts.size(); ++i) areas[i / parts] += of_parts[i];
   return areas;
 }
 
@@ -136,7 +149,8 @@ NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
     std::vector<float>& of_parts = forecast.parts[v];
-    forecast.areas[v] = area_of_view(field, views[v], bundle, options, [&](std::uint32_t place, double area) {
+    const RayRange all{bundle, 0, bundle.directions.size()};
+    forecast.areas[v] = area_seen(field, views[v], all, options, [&](std::uint32_t place, double area) {
       of_parts[parts.of(place)] += static_cast<float>(area);
     });
   });

@@ -1,14 +1,17 @@
 #include "core/gain/surface_evidence.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "core/map/distance_transform.hpp"
 
@@ -48,7 +51,8 @@ class BrickKinds {
  public:
   using Brick = VoxelBricks::Brick;
   static constexpr int edge = VoxelBricks::edge;
-  std::array<std::uint8_t, std::size_t{edge} * edge> occupied{}, unmeasured{};
+  using Rows = std::array<std::uint8_t, std::size_t{edge} * edge>;
+  Rows occupied{}, unmeasured{};
 
   explicit BrickKinds(double threshold) : threshold_(threshold), occupied_from_(least_log_odds(threshold)) {}
   /// Where a row begins in its brick.
@@ -63,21 +67,30 @@ class BrickKinds {
       unmeasured.fill(brick.measured(0) ? 0 : 0xff);
       return;
     }
-    for (std::size_t row = 0; row < occupied.size(); ++row) {
-      unsigned are_occupied = 0, are_unmeasured = 0;
-      for (std::size_t i = 0; i < edge; ++i) {
-        are_occupied |= unsigned(is_occupied(brick, row * edge + i)) << i;
-        are_unmeasured |= unsigned(!brick.measured(row * edge + i)) << i;
-      }
-      occupied[row] = static_cast<std::uint8_t>(are_occupied);
-      unmeasured[row] = static_cast<std::uint8_t>(are_unmeasured);
+    Flags are_occupied, are_unmeasured;
+    for (std::size_t i = 0; i < are_unmeasured.size(); ++i) are_unmeasured[i] = !brick.measured(i);
+    if (brick.follows_from_log_odds()) {
+      const float* log_odds = brick.numbers().data();
+      for (std::size_t i = 0; i < are_occupied.size(); ++i)
+        are_occupied[i] = std::uint8_t(log_odds[i] >= occupied_from_) & std::uint8_t(!are_unmeasured[i]);
+    } else {
+      for (std::size_t i = 0; i < are_occupied.size(); ++i) are_occupied[i] = is_occupied(brick, i);
     }
+    pack(are_occupied, occupied);
+    pack(are_unmeasured, unmeasured);
   }
 
  private:
+  using Flags = std::array<std::uint8_t, VoxelBricks::brick_voxels>;
   bool is_occupied(const Brick& brick, std::size_t i) const {
-    if (!brick.follows_from_log_odds()) return brick.measured(i) && brick[i].probability >= threshold_;
-    return unsigned(brick.measured(i)) & unsigned(brick.numbers()[i] >= occupied_from_);  // without a branch
+    if (!brick.measured(i)) return false;
+    return brick.follows_from_log_odds() ? brick.numbers()[i] >= occupied_from_ : brick[i].probability >= threshold_;
+  }
+  static void pack(const Flags& flags, Rows& rows) {
+    for (std::size_t row = 0; row < rows.size(); row += edge) {
+      const std::uint64_t layer = packed(&flags[row * edge], edge * edge);
+      for (std::size_t y = 0; y < edge; ++y) rows[row + y] = static_cast<std::uint8_t>(layer >> (edge * y));
+    }
   }
 
   double threshold_;
@@ -85,23 +98,58 @@ class BrickKinds {
   const Brick* read_ = nullptr;
 };
 
-/// Where the occupied voxels are, in the order of the bricks.
-std::vector<Eigen::Vector3i> occupied_cells(const VoxelBricks& voxels, double threshold) {
-  std::vector<std::vector<Eigen::Vector3i>> of_brick(voxels.brick_count());
+/// How many occupied voxels lie how far along each of the hull's directions.
+class Occupied {
+ public:
+  explicit Occupied(const Eigen::Vector3i& edges) : behind_(edges.maxCoeff()) {
+    for (std::vector<std::uint32_t>& counts : along_) counts.resize(3 * std::size_t(behind_));  // x - y is the least
+  }
+  std::uint32_t count = 0;
+
+  void add(const Eigen::Vector3i& cell) {
+    const std::array<int, 9> along = along_directions(cell);
+    for (std::size_t d = 0; d < along.size(); ++d) ++along_[d][std::size_t(along[d] + behind_)];
+    ++count;
+  }
+  void add(const Occupied& others) {
+    for (std::size_t d = 0; d < along_.size(); ++d)
+      std::ranges::transform(along_[d], others.along_[d], along_[d].begin(), std::plus());
+    count += others.count;
+  }
+  /// From where to where along a direction they are, without the outliers at both ends.
+  std::pair<int, int> bounds(int direction) const {
+    const auto outliers = static_cast<std::uint32_t>(outlier_share * double(count));
+    const std::vector<std::uint32_t>& counts = along_[std::size_t(direction)];
+    const auto place_of = [&](std::uint32_t number) {  // of the voxel that has so many before it
+      std::size_t place = 0;
+      for (std::uint32_t passed = counts[0]; passed <= number; passed += counts[place]) ++place;
+      return int(place) - behind_;
+    };
+    return {place_of(outliers), place_of(count - 1 - outliers)};
+  }
+
+ private:
+  int behind_;  ///< the count of 0 has so many before it
+  std::array<std::vector<std::uint32_t>, 9> along_;
+};
+
+Occupied occupied_voxels(const VoxelBricks& voxels, double threshold) {
+  tbb::enumerable_thread_specific<Occupied> of_threads(voxels.edges());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
     BrickKinds kinds(threshold);
+    Occupied& occupied = of_threads.local();
     for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
       if (voxels.is_untouched(brick)) continue;
       kinds.read(*voxels.bricks()[brick]);
       const Eigen::Vector3i lowest = voxels.cell(brick * VoxelBricks::brick_voxels);
       for (int row = 0; row < int(kinds.occupied.size()); ++row)
         for (unsigned bits = kinds.occupied[std::size_t(row)]; bits != 0; bits &= bits - 1)
-          of_brick[brick].push_back(lowest + BrickKinds::cell(row) + std::countr_zero(bits) * Eigen::Vector3i::UnitX());
+          occupied.add(lowest + BrickKinds::cell(row) + std::countr_zero(bits) * Eigen::Vector3i::UnitX());
     }
   });
-  std::vector<Eigen::Vector3i> cells;
-  for (const auto& some : of_brick) cells.insert(cells.end(), some.begin(), some.end());
-  return cells;
+  Occupied all(voxels.edges());
+  for (const Occupied& some : of_threads) all.add(some);
+  return all;
 }
 
 /// Of its probability: other maps than the conventional one have no log-odds. A map has few different ones, and
@@ -118,16 +166,6 @@ float log_odds_of(float probability) {
   return known.log_odds;
 }
 
-/// The range of the values without the outliers at both ends.
-std::pair<int, int> bounds(std::vector<int>& values) {
-  const auto outliers = static_cast<std::ptrdiff_t>(outlier_share * double(values.size()));
-  const auto low = values.begin() + outliers, high = values.end() - 1 - outliers;
-  std::nth_element(values.begin(), low, values.end());
-  const int lowest = *low;
-  std::nth_element(values.begin(), high, values.end());
-  return {lowest, *high};
-}
-
 }  // namespace
 
 double SurfaceEvidence::Hull::outside(const Eigen::Vector3i& cell) const {
@@ -139,23 +177,12 @@ double SurfaceEvidence::Hull::outside(const Eigen::Vector3i& cell) const {
   return std::max(double(by_axes), of_diagonal * by_diagonals);
 }
 
-SurfaceEvidence::Hull SurfaceEvidence::hull_of(const std::vector<Eigen::Vector3i>& occupied) {
-  Hull hull;
-  tbb::parallel_for(0, Hull::directions, [&](int d) {
-    std::vector<int> along(occupied.size());
-    std::ranges::transform(occupied, along.begin(),
-                           [&](const Eigen::Vector3i& cell) { return along_directions(cell)[d]; });
-    std::tie(hull.lowest[d], hull.highest[d]) = bounds(along);
-  });
-  return hull;
-}
-
 SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
                                  double occupancy_threshold, const OpenBorder& border, double finest)
     : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()}, voxels_(voxels), occlusions_(occlusions) {
-  const std::vector<Eigen::Vector3i> occupied = occupied_cells(voxels, occupancy_threshold);
-  if (occupied.empty()) return;
-  hull_ = hull_of(occupied);
+  const Occupied occupied = occupied_voxels(voxels, occupancy_threshold);
+  if (occupied.count == 0) return;
+  for (int d = 0; d < Hull::directions; ++d) std::tie(hull_.lowest[d], hull_.highest[d]) = occupied.bounds(d);
   set_region(grid, hull_);
   while (2 * block_edge_ <= finest * size_) block_edge_ *= 2;
   read_kinds(occupancy_threshold);
@@ -236,7 +263,8 @@ void SurfaceEvidence::measure_border(const OpenBorder& border) {
       if (blocks_.contains(block)) going_on_[blocks_.index(block)] += length;
     }
   }
-  for (float& of_block : going_on_) of_block = std::log1p(4.0f * of_block);
+  for (float& of_block : going_on_)
+    if (of_block > 0.0f) of_block = std::log1p(4.0f * of_block);
 }
 
 float SurfaceEvidence::log_share(std::size_t squared_distance) const {

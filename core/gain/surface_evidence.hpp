@@ -73,7 +73,6 @@ class SurfaceEvidence {
     /// How far outside of it a cell of the whole grid lies [voxels]; negative inside.
     double outside(const Eigen::Vector3i& cell) const;
   };
-  static Hull hull_of(const std::vector<Eigen::Vector3i>& occupied);
   void set_region(const VoxelGrid& whole, const Hull& hull);
   void read_kinds(double occupancy_threshold);
   void measure_distances();

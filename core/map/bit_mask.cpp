@@ -20,7 +20,8 @@ void for_each_word(std::size_t size, Visit visit) {
   });
 }
 
-/// At most 64 bytes, a bit each.
+}  // namespace
+
 std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
   constexpr std::uint64_t lowest_bits = 0x0101010101010101, gather = 0x0102040810204080;
   std::uint64_t word = 0;
@@ -34,8 +35,6 @@ std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
   }
   return word;
 }
-
-}  // namespace
 
 void BitMask::add_word(std::size_t first, std::uint64_t word) {
   if (word == 0) return;

@@ -17,7 +17,7 @@ struct SurfaceBorder {
 
 /// Points are looked at that are the surface's radius apart, the middle of each of its cells or of every so-many-th:
 /// fewer than twice `most`. The same on any number of threads.
-SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most = 200'000);
+SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most = 20'000);
 
 /// Where what was scanned ends and the surface may go on.
 struct OpenBorder {

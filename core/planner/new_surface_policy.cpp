@@ -29,6 +29,14 @@ std::string side(const ScoreExplanation& explanation, const Vector3& centre, dou
   return *largest < most ? "" : names[static_cast<std::size_t>(largest - shares.begin())];
 }
 
+bool has_finer_rays(const PlanningState& state) { return state.fine_bundle && !state.fine_bundle->directions.empty(); }
+
+std::vector<Pose> poses(const PlanningState& state, std::span<const std::size_t> candidates) {
+  std::vector<Pose> views;
+  for (const std::size_t v : candidates) views.push_back(state.candidates[v].T_world_camera);
+  return views;
+}
+
 }  // namespace
 
 SurfaceEvidence surface_evidence(const Knowledge& known, const OpenBorder& border) {
@@ -73,10 +81,9 @@ std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowle
 
 Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const std::size_t> available,
                                    std::stop_token stop) const {
-  std::vector<Pose> views;
-  for (const std::size_t v : available) views.push_back(state.candidates[v].T_world_camera);
   const std::shared_ptr<const Seen> seen = see(state.known);
-  NewSurfaceForecast forecast = forecast_new_surface(seen->field, views, state.bundle, options(state), stop);
+  NewSurfaceForecast forecast =
+      forecast_new_surface(seen->field, poses(state, available), state.bundle, options(state), stop);
   const ScannedSurface* surface = state.known.scanned.get();
   const double scanned = surface ? model_.square_centimetres(surface->area()) : 0.0;
   if (!(scanned > 0.0)) return std::move(forecast.areas);
@@ -89,24 +96,32 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
   return {std::move(forecast.areas), left, std::move(few.views), few.is_least};
 }
 
+std::vector<double> NewSurfacePolicy::finer_values(const PlanningState& state, std::span<const std::size_t> candidates,
+                                                   std::stop_token stop) const {
+  if (!has_finer_rays(state)) return {};
+  return expected_new_surface(see(state.known)->field, poses(state, candidates), *state.fine_bundle, options(state),
+                              stop);
+}
+
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {
   std::string text = short_text(value) + " cm² of new surface";
   if (!(value > 0.0)) return text;
   const std::shared_ptr<const Seen> seen = see(state.known);
   const std::string where =
-      side(explanation(*seen, state, T_world_camera), seen->object_centre, seen->field.grid().resolution);
+      side(explanation(*seen, state, state.bundle, T_world_camera), seen->object_centre, seen->field.grid().resolution);
   return where.empty() ? text : text + ", most of it " + where;
 }
 
 std::optional<ScoreExplanation> NewSurfacePolicy::explain(const PlanningState& state,
                                                           const Pose& T_world_camera) const {
-  return explanation(*see(state.known), state, T_world_camera);
+  return explanation(*see(state.known), state, has_finer_rays(state) ? *state.fine_bundle : state.bundle,
+                     T_world_camera);
 }
 
-ScoreExplanation NewSurfacePolicy::explanation(const Seen& seen, const PlanningState& state,
+ScoreExplanation NewSurfacePolicy::explanation(const Seen& seen, const PlanningState& state, const RayBundle& bundle,
                                                const Pose& T_world_camera) const {
-  return explain_new_surface(seen.field, state.known.map.grid(), state.known.planning_voxels(), T_world_camera,
-                             state.bundle, options(state));
+  return explain_new_surface(seen.field, state.known.map.grid(), state.known.planning_voxels(), T_world_camera, bundle,
+                             options(state));
 }
 
 }  // namespace nextview

@@ -25,6 +25,8 @@ class NewSurfacePolicy : public Policy {
   PolicyNeeds needs() const override { return {true, on_posterior_, false}; }
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;
+  std::vector<double> finer_values(const PlanningState& state, std::span<const std::size_t> candidates,
+                                   std::stop_token stop) const override;
   std::string promise(double value, const PlanningState& state, const Pose& T_world_camera) const override;
   std::string no_explanation() const override { return ""; }
   std::optional<ScoreExplanation> explain(const PlanningState& state, const Pose& T_world_camera) const override;
@@ -40,7 +42,8 @@ class NewSurfacePolicy : public Policy {
   };
   /// Made once for maps that are asked about several times in a row. From any thread.
   std::shared_ptr<const Seen> see(const Knowledge& known) const;
-  ScoreExplanation explanation(const Seen& seen, const PlanningState& state, const Pose& T_world_camera) const;
+  ScoreExplanation explanation(const Seen& seen, const PlanningState& state, const RayBundle& bundle,
+                               const Pose& T_world_camera) const;
   NewSurfaceOptions options(const PlanningState& state) const {
     return {state.config.ray_length, model_.slant.times(promise_kept(state.taken))};
   }

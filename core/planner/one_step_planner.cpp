@@ -12,14 +12,42 @@ namespace {
 
 PlanningState state_of(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
                        const RayCaster& rays) {
-  return {setup.config, setup.seed,  setup.occlusion_reach, known, rays, setup.bundle, setup.true_surface,
-          views,        known.taken, setup.negligible_share};
+  return {setup.config,
+          setup.seed,
+          setup.occlusion_reach,
+          known,
+          rays,
+          setup.bundle,
+          setup.true_surface,
+          views,
+          known.taken,
+          setup.negligible_share,
+          setup.fine_bundle};
 }
 
 Utility utility(const Policy& policy, const PlanningSetup& setup) {
   if (policy.ignores_cost()) return {{1.0, 0.0}};
   if (setup.config.utility == UtilityKind::gain_per_second) return {setup.config.weights, setup.scan_seconds};
   return {setup.config.weights};
+}
+
+/// Ranks them, and values the best two again by finer rays until they stay the best two: what came first by chance
+/// does not stay there.
+Ranking rank_finely(const Policy& policy, const PlanningState& state, std::span<Candidate> candidates,
+                    const Utility& utility, const std::stop_token& stop) {
+  std::vector<bool> is_fine(candidates.size());
+  while (true) {
+    Ranking ranking = rank(candidates, utility);
+    if (!ranking.best) return ranking;
+    std::vector<std::size_t> again;
+    for (const auto v : {ranking.best, runner_up(candidates, *ranking.best)})
+      if (v && !is_fine[*v]) again.push_back(*v);
+    if (again.empty()) return ranking;
+    const std::vector<double> gains = policy.finer_values(state, again, stop);
+    throw_if_stopped(stop);
+    if (gains.empty()) return ranking;
+    for (std::size_t i = 0; i < again.size(); ++i) candidates[again[i]].gain = gains[i], is_fine[again[i]] = true;
+  }
 }
 
 /// "Candidate 17: 214 cm² of new surface, most of it at its top; 900 mm away. Runner-up 32: 190 cm², 400 mm."
@@ -75,7 +103,7 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
   throw_if_stopped(stop);  // or the ranking would be half one
   for (std::size_t i = 0; i < available.size(); ++i) candidates[available[i]].gain = valuation.gains[i];
   const Utility by = utility(*policy_, setup);
-  Ranking ranking = rank(candidates, by);
+  Ranking ranking = rank_finely(*policy_, state, candidates, by, stop);
   if (ranking.best) {
     const Choice choice = choose(state, candidates, by, *ranking.best, stop);
     ranking.best = choice.candidate;

@@ -19,8 +19,9 @@ struct PlanningSetup {
   double occlusion_reach;  ///< d_max of proximity count [voxels]
   double scan_seconds;     ///< what taking a scan counts for in a utility per second
   const RayBundle& bundle;
-  const TrueSurface* true_surface;  ///< null where it is not known, not evaluated, or not asked for by needs()
-  double negligible_share = 0.005;  ///< of the surface: for less no view is worth it (termination.surface_left)
+  const TrueSurface* true_surface;         ///< null where it is not known, not evaluated, or not asked for by needs()
+  double negligible_share = 0.005;         ///< of the surface: for less no view is worth it (termination.surface_left)
+  const RayBundle* fine_bundle = nullptr;  ///< that scores the best views again; null or of no rays: none does
 };
 
 /// What a planner made of the candidates: each with its gain and utility, and which is best.

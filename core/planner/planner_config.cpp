@@ -35,6 +35,10 @@ std::vector<Setting> settings(PlannerConfig& c) {
        &c.combined_weights},
       {"planner.ray_columns", "", "rays that score a view, across", &c.ray_columns, from_to(1, 2000)},
       {"planner.ray_rows", "", "rays that score a view, down", &c.ray_rows, from_to(1, 2000)},
+      {"planner.ray_refinement", "",
+       "times as many rays each way, up to one a pixel, that score the best two views again (new-surface only); 1: "
+       "none",
+       &c.ray_refinement, from_to(1, 16)},
       {"planner.ray_window", "", "share of the image's width and height that they go through, about its middle",
        &c.ray_window, over_to(0, 1)},
       {"planner.ray_length", "m", "how far they reach", &c.ray_length, from_to(1e-3, 1000)},

@@ -20,6 +20,7 @@ struct PlannerConfig {
   std::string combined_weights;         ///< `gain=weight,gain=weight`; empty: the pre-release weights
   int ray_columns = 38;                 ///< rays that score a view
   int ray_rows = 25;
+  int ray_refinement = 4;   ///< times as many each way score the best two views again, but no more than pixels; 1: none
   double ray_window = 1.0;  ///< share of the image's width and height that they go through, about its middle
   double ray_length = 1.5;  ///< [m]
   int simulations = 0;      ///< plans of several views that are tried out before one is taken; 0: one view at a time

@@ -45,8 +45,9 @@ struct PlanningState {
   const RayBundle& bundle;
   const TrueSurface* true_surface;  ///< null where it is not known, or not evaluated
   std::span<const View> candidates;
-  std::span<const TakenView> taken;  ///< so far, in order
-  double negligible_share = 0.005;   ///< of the surface: for less no view is worth it (termination.surface_left)
+  std::span<const TakenView> taken;        ///< so far, in order
+  double negligible_share = 0.005;         ///< of the surface: for less no view is worth it (termination.surface_left)
+  const RayBundle* fine_bundle = nullptr;  ///< PlanningSetup::fine_bundle
 };
 
 /// What a policy makes of some candidates.
@@ -75,13 +76,18 @@ class Policy {
   /// The value of each candidate in `available`. A requested stop leaves what is not valued yet at 0.
   virtual Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                            std::stop_token stop) const = 0;
+  /// Those of some candidates by finer rays than values() has; empty if there are none.
+  virtual std::vector<double> finer_values(const PlanningState&, std::span<const std::size_t> /*candidates*/,
+                                           std::stop_token) const {
+    return {};
+  }
   /// The gain that its value of a single view is, whose rays then explain it; null if it is none.
   virtual const Gain* gain() const { return nullptr; }
   /// What a view of this value promises, for people: "gain 12.5 nats", "214 cm² of new surface, most of it at the top".
   virtual std::string promise(double value, const PlanningState& state, const Pose& T_world_camera) const;
   /// Why no rays explain it, to be read behind its name; empty if they do.
   virtual std::string no_explanation() const { return "ranks views without rays"; }
-  /// Why a view would have its value; nothing if no rays explain it.
+  /// Why a view would have its value, by finer rays if there are any; nothing if no rays explain it.
   virtual std::optional<ScoreExplanation> explain(const PlanningState&, const Pose&) const { return std::nullopt; }
 };
 

@@ -20,8 +20,9 @@ namespace nextview {
 struct ScanSetup {
   Configuration configuration;
   SourceDescription source;
-  VoxelGrid region;  ///< of interest
-  RayBundle bundle;  ///< that scores a view
+  VoxelGrid region;       ///< of interest
+  RayBundle bundle;       ///< that scores a view
+  RayBundle fine_bundle;  ///< that scores the best ones again; of no rays: none does
   View start;
   std::shared_ptr<const OccupancyMap> start_map = {};  ///< that it begins with; null: nothing is known
   std::shared_ptr<const CandidateGenerator> candidates;

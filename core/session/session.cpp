@@ -40,6 +40,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   setup_.source = source_->describe();
   setup_.region = configured_region(c, setup_.source);
   setup_.bundle = scoring_rays(c, setup_.source.camera);
+  setup_.fine_bundle = finer_rays(c, setup_.source.camera);
   robot_ = std::move(parts.robot);
   setup_.start =
       recording_ ? setup_.source.frames.at(start_frame(c, *recording_)) : start_view(c, setup_.source, robot_.get());

@@ -172,6 +172,15 @@ RayBundle scoring_rays(const Configuration& c, const PinholeCamera& camera) {
   return RayBundle::regular(camera, c.planner.ray_columns, c.planner.ray_rows, c.planner.ray_window);
 }
 
+RayBundle finer_rays(const Configuration& c, const PinholeCamera& camera) {
+  const PlannerConfig& p = c.planner;
+  const double pixels_a_ray =
+      p.ray_window * std::min(double(camera.width) / p.ray_columns, double(camera.height) / p.ray_rows);
+  const int times = std::min(p.ray_refinement, int(pixels_a_ray));
+  if (times <= 1 || p.semantics == Semantics::reference) return {};
+  return RayBundle::regular(camera, times * p.ray_columns, times * p.ray_rows, p.ray_window);
+}
+
 namespace {
 
 std::shared_ptr<const ReferenceMap> empty_reference_map(const Configuration& c, const VoxelGrid& region) {

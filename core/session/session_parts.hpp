@@ -54,6 +54,9 @@ void require_within_region(const TriangleMesh& object, const Configuration& conf
                            const std::filesystem::path& file);
 /// The rays that score a view.
 RayBundle scoring_rays(const Configuration& configuration, const PinholeCamera& camera);
+/// Those that score the best ones again: a whole number of times as many each way, as far as there are pixels; none if
+/// they would be the same.
+RayBundle finer_rays(const Configuration& configuration, const PinholeCamera& camera);
 /// How far behind a surface voxels are marked [m]: as configured, or what the reference code has.
 double occlusion_distance(const Configuration& configuration);
 /// d_max of proximity count [voxels].

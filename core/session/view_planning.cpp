@@ -42,7 +42,8 @@ struct PlanningInput {
               scan.configuration.sensor.seconds,
               scan.bundle,
               nullptr,
-              scan.configuration.termination.surface_left} {
+              scan.configuration.termination.surface_left,
+              &scan.fine_bundle} {
     if (scan.recorded)
       surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
                                                                scan.recorded->seen(frames_taken(state.known)));

@@ -114,7 +114,7 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   const ScoreExplanation& e = *view.explanation;
   const PinholeCamera& camera = context.snapshot.camera;
   const std::string& unit = context.snapshot.gain_unit;
-  const RayGrid grid(context.snapshot.configuration.planner, camera);
+  const RayGrid grid(context.snapshot.configuration.planner, camera, e.rays.size());
   if (grid.cells() == 0 || grid.cells() != e.rays.size()) return;
   const std::string words = fmt::format(
       "What each of its {} rays adds to the gain.\n\nDark {} {}, pale little, white nothing. Click a ray to see why.",
@@ -151,6 +151,12 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
             fmt::format("{}, {:.0f}°", length_text(r.motion.distance), 180 / std::numbers::pi * r.motion.rotation));
 }
 
+const char* ranking_note(const PlannerConfig& planner) {
+  return planner.ray_refinement > 1 && planner.gain.starts_with("new-surface")
+             ? "The gain by which it was ranked: a few rays value every candidate, many the best two"
+             : "The gain by which it was ranked";
+}
+
 void draw_candidate_numbers(const PanelContext& context, const ViewInspection& view) {
   const SessionSnapshot& s = context.snapshot;
   const std::string unit = s.gain_unit;
@@ -169,7 +175,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
     return ImGui::TextWrapped("%s", c.unreachable.c_str());
   }
   if (!c.available) return table_row("", "taken");
-  table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), "The gain by which it was ranked");
+  table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), ranking_note(s.configuration.planner));
   table_row("way there", length_text(c.cost));
   const bool per_second = s.configuration.planner.utility == UtilityKind::gain_per_second;
   table_row("utility", fmt::format("{:.4f}", c.utility),

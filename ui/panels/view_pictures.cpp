@@ -53,9 +53,13 @@ double largest_contribution(const ScoreExplanation& explanation) {
   return largest;
 }
 
-RayGrid::RayGrid(const PlannerConfig& planner, const PinholeCamera& camera)
+RayGrid::RayGrid(const PlannerConfig& planner, const PinholeCamera& camera, std::size_t rays)
     : columns(planner.ray_columns), rows(planner.ray_rows) {
-  if (planner.semantics != Semantics::reference) return;
+  if (planner.semantics != Semantics::reference) {
+    const int times = int(std::lround(std::sqrt(double(rays) / double(cells()))));
+    columns *= times, rows *= times;
+    return;
+  }
   column_by_column = true;
   Configuration configuration;
   configuration.planner = planner;

@@ -21,7 +21,8 @@ struct RayGrid {
   int columns = 0, rows = 0;
   bool column_by_column = false;  ///< the reference bundle's order; otherwise row by row
 
-  RayGrid(const PlannerConfig& planner, const PinholeCamera& camera);
+  /// Of so many rays: those that score a view, or so many times as many each way.
+  RayGrid(const PlannerConfig& planner, const PinholeCamera& camera, std::size_t rays);
   std::size_t cells() const { return std::size_t(columns) * rows; }
   std::size_t ray(int column, int row) const {
     return column_by_column ? std::size_t(column) * rows + row : std::size_t(row) * columns + column;

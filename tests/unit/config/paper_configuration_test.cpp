@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 /// What 0.4.0 wrote into config.toml with its own `--config paper`. Never to be changed.
-constexpr std::array<std::array<const char*, 2>, 85> pinned = {{
+constexpr std::array<std::array<const char*, 2>, 86> pinned = {{
     {"object.longest_side", "0.5"},
     {"object.unit", "auto"},
     {"object.centred", "true"},
@@ -80,6 +80,7 @@ constexpr std::array<std::array<const char*, 2>, 85> pinned = {{
     {"planner.combined_weights", ""},
     {"planner.ray_columns", "38"},
     {"planner.ray_rows", "25"},
+    {"planner.ray_refinement", "1"},
     {"planner.ray_window", "1"},
     {"planner.ray_length", "1.5"},
     {"planner.simulations", "0"},

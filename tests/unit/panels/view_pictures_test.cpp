@@ -16,22 +16,24 @@ TEST(RayGrid, PutsEachRayWhereTheCameraSendsIt) {
       Configuration c;
       c.planner.semantics = semantics;
       const PinholeCamera camera = PinholeCamera::from_field_of_view(width, height, 1.0);
-      const RayBundle bundle = scoring_rays(c, camera);
-      const RayGrid grid(c.planner, camera);
-      ASSERT_EQ(grid.cells(), bundle.directions.size());
-      for (int row = 0; row < grid.rows; ++row)
-        for (int column = 0; column < grid.columns; ++column) {
-          const std::size_t ray = grid.ray(column, row);
-          ASSERT_EQ(grid.column(ray), column);
-          ASSERT_EQ(grid.row(ray), row);
-          const auto pixel = camera.project(bundle.directions[ray]);
-          if (column > 0) {
-            EXPECT_GT(pixel.x(), camera.project(bundle.directions[grid.ray(column - 1, row)]).x());
+      for (const RayBundle& bundle : {scoring_rays(c, camera), finer_rays(c, camera)}) {
+        if (bundle.directions.empty()) continue;
+        const RayGrid grid(c.planner, camera, bundle.directions.size());
+        ASSERT_EQ(grid.cells(), bundle.directions.size());
+        for (int row = 0; row < grid.rows; ++row)
+          for (int column = 0; column < grid.columns; ++column) {
+            const std::size_t ray = grid.ray(column, row);
+            ASSERT_EQ(grid.column(ray), column);
+            ASSERT_EQ(grid.row(ray), row);
+            const auto pixel = camera.project(bundle.directions[ray]);
+            if (column > 0) {
+              EXPECT_GT(pixel.x(), camera.project(bundle.directions[grid.ray(column - 1, row)]).x());
+            }
+            if (row > 0) {
+              EXPECT_GT(pixel.y(), camera.project(bundle.directions[grid.ray(column, row - 1)]).y());
+            }
           }
-          if (row > 0) {
-            EXPECT_GT(pixel.y(), camera.project(bundle.directions[grid.ray(column, row - 1)]).y());
-          }
-        }
+      }
     }
 }
 

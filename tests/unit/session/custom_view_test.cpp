@@ -39,7 +39,9 @@ TEST(CustomView, IsTakenAndRecorded) {
 }
 
 TEST(CustomView, ThatIsACandidatesPoseIsScoredAsThatCandidate) {
-  Session session(small_scan());
+  Configuration c = small_scan();
+  c.planner.ray_refinement = 1;
+  Session session(c);
   session.step();
   for (const std::size_t v : {0u, 5u}) {
     EXPECT_EQ(session.explain(session.candidates()[v])->value, session.explain(v)->value);

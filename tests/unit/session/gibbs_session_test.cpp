@@ -62,6 +62,7 @@ TEST(GibbsSession, TheConventionalMapAndItsRankingAreKeptBeside) {
 TEST(GibbsSession, NewSurfaceIsExpectedOfThePosterior) {
   Configuration c = gibbs_scan();
   c.planner.gain = "new-surface-gibbs";
+  c.planner.ray_refinement = 1;
   Session session(c);
   session.step();
   const OccupancyMap& map = session.map();

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "core/session/session_parts.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
@@ -92,6 +94,27 @@ TEST(PublishedSetting, RaysGoThroughTheWindow) {
   EXPECT_EQ(scoring_rays(c, camera).directions, RayBundle::regular(camera, 12, 9).directions);
   c.planner.ray_window = 0.5;
   EXPECT_EQ(scoring_rays(c, camera).directions, RayBundle::regular(camera, 12, 9, 0.5).directions);
+}
+
+TEST(FinerRays, AreNoMoreThanPixels) {
+  Configuration c;
+  c.planner.ray_columns = 12, c.planner.ray_rows = 9;
+  const auto times = [&](int width, int height) {
+    c.sensor.width = width, c.sensor.height = height;
+    const std::size_t rays = finer_rays(c, c.sensor.camera()).directions.size();
+    return std::sqrt(double(rays) / (12 * 9));
+  };
+  EXPECT_EQ(times(480, 360), 4.0);
+  EXPECT_EQ(times(480, 30), 3.0) << "as few rows of pixels";
+  EXPECT_EQ(times(23, 400), 0.0) << "the same rays again say nothing new";
+  c.planner.ray_window = 0.5;
+  EXPECT_EQ(times(48, 36), 2.0);
+  const PinholeCamera camera = c.sensor.camera();
+  EXPECT_EQ(finer_rays(c, camera).directions, RayBundle::regular(camera, 24, 18, 0.5).directions);
+  c.planner.ray_refinement = 1;
+  EXPECT_EQ(times(480, 360), 0.0) << "switched off";
+  c.planner.ray_refinement = 4, c.planner.semantics = Semantics::reference;
+  EXPECT_EQ(times(480, 360), 0.0) << "the reference code has none";
 }
 
 }  // namespace

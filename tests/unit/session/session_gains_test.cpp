@@ -41,7 +41,9 @@ TEST(SessionGains, ExplanationsAreThoseOfTheRanking) {
   for (const auto& [gain, summary, baseline, make] : policies())
     for (const Semantics semantics : {Semantics::published, Semantics::reference}) {
       if ((baseline || gain.ends_with("gibbs")) && semantics == Semantics::reference) continue;
-      Session session(with_gain(gain, semantics));
+      Configuration c = with_gain(gain, semantics);
+      c.planner.ray_refinement = 1;
+      Session session(c);
       session.step();
       for (std::size_t v = 0; v < session.candidates().size(); v += 3) {
         const auto why = session.explain(v);
@@ -51,6 +53,22 @@ TEST(SessionGains, ExplanationsAreThoseOfTheRanking) {
         }
       }
     }
+}
+
+TEST(SessionGains, OfTheBestTwoIsWhatFinerRaysExplain) {
+  Session session(with_gain("new-surface"));
+  for (int step = 0; step < 2; ++step) {
+    session.step();
+    const StepRecord& r = session.records().back();
+    const std::size_t best = r.ranking.best.value(), second = runner_up(r.candidates, best).value();
+    for (std::size_t v = 0; v < session.candidates().size(); ++v) {
+      if (!r.candidates[v].available) continue;
+      const ScoreExplanation why = session.explain(v).value();
+      EXPECT_EQ(why.rays.size(), 48u * 36u) << "four times 12 x 9 each way";
+      const double gain = r.candidates[v].gain;
+      EXPECT_NEAR(why.value, gain, (v == best || v == second ? 1e-9 : 0.5) * gain);
+    }
+  }
 }
 
 TEST(SessionGains, FixedOrderGoesThroughTheListAndNoCostSaysOtherwise) {
