@@ -151,10 +151,18 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
             fmt::format("{}, {:.0f}°", length_text(r.motion.distance), 180 / std::numbers::pi * r.motion.rotation));
 }
 
-const char* ranking_note(const PlannerConfig& planner) {
-  return planner.ray_refinement > 1 && planner.gain.starts_with("new-surface")
-             ? "The gain by which it was ranked: a few rays value every candidate, many the best two"
-             : "The gain by which it was ranked";
+/// The gain by which it was ranked. By fewer rays than explain it, unless it is one of the best.
+void draw_ranked_gain(const PanelContext& context, const ViewInspection& view, double gain) {
+  const PlannerConfig& planner = context.snapshot.configuration.planner;
+  const std::size_t rays = std::size_t(planner.ray_columns) * planner.ray_rows;
+  const std::string text = fmt::format("{} {}", readable(gain), context.snapshot.gain_unit);
+  const bool by_fewer = view.explanation && view.explanation->rays.size() > rays &&
+                        std::abs(gain - view.explanation->value) > 1e-6 * std::abs(gain);
+  if (by_fewer)
+    table_row("in the ranking", fmt::format("{} by {} rays", text, rays),
+              "The gain by which it was ranked: few rays value every candidate, many the best two");
+  else
+    table_row("in the ranking", text, "The gain by which it was ranked");
 }
 
 void draw_candidate_numbers(const PanelContext& context, const ViewInspection& view) {
@@ -175,7 +183,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
     return ImGui::TextWrapped("%s", c.unreachable.c_str());
   }
   if (!c.available) return table_row("", "taken");
-  table_row("in the ranking", fmt::format("{} {}", readable(c.gain), unit), ranking_note(s.configuration.planner));
+  draw_ranked_gain(context, view, c.gain);
   table_row("way there", length_text(c.cost));
   const bool per_second = s.configuration.planner.utility == UtilityKind::gain_per_second;
   table_row("utility", fmt::format("{:.4f}", c.utility),

@@ -72,6 +72,15 @@ TEST_F(ViewPanel, ACandidatesNumbersAreThoseOfTheRanking) {
   EXPECT_THAT(panel(), Not(HasSubstr("8888"))) << "a gain that is left over";
 }
 
+TEST_F(ViewPanel, AGainByFewerRaysThanExplainItSaysSo) {
+  scan_->configuration.planner.ray_columns = 4, scan_->configuration.planner.ray_rows = 3;
+  show_view({Kind::candidate, 3});
+  EXPECT_THAT(panel(), HasSubstr("expected gain 1234 nats in the ranking 20 nats by 12 rays way there"));
+  EXPECT_THAT(panel(), HasSubstr("What each of its 48 rays adds"));
+  scan_->records.back().candidates[3].gain = 1234.25;  // one of the best: by as many
+  EXPECT_THAT(panel(), HasSubstr("in the ranking 1234 nats way there"));
+}
+
 TEST_F(ViewPanel, ATakenViewsNumbersAreThoseOfItsRecord) {
   show_view({Kind::taken, 1}, std::vector<float>(12, 0.5f));
   EXPECT_THAT(panel(), HasSubstr("View 2 as taken"));
