@@ -1,18 +1,15 @@
 #include "core/gain/surface_evidence.hpp"
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <tuple>
+#include <optional>
 
+#include "core/map/brick_kinds.hpp"
 #include "core/map/distance_transform.hpp"
 
 namespace nextview {
@@ -20,137 +17,8 @@ namespace {
 
 /// How far around the object's box voxels are looked at, as a share of its size: farther off, next to nothing is found.
 constexpr double margin = 0.12;
-constexpr double outlier_share = 0.001;
 
 using Kind = SurfaceEvidence::Kind;
-
-/// How far along each of the hull's directions a cell lies: the axes, and the diagonals between two of them.
-std::array<int, 9> along_directions(const Eigen::Vector3i& cell) {
-  const int x = cell.x(), y = cell.y(), z = cell.z();
-  return {x, y, z, x + y, x - y, x + z, x - z, y + z, y - z};
-}
-
-/// The least log-odds of which an occupancy map makes at least this probability; infinite if none does.
-float least_log_odds(double probability) {
-  const auto reaches = [&](float log_odds) {
-    return double(static_cast<float>(belief(log_odds).probability)) >= probability;
-  };
-  constexpr float largest = 1e4f;
-  float below = -largest, from = largest;  // the larger the log-odds the likelier
-  if (reaches(below)) return -std::numeric_limits<float>::infinity();
-  if (!reaches(from)) return std::numeric_limits<float>::infinity();
-  while (std::nextafter(below, from) < from) {
-    const float middle = below + (from - below) / 2.0f;
-    (reaches(middle) ? from : below) = middle;
-  }
-  return from;
-}
-
-/// What the voxels of a brick are, row by row, a bit each.
-class BrickKinds {
- public:
-  using Brick = VoxelBricks::Brick;
-  static constexpr int edge = VoxelBricks::edge;
-  using Rows = std::array<std::uint8_t, std::size_t{edge} * edge>;
-  Rows occupied{}, unmeasured{};
-
-  explicit BrickKinds(double threshold) : threshold_(threshold), occupied_from_(least_log_odds(threshold)) {}
-  /// Where a row begins in its brick.
-  static Eigen::Vector3i cell(int row) { return {0, row % edge, row / edge}; }
-
-  /// Bricks that many places share come one after the other: they are read once.
-  void read(const Brick& brick) {
-    if (&brick == read_) return;
-    read_ = &brick;
-    if (brick.is_uniform()) {
-      occupied.fill(is_occupied(brick, 0) ? 0xff : 0);
-      unmeasured.fill(brick.measured(0) ? 0 : 0xff);
-      return;
-    }
-    Flags are_occupied, are_unmeasured;
-    for (std::size_t i = 0; i < are_unmeasured.size(); ++i) are_unmeasured[i] = !brick.measured(i);
-    if (brick.follows_from_log_odds()) {
-      const float* log_odds = brick.numbers().data();
-      for (std::size_t i = 0; i < are_occupied.size(); ++i)
-        are_occupied[i] = std::uint8_t(log_odds[i] >= occupied_from_) & std::uint8_t(!are_unmeasured[i]);
-    } else {
-      for (std::size_t i = 0; i < are_occupied.size(); ++i) are_occupied[i] = is_occupied(brick, i);
-    }
-    pack(are_occupied, occupied);
-    pack(are_unmeasured, unmeasured);
-  }
-
- private:
-  using Flags = std::array<std::uint8_t, VoxelBricks::brick_voxels>;
-  bool is_occupied(const Brick& brick, std::size_t i) const {
-    if (!brick.measured(i)) return false;
-    return brick.follows_from_log_odds() ? brick.numbers()[i] >= occupied_from_ : brick[i].probability >= threshold_;
-  }
-  static void pack(const Flags& flags, Rows& rows) {
-    for (std::size_t row = 0; row < rows.size(); row += edge) {
-      const std::uint64_t layer = packed(&flags[row * edge], edge * edge);
-      for (std::size_t y = 0; y < edge; ++y) rows[row + y] = static_cast<std::uint8_t>(layer >> (edge * y));
-    }
-  }
-
-  double threshold_;
-  float occupied_from_;
-  const Brick* read_ = nullptr;
-};
-
-/// How many occupied voxels lie how far along each of the hull's directions.
-class Occupied {
- public:
-  explicit Occupied(const Eigen::Vector3i& edges) : behind_(edges.maxCoeff()) {
-    for (std::vector<std::uint32_t>& counts : along_) counts.resize(3 * std::size_t(behind_));  // x - y is the least
-  }
-  std::uint32_t count = 0;
-
-  void add(const Eigen::Vector3i& cell) {
-    const std::array<int, 9> along = along_directions(cell);
-    for (std::size_t d = 0; d < along.size(); ++d) ++along_[d][std::size_t(along[d] + behind_)];
-    ++count;
-  }
-  void add(const Occupied& others) {
-    for (std::size_t d = 0; d < along_.size(); ++d)
-      std::ranges::transform(along_[d], others.along_[d], along_[d].begin(), std::plus());
-    count += others.count;
-  }
-  /// From where to where along a direction they are, without the outliers at both ends.
-  std::pair<int, int> bounds(int direction) const {
-    const auto outliers = static_cast<std::uint32_t>(outlier_share * double(count));
-    const std::vector<std::uint32_t>& counts = along_[std::size_t(direction)];
-    const auto place_of = [&](std::uint32_t number) {  // of the voxel that has so many before it
-      std::size_t place = 0;
-      for (std::uint32_t passed = counts[0]; passed <= number; passed += counts[place]) ++place;
-      return int(place) - behind_;
-    };
-    return {place_of(outliers), place_of(count - 1 - outliers)};
-  }
-
- private:
-  int behind_;  ///< the count of 0 has so many before it
-  std::array<std::vector<std::uint32_t>, 9> along_;
-};
-
-Occupied occupied_voxels(const VoxelBricks& voxels, double threshold) {
-  tbb::enumerable_thread_specific<Occupied> of_threads(voxels.edges());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
-    BrickKinds kinds(threshold);
-    Occupied& occupied = of_threads.local();
-    for (std::size_t brick = range.begin(); brick != range.end(); ++brick) {
-      if (voxels.is_untouched(brick)) continue;
-      kinds.read(*voxels.bricks()[brick]);
-      const Eigen::Vector3i lowest = voxels.cell(brick * VoxelBricks::brick_voxels);
-      for (int row = 0; row < int(kinds.occupied.size()); ++row)
-        for (unsigned bits = kinds.occupied[std::size_t(row)]; bits != 0; bits &= bits - 1)
-          occupied.add(lowest + BrickKinds::cell(row) + std::countr_zero(bits) * Eigen::Vector3i::UnitX());
-    }
-  });
-  Occupied all(voxels.edges());
-  for (const Occupied& some : of_threads) all.add(some);
-  return all;
-}
 
 /// Of its probability: other maps than the conventional one have no log-odds. A map has few different ones, and
 /// logarithms are expensive: each thread remembers those that it met last.
@@ -168,31 +36,22 @@ float log_odds_of(float probability) {
 
 }  // namespace
 
-double SurfaceEvidence::Hull::outside(const Eigen::Vector3i& cell) const {
-  constexpr double of_diagonal = std::numbers::sqrt2 / 2;
-  const std::array<int, directions> along = along_directions(cell);
-  int by_axes = beyond(0, along[0]), by_diagonals = beyond(3, along[3]);
-  for (int d = 1; d < 3; ++d) by_axes = std::max(by_axes, beyond(d, along[d]));
-  for (int d = 4; d < directions; ++d) by_diagonals = std::max(by_diagonals, beyond(d, along[d]));
-  return std::max(double(by_axes), of_diagonal * by_diagonals);
-}
-
 SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
                                  double occupancy_threshold, const OpenBorder& border, double finest)
     : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()}, voxels_(voxels), occlusions_(occlusions) {
-  const Occupied occupied = occupied_voxels(voxels, occupancy_threshold);
-  if (occupied.count == 0) return;
-  for (int d = 0; d < Hull::directions; ++d) std::tie(hull_.lowest[d], hull_.highest[d]) = occupied.bounds(d);
-  set_region(grid, hull_);
+  const std::optional<OccupiedHull> hull = occupied_hull(voxels, occupancy_threshold);
+  if (!hull) return;
+  hull_ = *hull;
+  set_region(grid);
   while (2 * block_edge_ <= finest * size_) block_edge_ *= 2;
   read_kinds(occupancy_threshold);
   measure_distances();
   measure_border(border);
 }
 
-void SurfaceEvidence::set_region(const VoxelGrid& whole, const Hull& hull) {
-  const Eigen::Vector3i lowest(hull.lowest[0], hull.lowest[1], hull.lowest[2]);
-  const Eigen::Vector3i highest(hull.highest[0], hull.highest[1], hull.highest[2]);
+void SurfaceEvidence::set_region(const VoxelGrid& whole) {
+  const Eigen::Vector3i lowest(hull_.lowest[0], hull_.lowest[1], hull_.lowest[2]);
+  const Eigen::Vector3i highest(hull_.highest[0], hull_.highest[1], hull_.highest[2]);
   const Eigen::Vector3i edges = highest - lowest + Eigen::Vector3i::Ones();
   size_ = edges.cast<double>().norm();
   object_ = {(whole.first + lowest).cast<double>() * whole.resolution,

@@ -1,9 +1,9 @@
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/gain/occupied_hull.hpp"
 #include "core/gain/surface_slant.hpp"
 #include "core/map/bit_rows.hpp"
 #include "core/map/surface_border.hpp"
@@ -32,7 +32,7 @@ class SurfaceEvidence {
   static constexpr double finest_share = 1.0 / 64;
 
   /// `occlusions` knows how far voxels lie behind a surface; it is the conventional map where `voxels` are another's.
-  /// Up to a thousandth of the occupied voxels along any direction may be outliers, which the object's box leaves out.
+  /// What occupied_hull takes for outliers the object's box leaves out.
   SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
                   double occupancy_threshold, const OpenBorder& border = {}, double finest = finest_share);
 
@@ -62,18 +62,7 @@ class SurfaceEvidence {
   const BitRows& all_that_may_hold_surface() const { return may_hold_surface_; }
 
  private:
-  /// The bounds of the occupied voxels along x, y, z and the six diagonals between two of them.
-  struct Hull {
-    static constexpr int directions = 9;
-    std::array<int, directions> lowest, highest;
-    /// How far beyond its nearer side across a direction something lies, so far along it; negative between them.
-    int beyond(int direction, int along) const {
-      return std::max(along - highest[std::size_t(direction)], lowest[std::size_t(direction)] - along);
-    }
-    /// How far outside of it a cell of the whole grid lies [voxels]; negative inside.
-    double outside(const Eigen::Vector3i& cell) const;
-  };
-  void set_region(const VoxelGrid& whole, const Hull& hull);
+  void set_region(const VoxelGrid& whole);
   void read_kinds(double occupancy_threshold);
   void measure_distances();
   void measure_border(const OpenBorder& border);
@@ -85,7 +74,7 @@ class SurfaceEvidence {
   Eigen::Vector3i offset_ = Eigen::Vector3i::Zero();  ///< of grid_ in the whole grid [voxels]
   Eigen::AlignedBox3d object_;
   double size_ = 1.0;
-  Hull hull_{};
+  OccupiedHull hull_;                ///< in the whole grid
   VoxelBricks voxels_, occlusions_;  ///< of the whole grid
   BitRows occupied_, unmeasured_, may_hold_surface_;
   int block_edge_ = 1;

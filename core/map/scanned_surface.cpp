@@ -188,9 +188,11 @@ void ScannedSurface::archive(ByteReader& reader) {
   for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) slots.push_back({numbers[i], numbers[i + 1]});
   const auto used = static_cast<std::size_t>(std::ranges::count_if(slots, [](const Slot& s) { return s.key != 0; }));
   // A full table would be searched for ever.
-  if (numbers.size() % 2 != 0 || !std::has_single_bit(slots.size()) || used > slots.size() / 2 || slots.size() < 1024 ||
-      !std::isfinite(area))
-    throw std::runtime_error("it holds no scanned surface");
+  bool is_table = numbers.size() % 2 == 0 && std::has_single_bit(slots.size()) && used <= slots.size() / 2 &&
+                  slots.size() >= 1024 && std::isfinite(area);
+  for (std::size_t i = 0; is_table && i < slots.size(); ++i)  // each cell is where it is looked for, and so there once
+    is_table = slots[i].key == 0 || slot_of(slots[i].key, slots) == i;
+  if (!is_table) throw std::runtime_error("it holds no scanned surface");
   area_ = area;
   slots_ = std::move(slots);
   used_ = used;

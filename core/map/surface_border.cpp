@@ -60,8 +60,7 @@ class Ways {
       std::size_t i = row.begin;
       while (i < size && order[i] < lowest) ++i;
       row.begin = i;
-      // Each cell is there once, but in a file that somebody has made.
-      for (const std::size_t end = std::min(size, i + length); i < end && order[i] < lowest + length; ++i) {
+      for (; i < size && order[i] < lowest + length; ++i) {
         const Eigen::Vector3f way = all_.points[i] - from;
         ways_[count] = way;
         count += unsigned(way.squaredNorm() < reach * reach) & unsigned(i != point);  // without a branch

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include "tests/unit/map/random_scans.hpp"
@@ -151,6 +152,32 @@ TEST(ScannedSurface, TheSameOnOneThreadAndTwo) {
     return surface.area();
   };
   EXPECT_EQ(run(1), run(2));
+}
+
+TEST(ScannedSurface, AFileThatHasACellTwiceOrWhereNoneLooksForItIsRefused) {
+  const std::uint64_t key = 1 + ScannedSurface::order(Eigen::Vector3i::Zero());
+  const auto read = [&](std::initializer_list<std::size_t> slots) {
+    std::vector<std::uint64_t> numbers(4096, 0);
+    for (const std::size_t slot : slots) numbers[2 * slot] = key, numbers[2 * slot + 1] = 1;
+    std::string bytes;
+    ByteWriter writer([&](std::string_view some) { bytes += some; });
+    writer(1.0, numbers);
+    writer.finish();
+    ByteReader reader(bytes);
+    ScannedSurface surface(0.01);
+    surface.archive(reader);
+    return surface.cells().size();
+  };
+  std::size_t readable = 2048;  // the one slot where it is looked for
+  for (std::size_t slot = 0; slot < 2048; ++slot) try {
+      EXPECT_EQ(read({slot}), 1u);
+      EXPECT_EQ(readable, 2048u) << "one alone";
+      readable = slot;
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "it holds no scanned surface");
+    }
+  ASSERT_LT(readable, 2047u);
+  EXPECT_THROW(read({readable, readable + 1}), std::runtime_error) << "the second is never found";
 }
 
 TEST(ScannedSurface, PointsFarOffAndBadRadiiAreHarmless) {

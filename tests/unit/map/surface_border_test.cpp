@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 
 namespace nextview {
 namespace {
@@ -136,21 +135,6 @@ TEST(SurfaceBorder, SameOnAnyNumberOfThreads) {
     EXPECT_EQ(many.points[i].at, one.points[i].at);
     EXPECT_EQ(many.points[i].outward, one.points[i].outward);
   }
-}
-
-TEST(SurfaceBorder, AFileThatHasACellAThousandTimesIsHarmless) {
-  std::vector<std::uint64_t> slots(4096, 0);
-  for (std::size_t i = 0; i < 1000; ++i)
-    slots[2 * i] = 1 + ScannedSurface::order(Eigen::Vector3i::Zero()), slots[2 * i + 1] = 1 + i;
-  std::string bytes;
-  ByteWriter writer([&](std::string_view some) { bytes += some; });
-  writer(1.0, slots);
-  writer.finish();
-  ByteReader reader(bytes);
-  ScannedSurface surface(surface_radius);
-  surface.archive(reader);
-  EXPECT_EQ(surface.cells().size(), 1000u);
-  EXPECT_LE(surface_border(surface).points.size(), 1000u);
 }
 
 TEST(SurfaceBorder, OfNothingIsNothing) {
