@@ -35,9 +35,12 @@ class Schedule {
   void run(bool warm) {
     // A mean needs four sweeps for R-hat's halves.
     const int burn_in = std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - 4));
+    const int first = config_.until_stationary ? first_window : config_.sweeps;
+    may_end_ = std::min(burn_in + first, config_.sweeps);
     sweep(burn_in, false);
-    for (int window = config_.until_stationary ? first_window : config_.sweeps;; window *= 2) {
+    for (int window = first;; window *= 2) {
       window = std::max(4, std::min(window, config_.sweeps - diagnostics_.sweeps));
+      may_end_ = diagnostics_.sweeps + window;
       chains_.begin_mean(window);
       sweep(window, true);
       chains_.diagnose();
@@ -57,7 +60,8 @@ class Schedule {
   }
 
   void report() const {
-    if (progress_) progress_(double(diagnostics_.sweeps) / config_.sweeps, "refining the map", diagnostics_);
+    // Of what it takes until it is asked again whether that is enough.
+    if (progress_) progress_(std::min(1.0, double(diagnostics_.sweeps) / may_end_), "refining the map", diagnostics_);
   }
 
   ChainEnsemble& chains_;
@@ -65,6 +69,7 @@ class Schedule {
   SamplerDiagnostics& diagnostics_;
   const SamplerProgress& progress_;
   std::stop_token stop_;
+  int may_end_ = 1;  ///< after so many sweeps it is asked whether they are enough
 };
 
 std::string warning(const SamplerDiagnostics& d, bool stopped) {
@@ -189,6 +194,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
   if (config.keep_traces) posterior.traces = chains.take_level_traces();
   d.sample_seconds = sampling.seconds();
+  if (stop.stop_requested()) d.stationary = false;  // asked early, it would say so by chance
   d.warning = warning(d, stop.stop_requested());
   return posterior;
 }

@@ -51,6 +51,19 @@ TEST_F(WindowBranches, AClickOnAViewGoesThereAndADragAlong) {
   EXPECT_EQ(views(), 3u);
 }
 
+TEST_F(WindowBranches, SpaceStepsAfterPageUpWhateverPanelHasTheFocus) {
+  user_.run("step\nstep\npanel timeline\n");
+  user_.click(bottom().x + bottom().width - 20, bottom().y + bottom().height - 20);  // where nothing is, in the panel
+  user_.wait();
+  user_.type(Key::page_up);
+  user_.wait();
+  EXPECT_EQ(views(), 1u);
+  user_.type(Key::space);
+  user_.wait();
+  EXPECT_EQ(views(), 2u) << "no item of the panel was pressed instead";
+  EXPECT_EQ(user_.session().timeline->branches.all.size(), 2u);
+}
+
 TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
   user_.run("step\nstep\nbranch other\nstep\n");
   const Rectangle scene = user_.window().layout().scene;

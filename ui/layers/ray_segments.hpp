@@ -6,8 +6,8 @@
 
 namespace nextview {
 
-/// Rays of a score, thinned to about `count`, each as a segment to the last voxel it visits, valued by what it
-/// contributes.
+/// At most `count` rays of a score, of each stretch of them the one that contributes most, as a segment to the last
+/// voxel it visits, valued by what it contributes.
 std::vector<RaySegment> ray_segments(const ScoreExplanation& explanation, const Vector3& origin, double resolution,
                                      std::size_t count = 110);
 

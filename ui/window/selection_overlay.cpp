@@ -10,6 +10,7 @@
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/layers/views_layer.hpp"
+#include "ui/panels/view_pictures.hpp"
 #include "ui/window/overlay_drawing.hpp"
 
 namespace nextview {
@@ -100,7 +101,7 @@ void draw_voxel(SceneView& view, const PanelContext& context, std::uint32_t voxe
   if (const auto place = view.project(corners[7])) draw_label(context.style, at(*place), "voxel", theme::chosen);
 }
 
-/// A ray as a chain of its voxels, each as strong as what it contributes.
+/// A ray as a chain of its voxels, in the colour of what it contributes among the view's rays; thicker where it does.
 void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
   const auto& inspected = context.inspection.view;
   if (!inspected || inspected->view != context.window.selection.view || !inspected->explanation ||
@@ -110,7 +111,8 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
   const Vector3 origin = inspected->T_world_camera.translation();
   double largest = 1e-12;
   for (const auto& voxel : ray.voxels) largest = std::max(largest, voxel.contribution);
-  const ColourMap map = ColourMap::contribution();
+  const Colour colour =
+      ColourMap::contribution().at(ray.contribution, 0, largest_contribution(*inspected->explanation));
   const double edge = context.snapshot.grid.resolution;
   Vector3 from = origin;
   for (const auto& voxel : ray.voxels) {
@@ -118,8 +120,8 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
         (Vector3(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) + Vector3::Constant(0.5)) * edge;
     const Vector3 to = origin + ray.direction * ((centre - origin).dot(ray.direction) + 0.5 * edge);
     const double share = voxel.contribution / largest;
-    draw_segment(view, from, to, to_imgui_u32(share > 0 ? map.at(share) : theme::muted),
-                 context.style.px(share > 0 ? 4.0f : 2.0f));
+    draw_segment(view, from, to, to_imgui_u32(share > 0 ? colour : theme::muted),
+                 context.style.px(2.0f + 3.0f * float(std::max(share, 0.0))));
     from = to;
   }
   if (const auto place = view.project(from))

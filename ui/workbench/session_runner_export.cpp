@@ -7,6 +7,7 @@
 #include "core/export/single_export.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/session/saved_session.hpp"
 #include "ui/workbench/session_runner.hpp"
 
 namespace nextview {
@@ -20,6 +21,8 @@ std::vector<std::string> SessionRunner::write(const std::filesystem::path& folde
   }
   const std::vector<InputFile> inputs = input_files(session_->configuration());
   OutputFolder out(folder, inputs, "");
+  if (is_session(folder))
+    throw std::invalid_argument(folder.string() + ": holds another session: give another name, or open that one");
   require_free_for_session(folder, false, inputs);
   out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
   kept_->copy_to(out, *session_);

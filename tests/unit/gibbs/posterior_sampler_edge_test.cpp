@@ -226,6 +226,22 @@ TEST(PosteriorSamplerEdges, aRequestedStopEndsEarlyAndWarns) {
   EXPECT_TRUE(source.stop_requested()) << "progress was never reported past " << last;
   EXPECT_LT(posterior.diagnostics.sweeps, 150'000);
   EXPECT_FALSE(posterior.diagnostics.warning.empty());
+  EXPECT_FALSE(posterior.diagnostics.stationary) << "what was stopped was not asked in time";
+}
+
+TEST(PosteriorSamplerEdges, ProgressIsToWhereItIsAskedWhetherItIsEnough) {
+  PosteriorSamplerConfig config = quick(ForwardModel::attenuation);
+  config.sweeps = 100'000;
+  config.until_stationary = true;
+  double last = 0.0;
+  const auto watch = [&](double fraction, std::string_view, const SamplerDiagnostics&) {
+    EXPECT_LE(fraction, 1.0);
+    last = fraction;
+  };
+  const GibbsPosterior posterior = sample_posterior(corridor, rays({0.35f, 0.45f}, 1), config, {}, {}, watch);
+  EXPECT_TRUE(posterior.diagnostics.stationary);
+  EXPECT_LT(posterior.diagnostics.sweeps, 10'000);
+  EXPECT_EQ(last, 1.0) << "not a share of all the sweeps it might have taken";
 }
 
 TEST(PosteriorSamplerEdges, aStopBeforeTheStartGivesNumbersToo) {
