@@ -124,8 +124,15 @@ void decide_camera(Configuration& configuration, const PinholeCamera& camera, co
 void forget_fitted(Configuration& configuration) {
   Configuration defaults;
   auto all = settings(configuration), unset = settings(defaults);
-  for (const auto& [key, text] : configuration.fitted)
-    if (Setting& setting = find_setting(all, key); setting.text() == text) setting.set(find_setting(unset, key).text());
+  for (const auto& [key, text] : configuration.fitted) {
+    Setting& setting = find_setting(all, key);
+    if (setting.text() != text) continue;
+    setting.set(find_setting(unset, key).text());
+    // A session's file names all settings: nobody gave this one, nor the sensor that has its lengths.
+    configuration.sources.erase(key);
+    if (key.starts_with("sensor.") && configuration.sensor_preset == defaults.sensor_preset)
+      configuration.sources.erase("sensor.preset");
+  }
   configuration.fitted.clear();
 }
 

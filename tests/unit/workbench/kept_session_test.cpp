@@ -9,6 +9,7 @@
 #include <csignal>
 #include <random>
 
+#include "core/file/atomic_file.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 #include "ui/workbench/session_worker.hpp"
@@ -253,17 +254,20 @@ TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
 TEST_F(KeptSessionTest, WhatIsOpenedAfterItHasLengthsOfItsOwn) {
   Configuration c = small_scan();
   c.evaluation.enabled = false;
+  c.map = {}, c.views = {};
   auto first = runner();
   first->load(c, job_control());
   steps(*first, 1);
-  const fs::path folder = kept().front();
-  first->open(assets_folder() / "objects" / "slotted_plate.ply", job_control());
+  const fs::path folder = kept().front(), small = folder_ / "small.obj";
+  write_file(small, "v 0 0 0\nv 120 0 0\nv 0 80 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  first->open(small, job_control());
   const std::string expected = to_toml(first->snapshot()->configuration);
+  EXPECT_EQ(first->snapshot()->configuration.map.resolution, 0.002);
   first.reset();
   const auto second = runner();
   second->open(folder, job_control());
   EXPECT_EQ(second->snapshot()->records.size(), 1u);
-  second->open(assets_folder() / "objects" / "slotted_plate.ply", job_control());
+  second->open(small, job_control());
   EXPECT_EQ(to_toml(second->snapshot()->configuration), expected);
 }
 
