@@ -71,7 +71,9 @@ int run(int argc, char** argv) {
     return end.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-    return fail(fmt::format("{}; see nextview --help", error.what()));
+    const auto commands = program.get_subcommands();
+    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+    return fail(fmt::format("{}; see nextview {}--help", error.what(), command));
   }
   return 0;
 }

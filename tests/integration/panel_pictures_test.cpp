@@ -37,7 +37,7 @@ TEST(PanelPictures, CandidatesThenAViewThenARayOfIt) {
   expect_screenshot("panel_candidates", user.look(), bound());
   user.run("select-view 32\npanel view\npanel layers\nzoom 3\n");
   expect_screenshot("panel_view", user.look(), bound());
-  user.run("inspect-ray 7658\n");
+  user.run("inspect-ray 7712\n");
   expect_screenshot("panel_ray", user.look(), bound());
 }
 

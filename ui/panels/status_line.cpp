@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/file/counted.hpp"
+
 namespace nextview {
 namespace {
 
@@ -20,7 +22,7 @@ std::string last_step(const SessionSnapshot& s, bool with_seconds) {
 std::string scanned(const SessionSnapshot& s) {
   if (!s.loaded()) return "";
   const std::string of = s.is_recording() ? fmt::format(" · {} frames", s.candidates.size())
-                         : s.mesh         ? fmt::format(" · {} triangles", s.mesh->triangles.size())
+                         : s.mesh         ? " · " + counted(s.mesh->triangles.size(), "triangle")
                                           : "";
   return fmt::format("{}{} · {} × {} × {} voxels of {:g} mm", s.object_name, of, s.grid.size.x(), s.grid.size.y(),
                      s.grid.size.z(), 1e3 * s.grid.resolution);

@@ -37,9 +37,9 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
     for (const std::string& note : now.notes) log.add(Level::note, note);
     return;
   }
-  log.add(Level::note,
-          fmt::format("{}: {}, {} triangles, {} candidate views, {:g} mm voxels", now.object_name, size_text(*now.mesh),
-                      now.mesh->triangles.size(), now.candidates.size(), 1e3 * now.grid.resolution));
+  log.add(Level::note, fmt::format("{}: {}, {}, {} candidate views, {:g} mm voxels", now.object_name,
+                                   size_text(*now.mesh), counted(now.mesh->triangles.size(), "triangle"),
+                                   now.candidates.size(), 1e3 * now.grid.resolution));
   for (const std::string& note : now.notes) log.add(Level::note, note);
   if (!now.records.empty()) log.add(Level::note, fmt::format("Goes on with {}", counted(now.records.size(), "view")));
   for (const std::string& warning : setup_warnings(now.configuration, *now.mesh, now.candidates))
