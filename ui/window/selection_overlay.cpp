@@ -33,7 +33,7 @@ Corners image_corners(SceneView& view, const SessionSnapshot& s, const Pose& T_w
   return corners;
 }
 
-/// Who looks through a view sees where its image ends, and how to get away.
+/// Who looks through a view sees where its image ends, and how to get away; who stands there, that it sees more.
 void draw_image_border(SceneView& view, const PanelContext& context) {
   const SessionSnapshot& s = context.snapshot;
   const Pose seen = selected_view_pose(s, context.window.selection).value_or(s.next_view);
@@ -49,8 +49,15 @@ void draw_image_border(SceneView& view, const PanelContext& context) {
     if (corners[i] && corners[(i + 1) % 4])
       list.AddLine(at(*corners[i]), at(*corners[(i + 1) % 4]), to_imgui_u32(theme::chosen), style.px(2));
   const Rectangle& r = view.rectangle();
+  const auto is_shown = [&](const std::optional<Eigen::Vector2d>& corner) {
+    constexpr double rounding = 2.0;  // [px]
+    return corner && corner->x() > r.x - rounding && corner->x() < r.x + r.width + rounding &&
+           corner->y() > r.y - rounding && corner->y() < r.y + r.height + rounding;
+  };
   draw_label(style, {float(r.x) + style.px(8), float(r.y + r.height) - style.px(84)},
-             "What this view sees. A drag, or F, leaves it.", theme::chosen);
+             std::ranges::all_of(corners, is_shown) ? "What this view sees. A drag, or F, leaves it."
+                                                    : "This view sees more: look through it.",
+             theme::chosen);
 }
 
 void draw_frustum(SceneView& view, const PanelContext& context, const Pose& T_world_camera, const std::string& label,
