@@ -35,7 +35,10 @@ class OccupiedCounts {
 
   void add(const Eigen::Vector3i& cell) {
     const std::array<int, 9> along = along_directions(cell);
-    for (std::size_t d = 0; d < along.size(); ++d) ++along_[d][std::size_t(along[d] + behind_)];
+    for (std::size_t d = 0; d < along.size(); ++d) {
+      const int place = along[d] + behind_;
+      ++along_[d][std::size_t(place)];
+    }
     ++count;
   }
   void add(const OccupiedCounts& others) {

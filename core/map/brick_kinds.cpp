@@ -26,7 +26,8 @@ float least_log_odds(double probability) {
 
 void pack(const std::array<std::uint8_t, VoxelBricks::brick_voxels>& flags, BrickKinds::Rows& rows) {
   for (std::size_t row = 0; row < rows.size(); row += BrickKinds::edge) {
-    const std::uint64_t layer = packed(&flags[row * BrickKinds::edge], BrickKinds::edge * BrickKinds::edge);
+    const std::uint64_t layer =
+        packed(&flags[row * BrickKinds::edge], std::size_t{BrickKinds::edge} * BrickKinds::edge);
     for (std::size_t y = 0; y < BrickKinds::edge; ++y)
       rows[row + y] = static_cast<std::uint8_t>(layer >> (BrickKinds::edge * y));
   }
