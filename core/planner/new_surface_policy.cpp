@@ -29,8 +29,6 @@ std::string side(const ScoreExplanation& explanation, const Vector3& centre, dou
   return *largest < most ? "" : names[static_cast<std::size_t>(largest - shares.begin())];
 }
 
-bool has_finer_rays(const PlanningState& state) { return state.fine_bundle && !state.fine_bundle->directions.empty(); }
-
 std::vector<Pose> poses(const PlanningState& state, std::span<const std::size_t> candidates) {
   std::vector<Pose> views;
   for (const std::size_t v : candidates) views.push_back(state.candidates[v].T_world_camera);
@@ -98,7 +96,7 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
 
 std::vector<double> NewSurfacePolicy::finer_values(const PlanningState& state, std::span<const std::size_t> candidates,
                                                    std::stop_token stop) const {
-  if (!has_finer_rays(state)) return {};
+  if (!state.fine_bundle) return {};
   return expected_new_surface(see(state.known)->field, poses(state, candidates), *state.fine_bundle, options(state),
                               stop);
 }
@@ -114,8 +112,7 @@ std::string NewSurfacePolicy::promise(double value, const PlanningState& state, 
 
 std::optional<ScoreExplanation> NewSurfacePolicy::explain(const PlanningState& state,
                                                           const Pose& T_world_camera) const {
-  return explanation(*see(state.known), state, has_finer_rays(state) ? *state.fine_bundle : state.bundle,
-                     T_world_camera);
+  return explanation(*see(state.known), state, state.fine_bundle ? *state.fine_bundle : state.bundle, T_world_camera);
 }
 
 ScoreExplanation NewSurfacePolicy::explanation(const Seen& seen, const PlanningState& state, const RayBundle& bundle,

@@ -12,24 +12,13 @@ namespace {
 
 /// Page Up and Page Down are commands: ImGui would also focus a panel's first or last item, which the next Space
 /// presses.
-constexpr std::pair<ImGuiKey, Key> keys[] = {{ImGuiKey_Tab, Key::tab},
-                                             {ImGuiKey_LeftArrow, Key::left},
-                                             {ImGuiKey_RightArrow, Key::right},
-                                             {ImGuiKey_UpArrow, Key::up},
-                                             {ImGuiKey_DownArrow, Key::down},
-                                             {ImGuiKey_Home, Key::home},
-                                             {ImGuiKey_End, Key::end},
-                                             {ImGuiKey_Delete, Key::del},
-                                             {ImGuiKey_Enter, Key::enter},
-                                             {ImGuiKey_Backspace, Key::backspace},
-                                             {ImGuiKey_Escape, Key::escape},
-                                             {ImGuiKey_Space, Key::space},
-                                             {ImGuiKey_A, key('A')},
-                                             {ImGuiKey_C, key('C')},
-                                             {ImGuiKey_V, key('V')},
-                                             {ImGuiKey_X, key('X')},
-                                             {ImGuiKey_Y, key('Y')},
-                                             {ImGuiKey_Z, key('Z')}};
+constexpr std::pair<ImGuiKey, Key> keys[] = {
+    {ImGuiKey_Tab, Key::tab},       {ImGuiKey_LeftArrow, Key::left}, {ImGuiKey_RightArrow, Key::right},
+    {ImGuiKey_UpArrow, Key::up},    {ImGuiKey_DownArrow, Key::down}, {ImGuiKey_Home, Key::home},
+    {ImGuiKey_End, Key::end},       {ImGuiKey_Delete, Key::del},     {ImGuiKey_Enter, Key::enter},
+    {ImGuiKey_Escape, Key::escape}, {ImGuiKey_Space, Key::space},    {ImGuiKey_Backspace, Key::backspace},
+    {ImGuiKey_A, key('A')},         {ImGuiKey_C, key('C')},          {ImGuiKey_V, key('V')},
+    {ImGuiKey_X, key('X')},         {ImGuiKey_Y, key('Y')},          {ImGuiKey_Z, key('Z')}};
 
 }  // namespace
 

@@ -49,11 +49,9 @@ void draw_image_border(SceneView& view, const PanelContext& context) {
     if (corners[i] && corners[(i + 1) % 4])
       list.AddLine(at(*corners[i]), at(*corners[(i + 1) % 4]), to_imgui_u32(theme::chosen), style.px(2));
   const Rectangle& r = view.rectangle();
-  const auto is_shown = [&](const std::optional<Eigen::Vector2d>& corner) {
-    constexpr double rounding = 2.0;  // [px]
-    return corner && corner->x() > r.x - rounding && corner->x() < r.x + r.width + rounding &&
-           corner->y() > r.y - rounding && corner->y() < r.y + r.height + rounding;
-  };
+  constexpr double rounding = 2.0;  // [px]
+  const Rectangle around{r.x - rounding, r.y - rounding, r.width + 2 * rounding, r.height + 2 * rounding};
+  const auto is_shown = [&](const auto& corner) { return corner && around.contains(corner->x(), corner->y()); };
   draw_label(style, {float(r.x) + style.px(8), float(r.y + r.height) - style.px(84)},
              std::ranges::all_of(corners, is_shown) ? "What this view sees. A drag, or F, leaves it."
                                                     : "This view sees more: look through it.",
