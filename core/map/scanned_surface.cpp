@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 namespace nextview {
@@ -89,7 +88,11 @@ double ScannedSurface::add(const Scan& scan, const Vector3& optical_axis, double
       if (distance > 0.0) areas[i] = central_solid_angle * depth * depth * depth / distance;
     }
   });
-  for (const Place& place : places) mark(place);
+  const auto known = static_cast<std::ptrdiff_t>(keys_.size());
+  for (const Place& place : places)
+    if (mark(place)) keys_.push_back(key_of(place.cell));
+  tbb::parallel_sort(keys_.begin() + known, keys_.end());
+  std::inplace_merge(keys_.begin(), keys_.begin() + known, keys_.end());
   double area = 0.0;
   for (const double a : areas) area += a;
   area_ += area;
@@ -145,12 +148,11 @@ std::vector<Eigen::Vector3f> ScannedSurface::sparse_points(double share) const {
 }
 
 std::vector<ScannedSurface::Cell> ScannedSurface::cells() const {
-  std::vector<Slot> slots;
-  std::ranges::copy_if(slots_, std::back_inserter(slots), [](const Slot& slot) { return slot.key != 0; });
-  tbb::parallel_sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.key < b.key; });
-  std::vector<Cell> cells;
-  cells.reserve(slots.size());
-  for (const Slot& slot : slots) cells.push_back({cell_of(slot.key), slot.sub_cells});
+  std::vector<Cell> cells(keys_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      cells[i] = {cell_of(keys_[i]), slots_[slot_of(keys_[i], slots_)].sub_cells};
+  });
   return cells;
 }
 
@@ -158,13 +160,14 @@ std::uint64_t ScannedSurface::sub_cells(const Eigen::Vector3i& cell) const {
   return slots_[slot_of(key_of(cell), slots_)].sub_cells;
 }
 
-void ScannedSurface::mark(const Place& place) {
-  if (2 * used_ >= slots_.size()) grow();
+bool ScannedSurface::mark(const Place& place) {
+  if (2 * keys_.size() >= slots_.size()) grow();
   const std::uint64_t key = key_of(place.cell);
   Slot& slot = slots_[slot_of(key, slots_)];
-  if (slot.key == 0) ++used_;
+  const bool is_first = slot.key == 0;
   slot.key = key;
   slot.sub_cells |= std::uint64_t{1} << place.sub_cell;
+  return is_first;
 }
 
 void ScannedSurface::grow() {
@@ -186,16 +189,19 @@ void ScannedSurface::archive(ByteReader& reader) {
   reader(area, numbers);
   std::vector<Slot> slots;
   for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) slots.push_back({numbers[i], numbers[i + 1]});
-  const auto used = static_cast<std::size_t>(std::ranges::count_if(slots, [](const Slot& s) { return s.key != 0; }));
+  std::vector<std::uint64_t> keys;
+  for (const Slot& slot : slots)
+    if (slot.key != 0) keys.push_back(slot.key);
+  std::ranges::sort(keys);
   // A full table would be searched for ever.
-  bool is_table = numbers.size() % 2 == 0 && std::has_single_bit(slots.size()) && used <= slots.size() / 2 &&
+  bool is_table = numbers.size() % 2 == 0 && std::has_single_bit(slots.size()) && keys.size() <= slots.size() / 2 &&
                   slots.size() >= 1024 && std::isfinite(area);
   for (std::size_t i = 0; is_table && i < slots.size(); ++i)  // each cell is where it is looked for, and so there once
     is_table = slots[i].key == 0 || slot_of(slots[i].key, slots) == i;
   if (!is_table) throw std::runtime_error("it holds no scanned surface");
   area_ = area;
   slots_ = std::move(slots);
-  used_ = used;
+  keys_ = std::move(keys);
 }
 
 }  // namespace nextview

@@ -41,7 +41,7 @@ class ScannedSurface {
   /// points. Points are those told apart, each at the middle of its place. The same order every time.
   std::vector<Eigen::Vector3f> sparse_points(double share) const;
 
-  std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
+  std::size_t bytes() const { return slots_.size() * sizeof(Slot) + keys_.size() * sizeof(std::uint64_t); }
 
   /// Writes what was seen, or reads it again: the radius stays. @throws std::runtime_error if it is none
   void archive(ByteWriter& writer) const;
@@ -64,13 +64,13 @@ class ScannedSurface {
   static std::uint64_t key_of(const Eigen::Vector3i& cell) { return 1 + order(cell); }
   static Eigen::Vector3i cell_of(std::uint64_t key);
   std::uint64_t sub_cells(const Eigen::Vector3i& cell) const;
-  void mark(const Place& place);
+  bool mark(const Place& place);  ///< whether its cell is a new one, which is not in keys_ yet
   void grow();
 
   double radius_;
   double area_ = 0.0;
-  std::vector<Slot> slots_;  ///< a hash table with open addressing, of a power of two
-  std::size_t used_ = 0;
+  std::vector<Slot> slots_;          ///< a hash table with open addressing, of a power of two
+  std::vector<std::uint64_t> keys_;  ///< of the cells in it, ascending: all of them are sorted only once
 };
 
 }  // namespace nextview
