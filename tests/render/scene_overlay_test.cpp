@@ -113,6 +113,23 @@ TEST(SceneOverlay, ACaptionStandsAtTheUpperLeft) {
   }
 }
 
+/// As of two scenes beside each other.
+TEST(SceneOverlay, InANarrowPictureLabelsLieAboveTheScaleBar) {
+  constexpr int narrow = 335, axes_and_bar = 92;
+  const Image image =
+      drawn(1.0,
+            [](SceneOverlay& overlay) {
+              overlay.axes = overlay.scale_bar = true;
+              overlay.labels.push_back({{Vector3(0.2, -0.25, 0)}, "a label of some length", {1, 0, 0}, true});
+            },
+            {narrow, height});
+  const Box label = box_of(image, 1.0, is_red);
+  ASSERT_FALSE(label.isEmpty());
+  EXPECT_GT(label.sizes().x(), 100);
+  EXPECT_LT(label.max().y(), height - axes_and_bar);
+  EXPECT_GT(label.max().y(), height - axes_and_bar - 30) << "and no farther";
+}
+
 /// Perpendicular to the view, one metre away: its picture is as high as the angle says.
 TEST(SceneOverlay, TheScaleBarIsAsLongAsItSays) {
   constexpr double angle = 30.0;  // [deg], VTK's usual one
