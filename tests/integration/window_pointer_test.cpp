@@ -4,6 +4,7 @@
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/integration/window_pixels.hpp"
+#include "ui/appearance/theme.hpp"
 
 namespace nextview {
 namespace {
@@ -37,6 +38,22 @@ TEST(Window, ADragThatBeganOnAPanelLeavesTheCameraAlone) {
   user.release();
   user.wait();
   EXPECT_EQ(user.window().scene_drawings(), drawings);
+}
+
+TEST(Window, WhatIsSelectedIsNotDrawnOverTheLegends) {
+  User user(small_scan());
+  user.run("step\n");
+  const Rectangle scene = user.window().layout().scene;
+  const Rectangle legends{scene.x + scene.width - 190, scene.y + 20, 180, 60};
+  const auto blue = [&](const Rectangle& r) { return count(user.look(), r, theme::series[0]); };
+  const int before = blue(legends);
+  int in_scene = 0;
+  for (std::size_t candidate = 0; candidate < user.session().candidates.size(); ++candidate) {
+    user.run("select-view " + std::to_string(candidate) + "\n");
+    EXPECT_EQ(blue(legends), before) << candidate;
+    in_scene = std::max(in_scene, blue(scene));
+  }
+  EXPECT_GT(in_scene, before + 100) << "no frustum is seen";
 }
 
 TEST(Window, WhereAVoxelIsDrawnAClickInspectsIt) {

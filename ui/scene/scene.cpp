@@ -160,6 +160,7 @@ void Scene::set_quality(DrawingQuality quality) {
 }
 
 void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
+Eigen::Vector2d Scene::legends_reach() const { return overlay_->item->legends_reach(); }
 
 /// In a narrower window they would cover most of the scene.
 bool Scene::has_room_for_legends() const {

@@ -79,6 +79,8 @@ class Scene {
   void set_backed(bool backed);
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }
+  /// So far from the upper right corner the legends reached in the last drawing [px of the design].
+  Eigen::Vector2d legends_reach() const;
 
   /// Whether framing leaves no room for axes and scale bar; it does unless told otherwise.
   void set_tight(bool tight) { tight_ = tight; }

@@ -169,24 +169,17 @@ double SceneOverlay::legends_height() const {
   return height;
 }
 
-/// Of the legends.
-void SceneOverlay::paint_backing(Painter& painter, const Eigen::Vector2d& size) const {
-  if (legends.empty()) return;
-  double width = 0;
-  for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
-  const double height = legends_height() - margin;
-  painter.box(size.x() - margin - width - 10, size.y() - margin - height + 4, width + 20, height + 4, theme::sky,
-              backing_opacity);
-}
-
 bool SceneOverlay::Paint(vtkContext2D* context) {
   Painter painter(*context, scale, dark);
   const Eigen::Vector2d size = picture_size(*renderer, scale);
-  if (backed) paint_backing(painter, size);
-  if (axes) paint_axes(painter, *renderer->GetActiveCamera());
-  if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference, backed);
   double width = 0;
   for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
+  legends_reach_ = legends.empty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(margin + width + 10, legends_height() - 4);
+  if (backed && !legends.empty())
+    painter.box(size.x() - legends_reach_.x(), size.y() - legends_reach_.y(), width + 20, legends_height() - margin + 4,
+                theme::sky, backing_opacity);
+  if (axes) paint_axes(painter, *renderer->GetActiveCamera());
+  if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference, backed);
   const double left = size.x() - margin - width;
   std::vector<Eigen::AlignedBox2d> taken;  // by what labels must not cover
   double y = size.y() - margin;

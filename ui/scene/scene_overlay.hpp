@@ -33,8 +33,11 @@ class SceneOverlay : public vtkContextItem {
   bool axes = true, scale_bar = true;
   double scale = 1.0;  ///< pixels of the display a pixel of the design
 
+  /// So far from the upper right corner the legends reached when they were painted last [px at scale 1].
+  const Eigen::Vector2d& legends_reach() const { return legends_reach_; }
+
  private:
-  void paint_backing(Painter& painter, const Eigen::Vector2d& size) const;
+  Eigen::Vector2d legends_reach_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace nextview

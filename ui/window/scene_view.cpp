@@ -73,6 +73,13 @@ void SceneView::place(const Rectangle& rectangle) {
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
 }
 
+std::array<Rectangle, 2> SceneView::beside_legends() const {
+  const Rectangle& r = rectangle_;
+  const Eigen::Vector2d reach = scale_ * scene_.legends_reach();
+  const double left = std::max(r.width - reach.x(), 0.0), lower = std::max(r.height - reach.y(), 0.0);
+  return {{{r.x, r.y, left, r.height}, {r.x + left, r.y + r.height - lower, r.width - left, lower}}};
+}
+
 /// What is to be drawn anew, and why.
 struct SceneView::Changes {
   bool ground, projection, session, snapshot, map, choice, section, surface, rays, doubt;

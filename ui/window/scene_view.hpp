@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 
 #include "ui/panels/layout.hpp"
@@ -45,6 +46,8 @@ class SceneView {
   void set_quality(DrawingQuality quality);
 
   const Rectangle& rectangle() const { return rectangle_; }
+  /// What of it is left of the legends, and what beneath them.
+  std::array<Rectangle, 2> beside_legends() const;
   bool shows(const SessionSnapshot& snapshot) const { return shown_.get() == &snapshot; }
   vtkRenderer& renderer() { return scene_.renderer(); }
   /// Where a point of the world is in the window, unless it is behind the camera [px from the upper left corner].

@@ -163,14 +163,9 @@ void draw_measurement(SceneView& view, const PanelContext& context, const Measur
   draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, cloud), theme::chosen, &r);
 }
 
-}  // namespace
-
-void draw_selection_overlay(SceneView& view, const PanelContext& context) {
+void draw_all(SceneView& view, const PanelContext& context) {
   const SessionSnapshot& s = context.snapshot;
-  if (!s.loaded()) return;
   const Selection& selection = context.window.selection;
-  const Rectangle& r = view.rectangle();
-  ImGui::GetBackgroundDrawList()->PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
   if (s.finished.empty() && s.records.empty() && context.window.layers.views)
     draw_frustum(view, context, s.next_view, "start view", theme::chosen);
   const auto draw = [&](std::size_t candidate) {
@@ -189,7 +184,20 @@ void draw_selection_overlay(SceneView& view, const PanelContext& context) {
   if (selection.ray) draw_ray(view, context, *selection.ray);
   draw_image_border(view, context);
   if (context.window.measurement) draw_measurement(view, context, *context.window.measurement);
-  ImGui::GetBackgroundDrawList()->PopClipRect();
+}
+
+}  // namespace
+
+/// What lies beneath the legends is left out: they have to be read.
+void draw_selection_overlay(SceneView& view, const PanelContext& context) {
+  if (!context.snapshot.loaded()) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const Rectangle& r : view.beside_legends()) {
+    if (r.empty()) continue;
+    list.PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
+    draw_all(view, context);
+    list.PopClipRect();
+  }
 }
 
 }  // namespace nextview
