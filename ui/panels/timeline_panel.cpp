@@ -15,7 +15,7 @@ namespace {
 
 // [px] on a display that does not scale
 constexpr float label_width = 158, start_width = 20, picture_width = 60, picture_height = 45, picture_gap = 6,
-                row_gap = 10;
+                row_gap = 10, row_height = picture_height + 18 + row_gap;
 
 /// What a view came to, in a few characters.
 std::string brief(const SessionSnapshot& s, const StepRecord& record) {
@@ -156,8 +156,12 @@ void TimelinePanel::draw_cells(const PanelContext& context, const Row& row) {
     else
       ImGui::SetTooltip("%s", step ? details(s, view, *step).c_str() : "Before the first view");
   }
-  if (here != row.line.end() && timeline.at != followed_ && current) {
-    followed_ = timeline.at;
+  if (const std::pair place(row.branch, timeline.at); current && followed_ != place) {
+    followed_ = place;
+    const float y = row.corner.y - ImGui::GetWindowPos().y;
+    if (y < 0 || y + style.px(row_height) > ImGui::GetWindowHeight())
+      ImGui::SetScrollY(y + ImGui::GetScrollY() - (ImGui::GetWindowHeight() - style.px(row_height)) / 2);
+    if (here == row.line.end()) return;
     const float x = row.x(style, std::size_t(here - row.line.begin()) + 1) - ImGui::GetWindowPos().x;
     if (x < style.px(label_width) || x > ImGui::GetWindowWidth() - style.px(2 * picture_width))
       ImGui::SetScrollX(std::max(0.0f, x + ImGui::GetScrollX() - 0.6f * ImGui::GetWindowWidth()));
@@ -170,11 +174,12 @@ void TimelinePanel::draw_row(const PanelContext& context, const Row& row) {
   ImGui::PushID(int(row.branch));
   const float middle = row.corner.y + style.px(picture_height / 2);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (row.branch > 0) {  // where it leaves the row above
-    const float x =
+  if (row.branch > 0) {  // where it leaves the row above; between the pictures of those that lie on its way
+    const float from =
         row.x(style, row.shared) + style.px(row.shared == 0 ? (start_width - picture_gap) / 2 : picture_width / 2);
-    list.AddLine({x, row.branches_off}, {x, middle}, to_imgui_u32(theme::muted), style.px(1.5f));
-    list.AddLine({x, middle}, {row.x(style, row.shared + 1), middle}, to_imgui_u32(theme::muted), style.px(1.5f));
+    const float to = row.x(style, row.shared + 1), x = to - style.px(picture_gap / 2);
+    const ImVec2 way[] = {{from, row.branches_off}, {x, row.branches_off}, {x, middle}, {to, middle}};
+    list.AddPolyline(way, std::size(way), to_imgui_u32(theme::muted), 0, style.px(1.5f));
     if (row.line.size() == row.shared) list.AddCircleFilled({x, middle}, style.px(4), to_imgui_u32(theme::muted));
   }
   draw_cells(context, row);
@@ -201,7 +206,7 @@ void TimelinePanel::draw(const PanelContext& context, const Rectangle& rectangle
   if (!timeline) return;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging_ = false;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float height = style.px(picture_height + 18 + row_gap);
+  const float height = style.px(row_height);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     Row& row = rows[r];
     row.corner = {corner.x, corner.y + float(r) * height};
@@ -210,7 +215,7 @@ void TimelinePanel::draw(const PanelContext& context, const Rectangle& rectangle
       const auto shared = std::size_t(std::ranges::mismatch(row.line, rows[other].line).in1 - row.line.begin());
       if (shared > row.shared) row.shared = shared, leaves = other;
     }
-    row.branches_off = rows[leaves].corner.y + style.px(picture_height + 16);
+    row.branches_off = rows[leaves].corner.y + style.px(picture_height + 19);
     draw_row(context, row);
   }
   ImGui::SetCursorScreenPos({corner.x, corner.y + float(rows.size()) * height});

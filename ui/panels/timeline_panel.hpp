@@ -15,9 +15,9 @@ class TimelinePanel : public PanelContent {
   void draw_cells(const PanelContext& context, const Row& row);
   void go_to(const PanelContext& context, const Row& row, std::size_t views);
 
-  bool dragging_ = false;                          ///< along the views
-  std::pair<std::size_t, std::size_t> gone_to_{};  ///< branch and views, by the drag
-  std::uint32_t followed_ = 0;                     ///< the step that was scrolled to last
+  bool dragging_ = false;                             ///< along the views
+  std::pair<std::size_t, std::size_t> gone_to_{};     ///< branch and views, by the drag
+  std::pair<std::size_t, std::uint32_t> followed_{};  ///< branch and step that were scrolled to last
 };
 
 }  // namespace nextview
