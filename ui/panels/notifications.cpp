@@ -1,8 +1,10 @@
 #include "ui/panels/notifications.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
+#include "ui/commands/command_list.hpp"
 #include "ui/panels/log_panel.hpp"
 
 namespace nextview {
@@ -10,6 +12,15 @@ namespace {
 
 constexpr double shown_seconds = 6.0, warning_seconds = 12.0;
 constexpr std::size_t max_notes = 3;
+
+/// Who reads it pressed a key or a button: the command's name, which scripts and the log need, says nothing to them.
+std::string without_command_name(const std::string& text) {
+  const std::size_t end = text.find(": ");
+  if (end == text.npos || !std::ranges::count(commands(), text.substr(0, end), &Command::name)) return text;
+  std::string rest = text.substr(end + 2);
+  if (!rest.empty()) rest[0] = char(std::toupper(static_cast<unsigned char>(rest[0])));
+  return rest;
+}
 
 }  // namespace
 
@@ -25,8 +36,9 @@ void Notifications::draw(const PanelContext& context, const Rectangle& scene, st
   shrinks_ = std::erase_if(notes_, [](const Note& note) { return note.seconds_left <= 0; }) > 0;
   const auto& log = context.log;
   for (std::size_t back = std::min(count - std::min(seen_, count), log.size()); back > 0; --back) {
-    const LogEntry& entry = log[log.size() - back];
+    LogEntry entry = log[log.size() - back];
     if (entry.level == LogEntry::Level::note) continue;
+    entry.text = without_command_name(entry.text);
     std::erase_if(notes_, [&](const Note& note) { return note.entry.text == entry.text; });  // it is said again
     notes_.push_back({entry, entry.level == LogEntry::Level::warning ? warning_seconds : shown_seconds});
   }

@@ -266,5 +266,14 @@ TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {
   EXPECT_EQ(read("Notifications"), "it went wrong") << "a warning stays longer";
 }
 
+TEST_F(Bars, NotificationsLeaveOutTheNamesOfCommands) {
+  desk_.window.bring_to_front("log");
+  desk_.frames();
+  desk_.log = {{LogEntry::Level::warning, "previous-view: there is no earlier view"},
+               {LogEntry::Level::warning, "part.stl: no such file"}};
+  EXPECT_EQ(seen_in("Notifications"), "There is no earlier view part.stl: no such file");
+  EXPECT_EQ(read("Log"), "previous-view: there is no earlier view part.stl: no such file");
+}
+
 }  // namespace
 }  // namespace nextview
