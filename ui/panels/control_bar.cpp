@@ -14,6 +14,14 @@ namespace {
 // [px] on a display that does not scale
 constexpr float buttons_end = 316, speed_end = 396, min_bar = 40;
 
+/// What was cancelled may take a moment to stop: that it was heard is seen at once.
+void draw_cancel(const PanelContext& context) {
+  if (!context.progress.cancelling) return command_button(context, command::cancel, Icon::cancel, "Cancel");
+  ImGui::BeginDisabled();
+  icon_button(context.style, Icon::none, "Cancelling …", false, context.style.px(88));
+  ImGui::EndDisabled();
+}
+
 /// Where there is no room for progress, what runs is cancelled here.
 void draw_buttons(const PanelContext& context, bool with_cancel) {
   const float gap = context.style.px(6);
@@ -28,7 +36,7 @@ void draw_buttons(const PanelContext& context, bool with_cancel) {
     command_button(context, command::play, Icon::play, "Play", false, width);
   }
   ImGui::SameLine(0, gap);
-  if (with_cancel) return command_button(context, command::cancel, Icon::cancel, "Cancel");
+  if (with_cancel) return draw_cancel(context);
   command_button(context, command::undo, Icon::undo, "");
   ImGui::SameLine(0, gap);
   command_button(context, command::redo, Icon::redo, "");
@@ -95,7 +103,7 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   ImGui::SetCursorPos({left, y + style.px(17)});
   ImGui::ProgressBar(float(progress.fraction), {bar, style.px(7)}, "");
   ImGui::SetCursorPos({left + bar + style.px(12), y - style.px(2)});
-  command_button(context, command::cancel, Icon::cancel, "Cancel");
+  draw_cancel(context);
 }
 
 /// One number with its name beneath, from the right, if there is room for it right of `least`; returns where it starts.

@@ -142,9 +142,10 @@ struct WorkerProgress {
   bool busy = false;
   bool playing = false;
   bool refining = false;
-  bool paused = false;    ///< refining is paused
-  bool opening = false;   ///< another session is on its way: nothing can be done to this one
-  double fraction = 0.0;  ///< of the job, 0 to 1
+  bool paused = false;      ///< refining is paused
+  bool cancelling = false;  ///< what runs was told to stop, and has not yet
+  bool opening = false;     ///< another session is on its way: nothing can be done to this one
+  double fraction = 0.0;    ///< of the job, 0 to 1
   std::string what;
   std::string question;                               ///< that the job waits for an answer to; empty: it does not
   std::vector<std::string> answers;                   ///< that there are, the last one the cautious one

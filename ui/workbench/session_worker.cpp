@@ -49,10 +49,11 @@ WorkerProgress SessionWorker::progress() const {
   WorkerProgress progress = progress_;
   progress.busy = running_ || progress_.playing || !queue_.empty();
   progress.waiting = queue_.size();
+  progress.cancelling = running_ && job_.stop_requested();
   const auto opens = [](const auto& waiting) { return opens_another(waiting.second); };
   progress.opening = (running_ && opening_) || std::ranges::any_of(queue_, opens);
   const double elapsed = std::chrono::duration<double>(Clock::now() - job_start_).count();
-  if (running_ && !progress.paused && progress.fraction > 0.02 && elapsed > min_to_estimate)
+  if (running_ && !progress.cancelling && !progress.paused && progress.fraction > 0.02 && elapsed > min_to_estimate)
     progress.seconds_left = std::ceil(elapsed * (1 - progress.fraction) / progress.fraction);
   return progress;
 }

@@ -91,6 +91,18 @@ TEST_F(Bars, SaysWhatRunsWhatWaitsAndForHowLong) {
   EXPECT_THAT(control_bar(), HasSubstr("between two views"));
 }
 
+TEST_F(Bars, ACancelIsAcknowledgedUntilWhatRunsHasStopped) {
+  desk_.progress.busy = desk_.progress.cancelling = true;
+  desk_.progress.what = "sampling";
+  EXPECT_THAT(control_bar(), HasSubstr("Cancelling …"));
+  EXPECT_EQ(text_of(click_on(desk_, "Cancelling", "Control bar")), "");
+  Desk narrow(480, 480);
+  narrow.snapshot = scan_;
+  narrow.progress = desk_.progress;
+  narrow.frames();
+  EXPECT_THAT(read("Control bar"), HasSubstr("Cancelling …"));
+}
+
 TEST_F(Bars, WhatRunsEndsWhereItsCancelBegins) {
   desk_.progress.busy = true;
   desk_.progress.what =

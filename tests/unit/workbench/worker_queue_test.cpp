@@ -25,8 +25,10 @@ TEST_F(WorkerQueue, CancelEmptiesIt) {
   worker_.cancel();
   EXPECT_EQ(worker_.progress().waiting, 0u);
   EXPECT_TRUE(worker_.progress().busy) << "what runs has not ended yet";
+  EXPECT_TRUE(worker_.progress().cancelling);
   open_gate();
   wait_until_idle();
+  EXPECT_FALSE(worker_.progress().cancelling);
   EXPECT_TRUE(now()->records.empty());
   EXPECT_EQ(now()->gibbs, nullptr);
   EXPECT_EQ(std::filesystem::remove_all(folder), 0u) << "it was written";
