@@ -74,34 +74,44 @@ std::string job_text(const WorkerProgress& progress) {
   return text;
 }
 
-void draw_progress(const PanelContext& context, float left, float right, float y) {
-  const WorkerProgress& progress = context.progress;
-  const Style& style = context.style;
-  ImGui::SetCursorPos({left, y});
-  if (!progress.busy || (progress.what.empty() && !progress.playing)) {  // some commands take no time worth a word
-    const SessionSnapshot& s = context.snapshot;
-    ImGui::AlignTextToFramePadding();
-    const float button = s.scanner_lost ? style.px(132) : 0;
-    const std::string text = s.finished.empty() ? readiness(s) : fmt::format("Finished: {}", s.finished);
-    const std::string shown = shortened(text, right - left - button);
-    s.finished.empty() ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
-    if (shown != text) tooltip(text);
-    if (s.scanner_lost) {
-      ImGui::SetCursorPos({right - button + style.px(8), y - style.px(2)});
-      command_button(context, command::reconnect, Icon::reset, "Reach it again", true);
-    }
-    return;
-  }
-  const float button = style.px(100), bar = right - left - button;
-  if (bar < style.px(min_bar)) return;  // the buttons have a Cancel then
+/// What runs, and how far it is.
+void draw_job(const Style& style, const std::string& text, double fraction, float left, float bar, float y) {
   ImGui::PushFont(style.small);
   ImGui::SetCursorPos({left, y - style.px(6)});
-  const std::string text = job_text(progress), shown = shortened(text, bar);
+  const std::string shown = shortened(text, bar);
   ImGui::TextUnformatted(shown.c_str());
   ImGui::PopFont();
   if (shown != text) tooltip(text);
   ImGui::SetCursorPos({left, y + style.px(17)});
-  ImGui::ProgressBar(float(progress.fraction), {bar, style.px(7)}, "");
+  ImGui::ProgressBar(float(fraction), {bar, style.px(7)}, "");
+}
+
+void draw_readiness(const PanelContext& context, float left, float right, float y) {
+  const SessionSnapshot& s = context.snapshot;
+  const Style& style = context.style;
+  ImGui::SetCursorPos({left, y});
+  ImGui::AlignTextToFramePadding();
+  const float button = s.scanner_lost ? style.px(132) : 0;
+  const std::string text = s.finished.empty() ? readiness(s) : fmt::format("Finished: {}", s.finished);
+  const std::string shown = shortened(text, right - left - button);
+  s.finished.empty() ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
+  if (shown != text) tooltip(text);
+  if (!s.scanner_lost) return;
+  ImGui::SetCursorPos({right - button + style.px(8), y - style.px(2)});
+  command_button(context, command::reconnect, Icon::reset, "Reach it again", true);
+}
+
+/// Of the session, or else of the surface that is made beside it.
+void draw_progress(const PanelContext& context, float left, float right, float y) {
+  const WorkerProgress& progress = context.progress;
+  const Style& style = context.style;
+  const bool runs = progress.busy && (!progress.what.empty() || progress.playing);  // some take no time worth a word
+  const float button = style.px(100), bar = right - left - button;
+  const bool has_room = bar >= style.px(min_bar);
+  if (!runs && (!context.surface_progress || !has_room)) return draw_readiness(context, left, right, y);
+  if (!runs) return draw_job(style, "making the surface", *context.surface_progress, left, bar, y);
+  if (!has_room) return;  // the buttons have a Cancel then
+  draw_job(style, job_text(progress), progress.fraction, left, bar, y);
   ImGui::SetCursorPos({left + bar + style.px(12), y - style.px(2)});
   draw_cancel(context);
 }

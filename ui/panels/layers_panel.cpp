@@ -157,10 +157,6 @@ void draw_surface(const PanelContext& context) {
     context.post(command::surface_source(static_cast<SurfaceSource>(*source)));
   tooltip(command::surface_source.help);
   choices(context, command::surface_colour, "Coloured by", layers.surface_colouring, colours);
-  if (context.surface_progress) {
-    small_text(context.style, "making the surface");
-    ImGui::ProgressBar(float(*context.surface_progress), {-FLT_MIN, context.style.px(7)}, "");
-  }
   const FoundSurface* found = context.surface;
   if (!found || !found->of.session || found->of.session->session != context.snapshot.session) return;
   if (!found->found.surface.why_empty.empty()) small_text(context.style, found->found.surface.why_empty);

@@ -103,6 +103,16 @@ TEST_F(Bars, ACancelIsAcknowledgedUntilWhatRunsHasStopped) {
   EXPECT_THAT(read("Control bar"), HasSubstr("Cancelling …"));
 }
 
+TEST_F(Bars, ASurfaceThatIsMadeIsSeenWhileNothingElseRuns) {
+  desk_.surface_progress = 0.5;
+  EXPECT_THAT(control_bar(), HasSubstr("making the surface"));
+  EXPECT_THAT(control_bar(), Not(HasSubstr("Ready")));
+  desk_.progress.busy = true;
+  desk_.progress.what = "scoring";
+  EXPECT_THAT(control_bar(), HasSubstr("scoring"));
+  EXPECT_THAT(control_bar(), Not(HasSubstr("making the surface")));
+}
+
 TEST_F(Bars, WhatRunsEndsWhereItsCancelBegins) {
   desk_.progress.busy = true;
   desk_.progress.what =

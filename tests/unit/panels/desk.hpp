@@ -30,7 +30,8 @@ class Desk {
     host_.begin_frame(width_, height_, 1.0 / 60);
     std::vector<CommandCall> calls;
     std::optional<std::size_t> hovered;
-    const PanelContext context{*snapshot, progress, window, inspection, log, host_.style(), pictures_, calls, hovered};
+    const PanelContext context{*snapshot, progress, window,  inspection,      log, host_.style(), pictures_,
+                               calls,     hovered,  nullptr, surface_progress};
     panels_.obey_keys(context);
     panels_.draw(context, layout_, log.size(), 1.0 / 60);
     ImGui::Render();
@@ -77,6 +78,7 @@ class Desk {
   WorkerProgress progress;
   WindowState window;
   Inspection inspection;
+  std::optional<double> surface_progress;
   SessionLog::Entries log;
 
  private:
