@@ -173,7 +173,7 @@ const CommandOf<std::string> command::export_scan{
     {.name = "export",
      .menu = "File",
      .text = "Export the scan…",
-     .help = "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration.",
+     .help = "Writes what `nextview scan` writes: map, cloud, surfaces, tables, configuration; and the Gibbs map.",
      .shortcuts = {{key('E'), true}, {key('S'), true}},
      .why_not = needs_view,
      .writes = true},

@@ -25,8 +25,9 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
   std::string lost;
   if (t.progress.refining)
     lost = "The Gibbs map is being sampled.";
-  else if (s.gibbs && !s.planned_on_posterior)
-    lost = fmt::format("The Gibbs map of {} is kept nowhere.", counted(s.gibbs->views, "view"));
+  else if (s.gibbs && !s.gibbs_kept && !s.planned_on_posterior)
+    lost = fmt::format("The Gibbs map of {} is kept nowhere: export the scan (Ctrl+E) to keep it.",
+                       counted(s.gibbs->views, "view"));
   if (!undoable && !s.kept && !s.records.empty())
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",
                         s.records.size() == 1 ? "The view is" : fmt::format("The {} views are", s.records.size()));

@@ -72,8 +72,8 @@ class SessionRunner {
   void keep_camera(const CameraBookmark& camera);
   void remove_camera(const std::string& name);
   void refine(int chains, int sweeps, const JobControl& control);
-  /// Writes what `nextview scan` writes. Returns a line for people on each surface.
-  std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control) const;
+  /// Writes what `nextview scan` writes, and the Gibbs map that is shown. Returns a line for people on each surface.
+  std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control);
   /// Writes one thing of it that needs no drawing. Returns the files.
   std::vector<std::filesystem::path> write_one(const request::ExportOne& wanted, const JobControl& control) const;
   /// What opening a session or an object put off, so that it is shown at once: what the candidates can see, then what
@@ -104,7 +104,7 @@ class SessionRunner {
   void open_session(const std::filesystem::path& folder, const JobControl& control);
   void adopt(HistoryEntry entry);
   void compare_what_is_shown();
-  std::vector<std::string> write_results(OutputFolder& out, const JobControl& control) const;
+  std::vector<std::string> write_results(OutputFolder& out, const JobControl& control);
   void show_next();
   static void remember_run(SessionSnapshot& snapshot);
   /// Fills what of a snapshot is the session's.
@@ -124,6 +124,7 @@ class SessionRunner {
   std::uint64_t change_when_gone_ = 0;                    ///< the last one when the timeline was gone along
   std::shared_ptr<const GibbsMap> gibbs_;                 ///< the last one that was asked for
   std::vector<std::shared_ptr<const Scan>> gibbs_scans_;  ///< that it is of
+  std::shared_ptr<const GibbsMap> written_gibbs_;         ///< the last one that was exported
   std::shared_ptr<DriverConnection> scanner_;             ///< of the session, if it is a live one
   Configuration before_scanner_;                          ///< to go back to
   std::filesystem::path state_folder_;                    ///< empty: sessions are not kept

@@ -5,6 +5,7 @@
 #include "core/export/scan_files.hpp"
 #include "core/export/scan_surfaces.hpp"
 #include "core/export/single_export.hpp"
+#include "core/map/octree_file.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/saved_session.hpp"
@@ -12,7 +13,7 @@
 
 namespace nextview {
 
-std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) const {
+std::vector<std::string> SessionRunner::write(const std::filesystem::path& folder, const JobControl& control) {
   if (!session_ || session_->records().empty()) throw std::invalid_argument("there is no view to write yet");
   if (is_own(folder)) {
     OutputFolder out(folder, {});
@@ -29,14 +30,19 @@ std::vector<std::string> SessionRunner::write(const std::filesystem::path& folde
   return write_results(out, control);
 }
 
-std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const JobControl& control) const {
+std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const JobControl& control) {
   control.progress(0.0, "writing the scan");
   write_scan(*session_, out);
+  const std::shared_ptr<const GibbsMap> gibbs = snapshot_->gibbs;
+  if (gibbs && !session_->refinement())  // which write_scan wrote
+    write_octree(to_occupancy_map(*gibbs->posterior, session_->map().model()), out.claim("posterior.ot"));
   const auto surfaces = scan_surfaces(*session_, part(control.progress, 0.2, 0.9), control.stop);
   if (control.stop.stop_requested()) throw Stopped();
   write_surfaces(surfaces, out);
   std::vector<std::string> summaries;
   for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
+  written_gibbs_ = gibbs;
+  publish(*snapshot_);
   return summaries;
 }
 

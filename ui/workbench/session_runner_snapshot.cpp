@@ -36,6 +36,7 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   const bool is_there = snapshot.compared && tree_ && tree_->branches.has(snapshot.compared->branch);
   if (!is_there || snapshot.compared->branch == tree_->branches.current().name) snapshot.compared = nullptr;
   snapshot.kept = kept_ && kept_->folder();
+  snapshot.gibbs_kept = snapshot.gibbs && snapshot.gibbs == written_gibbs_;
   snapshot.cameras =
       std::make_shared<const std::vector<CameraBookmark>>(kept_ ? kept_->cameras() : std::vector<CameraBookmark>());
   snapshot.live = scanner_ != nullptr;

@@ -8,6 +8,7 @@
 
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/command_target.hpp"
+#include "ui/commands/file_commands.hpp"
 #include "ui/commands/script.hpp"
 
 namespace nextview {
@@ -246,6 +247,17 @@ TEST(Commands, WhatCannotBeDoneNowSaysWhy) {
   EXPECT_EQ(error_of([&] { execute(make_call("step"), target); }), "step: there is no object yet");
   EXPECT_THAT(error_of([&] { execute(make_call("slice-at", {"0"}), target); }), HasSubstr("slice-axis"));
   EXPECT_EQ(worker.snapshot()->session, 0u);
+}
+
+TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
+  SessionSnapshot session;
+  auto map = std::make_shared<GibbsMap>();
+  map->views = 2;
+  session.gibbs = map;
+  const auto question = [&] { return command::quit.question({session, {}, {}}, {}).text; };
+  EXPECT_THAT(question(), HasSubstr("The Gibbs map of 2 views is kept nowhere: export the scan (Ctrl+E) to keep it."));
+  session.gibbs_kept = true;
+  EXPECT_EQ(question(), "");
 }
 
 TEST(Commands, NoCommandNeedsASessionWithoutSayingSo) {

@@ -4,6 +4,7 @@
 
 #include "core/export/scan_files.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/map/octree_file.hpp"
 #include "core/progress/stopped.hpp"
 
 namespace nextview {
@@ -41,6 +42,19 @@ TEST_F(SessionRunnerTest, RefiningIsOfTheViewsSoFar) {
   runner_.undo(job_control());
   EXPECT_EQ(now().gibbs, nullptr) << "a map of views that are no more";
   EXPECT_THROW(runner_.refine(0, 8, job_control()), std::invalid_argument);
+}
+
+TEST_F(SessionRunnerTest, AnExportKeepsTheGibbsMap) {
+  runner_.load(small_scan(), job_control());
+  steps(1);
+  runner_.refine(2, 8, job_control());
+  EXPECT_FALSE(now().gibbs_kept);
+  runner_.write(folder_ / "export", job_control());
+  EXPECT_TRUE(now().gibbs_kept);
+  const OccupancyMap written = read_octree(folder_ / "export/posterior.ot");
+  EXPECT_EQ(written.grid().resolution, now().grid.resolution);
+  runner_.refine(2, 12, job_control());
+  EXPECT_FALSE(now().gibbs_kept) << "it is another one";
 }
 
 TEST_F(SessionRunnerTest, RefiningTwiceIsAsOnceAnew) {
