@@ -68,7 +68,7 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
   ImGui::PushFont(context.style.small);
   for (const auto& [name, width] : {std::pair{"view", 40.0f}, {"hits", 40.0f}, {"misses", 56.0f}})
     ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, context.style.px(width));
-  ImGui::TableSetupColumn("log-odds", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("log-odds (change)", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   for (std::size_t k = 0; k < voxel.history.size(); ++k) {
     const VoxelUpdate& u = voxel.history[k];
@@ -81,7 +81,7 @@ void draw_history(const PanelContext& context, const VoxelInspection& voxel) {
     }
     tooltip("Click to look at this view.");
     for (const std::string& text : {fmt::format("{}", u.hits), fmt::format("{}", u.misses),
-                                    fmt::format("{:+.2f} to {:.2f}", u.log_odds_change, u.log_odds)}) {
+                                    fmt::format("{:.2f} ({:+.2f})", u.log_odds, u.log_odds_change)}) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(text.c_str());
     }

@@ -113,8 +113,8 @@ TEST_F(InspectedVoxel, ItsNumbersAreItsOwnAndItsPlaceIsInMillimetres) {
 }
 
 TEST_F(InspectedVoxel, ItsHistoryHasTheViewsThatMeasuredIt) {
-  EXPECT_THAT(panel(), HasSubstr("view hits misses log-odds 1 2 30 +0.85 to 1.25 "));
-  EXPECT_EQ(text_of(click_on(desk_, "+0.85 to 1.25")), "select-taken 1; panel view");
+  EXPECT_THAT(panel(), HasSubstr("view hits misses log-odds (change) 1 2 30 1.25 (+0.85) "));
+  EXPECT_EQ(text_of(click_on(desk_, "1.25 (+0.85)")), "select-taken 1; panel view");
 }
 
 TEST_F(InspectedVoxel, TheTruthIsSaidInWords) {
