@@ -83,7 +83,7 @@ Legend VoxelPalette::class_legend(const VoxelFilter& filter) const {
   if (filter.unknown || filter.uncertain) {
     const bool bounded = filter.unknown_from > 0 && !filter.uncertain;
     const std::string bound = bounded ? fmt::format(", p ≥ {:g}", filter.unknown_from) : "";
-    legend.swatches.push_back({"measured but undecided" + bound, theme::unknown});
+    legend.swatches.push_back({"measured but unknown" + bound, theme::unknown});
   }
   if (filter.free || filter.uncertain) legend.swatches.push_back({"free", theme::free});
   return legend;

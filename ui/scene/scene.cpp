@@ -207,7 +207,7 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
   const bool to_come = overlay.backed && legends_ && has_room_for_legends();
   if (overlay.legends.empty() && !to_come) return middle;
   FrameMargins beside = centred, beneath = centred;
-  constexpr double widest_in_window = 236.0;  // "measured but undecided, p ≥ 0.5", which comes with the first view
+  constexpr double widest_in_window = 236.0;  // "measured but unknown, p ≥ 0.5", which comes with the first view
   const double legends_width = overlay.backed ? widest_in_window : usual_legend_width;
   beside.right = std::min((legends_width + 36) / width, 0.5);
   // In a window more legends come as the scan goes on.

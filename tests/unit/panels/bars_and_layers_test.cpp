@@ -7,6 +7,7 @@
 #include "tests/unit/panels/made_scan.hpp"
 #include "tests/unit/panels/seen.hpp"
 #include "ui/commands/layer_commands.hpp"
+#include "ui/layers/voxel_palette.hpp"
 
 namespace nextview {
 namespace {
@@ -188,6 +189,13 @@ TEST_F(Layers, ThresholdsShowTheirValuesWhereTheyMatter) {
   EXPECT_THAT(panel(), Not(HasSubstr("0.45 nats")));
   layers().voxels.uncertain = true;
   EXPECT_THAT(panel(), HasSubstr("from 0.45 nats"));
+}
+
+TEST_F(Layers, UnknownVoxelsHaveOneNameInPanelAndLegend) {
+  EXPECT_THAT(panel(), HasSubstr("unknown"));
+  const Legend legend = VoxelPalette(VoxelColouring::by_class).legend(layers().voxels, false);
+  ASSERT_EQ(legend.swatches.size(), 2u);
+  EXPECT_THAT(legend.swatches[1].name, HasSubstr("measured but unknown"));
 }
 
 TEST_F(Layers, EachLineSwitchesItsOwn) {
