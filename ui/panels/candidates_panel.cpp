@@ -216,9 +216,7 @@ void draw_take_buttons(const PanelContext& context) {
 }  // namespace
 
 void draw_candidates_panel(const PanelContext& context, const Rectangle& rectangle) {
-  const bool low = rectangle.height < context.style.px(250);  // the table keeps some rows, and the panel scrolls
-  const Panel panel("Candidates", rectangle, low ? 0 : ImGuiWindowFlags_NoScrollbar,
-                    context.style.px(right_panel_width));
+  const Panel panel("Candidates", rectangle, 0, context.style.px(right_panel_width));
   const SessionSnapshot& s = context.snapshot;
   if (!s.loaded()) return;
   small_text(context.style, ranked_by(s.configuration.planner));
@@ -227,8 +225,10 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
     draw_degenerate(context, s.records.back().ranking.degenerate);
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +
                       3 * ImGui::GetStyle().ItemSpacing.y;
+  const float left = ImGui::GetContentRegionAvail().y - below, least = context.style.px(110);
+  const bool low = left < least;  // the table keeps some rows, and the panel scrolls
   ImGui::PushFont(context.style.small);
-  draw_table(context, low ? context.style.px(110) : ImGui::GetContentRegionAvail().y - below);
+  draw_table(context, std::max(left, least));
   ImGui::PopFont();
   small_text(context.style, next_text(s));
   if (!low)

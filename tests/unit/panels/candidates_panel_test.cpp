@@ -168,5 +168,15 @@ TEST_F(CandidatesPanel, AClickOnARowLooksAtTheCandidateAndAnotherAtTheNextView) 
   EXPECT_EQ(text_of(click_on(desk_, "Take 3 next", "Candidates")), "take-view");
 }
 
+TEST_F(CandidatesPanel, HasThreeRowsInTheSmallestWindow) {
+  const auto scan = made_scan();
+  scan->records[1].ranking.reason += " " + scan->records[1].ranking.reason;
+  Desk desk(640, 480);
+  desk.snapshot = scan;
+  desk.frames();
+  for (const char* utility : {"0.2000", "0.0500", "0.0200"})
+    EXPECT_NE(find_text(seen_texts(), utility, "Candidates"), nullptr) << utility << ": " << read("Candidates");
+}
+
 }  // namespace
 }  // namespace nextview

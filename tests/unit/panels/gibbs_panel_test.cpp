@@ -85,8 +85,18 @@ TEST_F(GibbsPanelTest, EachDiagnosticStandsAtItsName) {
   const std::string text = panel(made_map());
   EXPECT_THAT(text, HasSubstr("Stationary after 3 sweeps of 2 chains."));
   EXPECT_THAT(text, HasSubstr("R-hat 1.012 (under 1.05) trend |z| 1.8 (under 2.58) voxels that differ 7 of 5000 "
-                              "effective samples 222 rays 400 merged of 1000 time 2.5 s"));
+                              "effective samples 222 merged rays 400 of 1000 time 2.5 s"));
   EXPECT_THAT(text, Not(HasSubstr("refine again")));
+}
+
+TEST_F(GibbsPanelTest, NoDigitIsCutOffOfMillions) {
+  GibbsMap map = made_map();
+  GibbsPosterior posterior = made_posterior();
+  posterior.diagnostics.merged_rays = posterior.diagnostics.disagreeing_voxels = 1234567;
+  posterior.diagnostics.measured_rays = posterior.diagnostics.informed_voxels = 12345678;
+  map.posterior = std::make_shared<const GibbsPosterior>(posterior);
+  EXPECT_THAT(panel(map), HasSubstr("merged rays 1234567 of 12345678"));
+  for (const SeenText& cut : cut_texts()) ADD_FAILURE() << cut.text;
 }
 
 TEST_F(GibbsPanelTest, ChainsThatAreNotStationarySaySoInRed) {
