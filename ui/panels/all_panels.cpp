@@ -102,8 +102,10 @@ void AllPanels::obey_keys(const PanelContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_typing = io.WantTextInput || context.window.palette_open || !context.window.file_for.empty();
   if (popups_ > 0) {
-    const bool is_open = ImGui::GetCurrentContext()->OpenPopupStack.Size == popups_;
-    if (is_open && pressed(Key::escape)) ImGui::ClosePopupToLevel(popups_ - 1, true);
+    ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    if (!pressed(Key::escape)) return;
+    if (imgui.OpenPopupStack.Size == popups_) ImGui::ClosePopupToLevel(popups_ - 1, true);
+    imgui.NavDisableMouseHover = true;  // until the pointer moves: a menu within a menu would open again beneath it
   } else if (!context.progress.question.empty() && (pressed(Key::escape) || (pressed(Key::enter) && !is_typing))) {
     obey_answers(context);
   } else if (!context.window.file_for.empty()) {

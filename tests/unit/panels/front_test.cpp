@@ -1,7 +1,7 @@
 // What is in front of the panels has the keyboard: menus, lists, the palette, the sheet of keys, texts.
 #include <gmock/gmock.h>
 
-#include "tests/unit/panels/desk.hpp"
+#include "tests/unit/panels/seen.hpp"
 #include "ui/commands/command_list.hpp"
 
 namespace nextview {
@@ -35,6 +35,24 @@ TEST(Front, EscapeClosesAMenuAndNothingElse) {
   EXPECT_EQ(desk.window.selection, selected);
   desk.type(Key::escape);
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"clear-selection"}) << "with nothing open it is a shortcut";
+}
+
+TEST(Front, EscapeClosesAMenuWithinAMenuAndLeavesTheOuterOne) {
+  Desk desk;
+  open_all_ways(desk);
+  open_menu(desk);
+  const auto all = seen_texts();
+  const SeenText* const recent = find_text(all, "Open recent");
+  ASSERT_NE(recent, nullptr);
+  desk.move(recent->from.x + 10, recent->middle());
+  desk.frames();
+  ASSERT_EQ(open_popups(), 2) << "the menu within it did not open";
+  desk.type(Key::escape);
+  desk.frames();
+  EXPECT_EQ(open_popups(), 1);
+  desk.type(Key::escape);
+  desk.frames();
+  EXPECT_EQ(open_popups(), 0);
 }
 
 TEST(Front, NoShortcutFiresWhileAMenuIsOpen) {
