@@ -49,6 +49,8 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   recent_ = recent_files(state_folder());
   chosen_ = 0;
   write("");
+  // Where something could not be written is not proposed again.
+  if (is_there(wanted_) && context.snapshot.failures == failures_) last_written_ = wanted_.parent_path();
   const fs::path last = to_read_ ? last_read_ : last_written_;
   browser_.go_to(last.empty() ? fs::current_path() : last);
   const auto& suggested = command.arguments().front().choices;
@@ -78,7 +80,12 @@ void FileDialog::accept(const PanelContext& context, const Command& command, con
     replaced_ = file.string();
     return;
   }
-  (to_read_ ? last_read_ : last_written_) = file.parent_path();
+  if (to_read_) {
+    last_read_ = file.parent_path();
+  } else {
+    wanted_ = file;
+    failures_ = context.snapshot.failures;
+  }
   call(context, command, file.string());
 }
 

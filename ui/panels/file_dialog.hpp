@@ -40,6 +40,8 @@ class FileDialog {
   bool to_read_ = true, scroll_ = false;
   bool entered_ = false;                            ///< the folder that was written, and nothing was done since
   std::filesystem::path last_read_, last_written_;  ///< folders that were used last
+  std::filesystem::path wanted_;                    ///< what was to be written last
+  std::size_t failures_ = 0;                        ///< of the session then
 };
 
 }  // namespace nextview

@@ -120,6 +120,31 @@ TEST_F(FileDialogTest, NothingIsReplacedUnasked) {
   EXPECT_EQ(done(), "export-cloud " + quoted(path("parts/bracket.stl")));
 }
 
+TEST_F(FileDialogTest, WhereNothingCouldBeWrittenIsNotProposedAgain) {
+  const auto export_to = [&](const std::string& file) {
+    begin("export-cloud");
+    desk_.type_with(key('A'), true);
+    desk_.write(file);
+    desk_.frames();
+    desk_.type(Key::enter);
+    desk_.frames();
+    ASSERT_FALSE(is_open());
+  };
+  const auto proposes = [&](const char* name) {
+    desk_.window.file_for = "export-cloud";
+    desk_.frames();
+    const bool found = read("File").find(name) != std::string::npos;
+    desk_.type(Key::escape);
+    desk_.frames();
+    return found;
+  };
+  export_to(path("parts/cloud.ply"));
+  std::ofstream(folder_ / "parts/cloud.ply") << "written";
+  EXPECT_TRUE(proposes("bracket.stl"));
+  export_to(path("parts/older/cloud.ply"));
+  EXPECT_TRUE(proposes("bracket.stl")) << "it was not written";
+}
+
 TEST_F(FileDialogTest, KeysOfCommandsDoNothingBehindIt) {
   begin("open");
   desk_.type(key('S'));
