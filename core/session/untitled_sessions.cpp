@@ -10,6 +10,7 @@
 
 #include "core/journal/journal.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/recent_files.hpp"
 
 namespace nextview {
 namespace {
@@ -75,14 +76,17 @@ fs::path untitled_folder(const fs::path& state, const std::string& name) {
 }
 
 std::optional<UnfinishedSession> unfinished_session(const fs::path& state) {
-  for (const fs::path& folder : untitled_sessions(state)) {
+  std::vector<fs::path> folders = untitled_sessions(state);
+  std::ranges::copy_if(recent_files(state), std::back_inserter(folders), has_journal);  // those opened from elsewhere
+  for (const fs::path& folder : folders) {
     try {
       Journal journal;
       { const JournalWriter lock = JournalWriter::go_on(folder, journal); }
       const std::size_t views = journal.line().size();
       if (journal.closed || views == 0) continue;
       const std::string name = folder.filename().string();
-      return UnfinishedSession{folder, name.size() > time_length ? name.substr(time_length + 1) : name, views};
+      const bool has_time = folder.parent_path() == state && name.size() > time_length;
+      return UnfinishedSession{folder, has_time ? name.substr(time_length + 1) : name, views};
     } catch (const std::runtime_error&) {  // in use, or damaged
     }
   }

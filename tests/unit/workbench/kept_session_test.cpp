@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/file/atomic_file.hpp"
+#include "core/session/recent_files.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 #include "ui/workbench/session_worker.hpp"
@@ -247,6 +248,22 @@ TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
     EXPECT_EQ(worker.snapshot()->records.size(), std::string(answer) == "Go on" ? 2u : 0u);
     EXPECT_EQ(unfinished_session(state()).has_value(), std::string(answer) == "Ask later");
   }
+  EXPECT_FALSE(unfinished_session(state()));
+}
+
+TEST_F(KeptSessionTest, OneThatWasOpenedElsewhereIsOfferedToo) {
+  const fs::path folder = folder_ / "a session of the day before";
+  {
+    Session session(small_scan());
+    ASSERT_TRUE(SessionFolder::begin(OutputFolder(folder, {}), session).step(session));
+  }
+  EXPECT_FALSE(unfinished_session(state())) << "it was not opened here";
+  add_recent_file(state(), folder);
+  const auto found = unfinished_session(state());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->folder, folder);
+  EXPECT_EQ(found->name, "a session of the day before");
+  close_session(folder);
   EXPECT_FALSE(unfinished_session(state()));
 }
 
