@@ -138,16 +138,13 @@ std::array<int, 2> first_size() {
   return {within(width, wide), within(height, high)};
 }
 
-/// On a display with small pixels that does not say so itself: how much larger its text should be.
+/// Beside the scale that the display asks for itself.
 double text_scale_of_display(float content_scale) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
   int wide = 0, high = 0;
   if (monitor) glfwGetMonitorPhysicalSize(monitor, &wide, &high);
-  if (content_scale > 1.0f || !mode || wide <= 0) return 1.0;
-  const double per_inch = mode->width / (wide / 25.4);
-  constexpr double usual = 96.0, fine = 130.0;  // pixels an inch
-  return per_inch < fine ? 1.0 : std::clamp(std::round(4 * per_inch / usual) / 4, 1.0, 3.0);
+  return content_scale > 1.0f || !mode ? 1.0 : usual_text_scale(mode->width, mode->height, wide);
 }
 
 /// The window on the whole screen, or where it was before.

@@ -1,6 +1,7 @@
 #include "ui/window/window_preferences.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/json_text.hpp"
@@ -12,6 +13,16 @@ namespace {
 constexpr const char* file_name = "window.json";
 
 }  // namespace
+
+double usual_text_scale(int width, int height, int millimetres) {
+  constexpr double usual = 96.0, fine = 130.0;  // pixels an inch
+  constexpr double usual_height = 1440.0;       // [px] of a display whose text is as large as it should be
+  const auto in_quarters = [](double scale) { return std::clamp(std::round(4 * scale) / 4, 1.0, 3.0); };
+  const double per_inch = millimetres > 0 ? width / (millimetres / 25.4) : usual;
+  // 96 is what display servers say that do not know.
+  if (std::abs(per_inch - usual) < 1) return in_quarters(height / usual_height);
+  return per_inch < fine ? 1.0 : in_quarters(per_inch / usual);
+}
 
 WindowPreferences read_preferences(const std::filesystem::path& state, const WindowPreferences& otherwise) {
   try {

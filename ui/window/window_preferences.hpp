@@ -15,6 +15,8 @@ struct WindowPreferences {
   bool operator==(const WindowPreferences&) const = default;
 };
 
+/// How large text is at first on a display of so many pixels that does not scale; its own word on how wide it is [mm].
+double usual_text_scale(int width, int height, int millimetres);
 /// Those in `state` (state_folder()); `otherwise` where none are, or they make no sense.
 WindowPreferences read_preferences(const std::filesystem::path& state, const WindowPreferences& otherwise);
 /// Never throws: what cannot be kept is not.
