@@ -14,9 +14,7 @@ void draw_entry(const Style& style, const LogEntry& entry) {
                                                 to_imgui_u32(success ? colour : theme::hairline));
   }
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + size + style.px(8));
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
-  ImGui::TextWrapped("%s", entry.text.c_str());
-  ImGui::PopStyleColor();
+  small_text(style, entry.text, colour);
 }
 
 void LogPanel::draw(const PanelContext& context, const Rectangle& rectangle) {

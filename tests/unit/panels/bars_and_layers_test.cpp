@@ -296,6 +296,15 @@ TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {
   EXPECT_EQ(read("Notifications"), "it went wrong") << "a warning stays longer";
 }
 
+TEST_F(Bars, NoNumberOfANotificationComesApart) {
+  desk_.frames();
+  std::string text = "The chains say";
+  for (int i = 0; i < 40; ++i) text += fmt::format(" {}.406", std::string(std::size_t(1 + i % 7), '1'));
+  desk_.log = {{LogEntry::Level::warning, text}};
+  desk_.frames();
+  for (const std::string& line : read_lines("Notifications")) EXPECT_FALSE(line.ends_with(".")) << line;
+}
+
 TEST_F(Bars, NotificationsLeaveOutTheNamesOfCommands) {
   desk_.window.bring_to_front("log");
   desk_.frames();
