@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
 #include "core/file/lower_case.hpp"
 #include "core/file/printable.hpp"
 #include "core/mesh/file_claims.hpp"
@@ -65,8 +66,12 @@ Eigen::AlignedBox3d box_of_triangles(const ImportedTriangles& mesh) {
 }
 
 void check_coordinates(const ImportedTriangles& mesh) {
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    if (!vertex.allFinite()) throw std::runtime_error("has coordinates that are not finite numbers");
+  const auto is_wrong = [](const Eigen::Vector3d& vertex) { return !vertex.allFinite(); };
+  if (const auto wrong = std::ranges::count_if(mesh.vertices, is_wrong); wrong > 0)
+    throw std::runtime_error(fmt::format(
+        "has coordinates that are not finite numbers, in {} of {}: delete these in a mesh editor, close the "
+        "holes that they leave, and save it again",
+        wrong, counted(mesh.vertices.size(), "vertex", "vertices")));
 }
 
 /// What a type of file says that its unit is, as its specification has it or its reader delivers it.
