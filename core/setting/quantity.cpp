@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace nextview {
 namespace {
@@ -57,6 +59,14 @@ bool read_quantity(const std::string& text, const std::string& unit, double& val
     return true;
   }
   return false;
+}
+
+std::string number_wanted(const std::string& unit) {
+  if (unit.empty()) return "a number";
+  if (unit != "m") return fmt::format("a number [{}]", unit);
+  std::vector<std::string_view> names;
+  for (const LengthSuffix& length : lengths) names.push_back(length.name);
+  return fmt::format("a number [m], or with {} behind it", fmt::join(names, ", "));
 }
 
 std::string quantity_text(double length) {

@@ -26,10 +26,11 @@ std::string join(const std::vector<std::string>& words) { return fmt::format("{}
 
 /// What a setting takes, for messages.
 struct Expected {
+  const std::string& unit;
   std::string operator()(bool*) const { return "true or false"; }
   std::string operator()(int*) const { return "a whole number"; }
   std::string operator()(std::uint64_t*) const { return "a whole number, 0 or more"; }
-  std::string operator()(double*) const { return "a number"; }
+  std::string operator()(double*) const { return number_wanted(unit); }
   std::string operator()(std::string*) const { return "a text"; }
   std::string operator()(const Setting::Choice& c) const { return "one of " + join(c.names); }
 };
@@ -90,7 +91,7 @@ void Setting::set(const std::string& new_text) {
   if (const auto* c = std::get_if<Choice>(&value))
     hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));
   throw std::invalid_argument(
-      fmt::format("{} takes {}, not '{}'{}", key, std::visit(Expected{}, value), new_text, hint));
+      fmt::format("{} takes {}, not '{}'{}", key, std::visit(Expected{unit}, value), new_text, hint));
 }
 
 void Setting::require_in_bounds() const {

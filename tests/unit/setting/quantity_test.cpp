@@ -15,6 +15,13 @@ double read(const std::string& text, const std::string& unit = "m") {
   return value;
 }
 
+std::string complaint(Setting& setting, const std::string& text) try {
+  setting.set(text);
+  return "no complaint";
+} catch (const std::invalid_argument& error) {
+  return error.what();
+}
+
 TEST(Quantity, ALengthHasAnyOfItsUnits) {
   EXPECT_EQ(read("0.005"), 0.005);
   EXPECT_EQ(read("0.005 m"), 0.005);
@@ -77,7 +84,12 @@ TEST(Quantity, ASettingTakesIt) {
   setting.set("5 mm");
   EXPECT_EQ(edge, 0.005);
   EXPECT_EQ(setting.text(), "0.005");
-  EXPECT_THROW(setting.set("5 deg"), std::invalid_argument);
+  EXPECT_EQ(complaint(setting, "2 parsec"),
+            "map.resolution takes a number [m], or with m, cm, mm, um, µm, in behind it, not '2 parsec'");
+  setting.unit = "deg";
+  EXPECT_EQ(complaint(setting, "5 mm"), "map.resolution takes a number [deg], not '5 mm'");
+  setting.unit = "";
+  EXPECT_EQ(complaint(setting, "five"), "map.resolution takes a number, not 'five'");
 }
 
 }  // namespace
