@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/setting/quantity.hpp"
 
@@ -81,6 +83,43 @@ struct Allowed {
   bool operator()(const auto&) const { return true; }
 };
 
+/// Without what only parts its words; of what a file may have instead of a name its beginning.
+std::string letters_of(const std::string& name) {
+  constexpr std::size_t longest = 100;
+  std::string letters;
+  for (const char c : name.substr(0, longest))
+    if (std::string_view("-_. ").find(c) == std::string_view::npos) letters += char(std::tolower(std::uint8_t(c)));
+  return letters;
+}
+
+/// How many letters are too few, too many, others, or exchanged with the next one.
+std::size_t slips(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> of(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      of[i][j] = i == 0 || j == 0 ? i + j : of[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+      if (i > 0) of[i][j] = std::min(of[i][j], of[i - 1][j] + 1);
+      if (j > 0) of[i][j] = std::min(of[i][j], of[i][j - 1] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        of[i][j] = std::min(of[i][j], of[i - 2][j - 2] + 1);
+    }
+  return of.back().back();
+}
+
+/// In halves of a slip. Of a key the section may be left out ("width"), and of a name all but one of its words
+/// ("noise").
+std::size_t distance(const std::string& word, const std::string& name) {
+  const std::size_t behind_section = name.find('.') + 1;  // 0 if there is none
+  if (behind_section > 0 && word.starts_with(name.substr(0, behind_section)))
+    return distance(word.substr(behind_section), name.substr(behind_section));
+  const std::string typed = letters_of(word), letters = letters_of(name);
+  std::size_t least = 2 * slips(typed, letters);
+  if (behind_section > 0 && word.find('.') == word.npos)
+    least = std::min(least, 1 + 2 * slips(typed, letters_of(name.substr(behind_section))));
+  if (typed.size() > 2 && letters.find(typed) != letters.npos) least = std::min<std::size_t>(least, 3);
+  return least;
+}
+
 }  // namespace
 
 std::string Setting::text() const { return std::visit(Text{}, value); }
@@ -119,22 +158,7 @@ Setting& find_setting(std::vector<Setting>& settings, const std::string& key) {
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-  const auto distance = [](const std::string& a, const std::string& b) {  // Levenshtein
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= b.size(); ++j) {
-        const std::size_t above = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-        diagonal = above;
-      }
-    }
-    return row.back();
-  };
-  return *std::min_element(known.begin(), known.end(),
-                           [&](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
+  return *std::ranges::min_element(known, {}, [&](const std::string& name) { return distance(word, name); });
 }
 
 }  // namespace nextview

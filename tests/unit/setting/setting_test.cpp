@@ -14,6 +14,27 @@ TEST(Nearest, CountsInsertionsDeletionsAndReplacements) {
   EXPECT_EQ(nearest("same", {"other", "same"}), "same");
 }
 
+TEST(Nearest, CountsExchangedLettersOnceAndWhatPartsWordsNotAtAll) {
+  EXPECT_EQ(nearest("abdc", {"abxx", "abcd"}), "abcd");
+  EXPECT_EQ(nearest("Hit-Decay", {"hit_delay", "hit_decay"}), "hit_decay");
+  EXPECT_EQ(nearest("downsampling", {"down", "down_sampling"}), "down_sampling");
+}
+
+TEST(Nearest, OfAKeyTheSectionOrAllButAWordMayBeLeftOut) {
+  const std::vector<std::string> keys = {"gain",          "seed",
+                                         "truth",         "every",
+                                         "sensor.preset", "sensor.width",
+                                         "map.hit",       "sensor.range_noise",
+                                         "gibbs.sweeps",  "planner.gain_weight"};
+  EXPECT_EQ(nearest("width", keys), "sensor.width");
+  EXPECT_EQ(nearest("widht", keys), "sensor.width");
+  EXPECT_EQ(nearest("sweep", keys), "gibbs.sweeps");
+  EXPECT_EQ(nearest("noise", keys), "sensor.range_noise");
+  EXPECT_EQ(nearest("sensor.noise", keys), "sensor.range_noise");
+  EXPECT_EQ(nearest("gain.weight", keys), "planner.gain_weight");
+  EXPECT_EQ(nearest("gains", keys), "gain");
+}
+
 TEST(Bounds, EndsAreIncludedOrNot) {
   EXPECT_TRUE(from_to(1, 2).allow(1) && from_to(1, 2).allow(2));
   EXPECT_FALSE(between(1, 2).allow(1) || between(1, 2).allow(2));
