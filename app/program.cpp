@@ -24,6 +24,7 @@
 #include "app/commands/scarcity.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/setting.hpp"
 #include "ui/panels/panel_table.hpp"
 #include "ui/render_target/headless.hpp"
 
@@ -53,6 +54,22 @@ int end(int exit_code) {
   return fail(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
+/// The arguments that nothing takes, in the order they were typed in, and what the first mistyped option may be.
+std::string too_much(const CLI::App& program) {
+  const std::vector<std::string> words = program.remaining(true);
+  std::vector<std::string> options = {"threads"};
+  for (const CLI::App* command : program.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
+  std::string text = fmt::format("not expected: {}", fmt::join(words, " "));
+  const auto mistyped =
+      std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-') && word.size() > 2; });
+  if (mistyped == words.end()) return text;
+  std::string name = mistyped->substr(0, mistyped->find('='));
+  name.erase(0, name.find_first_not_of('-'));
+  return text + fmt::format("; did you mean '--{}'?", nextview::nearest(name, options));
+}
+
 int run(int argc, char** argv) {
   using namespace nextview;
   CLI::App program;
@@ -73,7 +90,9 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
     const auto commands = program.get_subcommands();
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
-    return fail(fmt::format("{}; see nextview {}--help", error.what(), command));
+    const bool is_too_much = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError);
+    const std::string reason = is_too_much ? too_much(program) : error.what();
+    return fail(fmt::format("{} nextview {}--help", reason + (reason.ends_with('?') ? " See" : "; see"), command));
   }
   return 0;
 }

@@ -141,6 +141,22 @@ TEST_F(Messages, AMistypedCommandIsSaidToBeOne) {
     EXPECT_THAT(complaint(object), HasSubstr("cannot open a window")) << "that is what a window is opened with";
 }
 
+TEST_F(Messages, WhatIsTooMuchStandsAsItWasTypedWithTheOptionThatIsMeant) {
+  EXPECT_EQ(complaint("scan one two three"), line("not expected: two three; see nextview scan --help"));
+  for (const auto& [typed, meant] : {std::pair{"--veiws 3", "--views"},
+                                     {"--view.count=3", "--views.count"},
+                                     {"--noise 3", "--sensor.range_noise"},
+                                     {"-seed 3", "--seed"},
+                                     {"--no_picture", "--no-pictures"},
+                                     {"--object.centered true", "--object.centred"},
+                                     {"--thread 2", "--threads"}})
+    EXPECT_THAT(complaint(scan() + typed),
+                ::testing::EndsWith(fmt::format("; did you mean '{}'? See nextview scan --help\n", meant)))
+        << typed;
+  EXPECT_EQ(complaint("scan --fisrt 1 --last --threads 2 more"),
+            line("not expected: --fisrt --last more; did you mean '--start'? See nextview scan --help"));
+}
+
 TEST_F(Messages, OptionsOfTheProgramMayComeFirst) {
   const std::string box = NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply";
   for (const char* threads : {"--threads 2 ", "--threads=2 "}) {
