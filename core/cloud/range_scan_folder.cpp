@@ -11,6 +11,7 @@
 
 #include "core/cloud/point_cloud.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/setting/rounded.hpp"
 #include "core/view/candidate_views.hpp"
 
 namespace nextview {
@@ -128,11 +129,6 @@ Eigen::AlignedBox3d bounding_box(const std::vector<RecordedScan>& scans) {
   return box;
 }
 
-double one_significant_digit(double value) {
-  const double scale = std::pow(10.0, -std::floor(std::log10(value)));
-  return std::round(value * scale) / scale;
-}
-
 /// With a margin all around, its faces between voxels.
 Eigen::AlignedBox3d region_around(const Eigen::AlignedBox3d& points, double resolution) {
   const double margin = 0.1 * points.sizes().maxCoeff();
@@ -191,7 +187,7 @@ RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, d
     throw std::runtime_error(fmt::format(
         "{}: its points span {:.3g} m; from 0.01 to 40 m are taken (is it in metres? dataset.toml has a unit)",
         folder.string(), longest));
-  add_parameters_and_views(scene, box, resolution > 0.0 ? resolution : one_significant_digit(0.01 * longest));
+  add_parameters_and_views(scene, box, resolution > 0.0 ? resolution : rounded(0.01 * longest, 1));
   return scene;
 }
 

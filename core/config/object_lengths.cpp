@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/setting/length_text.hpp"
+#include "core/setting/rounded.hpp"
 
 namespace nextview {
 namespace {
@@ -29,8 +30,7 @@ double round_length(double length) {
   return best;
 }
 
-/// Without the digits that single precision, in which meshes are kept, makes up.
-double six_digits(double length) { return std::stod(fmt::format("{:.6g}", length)); }
+constexpr int digits = 6;  // more are made up by single precision, in which meshes are kept
 
 bool is_given(const Configuration& c, const Setting& setting, const Setting& by_default) {
   const auto fitted = c.fitted.find(setting.key);
@@ -49,10 +49,10 @@ void fit_lengths(Configuration& configuration, double longest_side) {
     if (is_given(configuration, setting, find_setting(unset, key))) return;
     // What nobody asked for must not be refused: an object may be very small or large.
     const Bounds& bounds = *setting.bounds;
-    *std::get<double*>(setting.value) = std::clamp(six_digits(length), bounds.low, bounds.high);
+    *std::get<double*>(setting.value) = std::clamp(rounded(length, digits), bounds.low, bounds.high);
     configuration.fitted[key] = setting.text();
   };
-  const double longest = six_digits(longest_side);
+  const double longest = rounded(longest_side, digits);
   const double voxel = round_length(longest / 50.0);
   if (configuration.map.start.empty()) fit("map.resolution", voxel);  // else it is that map's
   fit("map.occlusion_distance", 30.0 * voxel);

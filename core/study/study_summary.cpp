@@ -7,6 +7,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
 #include "core/file/json_text.hpp"
+#include "core/setting/rounded.hpp"
 #include "core/study/summary_rows.hpp"
 
 namespace nextview {
@@ -15,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Six significant digits: more than any of the numbers means.
-std::string number(double value) { return fmt::format("{:.6g}", value); }
+constexpr int digits = 6;  // more than any of the numbers means
+std::string number(double value) { return fmt::format("{:.{}g}", value, digits); }
 
 std::string csv_row(const SummaryRow& r) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}-{},{},{}\n", r.part, r.block, csv_cell(r.object),
@@ -29,7 +30,7 @@ Json json_row(const SummaryRow& r) {
   Json json = {{"part", r.part},       {"block", r.block}, {"object", r.object},
                {"sensor", r.sensor},   {"views", r.views}, {"method", r.method},
                {"measure", r.measure}, {"at", r.at},       {"runs", r.runs}};
-  if (r.measure != "failure") json["mean"] = std::stod(number(r.mean)), json["spread"] = std::stod(number(r.spread));
+  if (r.measure != "failure") json["mean"] = rounded(r.mean, digits), json["spread"] = rounded(r.spread, digits);
   if (r.better) json["better"] = *r.better;
   json["of_runs"] = {r.first_run, r.last_run};
   json["hash"] = r.hash;

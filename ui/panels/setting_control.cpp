@@ -9,6 +9,7 @@
 
 #include "core/planner/policy.hpp"
 #include "core/setting/quantity.hpp"
+#include "core/setting/rounded.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
@@ -33,7 +34,7 @@ bool shown_in_millimetres(const Setting& setting) {
 std::string bounds_text(const Setting& setting) {
   if (!shown_in_millimetres(setting)) return setting.bounds->text();
   Bounds bounds = *setting.bounds;
-  for (double* limit : {&bounds.low, &bounds.high}) *limit = std::stod(fmt::format("{:.9g}", 1e3 * *limit));
+  for (double* limit : {&bounds.low, &bounds.high}) *limit = rounded(1e3 * *limit, 9);
   return bounds.text("mm");
 }
 
