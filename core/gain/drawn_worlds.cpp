@@ -184,7 +184,7 @@ DrawnWorld seen_world(const VoxelGrid& grid, const std::vector<std::uint8_t>& bl
   DrawnWorld world;
   world.seen.resize(views.size());
   const double spacing = whole / double(DrawnWorld::samples);
-  world.area = 1e4 * spacing * grid.resolution * grid.resolution;
+  world.area = square_centimetres_of_a_square_metre * spacing * grid.resolution * grid.resolution;
   double so_far = 0.0;
   std::size_t sample = 0;
   for (std::uint32_t i = 0; i < surface.size(); ++i) {

@@ -11,8 +11,7 @@
 namespace nextview {
 namespace {
 
-constexpr double square_centimetres = 1e4;  // in a square metre
-constexpr double negligible = 1e-3;         // reach at which a ray is given up
+constexpr double negligible = 1e-3;  // reach at which a ray is given up
 
 /// Calls `visit(x, y, z, reach, area)` for the voxels of the field on a ray: how likely it gets there, and how much new
 /// surface it finds there, across the ray and per solid angle [m^2]. What find_along_rays does for many rays at once,
@@ -88,7 +87,7 @@ double area_seen(const NewSurfaceField& field, const Pose& view, const RayRange&
                                       {field.chances(), negligible});
   double area = 0.0;
   for (std::size_t ray = 0; ray < directions.size(); ++ray) {
-    const double worth = square_centimetres * rays.bundle.solid_angles[rays.begin + ray];
+    const double worth = square_centimetres_of_a_square_metre * rays.bundle.solid_angles[rays.begin + ray];
     for (std::size_t i = finds.begins[ray]; i < finds.ends[ray]; ++i) {
       const Finds::Find& find = finds.finds[i];
       const double slant = options.slant.at(field.normals()[find.place].squared_cosine(directions[ray]));
@@ -169,7 +168,7 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
   for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
     ScoreExplanation::RayPart& part = explanation.rays.emplace_back();
     part.direction = T_world_camera.linear() * bundle.directions[i];
-    const double worth = square_centimetres * bundle.solid_angles[i];
+    const double worth = square_centimetres_of_a_square_metre * bundle.solid_angles[i];
     follow(field, T_world_camera.translation(), part.direction, options.ray_length,
            [&](int x, int y, int z, double reach, double area) {
              const double slant = options.slant.at(field.normal(x, y, z).squared_cosine(part.direction));

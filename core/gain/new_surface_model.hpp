@@ -7,6 +7,8 @@
 
 namespace nextview {
 
+inline constexpr double square_centimetres_of_a_square_metre = 1e4;
+
 /// How likely a ray that reaches a voxel meets surface there that no view has covered: learned from simulated scans
 /// (`nextview calibrate --fit new-surface`). The coefficients stand in the order of SurfaceEvidence's features.
 struct NewSurfaceModel {
@@ -21,7 +23,7 @@ struct NewSurfaceModel {
   /// left. It is no part of the fit.
   double left_at_border = 1.6;
   /// Of surface whose area across the rays is so many m^2 [cm^2].
-  double square_centimetres(double across) const { return 1e4 * mean_slant * across; }
+  double square_centimetres(double across) const { return square_centimetres_of_a_square_metre * mean_slant * across; }
 
   bool operator==(const NewSurfaceModel&) const = default;
   /// Fitted to simulated scans of parts that were made up for it.

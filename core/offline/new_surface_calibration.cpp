@@ -22,7 +22,6 @@ namespace {
 
 /// What is met at more than 80 degrees from its normal is not seen well enough to count.
 constexpr float least_cosine = 0.17f;
-constexpr double square_centimetres = 1e4;  // in a square metre
 
 /// What the scoring rays of all candidate views meet, and whether any view has covered it yet.
 class CandidateRays {
@@ -57,7 +56,7 @@ class CandidateRays {
       const double range = hits_[number].range;
       area += setup_.bundle.solid_angles[number % rays()] * range * range / double(hits_[number].cosine);
     }
-    return square_centimetres * area;
+    return square_centimetres_of_a_square_metre * area;
   }
 
   /// What the rays of one candidate view find in a map.
@@ -187,7 +186,7 @@ ShownByViews shown(const Moment& now) {
   ShownByViews shown{surface_evidence(now.session.state().known),
                      now.session.setup().bundle,
                      now.session.configuration().planner.ray_length,
-                     square_centimetres * now.object.object->mesh.surface_area(),
+                     square_centimetres_of_a_square_metre * now.object.object->mesh.surface_area(),
                      {},
                      {}};
   for (const std::size_t view : now.views) {
