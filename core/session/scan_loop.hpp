@@ -27,6 +27,8 @@ void correct(Acquired& acquired);
 ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired& acquired, const Progress& progress,
                  const std::stop_token& stop);
 
+/// The rays that score views, by the setup's configuration and its source's camera.
+void choose_rays(ScanSetup& setup);
 /// The state with the candidates ranked from where the robot is, the next view, and whether the scan is done.
 /// @throws Stopped @pre !state.records.empty()
 ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Progress& progress,

@@ -39,8 +39,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
     setup_.start_map = read_start_map(c);  // that of a session gone through
   setup_.source = source_->describe();
   setup_.region = configured_region(c, setup_.source);
-  setup_.bundle = scoring_rays(c, setup_.source.camera);
-  setup_.fine_bundle = finer_rays(c, setup_.source.camera);
+  choose_rays(setup_);
   robot_ = std::move(parts.robot);
   setup_.start =
       recording_ ? setup_.source.frames.at(start_frame(c, *recording_)) : start_view(c, setup_.source, robot_.get());

@@ -31,8 +31,7 @@ ScanSetup Session::setup_with(const PlanningConfig& config, const std::stop_toke
   setup.configuration = validated(std::move(wanted));
   if (to_toml(setup.configuration) == to_toml(configuration())) return setup_;  // also with a planner of its own
   setup.planner = make_planner(config.planner);
-  setup.bundle = scoring_rays(setup.configuration, setup.source.camera);
-  setup.fine_bundle = finer_rays(setup.configuration, setup.source.camera);
+  choose_rays(setup);
   if (views_as_configured_ && !recording_) follow_views(setup, stop);
   if (robot_as_configured_ && !recording_) setup.start = start_view(setup.configuration, setup.source, nullptr);
   return setup;

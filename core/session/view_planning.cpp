@@ -100,6 +100,11 @@ double best_gain(const StepRecord& record) {
 
 }  // namespace
 
+void choose_rays(ScanSetup& setup) {
+  setup.bundle = scoring_rays(setup.configuration, setup.source.camera);
+  setup.fine_bundle = finer_rays(setup.configuration, setup.source.camera);
+}
+
 ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Progress& progress,
                const std::stop_token& stop) {
   if (progress) progress(0.7, "scoring the candidate views");
