@@ -69,8 +69,11 @@ void Session::set_planning(const PlanningConfig& config, const Progress& progres
     state = nothing_scanned(setup, robot_->pose());
   } else if (before.occlusions != now.occlusions || before.posterior != now.posterior ||
              configuration().planner.semantics != config.planner.semantics) {
-    const ScanState nothing = nothing_scanned(setup, state.T_world_camera);
+    ScanState nothing = nothing_scanned(setup, state.T_world_camera);
+    const auto posterior = state.known.posterior;
+    if (posterior) nothing.known.posterior = nullptr;  // it is of the scans alone, and takes the longest
     remake(setup, state, nothing, progress, stop);
+    if (now.posterior && posterior) state.known.posterior = posterior;
   }
   if (!state.records.empty()) state = plan(setup, std::move(state), *robot_, progress, stop);
   setup_ = std::move(setup);

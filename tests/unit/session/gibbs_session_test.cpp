@@ -42,6 +42,24 @@ TEST(GibbsSession, PlansOnThePosterior) {
     }
 }
 
+TEST(GibbsSession, AnotherGainOfThePosteriorDoesNotRefineItAgain) {
+  Session session(gibbs_scan());
+  for (int i = 0; i < 2; ++i) session.step();
+  const auto posterior = session.state().known.posterior;
+  PlannerConfig plain = session.configuration().planner, other = plain;
+  plain.gain = "area-factor";
+  other.gain = "new-surface-gibbs";  // wants occlusions marked
+  session.set_planner(other);
+  EXPECT_EQ(session.state().known.posterior, posterior);
+  const ScanState kept = session.state();
+  session.set_planner(plain);
+  EXPECT_EQ(session.state().known.posterior, nullptr);
+  session.set_planner(other);
+  EXPECT_TRUE(same_map(session.map(), kept.known.map));
+  EXPECT_EQ(session.refinement()->posterior().touch, posterior->posterior().touch);
+  EXPECT_TRUE(same_candidates(session.records()[1].candidates, kept.records[1]->candidates));
+}
+
 TEST(GibbsSession, TheConventionalMapAndItsRankingAreKeptBeside) {
   Session session(gibbs_scan()), plain(small_scan());
   session.step();
