@@ -126,13 +126,23 @@ int finish(Session& session, const ScanArguments& arguments, Scanner* scanner, S
   return session.finished().empty() || stop.stop_requested() ? exit_stopped : 0;
 }
 
+void require_free(const std::filesystem::path& folder, bool overwrite, std::span<const InputFile> inputs) {
+  const InTheWay found = in_the_way(folder, inputs);
+  if (found == InTheWay::nothing || (found == InTheWay::session && overwrite)) return;
+  const char* const why = found == InTheWay::session
+                              ? "holds a session: --resume goes on with it, --overwrite replaces it; or"
+                              : "is not empty, and holds no session;";
+  throw std::invalid_argument(fmt::format("{}: {} give another folder, for example --out {}", folder.string(), why,
+                                          free_folder(folder).string()));
+}
+
 int begin(const ScanArguments& arguments) {
   const std::filesystem::path wanted =
       arguments.out.empty() ? free_folder("out") : std::filesystem::path(arguments.out);
   Configuration configuration = arguments.options.configuration();
   const std::vector<InputFile> inputs = input_files(configuration);
   OutputFolder out(wanted, inputs);
-  require_free_for_session(wanted, arguments.overwrite, inputs);
+  require_free(wanted, arguments.overwrite, inputs);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::optional<Scanner> scanner;

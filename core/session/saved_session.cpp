@@ -120,17 +120,12 @@ SavedSession read_session(const fs::path& folder) {
   return saved;
 }
 
-void require_free_for_session(const fs::path& folder, bool overwrite, std::span<const InputFile> inputs) {
-  if (!is_there(folder)) return;
+InTheWay in_the_way(const fs::path& folder, std::span<const InputFile> inputs) {
+  if (!is_there(folder)) return InTheWay::nothing;
   remove_abandoned_temporary_files(folder);  // of a session that was ended as it began
-  if (holds_nothing_but(inputs, folder)) return;
+  if (holds_nothing_but(inputs, folder)) return InTheWay::nothing;
   const auto manifest = read_manifest(folder);
-  const std::string another = fmt::format("give another folder, for example --out {}", free_folder(folder).string());
-  if (!is_session(folder) && !(manifest && manifest->command == "scan"))
-    throw std::invalid_argument(fmt::format("{}: is not empty, and holds no session; {}", folder.string(), another));
-  if (!overwrite)
-    throw std::invalid_argument(fmt::format(
-        "{}: holds a session: --resume goes on with it, --overwrite replaces it; or {}", folder.string(), another));
+  return is_session(folder) || (manifest && manifest->command == "scan") ? InTheWay::session : InTheWay::others;
 }
 
 Configuration began_with(const SavedSession& saved) {

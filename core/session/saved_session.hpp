@@ -25,9 +25,9 @@ bool is_session(const std::filesystem::path& folder);
 /// @throws std::runtime_error, std::invalid_argument naming the file and the reason: none of a session, a newer
 /// version's, the object has changed
 SavedSession read_session(const std::filesystem::path& folder);
-/// A folder for a session that is yet to begin. @throws std::invalid_argument with one line unless it is absent, empty
-/// but for what the session reads, or holds a session that may be replaced
-void require_free_for_session(const std::filesystem::path& folder, bool overwrite, std::span<const InputFile> inputs);
+/// What is in the way of a session that is yet to be written to a folder; what it reads is not.
+enum class InTheWay { nothing, session, others };
+InTheWay in_the_way(const std::filesystem::path& folder, std::span<const InputFile> inputs);
 
 class SessionFolder;
 

@@ -22,9 +22,10 @@ std::vector<std::string> SessionRunner::write(const std::filesystem::path& folde
   }
   const std::vector<InputFile> inputs = input_files(session_->configuration());
   OutputFolder out(folder, inputs, "");
-  if (is_session(folder))
-    throw std::invalid_argument(folder.string() + ": holds another session: give another name, or open that one");
-  require_free_for_session(folder, false, inputs);
+  if (const InTheWay found = in_the_way(folder, inputs); found != InTheWay::nothing)
+    throw std::invalid_argument(folder.string() + (found == InTheWay::session
+                                                       ? ": holds another session: give another name, or open that one"
+                                                       : ": is not empty, and holds no session: give another name"));
   out.begin("scan", session_->object_file().empty() ? std::nullopt : std::optional(session_->object_file()));
   kept_->copy_to(out, *session_);
   return write_results(out, control);

@@ -57,6 +57,12 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   worker_.post(request::Export{folder});
   wait_until_idle();
   expect_last(Level::success, "Scan written to " + folder.string());
+  worker_.post(request::Export{folder});
+  wait_until_idle();
+  expect_last(Level::warning, folder.string() + ": holds another session: give another name, or open that one");
+  worker_.post(request::Export{own.path()});
+  wait_until_idle();
+  expect_last(Level::warning, own.path().string() + ": is not empty, and holds no session: give another name");
 }
 
 TEST_F(WorkerLog, ARankingThatSaysLittleIsAWarning) {
