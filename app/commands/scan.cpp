@@ -196,6 +196,10 @@ int resume(const ScanArguments& arguments) {
   for (const std::string& notice : saved.notices)
     fmt::print(stderr, "notice: {}\n", printable(fmt::format("{}: {}", saved.folder.string(), notice)));
   if (!is_restored) return exit_stopped;
+  if (!session.finished().empty())
+    fmt::print(
+        "\nIt was finished already: no view is taken, its files are made again. To go on, let it end later, by "
+        "--views,\n--termination.surface_left, or another of termination.*\n");
   folder.keep_configuration(session);
   return finish(session, arguments, scanner ? &*scanner : nullptr, folder, pictures, progress, stop.token());
 }

@@ -163,6 +163,7 @@ TEST_F(SessionFolders, GoesOnBeyondItsEndWithAnotherOne) {
   const Result on = nextview("scan --resume " + in("two") + " --views 4 --no-pictures --no-surfaces");
   ASSERT_EQ(on.exit_code, 0) << on.err;
   EXPECT_THAT(on.out, testing::HasSubstr("\nstep  view "));
+  EXPECT_THAT(on.out, testing::Not(HasSubstr("It was finished already")));
   expect_same("two", "four");
 }
 
@@ -172,7 +173,9 @@ TEST_F(SessionFolders, AFinishedOneGetsWhatIsMissing) {
   for (const char* name :
        {"map.ot", "cloud.ply", "steps.csv", "views.csv", "metrics.json", "config.toml", "manifest.json"})
     fs::remove(in("part") + "/" + name);
-  ASSERT_EQ(nextview("scan --resume " + in("part") + " --no-pictures --no-surfaces").exit_code, 0);
+  const Result again = nextview("scan --resume " + in("part") + " --no-pictures --no-surfaces");
+  ASSERT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.out, HasSubstr("It was finished already: no view is taken"));
   expect_same("part", "whole");
 }
 
