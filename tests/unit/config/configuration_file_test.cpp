@@ -1,73 +1,15 @@
+#include "tests/unit/config/configuration_file.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <functional>
 #include <random>
 
-#include "core/config/configuration.hpp"
 #include "core/config/configuration_text.hpp"
 
 namespace nextview {
 namespace {
-
-class ConfigurationFile : public testing::Test {
- protected:
-  ConfigurationFile()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("nextview_configuration_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~ConfigurationFile() override { std::filesystem::remove_all(folder_); }
-
-  Configuration read(const std::string& text, const Configuration& base) const {
-    std::ofstream(file(), std::ios::binary) << text;
-    Configuration configuration = base;
-    read_settings(file(), configuration);
-    return configuration;
-  }
-  Configuration read(const std::string& text) const {
-    const Configuration defaults;
-    return read(text, defaults);
-  }
-  /// Why the text is refused: one line that names the file. Empty if it is read.
-  std::string reason(const std::string& text) const {
-    try {
-      read(text);
-      return "";
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(file().string()), std::string::npos) << error.what();
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-      return error.what();
-    }
-  }
-  /// What an error says.
-  static std::string complaint(const std::function<void()>& action) {
-    try {
-      action();
-      return "";
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-  }
-  std::filesystem::path file() const { return folder_ / "scan.toml"; }
-  std::filesystem::path folder_;
-};
-
-std::vector<std::string> texts(const Configuration& configuration) {
-  Configuration copy = configuration;
-  std::vector<std::string> result;
-  for (const Setting& s : settings(copy)) result.push_back(s.key + " = " + s.text());
-  return result;
-}
-
-std::vector<std::string> default_texts() {
-  const Configuration defaults;
-  return texts(defaults);
-}
 
 std::string default_toml() {
   const Configuration defaults;
@@ -198,55 +140,6 @@ TEST_F(ConfigurationFile, FlippedBytesAreReadOrRefused) {
     for (unsigned k = 0; k <= random() % 4; ++k) bad[random() % bad.size()] = char(random());
     reason(n % 4 ? bad : bad.substr(0, random() % bad.size()));
   }
-}
-
-TEST_F(ConfigurationFile, PresetsThenOverrides) {
-  Configuration narrow, wide;
-  apply_sensor_preset(narrow, "narrow");
-  apply_sensor_preset(wide, "wide");
-  EXPECT_EQ(narrow.sensor_preset, "narrow");
-  EXPECT_NE(narrow.sensor.field_of_view, wide.sensor.field_of_view);
-  // The order in the file does not matter.
-  for (const char* text : {"[sensor]\npreset = 'narrow'\nwidth = 77\n", "[sensor]\nwidth = 77\npreset = 'narrow'\n"}) {
-    const Configuration c = read(text);
-    EXPECT_EQ(c.sensor_preset, "narrow");
-    EXPECT_EQ(c.sensor.width, 77);
-    EXPECT_EQ(c.sensor.height, narrow.sensor.height);
-    EXPECT_EQ(c.sensor.field_of_view, narrow.sensor.field_of_view);
-  }
-  // A preset leaves nothing of the sensor before it.
-  Configuration base;
-  base.sensor.width = 5;
-  EXPECT_EQ(read("sensor.preset = 'wide'\n", base).sensor.width, wide.sensor.width);
-}
-
-TEST_F(ConfigurationFile, ThePapersPresetIsTheDefault) {
-  Configuration paper;
-  apply_sensor_preset(paper, "paper");
-  EXPECT_EQ(texts(paper), default_texts());
-  for (const char* name : {"paper", "narrow", "wide"}) {
-    Configuration configuration;
-    apply_sensor_preset(configuration, name);
-    EXPECT_NO_THROW(configuration.validate()) << name;
-  }
-}
-
-TEST_F(ConfigurationFile, APresetMayBeAFileOfSensorSettingsAlone) {
-  const auto preset = (folder_ / "mine.toml").string();
-  std::ofstream(preset) << "[sensor]\nwidth = 31\n";
-  EXPECT_EQ(read("sensor.preset = '" + preset + "'\n").sensor.width, 31);
-  for (const char* bad :
-       {"[map]\nresolution = 0.02\n", "[sensor]\npreset = 'wide'\n", "[sensor]\nwidht = 3\n", "[sensor"}) {
-    std::ofstream(preset, std::ios::trunc) << bad;
-    Configuration configuration;
-    EXPECT_THROW(apply_sensor_preset(configuration, preset), std::runtime_error) << bad;
-  }
-}
-
-TEST_F(ConfigurationFile, UnknownPresetsNameTheKnownAndTheLine) {
-  const std::string why = reason("\nsensor.preset = 'narow'\n");
-  EXPECT_NE(why.find("narrow"), std::string::npos) << why;
-  EXPECT_NE(why.find(":2:"), std::string::npos) << why;
 }
 
 TEST(ResolveObject, FindsPathsAndNames) {
