@@ -5,41 +5,17 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <condition_variable>
 #include <csignal>
 #include <random>
 
 #include "core/file/atomic_file.hpp"
-#include "core/session/recent_files.hpp"
-#include "core/session/untitled_sessions.hpp"
-#include "tests/unit/workbench/session_runner_test.hpp"
-#include "ui/workbench/session_worker.hpp"
+#include "tests/unit/workbench/kept_session_test.hpp"
 
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-class KeptSessionTest : public InTemporaryFolder {
- protected:
-  fs::path state() const { return folder_ / "state"; }
-  std::vector<fs::path> kept() const {
-    std::vector<fs::path> sessions;
-    if (fs::exists(state()))
-      for (const auto& entry : fs::directory_iterator(state())) sessions.push_back(entry.path());
-    return sessions;
-  }
-  std::unique_ptr<SessionRunner> runner() {
-    auto runner = std::make_unique<SessionRunner>();
-    runner->keep_sessions(state(), [this](const std::string& line) { notices_.push_back(line); });
-    return runner;
-  }
-  static void steps(SessionRunner& runner, int count) {
-    for (int k = 0; k < count; ++k) runner.step(job_control());
-  }
-  std::vector<std::string> notices_;
-};
 
 TEST_F(KeptSessionTest, IsThereFromTheFirstViewOn) {
   auto first = runner();
@@ -150,32 +126,6 @@ TEST_F(KeptSessionTest, AnotherPlannerShowsAllThatIsIts) {
   expect_same_scan(*first->snapshot(), *after);
 }
 
-TEST_F(KeptSessionTest, TheTenNewestStay) {
-  for (int k = 0; k < 12; ++k) {
-    auto one = runner();
-    Configuration c = small_scan();
-    c.evaluation.enabled = false;
-    one->load(c, job_control());
-    steps(*one, 1);
-  }
-  EXPECT_EQ(kept().size(), 10u);
-}
-
-/// Names begin with the time: one of an earlier hour than the ten others would be the first to go.
-TEST_F(KeptSessionTest, TheNewestStaysThoughTheClockWasSetBack) {
-  Session session(small_scan());
-  for (int k = 10; k < 20; ++k)
-    SessionFolder::begin(OutputFolder(state() / fmt::format("2999-12-31 23.59.{} box", 3 * k), {}), session).close();
-  const fs::path first = untitled_folder(state(), "sphere");
-  EXPECT_EQ(first.filename(), "2999-12-31 23.59.58 sphere");
-  SessionFolder::begin(OutputFolder(first, {}), session).close();
-  EXPECT_EQ(untitled_folder(state(), "sphere").filename(), "2999-12-31 23.59.59 sphere");
-  EXPECT_TRUE(fs::exists(first / "journal"));
-  SessionFolder::begin(OutputFolder(state() / "2999-12-31 23.59.59 box", {}), session).close();
-  EXPECT_EQ(untitled_folder(state(), "box").filename(), "3000-01-01 00.00.00 box");
-  EXPECT_TRUE(fs::exists(first / "journal"));
-}
-
 TEST_F(KeptSessionTest, WhereNothingCanBeWrittenItSaysSoOnceAndGoesOn) {
   fs::create_directories(folder_ / "");
   std::ofstream(state()) << "a file in its place";
@@ -219,52 +169,6 @@ TEST_F(KeptSessionTest, WhereTheDiskIsFullAtAnyWriteItGoesOnInMemory) {
     EXPECT_TRUE(fs::exists(folder_ / "elsewhere/map.ot"));
   }
   EXPECT_GT(said, 6);
-}
-
-TEST_F(KeptSessionTest, WhatNobodyClosedIsOfferedOnce) {
-  const fs::path folder = state() / "2026-01-01 00.00.00 box";
-  {
-    Session session(small_scan());
-    SessionFolder ended = SessionFolder::begin(OutputFolder(folder, {}), session);
-    ASSERT_TRUE(ended.step(session));
-    ASSERT_TRUE(ended.step(session));
-    EXPECT_FALSE(unfinished_session(state())) << "another program is at it";
-  }
-  const auto found = unfinished_session(state());
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->name, "box");
-  EXPECT_EQ(found->views, 2u);
-  for (const char* answer : {"Ask later", "Begin anew", "Go on"}) {
-    std::mutex mutex;
-    std::condition_variable news;
-    SessionWorker worker([&] { news.notify_all(); });
-    worker.keep_sessions(state());
-    worker.post(request::OfferSession{*found});
-    std::unique_lock lock(mutex);
-    while (worker.progress().question.empty()) news.wait_for(lock, std::chrono::milliseconds(20));
-    EXPECT_THAT(worker.progress().question, HasSubstr("box with 2 views was not closed"));
-    worker.answer(answer);
-    while (worker.progress().busy) news.wait_for(lock, std::chrono::milliseconds(20));
-    EXPECT_EQ(worker.snapshot()->records.size(), std::string(answer) == "Go on" ? 2u : 0u);
-    EXPECT_EQ(unfinished_session(state()).has_value(), std::string(answer) == "Ask later");
-  }
-  EXPECT_FALSE(unfinished_session(state()));
-}
-
-TEST_F(KeptSessionTest, OneThatWasOpenedElsewhereIsOfferedToo) {
-  const fs::path folder = folder_ / "a session of the day before";
-  {
-    Session session(small_scan());
-    ASSERT_TRUE(SessionFolder::begin(OutputFolder(folder, {}), session).step(session));
-  }
-  EXPECT_FALSE(unfinished_session(state())) << "it was not opened here";
-  add_recent_file(state(), folder);
-  const auto found = unfinished_session(state());
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->folder, folder);
-  EXPECT_EQ(found->name, "a session of the day before");
-  close_session(folder);
-  EXPECT_FALSE(unfinished_session(state()));
 }
 
 /// A session that was opened gives the next object no lengths that were only its own object's.

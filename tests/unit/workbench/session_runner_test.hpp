@@ -59,6 +59,12 @@ inline void expect_same_scan(const SessionSnapshot& a, const SessionSnapshot& b)
   }
 }
 
+inline Configuration long_scan() {
+  Configuration c = small_scan();
+  c.termination.views = 50;
+  return c;
+}
+
 class SessionRunnerTest : public InTemporaryFolder {
  protected:
   const SessionSnapshot& now() { return *runner_.snapshot(); }
