@@ -1,41 +1,19 @@
 #include "app/commands/protocol_example.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
-#include <filesystem>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "core/driver/driver_protocol.hpp"
 #include "core/driver/driver_server.hpp"
 #include "core/file/json_text.hpp"
+#include "core/file/own_folder.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/source/simulated_source.hpp"
 
 namespace nextview {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// For what is captured; goes with it.
-class CaptureFolder {
- public:
-  CaptureFolder() {
-    std::string name = (fs::temp_directory_path() / "nextview-example-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be made");
-    path_ = name;
-  }
-  ~CaptureFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
 
 /// A square of 20 cm in the plane z = 0.
 TriangleMesh square() {
@@ -56,7 +34,7 @@ std::vector<std::string> requests() {
 }  // namespace
 
 std::string protocol_example() {
-  const CaptureFolder folder;
+  const OwnFolder folder;  // for what is captured
   DepthCameraConfig sensor;
   sensor.width = 4;
   sensor.height = 3;
@@ -72,7 +50,7 @@ std::string protocol_example() {
   description.start = start;
   std::string sent, text;
   for (std::string request : requests()) {
-    if (const auto at = request.find("/path"); at != request.npos) request.replace(at, 5, folder.path());
+    if (const auto at = request.find("/path"); at != request.npos) request.replace(at, 5, folder.path().string());
     sent += request + '\n';
   }
   std::istringstream in(sent);

@@ -5,13 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstdlib>
 #include <ctime>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "core/file/own_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -45,9 +45,7 @@ void remove_abandoned(const fs::path& folder) {
 
 CapturesFolder::CapturesFolder(const fs::path& temporary) : owner_(::getpid()) {
   remove_abandoned(temporary);
-  std::string name = (temporary / (std::string(name_beginning) + "XXXXXX")).string();
-  if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), temporary.string());
-  path_ = name;
+  path_ = make_own_folder(name_beginning, temporary);
   lock_ = locked(path_);
 }
 

@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstdlib>
-#include <system_error>
 
 #include "core/cloud/ply_header.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/gzip_file.hpp"
 #include "core/file/lower_case.hpp"
+#include "core/file/own_folder.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/progress/stopped.hpp"
@@ -47,26 +45,6 @@ bool has_no_faces(const fs::path& file) try {
 } catch (const std::runtime_error&) {
   return false;
 }
-
-/// A folder that nobody else has, and that goes with its content.
-class OwnFolder {
- public:
-  OwnFolder() {
-    std::string pattern = (fs::temp_directory_path() / "nextview-XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw std::system_error(errno, std::generic_category(), pattern);
-    path_ = pattern;
-  }
-  ~OwnFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  OwnFolder(const OwnFolder&) = delete;
-  OwnFolder& operator=(const OwnFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// A compressed mesh, unpacked for its reader, which knows types by the endings of names.
 PlacedMesh load_unpacked(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {

@@ -10,25 +10,12 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/file/own_folder.hpp"
+
 namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Folder {
- public:
-  Folder() : path_((fs::temp_directory_path() / "nextview_fuzz_XXXXXX").string()) {
-    if (!::mkdtemp(path_.data())) throw std::system_error(errno, std::generic_category(), path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 [[noreturn]] void end(const char* what, const char* more) {
   std::fprintf(stderr, "fuzzer: %s: %s\n", what, more);
@@ -38,7 +25,7 @@ class Folder {
 }  // namespace
 
 fs::path fuzzed_file(const std::string& name, std::string_view bytes) {
-  static const Folder folder;
+  static const OwnFolder folder;
   const fs::path file = folder.path() / name;
   int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (descriptor < 0) {

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/own_folder.hpp"
 #include "core/file/read_file.hpp"
 #include "ui/render_target/image.hpp"
 
@@ -69,12 +70,10 @@ class Display : public testing::Test {
  protected:
   virtual std::string size() const { return "1280x800"; }  ///< of the display [px]
   void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "nextview-display-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    folder_ = make_own_folder("nextview-display-");
     // A server that begins anew when its last client leaves would turn away whoever comes at that moment.
-    server_ = std::make_unique<Background>(
-        fmt::format("Xvfb -displayfd 1 -noreset -screen 0 {}x24 -fbdir {} -nolisten tcp 2>/dev/null", size(), name));
+    server_ = std::make_unique<Background>(fmt::format(
+        "Xvfb -displayfd 1 -noreset -screen 0 {}x24 -fbdir {} -nolisten tcp 2>/dev/null", size(), folder_.string()));
     display_ = ":" + server_->line();
     ASSERT_NE(display_, ":") << "Xvfb does not start; install xvfb";
   }

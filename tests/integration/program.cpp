@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
 
@@ -31,16 +29,5 @@ Result nextview_interrupted(double seconds, const std::string& arguments) {
 }
 
 Result nextview_behind(const std::string& commands, const std::string& arguments) { return run(commands, arguments); }
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "nextview-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 }  // namespace nextview

@@ -1,6 +1,7 @@
 #pragma once
-#include <filesystem>
 #include <string>
+
+#include "core/file/own_folder.hpp"
 
 namespace nextview {
 
@@ -19,14 +20,6 @@ Result nextview_interrupted(double seconds, const std::string& arguments);
 Result nextview_behind(const std::string& commands, const std::string& arguments);
 
 /// A folder of this test's own, empty, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using TemporaryFolder = OwnFolder;
 
 }  // namespace nextview
