@@ -4,21 +4,15 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <set>
 
-#include "core/file/atomic_file.hpp"
 #include "core/file/installation.hpp"
 #include "core/file/read_file.hpp"
-#include "tests/integration/small_scan.hpp"
+#include "tests/integration/demos.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/render/animation_pictures.hpp"
 #include "tests/render/render_test.hpp"
-#include "tests/unit/map/in_temporary_folder.hpp"
-#include "ui/demo/demo_frames.hpp"
-#include "ui/demo/demo_video.hpp"
-#include "ui/panels/panel_table.hpp"
 
 namespace nextview {
 namespace {
@@ -31,45 +25,6 @@ constexpr const char* short_demo =
     "hide-panels\ntitle \"A sphere\" 0.5\nopen tiny.toml\ncaption \"Two views\"\norbit 90 1 10\nwait until done\n"
     "step\nwait 0.3\nfly-to 20 40 0.7 1.5\nhide-panels\nstep\ncaption \"{reason}\" 1\nhighlight view 0.9\n"
     "wait until done\nassert views 2\nassert coverage > 0\n";
-
-class Demos : public InTemporaryFolder {
- protected:
-  Demos() {
-    announce_panels(standard_panels());  // demos name them
-    write_file(folder_ / "tiny.toml", to_toml(tiny_scan()));
-  }
-  Demo demo(std::string text, const fs::path& out = {}) const {
-    if (const auto at = text.find("tiny.toml"); at != text.npos) text.insert(at, folder_.string() + "/");
-    write_file(folder_ / "demo.nextview", text);
-    return read_demo((folder_ / "demo.nextview").string(), out);
-  }
-  /// As a demo of this text says its mistake; empty if it has none, and plays.
-  std::string error_of(const std::string& text, bool plays = false) const {
-    try {
-      const Demo read = demo(text);
-      if (plays) play_demo(read, small, [](const Image&, int) {});
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
-  }
-  static std::vector<Image> frames(const Demo& demo, const DemoPictures& pictures) {
-    std::vector<Image> all;
-    play_demo(demo, pictures, [&](const Image& frame, int number) {
-      EXPECT_EQ(number, int(all.size()) + 1);
-      all.push_back(frame);
-    });
-    return all;
-  }
-
-  static constexpr DemoPictures small{{320, 180}, 4};
-};
-
-/// Says the name of the first that differs, not megabytes of pixels.
-void expect_same(const std::vector<Image>& a, const std::vector<Image>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i] == b[i]) << "frame " << i + 1;
-}
 
 TEST_F(Demos, FramesAreTheSameEveryTimeOnAnyNumberOfThreadsAndHoweverManyThereAre) {
   const Demo played = demo(short_demo);
@@ -218,73 +173,6 @@ TEST_F(Demos, MistakesNameTheirLine) {
   EXPECT_THAT(error_of("assert views many\n"), HasSubstr(":1: assert"));
   EXPECT_THROW(read_demo("tuor"), std::runtime_error);
   EXPECT_EQ(missing_data(demo("open nowhere.ply\n")).size(), 1u);
-}
-
-TEST_F(Demos, FramesAndTheirListAreReplacedByThoseOfTheNextRun) {
-  const auto write = [&](const std::string& text) {
-    OutputFolder out(folder_ / "out", {});
-    out.begin("demo");
-    return write_demo(demo(text), small, out, [](int) {}, {});
-  };
-  EXPECT_EQ(write("title \"A\" 1\nwait 1\n"), 4);
-  EXPECT_TRUE(fs::exists(folder_ / "out" / "frame_00004.png"));
-  EXPECT_TRUE(fs::exists(folder_ / "out" / "config.toml"));
-  EXPECT_EQ(write("title \"A\" 1\nwait 0.5\nwait 0.25\n"), 4) << "and what the title still takes";
-  EXPECT_EQ(write("wait 0.5\n"), 2);
-  EXPECT_FALSE(fs::exists(folder_ / "out" / "frame_00003.png"));
-  EXPECT_EQ(read_manifest(folder_ / "out")->files.size(), 3u);
-}
-
-TEST_F(Demos, WhatIsWrittenIsWhatIsPlayedAndItsAnimationShowsIt) {
-  const Demo played = demo("title \"A\" 1\nwait 1.25\ncaption \"b\"\nwait 1\n");
-  const auto expected = frames(played, small);
-  EXPECT_EQ(expected.size(), 9u) << "of 2.25 s";
-  OutputFolder out(folder_ / "out", {});
-  out.begin("demo");
-  std::vector<int> told;
-  EXPECT_EQ(write_demo(played, small, out, [&](int number) { told.push_back(number); }, {}), 9);
-  EXPECT_THAT(told, ::testing::ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
-  std::vector<Image> written;
-  for (int number = 1; number <= 9; ++number)
-    written.push_back(read_png(folder_ / "out" / fmt::format("frame_{:05}.png", number)));
-  expect_same(written, expected);
-  write_video(folder_ / "out", small.frames_per_second, folder_ / "a.png");
-  expect_same(animation_pictures(folder_ / "a.png"), expected);
-}
-
-TEST_F(Demos, AVideoNeedsItsProgramAndAnEndingThatItKnows) {
-  EXPECT_THROW(require_video("a.avi"), std::invalid_argument);
-  EXPECT_NO_THROW(require_video("a.png")) << "that needs no other program";
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", ("/nowhere::" + (folder_ / "none").string()).c_str(), 1);
-  EXPECT_THROW(require_video("a.mp4"), std::runtime_error);
-  EXPECT_THROW(require_video("a.webm"), std::runtime_error);
-  EXPECT_NO_THROW(require_video("a.png"));
-  EXPECT_THROW(require_video("a"), std::invalid_argument) << "whatever program there is";
-  ::setenv("PATH", path.c_str(), 1);
-}
-
-/// In its place stands a script that writes down how it was called, or says what is wrong.
-TEST_F(Demos, AVideoIsMadeByItsProgramWhichSaysWhyItCannot) {
-  const fs::path program = folder_ / "ffmpeg", video = folder_ / "a.webm";
-  write_file(program,
-             "#!/bin/sh\nfor last; do :; done\nif [ -e \"$0.broken\" ]; then printf 'first\\nno such codec\\n\\n' >&2; "
-             "exit 3; fi\nprintf '%s\\n' \"$@\" > \"$last\"\n");
-  fs::permissions(program, fs::perms::owner_all);
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", ("/nowhere:" + folder_.string() + ":" + path).c_str(), 1);
-  EXPECT_NO_THROW(require_video(video));
-  EXPECT_NO_THROW(require_video("a.mp4"));
-  write_video(folder_ / "frames", 24, video);
-  EXPECT_THAT(read_file(video), HasSubstr("-framerate\n24\n-i\n" + (folder_ / "frames/frame_%05d.png").string()));
-  write_file(folder_ / "ffmpeg.broken", "");
-  try {
-    write_video(folder_ / "frames", 24, video);
-    ADD_FAILURE() << "it ended with 3";
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), video.string() + ": ffmpeg cannot write it: no such codec");
-  }
-  ::setenv("PATH", path.c_str(), 1);
 }
 
 /// A demo that is cut, has its lines swapped, words of other lines, huge numbers or unknown commands.
