@@ -11,6 +11,7 @@
 #include "core/file/gzip_file.hpp"
 #include "core/file/lower_case.hpp"
 #include "core/file/png_text.hpp"
+#include "core/file/same_file.hpp"
 #include "core/mesh/mesh_types.hpp"
 
 namespace nextview {
@@ -48,6 +49,17 @@ Configuration with_input(Configuration configuration, const std::filesystem::pat
   else
     configuration.object.file = input.string();
   return configuration;
+}
+
+Configuration with_next_input(Configuration configuration, const std::filesystem::path& input) {
+  const bool has_settings = input.extension() == ".toml" || input.extension() == ".png";
+  ObjectConfig& object = configuration.object;
+  if (!has_settings && input != object.file && !same_file(input, object.file)) {
+    object.unit = LengthUnit::automatic;
+    object.up = UpAxis::automatic;
+    for (const char* key : {"object.unit", "object.up"}) configuration.sources.erase(key);
+  }
+  return with_input(std::move(configuration), input);
 }
 
 std::string not_an_input(const std::filesystem::path& file) {

@@ -12,6 +12,9 @@ namespace nextview {
 /// this one. @throws std::runtime_error "file:line: reason" for a .toml
 Configuration with_input(Configuration configuration, const std::filesystem::path& input);
 
+/// The same after another object: what was set of that one's file, its unit and its axis upwards, holds of no other.
+Configuration with_next_input(Configuration configuration, const std::filesystem::path& input);
+
 /// Why nothing is opened that is called so, and what to do; empty if its name says that it may be. Its content is not
 /// looked at.
 std::string not_an_input(const std::filesystem::path& file);

@@ -50,7 +50,8 @@ void SessionRunner::load(Configuration configuration, const JobControl& control)
 
 void SessionRunner::open(const std::filesystem::path& input, const JobControl& control) {
   if (is_session(input)) return open_session(input, control);
-  start(with_input(scanner_ ? before_scanner_ : configuration(), input), nullptr, control);
+  const Configuration before = scanner_ ? before_scanner_ : configuration();
+  start(session_ ? with_next_input(before, input) : with_input(before, input), nullptr, control);
 }
 
 void SessionRunner::disconnect(const JobControl& control) {

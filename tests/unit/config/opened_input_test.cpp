@@ -41,6 +41,18 @@ TEST(WithInput, ForgetsWhatFollowedFromTheObjectBefore) {
   EXPECT_EQ(c.map.resolution, 0.003);
 }
 
+TEST(WithNextInput, TakesNoUnitFromTheFileBefore) {
+  Configuration inches;
+  inches.object.file = "part.stl";
+  give(inches, "object.unit", "inch", "--object.unit");
+  give(inches, "object.up", "y", "--object.up");
+  EXPECT_EQ(with_next_input(inches, "part.stl").object.unit, LengthUnit::inches);
+  const Configuration next = with_next_input(inches, "other.stl");
+  EXPECT_EQ(next.object.unit, LengthUnit::automatic);
+  EXPECT_EQ(next.object.up, UpAxis::automatic);
+  EXPECT_FALSE(next.sources.contains("object.unit"));
+}
+
 TEST(NotAnInput, GoesByTheName) {
   for (const char* name : {"part.stl", "PART.STL", "a/part.ply.gz", "cloud.pcd", "cloud.pcd.gz", "scan.graph",
                            "scan.log", "scene.txt", "mine.toml", "figure.png"})

@@ -3,6 +3,16 @@
 namespace nextview {
 namespace {
 
+TEST_F(SessionRunnerTest, OpeningAnotherObjectForgetsTheAxisOfTheOneBefore) {
+  Configuration lying = small_scan();
+  lying.object.up = UpAxis::y;
+  runner_.load(lying, job_control());
+  runner_.open("box", job_control());
+  EXPECT_EQ(now().configuration.object.up, UpAxis::automatic);
+  runner_.undo(job_control());
+  EXPECT_EQ(now().configuration.object.up, UpAxis::y);
+}
+
 TEST_F(SessionRunnerTest, NothingWorksOnNothing) {
   EXPECT_FALSE(now().can_undo || now().can_redo || runner_.can_step());
   const auto before = runner_.snapshot();
