@@ -80,7 +80,7 @@ void add_demo_command(CLI::App& program) {
   app->add_flag("--check", a->check, "only tells whether every line is right, and what it opens is there");
   app->add_flag("--list-commands", a->list_commands, "prints all commands and ends");
   app->footer(
-      "In the window Space pauses, Right skips, and any other key or a click takes over.\n"
+      "In the window Space pauses, Right skips, F12 is the full screen, and any other key or a click takes over.\n"
       "Examples:\n  nextview demo\n  nextview demo gibbs --out frames --size 1920x1080 --video gibbs.mp4\n"
       "  nextview demo mine.nextview --check");
   app->callback([a] { throw CLI::RuntimeError(run(*a)); });

@@ -129,7 +129,7 @@ TEST_F(Demos, TheOperatorPausesSkipsAndTakesOver) {
   SessionWorker worker;
   InspectionWorker inspector;
   Interface window(target, worker, inspector, 0.25);
-  window.play_demo(demo("hide-panels\ncaption \"one\"\nwait 100\ncaption \"two\"\nwait 100\n").calls);
+  window.play_demo(demo("hide-panels\ntoggle-legends\ncaption \"one\"\nwait 100\ncaption \"two\"\nwait 100\n").calls);
   const auto frames = [&](int count) {
     for (int i = 0; i < count; ++i) window.draw(0.1);
   };
@@ -151,11 +151,17 @@ TEST_F(Demos, TheOperatorPausesSkipsAndTakesOver) {
   EXPECT_GT(shown.time, time);
   type(Key::right);
   EXPECT_EQ(shown.caption->text, "two");
+  type(Key::alt);
+  type(Key::f12);
+  EXPECT_TRUE(window.state().full_screen);
   EXPECT_FALSE(window.script_is_done());
   type(Key::escape);
   EXPECT_TRUE(window.script_is_done());
   EXPECT_FALSE(shown.demo);
   EXPECT_FALSE(window.state().panels_hidden) << "there is nothing to go on with";
+  EXPECT_TRUE(window.state().layers.legends);
+  for (const char* line : {"hide-panels", "toggle-legends"})
+    EXPECT_EQ(std::ranges::count(window.state().history.lines, line), 2) << "a recording begins with " << line;
 }
 
 TEST_F(Demos, MistakesNameTheirLine) {

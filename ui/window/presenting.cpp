@@ -1,8 +1,18 @@
 // A demo in the window: its time, its camera, and who has the keyboard meanwhile.
 #include "ui/commands/demo_file.hpp"
+#include "ui/commands/layer_commands.hpp"
+#include "ui/commands/window_commands.hpp"
 #include "ui/window/interface_parts.hpp"
 
 namespace nextview {
+namespace {
+
+/// A modifier alone is nothing yet, and comes with what a desktop does: another window, a picture of this one.
+bool leaves_demo_alone(Key key) {
+  return key == Key::f12 || key == Key::control || key == Key::shift || key == Key::alt;
+}
+
+}  // namespace
 
 bool Interface::Parts::works() const {
   const WorkerProgress now = worker.progress();
@@ -40,15 +50,15 @@ void Interface::Parts::fly(double seconds) {
   }
 }
 
-/// Space pauses, Right skips what is waited for, and whatever else is done takes over. What a demo shows depends on no
-/// pointer. Returns what is left for the window.
+/// Space pauses, Right skips what is waited for, F12 is the full screen, and whatever else is done takes over. What a
+/// demo shows depends on no pointer. Returns what is left for the window.
 std::vector<InputEvent> Interface::Parts::input_beside_demo(const std::vector<InputEvent>& events) {
   std::vector<InputEvent> left;
   Presentation& p = state.presentation;
   for (const InputEvent& event : events) {
     const auto* key = std::get_if<input::KeyChange>(&event);
     const auto* button = std::get_if<input::Button>(&event);
-    if (!p.demo || std::holds_alternative<input::Expose>(event) || (key && !key->down))
+    if (!p.demo || std::holds_alternative<input::Expose>(event) || (key && (!key->down || leaves_demo_alone(key->key))))
       left.push_back(event);
     else if (key && key->key == Key::space)
       p.paused = !p.paused;
@@ -60,11 +70,13 @@ std::vector<InputEvent> Interface::Parts::input_beside_demo(const std::vector<In
   return left;
 }
 
+/// What a demo leaves away comes back by commands, as a recording needs them, too.
 void Interface::Parts::take_over() {
   script.stop();
   state.presentation = {};
   course.reset();
-  state.panels_hidden = false;
+  if (state.panels_hidden) do_call(command::hide_panels());
+  if (!state.layers.legends) do_call(command::toggle_legends());
 }
 
 /// From nothing: with the window and the settings as they are at first.

@@ -32,6 +32,16 @@ TEST(DemoRecording, WaitsWhereTheOperatorDid) {
   EXPECT_EQ(lines_of(history, 4), "step\nwait 1\nstep\nselect-next\nwait 2.25\n") << "what was before is done at once";
 }
 
+TEST(DemoRecording, NothingWaitsForADemoThatWasPlayedBefore) {
+  CommandHistory history;
+  ScriptRecorder recorder(history);
+  for (const char* line : {"title Begin 5", "open box", "wait 4", "caption One", "highlight view 3"})
+    recorder.add(parse_call(line));
+  history.now = 9;
+  recorder.add(parse_call("caption Two"));
+  EXPECT_EQ(lines_of(history, 9), "open box\ncaption Two\n");
+}
+
 TEST(DemoRecording, LongPausesTakeSeveralLines) {
   EXPECT_EQ(lines_of({{}, {}, 1500.5}, 0), "wait 600\nwait 600\nwait 300.5\n");
 }
