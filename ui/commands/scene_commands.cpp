@@ -14,10 +14,11 @@ namespace {
 Eigen::AlignedBox3d solid_box(const SessionSnapshot& s) { return s.mesh ? s.mesh->bounding_box() : s.grid.box(); }
 
 /// Across an axis, through the middle of the object at first; what is nearer to the camera goes.
-void section_across(CommandTarget& t, SliceAxis chosen) {
+void section_across(CommandTarget& t, const std::optional<SliceAxis>& chosen) {
   auto& section = t.window.layers.section;
-  if (chosen == SliceAxis::none) return section.reset();
-  const int axis = static_cast<int>(chosen) - 1;
+  const SliceAxis wanted = chosen.value_or(section ? SliceAxis::none : SliceAxis::x);
+  if (wanted == SliceAxis::none) return section.reset();
+  const int axis = static_cast<int>(wanted) - 1;
   const double middle = solid_box(t.session).center()[axis];
   section = Section{axis, middle, t.window.scene_camera.translation()[axis] < middle};
 }
@@ -119,14 +120,16 @@ const CommandOf<double> command::zoom{
     argument::number("steps", "of an eighth of the distance", -100, 100),
     [](CommandTarget& t, double steps) { t.window.camera_motions.push_back(camera_motion::Zoom{steps}); }};
 
-const CommandOf<SliceAxis> command::section_axis{
+const CommandOf<std::optional<SliceAxis>> command::section_axis{
     {"section-axis",
      "Scene",
-     "Cut across…",
-     "Cuts object, surface, points and voxels open across an axis, the object's inside hatched; none leaves all whole.",
-     {{key('X'), false, {"x"}}},
+     "Cut open, or close",
+     "Cuts object, surface, points and voxels open across an axis, the object's inside hatched; none leaves all whole. "
+     "Without an axis: across x, or closed again.",
+     {{key('X')}},
      needs_session},
-    argument::choice<SliceAxis>("axis", "x, y, z or none", {"none", "x", "y", "z"}),
+    argument::optional(argument::choice<SliceAxis>(
+        "axis", "x, y, z or none; if nothing is said none, or x where all is whole", {"none", "x", "y", "z"})),
     section_across};
 
 const CommandOf<double> command::section_at{

@@ -15,7 +15,7 @@ extern const CommandOf<double, double> look_from, turn;  ///< azimuth, elevation
 extern const CommandOf<double> zoom;                     ///< steps
 extern const CommandOf<> toggle_orthographic;
 extern const CommandOf<std::string> keep_camera, go_to_camera, remove_camera;  ///< a name
-extern const CommandOf<SliceAxis> section_axis;
+extern const CommandOf<std::optional<SliceAxis>> section_axis;
 extern const CommandOf<double> section_at;  ///< [m, world]
 extern const CommandOf<> flip_section;
 extern const CommandOf<SecondView> second_view;

@@ -144,6 +144,10 @@ TEST_F(CommandEffects, ASectionKeepsTheHalfAwayFromTheCamera) {
   EXPECT_FALSE(section->keeps_upper);
   run("section-axis none");
   EXPECT_FALSE(section);
+  run("section-axis");
+  EXPECT_EQ(section.value().axis, 0);
+  run("section-axis");
+  EXPECT_FALSE(section) << "the same key closes it";
 }
 
 TEST_F(CommandEffects, DemosShowWhatIsSaidByTheirOwnTime) {
