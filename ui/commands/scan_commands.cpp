@@ -8,9 +8,18 @@
 namespace nextview {
 namespace {
 
+std::vector<std::string> available_candidates(const SessionSnapshot& s) {
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < s.candidates.size(); ++i)
+    if (s.available(i)) result.push_back(std::to_string(i));
+  return result;
+}
+
 std::string needs_more_to_scan(const CommandState& t) {
   if (const std::string reason = needs_session(t); !reason.empty()) return reason;
-  return t.session.finished.empty() ? "" : "the scan is finished: " + t.session.finished;
+  if (t.session.finished.empty()) return "";
+  const char* const way_out = available_candidates(t.session).empty() ? "" : "; Continue goes on";
+  return "the scan is finished: " + t.session.finished + way_out;
 }
 
 std::string step_why_not(const CommandState& t) {
@@ -32,13 +41,6 @@ std::string take_proposal_why_not(const CommandState& t) {
 std::string take_custom_view_why_not(const CommandState& t) {
   if (const std::string reason = take_why_not(t); !reason.empty()) return reason;
   return t.window.selection.custom_view ? "" : "set up a custom view first (custom-view)";
-}
-
-std::vector<std::string> available_candidates(const SessionSnapshot& s) {
-  std::vector<std::string> result;
-  for (std::size_t i = 0; i < s.candidates.size(); ++i)
-    if (s.available(i)) result.push_back(std::to_string(i));
-  return result;
 }
 
 std::string continue_why_not(const CommandState& t) {

@@ -106,6 +106,8 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
   EXPECT_THROW(scripted.run("continue"), std::exception) << "nothing is finished";
   scripted.run("step");
   ASSERT_NE(worker.snapshot()->finished, "");
+  const CommandState finished{*worker.snapshot(), {}, scripted.window};
+  EXPECT_THAT(find_command("take-view").why_not_now(finished), testing::EndsWith("; Continue goes on"));
   scripted.run("continue");
   EXPECT_EQ(worker.snapshot()->finished, "");
   EXPECT_EQ(worker.snapshot()->records.size(), 1u) << "nothing starts over";
