@@ -22,6 +22,12 @@ namespace fs = std::filesystem;
 
 bool names_folder(const Command& command) { return command.arguments().front().name == "folder"; }
 
+/// A name without an ending has that of the one that is proposed, so that it is known what would be replaced.
+fs::path with_ending(fs::path file, const fs::path& proposed) {
+  if (!file.has_extension()) file += proposed.extension();
+  return file;
+}
+
 int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 
 }  // namespace
@@ -191,8 +197,12 @@ void FileDialog::accept_written(const PanelContext& context, const Command& comm
   if (written_.empty() && std::exchange(entered_, false)) return;  // who writes a folder and Enter wants to see it
   const std::vector<std::size_t> found = shown();
   const bool by_name = !written_.empty() && (!to_read_ || found.empty() || is_there(browser_.meant(written_)));
-  if (by_name)
-    accept(context, command, browser_.meant(written_));
+  const auto& names = command.arguments().front().choices;  // of objects, or the one that is proposed
+  const auto known = names ? names(context.snapshot) : std::vector<std::string>();
+  if (to_read_ && found.empty() && std::ranges::find(known, written_) != known.end())
+    call(context, command, written_);
+  else if (by_name)
+    accept(context, command, with_ending(browser_.meant(written_), to_read_ || known.empty() ? "" : known.front()));
   else if (!found.empty())
     accept(context, command, browser_.folder() / browser_.entries()[found[std::min(chosen_, found.size() - 1)]].name);
 }

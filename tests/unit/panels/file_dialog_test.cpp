@@ -120,6 +120,29 @@ TEST_F(FileDialogTest, NothingIsReplacedUnasked) {
   EXPECT_EQ(done(), "export-cloud " + quoted(path("parts/bracket.stl")));
 }
 
+TEST_F(FileDialogTest, AnEndingThatIsLeftOutIsAddedBeforeItAsks) {
+  std::ofstream(folder_ / "parts/mine.nextview") << "12345";
+  begin("record");
+  desk_.type_with(key('A'), true);
+  desk_.write(path("parts/mine"));
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "");
+  EXPECT_THAT(read("File"), testing::HasSubstr("mine.nextview is there already."));
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "record " + quoted(path("parts/mine.nextview")));
+}
+
+TEST_F(FileDialogTest, AnObjectThatComesWithTheProgramIsOpenedByItsName) {
+  begin("open");
+  desk_.type(Key::enter);
+  desk_.frames();
+  desk_.write("sphere");
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open sphere");
+}
+
 TEST_F(FileDialogTest, WhereNothingCouldBeWrittenIsNotProposedAgain) {
   const auto export_to = [&](const std::string& file) {
     begin("export-cloud");
