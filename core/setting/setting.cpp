@@ -129,6 +129,11 @@ void Setting::set(const std::string& new_text) {
   std::string hint;
   if (const auto* c = std::get_if<Choice>(&value))
     hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));
+  std::string with_point = new_text;
+  std::ranges::replace(with_point, ',', '.');
+  double ignored = 0.0;
+  if (std::holds_alternative<double*>(value) && read_quantity(with_point, unit, ignored))
+    hint = fmt::format("; did you mean '{}'?", with_point);
   throw std::invalid_argument(
       fmt::format("{} takes {}, not '{}'{}", key, std::visit(Expected{unit}, value), new_text, hint));
 }

@@ -67,6 +67,22 @@ TEST(Setting, IsCheckedOnlyWhenItIsAskedTo) {
   EXPECT_EQ(setting.explanation(), "image width [px]");
 }
 
+TEST(Setting, ADecimalCommaIsMentionedWithThePointThatItTakes) {
+  double value = 0;
+  Setting setting{"map.resolution", "m", "voxel edge", &value};
+  const auto complaint = [&](const char* text) -> std::string {
+    try {
+      setting.set(text);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("3,5 mm"), "map.resolution takes a number, not '3,5 mm'; did you mean '3.5 mm'?");
+  EXPECT_EQ(complaint("1,000,5"), "map.resolution takes a number, not '1,000,5'");
+  EXPECT_EQ(value, 0);
+}
+
 TEST(Setting, ItsLabelIsTheKeyInWords) {
   double value = 0;
   EXPECT_EQ((Setting{"sensor.range_noise", "m", "", &value}.label()), "range noise");
