@@ -130,6 +130,7 @@ void SessionPanel::draw_sensor(const PanelContext& context, const Setting& setti
 
 void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group) {
   ImGui::PushFont(context.style.small);
+  ImGui::PushID(group.c_str());  // some stand above the groups, too
   for (Setting& setting : settings) {
     if (!setting.key.starts_with(group + ".")) continue;
     const bool shows_unit = setting.unit == "m" && std::holds_alternative<double*>(setting.value);
@@ -142,6 +143,7 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
     draw_setting(context, setting, narrow ? "" : (setting.label() + unit).c_str());
     if (setting.key == "map.region") command_button(context, command::edit_region, Icon::none, "Drag it in the scene");
   }
+  ImGui::PopID();
   ImGui::PopFont();
 }
 

@@ -83,6 +83,23 @@ TEST_F(SessionPanelTest, AChoiceIsSetToo) {
   EXPECT_EQ(text_of(click_on(desk_, "rear-side-voxel")), "set planner.gain rear-side-voxel");
 }
 
+/// Some settings stand above the groups, too.
+TEST_F(SessionPanelTest, AListIsAsLongWhereItsGroupIsOpen) {
+  const auto list_height = [&](bool group_is_open) {
+    Desk desk;
+    desk.snapshot = scan_;
+    desk.frames();
+    if (group_is_open) click_on(desk, "Planner", "Session");
+    click_on(desk, "occlusion-aware", "Session");
+    desk.frames();
+    const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    return open.empty() ? 0.0f : open.back().Window->ContentSize.y;
+  };
+  const float alone = list_height(false);
+  EXPECT_GT(alone, 0);
+  EXPECT_NEAR(list_height(true), alone, 0.1 * alone);
+}
+
 /// Another scan's settings take the place of those that were shown.
 TEST_F(SessionPanelTest, FollowsTheScan) {
   desk_.frames();
