@@ -35,7 +35,7 @@ void add_settings(std::vector<Difference>& result, const SessionSnapshot& here, 
   Configuration a = here.configuration, b = there.configuration;
   const auto ours = settings(a), theirs = settings(b);
   for (std::size_t i = 0; i < ours.size(); ++i)
-    if (ours[i].text() != theirs[i].text()) result.push_back({ours[i].label(), ours[i].text(), theirs[i].text()});
+    if (ours[i].text() != theirs[i].text()) result.push_back({ours[i].key, ours[i].text(), theirs[i].text()});
 }
 
 /// The choice of the branch, to begin with.

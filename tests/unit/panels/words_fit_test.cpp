@@ -6,6 +6,7 @@
 
 #include "tests/unit/panels/scan_states.hpp"
 #include "tests/unit/panels/seen.hpp"
+#include "ui/commands/command_list.hpp"
 #include "ui/workbench/inspector.hpp"
 
 namespace nextview {
