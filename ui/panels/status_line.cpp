@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/file/counted.hpp"
 
 namespace nextview {
@@ -48,7 +50,9 @@ void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   const float right_x = float(rectangle.width) - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
   ImGui::SetCursorPos({style.px(14), y});
   if (s.message.empty()) {
-    const std::string left = last_step(s, !context.window.presentation.demo);
+    std::string left = last_step(s, !context.window.presentation.demo);
+    if (const auto& recording = context.window.recording)
+      left = fmt::format("Recording {} · {}", std::filesystem::path(recording->file).filename().string(), left);
     const bool room_for_both = style.px(14 + 24) + ImGui::CalcTextSize(left.c_str()).x < right_x;
     ImGui::TextDisabled("%s", shortened(left, float(rectangle.width) - style.px(28)).c_str());
     if (room_for_both) {

@@ -158,6 +158,11 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   EXPECT_THAT(status(), HasSubstr("Nothing measured yet"));
 }
 
+TEST_F(Bars, TheStatusLineSaysThatARecordingRuns) {
+  desk_.window.recording = DemoRecording{"/somewhere/mine.nextview", 0};
+  EXPECT_THAT(status(), HasSubstr("Recording mine.nextview · View 2: "));
+}
+
 TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {
   desk_.window.bring_to_front("log");
   desk_.frames();
