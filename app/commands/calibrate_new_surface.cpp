@@ -11,6 +11,7 @@
 #include "core/file/printable.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/object_mesh.hpp"
+#include "core/session/saved_session.hpp"
 #include "core/session/session_parts.hpp"
 
 namespace nextview {
@@ -104,6 +105,7 @@ int fit_new_surface(const CalibrateArguments& arguments) {
   const NewSurfaceCalibrationConfig config = fit_config(arguments, configuration);
   require_valid(configuration, config);
   OutputFolder out(arguments.out, inputs(arguments, configuration));
+  require_no_session(arguments.out);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   const std::vector<TrainingObject> learned_from = objects(arguments, configuration, progress, stop.token());

@@ -13,6 +13,7 @@
 #include "core/file/printable.hpp"
 #include "core/offline/map_calibration.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/saved_session.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/view/candidate_views.hpp"
 #include "ui/figures/calibration_figure.hpp"
@@ -139,6 +140,7 @@ int fit_sensor_model(const CalibrateArguments& arguments) {
   if (arguments.fitted.empty()) throw std::invalid_argument("calibrate: there is nothing to fit to");
   const std::vector<std::string> held_out = held_out_inputs(arguments);
   [[maybe_unused]] const OutputFolder at_first_sight(arguments.out, named_inputs(arguments, held_out));
+  require_no_session(arguments.out);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::vector<CalibrationExample> examples;

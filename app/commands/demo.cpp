@@ -7,6 +7,7 @@
 #include "app/commands/progress.hpp"
 #include "core/file/printable.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/session/saved_session.hpp"
 #include "ui/demo/demo_frames.hpp"
 #include "ui/demo/demo_video.hpp"
 #include "ui/demo/demo_window.hpp"
@@ -37,6 +38,7 @@ int draw(const DemoArguments& a) {
   require_data(demo);
   const std::vector<InputFile> inputs = {{demo.file, "the demo"}};
   OutputFolder folder(a.out, inputs);
+  require_no_session(a.out);
   folder.begin("demo");
   const StopOnInterrupt stop;
   const ProgressLine progress;

@@ -14,6 +14,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/offline/refinement.hpp"
+#include "core/session/saved_session.hpp"
 #include "ui/figures/refinement_figure.hpp"
 #include "ui/figures/sensor_model_figure.hpp"
 
@@ -108,6 +109,7 @@ void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder&
 int run(const RefineArguments& arguments) {
   // That much can be told before the views are taken again.
   OutputFolder out(arguments.out, std::vector<InputFile>{{arguments.input, "what is refined"}});
+  require_no_session(arguments.out);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   const RefinementJob job =

@@ -128,6 +128,13 @@ InTheWay in_the_way(const fs::path& folder, std::span<const InputFile> inputs) {
   return is_session(folder) || (manifest && manifest->command == "scan") ? InTheWay::session : InTheWay::others;
 }
 
+void require_no_session(const fs::path& folder) {
+  if (in_the_way(folder, {}) == InTheWay::session)
+    throw std::invalid_argument(
+        fmt::format("{}: holds a session, which would be lost; give another folder, for example --out {}",
+                    folder.string(), free_folder(folder).string()));
+}
+
 Configuration began_with(const SavedSession& saved) {
   Configuration configuration = saved.configuration;
   if (saved.journal && !saved.journal->settings.empty())

@@ -28,6 +28,9 @@ SavedSession read_session(const std::filesystem::path& folder);
 /// What is in the way of a session that is yet to be written to a folder; what it reads is not.
 enum class InTheWay { nothing, session, others };
 InTheWay in_the_way(const std::filesystem::path& folder, std::span<const InputFile> inputs);
+/// For what replaces earlier results and is no session: captures cannot be made again. @throws std::invalid_argument
+/// naming the folder and another one
+void require_no_session(const std::filesystem::path& folder);
 
 class SessionFolder;
 

@@ -155,7 +155,6 @@ TEST_F(OutputFolder, BadInputLeavesTheResultsOfAnEarlierRun) {
   expect_refused("scan bad.ply --out out" + quick, {"bad.ply"});
   expect_refused("scan missing.ply --out out" + quick, {"missing.ply"});
   expect_refused("scan box --out out --map.region_edge 0.3" + std::string(" --no-pictures --overwrite"), {"region"});
-  expect_refused("refine bad.ply --out out --no-pictures", {"bad.ply"});
   EXPECT_EQ(contents("out"), before);
   expect_refused("scan bad.ply --out new" + quick, {"bad.ply"});
   EXPECT_FALSE(fs::exists(in("new"))) << "nothing is left behind";
@@ -182,6 +181,19 @@ TEST_F(OutputFolder, AStoppedOrKilledRunLeavesARightList) {
     if (!fs::exists(in("out/config.toml")))
       expect_refused("refine out --out refined --no-pictures", {"out: holds no finished scan"});
   }
+}
+
+TEST_F(OutputFolder, WhatIsNoSessionReplacesNone) {
+  expect_done("scan box --out one" + quick);
+  expect_done("scan box --out two" + quick);
+  write_file(in("mine.nextview"), "wait 0.1\n");
+  const auto before = contents("two");
+  const std::vector<std::string> refusal = {"two: holds a session, which would be lost", "--out two-2"};
+  expect_refused("refine one --out two --no-pictures", refusal);
+  expect_refused("calibrate one --out two --no-pictures", refusal);
+  expect_refused("calibrate box --fit new-surface --views 2 --out two", refusal);
+  expect_refused("demo mine.nextview --out two --fps 10", refusal);
+  EXPECT_EQ(contents("two"), before);
 }
 
 TEST_F(OutputFolder, AFolderWithAManifestOfSomethingElseIsLeftAlone) {
