@@ -77,11 +77,7 @@ void DriverRobot::restored(const Pose& T_world_camera) {
 /// Why a pose is not even asked for; empty if it is.
 std::string DriverRobot::forbidden(const Pose& T_world_camera) const {
   if (!is_pose(T_world_camera)) return "the pose is not finite, not rigid, or too far off";
-  const auto& volume = connection_->options().working_volume;
-  const Vector3 p = T_world_camera.translation();
-  if (!volume || volume->contains(p)) return {};
-  return fmt::format("the camera at ({:.3g}, {:.3g}, {:.3g}) m would leave the working volume (robot.working_volume)",
-                     p.x(), p.y(), p.z());
+  return outside(connection_->options().working_volume, T_world_camera.translation());
 }
 
 }  // namespace nextview

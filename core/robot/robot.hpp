@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Geometry>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -22,6 +24,10 @@ struct Reach {
   MotionCost cost;
 };
 
+/// Why the camera may not be there: it would leave the volume that it must stay in. Empty if it may; no volume:
+/// anywhere.
+std::string outside(const std::optional<Eigen::AlignedBox3d>& volume, const Vector3& camera);
+
 /// The paper's robot interface: the planner sees this alone. A driver translates it for one robot.
 class Robot {
  public:
@@ -36,12 +42,15 @@ class Robot {
   virtual void restored(const Pose&) {}
 };
 
-/// The ideal free-flying camera: every finite pose is reachable on a straight line, exactly.
+/// The ideal free-flying camera: every finite pose (of its volume, if it is given one) is reachable on a straight line,
+/// exactly.
 class FreeFlyingCamera : public Robot {
  public:
   /// `speed` [m/s] and `turn_rate` [rad/s] give the seconds of a move; the slower of the two counts.
   /// @throws std::invalid_argument if one is not over 0.
   explicit FreeFlyingCamera(const Pose& start, double speed = 0.25, double turn_rate = 1.0);
+  /// What lies outside is unreachable from now on.
+  void keep_within(const std::optional<Eigen::AlignedBox3d>& volume) { volume_ = volume; }
 
   Pose pose() const override { return pose_; }
   std::vector<Reach> reach(const Pose& from, std::span<const View> views) override;
@@ -49,9 +58,12 @@ class FreeFlyingCamera : public Robot {
   void restored(const Pose& T_world_camera) override { pose_ = T_world_camera; }
 
  private:
+  std::string forbidden(const Pose& T_world_camera) const;
+
   Pose pose_;
   double speed_;
   double turn_rate_;
+  std::optional<Eigen::AlignedBox3d> volume_;
 };
 
 }  // namespace nextview

@@ -44,7 +44,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   setup_.start =
       recording_ ? setup_.source.frames.at(start_frame(c, *recording_)) : start_view(c, setup_.source, robot_.get());
   robot_as_configured_ = !robot_;
-  if (!robot_) robot_ = std::make_unique<FreeFlyingCamera>(setup_.start.T_world_camera);
+  if (!robot_) robot_ = configured_robot(c, setup_.start);
   setup_.planner = std::move(parts.planner);
   if (!setup_.planner) setup_.planner = make_planner(c.planner);
   setup_.candidates = std::move(parts.candidates);

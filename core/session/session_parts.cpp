@@ -99,6 +99,12 @@ View start_view(const Configuration& c, const SourceDescription& source, const R
   return {robot ? robot->pose() : configured_start_view(c)};
 }
 
+std::unique_ptr<Robot> configured_robot(const Configuration& c, const View& start) {
+  auto camera = std::make_unique<FreeFlyingCamera>(start.T_world_camera);
+  if (c.recorded.folder.empty()) camera->keep_within(c.driver.volume());
+  return camera;
+}
+
 VoxelGrid configured_region(const Configuration& c, const SourceDescription& source) {
   if (!source.region || !c.map.region.empty()) return configured_region(c);
   return region_of_interest(source.region->center(), source.region->sizes().maxCoeff(), c.map.resolution);

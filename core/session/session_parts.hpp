@@ -39,6 +39,8 @@ ConfiguredObject load_object(Configuration& configuration, const std::stop_token
 /// Where to begin: with the source's first frame, or where it says, else where a robot of its own is, else as
 /// configured.
 View start_view(const Configuration& configuration, const SourceDescription& source, const Robot* robot);
+/// The ideal camera, which stays in its working volume; one that goes through a recording has none.
+std::unique_ptr<Robot> configured_robot(const Configuration& configuration, const View& start);
 VoxelGrid configured_region(const Configuration& configuration);
 /// The source's region, if it has one and the configuration gives none.
 VoxelGrid configured_region(const Configuration& configuration, const SourceDescription& source);

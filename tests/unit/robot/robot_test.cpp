@@ -57,6 +57,17 @@ TEST(FreeFlyingCamera, StayingCostsNothing) {
   EXPECT_NEAR(cost.seconds, 0.0, 1e-6);
 }
 
+TEST(FreeFlyingCamera, StaysInItsVolume) {
+  FreeFlyingCamera robot(pose_at({1, 0, 1}, 0.0));
+  const View below{pose_at({0.5, 0, -0.1}, 0.0)};
+  EXPECT_EQ(robot.reach(robot.pose(), std::array{below})[0].unreachable, "") << "it has none at first";
+  robot.keep_within(Eigen::AlignedBox3d(Vector3(-1, -1, 0), Vector3(1, 1, 2)));
+  const char* const why = "the camera at (0.5, 0, -0.1) m would leave the working volume (robot.working_volume)";
+  EXPECT_EQ(robot.reach(robot.pose(), std::array{below})[0].unreachable, why);
+  EXPECT_EQ(failure(robot.move_to(below, {})).reason, why);
+  EXPECT_EQ(robot.reach(robot.pose(), std::array{View{pose_at({0.5, 0, 0.1}, 0.0)}})[0].unreachable, "");
+}
+
 TEST(FreeFlyingCamera, GoesWhereItIsTold) {
   FreeFlyingCamera robot(pose_at({1, 0, 0}, 0.1));
   EXPECT_EQ(robot.pose().matrix(), pose_at({1, 0, 0}, 0.1).matrix());
