@@ -115,7 +115,7 @@ std::vector<Setting> settings(CandidateViewsConfig& c) {
       {"views.radius", "m", "their distance from the object's centre", &c.radius, from_to(1e-3, 100)},
       {"views.rings", "", "number of rings (layout rings)", &c.rings, from_to(1, 10000)},
       {"views.file", "",
-       "views file (layout file): a count or none, then x y z qx qy qz qw a line; or a file or folder of 3 x 4 "
+       "views file (layout file): x y z qx qy qz qw a line, as export writes it; or a file or folder of 3 x 4 "
        "projection matrices",
        &c.file},
       {"views.unit", "", "of projection matrices; auto: that of the object's file",

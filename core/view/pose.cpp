@@ -80,11 +80,13 @@ std::vector<Pose> read_views(const std::filesystem::path& file) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   while (!lines.empty() && lines.back().find_first_not_of(" \t\r") == std::string::npos) lines.pop_back();
-  const bool counted = !lines.empty() && !is_view(lines.front());
-  const std::size_t count = counted ? count_of(lines.front()) : lines.size();
+  std::size_t first = 0;
+  while (first < lines.size() && lines[first].starts_with('#')) ++first;
+  const bool counted = first < lines.size() && !is_view(lines[first]);
+  const std::size_t count = counted ? count_of(lines[first]) : lines.size() - first;
   if (count == 0 || count > most)
-    throw fail(1, fmt::format("expected the number of views, from 1 to {}, alone on the first line", most));
-  const std::size_t first = counted ? 1 : 0;
+    throw fail(first + 1, fmt::format("expected the number of views, from 1 to {}, alone on the first line", most));
+  if (counted) ++first;
   if (lines.size() - first > count)
     throw fail(first + count + 1, fmt::format("more than the {} views that the first line tells", count));
   std::vector<Pose> views;

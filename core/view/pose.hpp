@@ -29,7 +29,8 @@ double rotation_angle(const Pose& a, const Pose& b);
 /// A view as `x y z qx qy qz qw` (T_world_camera, [m]). @throws std::invalid_argument with the reason
 Pose parse_view(const std::string& text);
 
-/// The views file: a count alone on its line, which may be left out, then one view a line as parse_view takes it.
+/// The views file: lines that begin with # and a count alone on its line, either of which may be left out, then one
+/// view a line as parse_view takes it.
 /// @throws std::runtime_error naming the file, the line and what is wrong with it.
 std::vector<Pose> read_views(const std::filesystem::path& file);
 

@@ -53,6 +53,12 @@ TEST_F(ViewsFile, IsReadAsWritten) {
   EXPECT_LT((views[1].linear() * Vector3::UnitY() - Vector3::UnitZ()).norm(), 1e-12);
 }
 
+TEST_F(ViewsFile, MayBeginWithComments) {
+  EXPECT_EQ(read(std::string("# as export writes them\n#\n") + two_views).size(), 2u);
+  EXPECT_EQ(read("# poses: x y z qx qy qz qw, in metres\n0.1 0.2 0.3 0 0 0 1\n").size(), 1u);
+  EXPECT_NE(reason("# one\n0 0 0 0 0 0 1\nx\n").find(":3: expected a view"), std::string::npos);
+}
+
 TEST_F(ViewsFile, GivesCandidatesIndependentOfTheTarget) {
   write(two_views);
   CandidateViewsConfig config;
