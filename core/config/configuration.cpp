@@ -96,13 +96,10 @@ class TomlReader {
     }
   }
 
-  const Setting& known(const std::string& key, std::uint32_t line) const {
-    const auto setting =
-        std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
-    if (setting != settings_.end()) return *setting;
-    std::vector<std::string> keys;
-    for (const Setting& s : settings_) keys.push_back(s.key);
-    throw failure(line, fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys)));
+  const Setting& known(const std::string& key, std::uint32_t line) try {
+    return find_setting(settings_, key);
+  } catch (const std::invalid_argument& error) {
+    throw failure(line, error.what());
   }
 
   /// A value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.

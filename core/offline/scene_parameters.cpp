@@ -51,6 +51,7 @@ class Parameters {
           fmt::format("parameter {} must be greater than 0 and at most {:g}, not {:g}", name, largest, value));
     return value;
   }
+  const std::vector<std::string>& known() const { return known_; }
   std::vector<std::string> not_asked_for() const {
     std::vector<std::string> names;
     for (const auto& [name, value] : given_)
@@ -155,7 +156,9 @@ SceneParameters scene_parameters(const RecordedScene& scene, const std::function
   with_names_of_parameters([&] { result.map.model.validate(); });
   parameters("voxels_in_void_ray", 100.0);  // the reference code has it, and never gets to use it
   for (const std::string& name : parameters.not_asked_for())
-    if (warn) warn(fmt::format("parameter {} has no meaning here and is ignored", name));
+    if (warn)
+      warn(fmt::format("parameter {} has no meaning here and is ignored; did you mean '{}'?", name,
+                       nearest(name, parameters.known())));
   for (const RecordedScan& scan : scene.scans)
     require_in_octree(scan.T_world_camera.translation(), result.map.resolution, "the position of a scan");
   for (const Pose& view : scene.views)

@@ -158,12 +158,15 @@ std::string Setting::explanation() const { return unit.empty() ? help : fmt::for
 
 Setting& find_setting(std::vector<Setting>& settings, const std::string& key) {
   const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
-  assert(found != settings.end());
-  return *found;
+  if (found != settings.end()) return *found;
+  std::vector<std::string> keys;
+  for (const Setting& setting : settings) keys.push_back(setting.key);
+  throw std::invalid_argument(fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys)));
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-  return *std::ranges::min_element(known, {}, [&](const std::string& name) { return distance(word, name); });
+  return *std::ranges::min_element(
+      known, {}, [&](const std::string& name) { return std::pair(!name.starts_with(word), distance(word, name)); });
 }
 
 }  // namespace nextview

@@ -51,7 +51,7 @@ void require_in_bounds(Configuration configuration) {
   for (const Setting& setting : settings(configuration)) setting.require_in_bounds();
 }
 
-/// @pre there is a setting with this key
+/// @throws std::invalid_argument if there is none with this key, with one that may be meant
 Setting& find_setting(std::vector<Setting>& settings, const std::string& key);
 
 /// Of `known`, the one that `word` is most likely meant to be.

@@ -32,6 +32,8 @@ TEST(SceneParameters, OnlyWhatHasNoMeaningIsWarnedOf) {
   EXPECT_THAT(warnings_of(scene), IsEmpty());
   scene.parameters["colour"] = 7;
   EXPECT_THAT(warnings_of(scene), ElementsAre(HasSubstr("parameter colour has no meaning here")));
+  scene.parameters = {{"resolutoin_m", 0.1}};
+  EXPECT_THAT(warnings_of(scene), ElementsAre(HasSubstr("did you mean 'resolution_m'?")));
 }
 
 /// 2^15 voxels each way, whatever their size.

@@ -12,6 +12,7 @@ TEST(Nearest, CountsInsertionsDeletionsAndReplacements) {
   EXPECT_EQ(nearest("coverge", {"average", "coverage", "converge"}), "coverage");
   EXPECT_EQ(nearest("", {"abc", "a", "ab"}), "a");
   EXPECT_EQ(nearest("same", {"other", "same"}), "same");
+  EXPECT_EQ(nearest("in", {"m", "inch"}), "inch") << "it begins so";
 }
 
 TEST(Nearest, CountsExchangedLettersOnceAndWhatPartsWordsNotAtAll) {
