@@ -181,7 +181,8 @@ void print(const std::string& object, const std::string& policy, const Course& c
 void compare(const Options& options) {
   const auto objects = options.objects.empty() ? all_objects() : options.objects;
   std::vector<std::string> policies = {"oracle", "random"};
-  policies.insert(policies.end(), options.policies.begin(), options.policies.end());
+  for (const std::string& policy : options.policies)  // each once, or its mean would count it twice
+    if (std::ranges::find(policies, policy) == policies.end()) policies.push_back(policy);
   fmt::print("object,policy,mean_coverage[%],gap_closed,path[m],path_to_same/oracle,least_views_95,least_views_99");
   for (int view = 1; view <= options.views; ++view) fmt::print(",{}", view);
   fmt::print("\n");
@@ -251,7 +252,8 @@ void print_row(const Options& options, Configuration c, const std::string& polic
 void print_table(const Options& options) {
   const Configuration c = configuration_of_file(options);
   fmt::print("policy,{}\n", fmt::join(options.at, ","));
-  for (const std::string& policy : options.policies) print_row(options, c, policy);
+  for (const std::string& policy : options.policies)
+    print_row(options, c, policy == "default" ? PlannerConfig().gain : policy);
 }
 
 }  // namespace
