@@ -10,8 +10,10 @@
 #include "core/config/object_lengths.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
+#include "core/planner/policy.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/setting/percent_text.hpp"
 
 namespace nextview {
 namespace {
@@ -87,9 +89,9 @@ void print_head(const Session& session) {
 
 void print_step(const Session& session, const StepRecord& r) {
   const StageSeconds& s = r.seconds;
-  fmt::print("{:>4} {:>5} {:>10.5g} {:>8.2f} {:>8} {:>9.0f} {:>9} {:>9.1f} {:>9} {:>8.2f}\n", r.step,
-             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, r.motion.distance, r.hits, r.new_surface,
-             coverage_text(session, r), r.entropy / 1e3,
+  fmt::print("{:>4} {:>5} {:>10.5g} {:>8} {:>8} {:>9} {:>9} {:>9.1f} {:>9} {:>8.2f}\n", r.step,
+             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, short_text(r.motion.distance), r.hits,
+             short_text(r.new_surface), coverage_text(session, r), r.entropy / 1e3,
              session.known_object() ? fmt::format("{:.3f}", r.quality_near_surface.log_loss) : "-",
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
   if (r.refinement) {
@@ -109,8 +111,8 @@ void print_end(const Session& session) {
   if (session.records().empty()) return;
   const StepRecord& last = session.records().back();
   if (last.surface_left && session.known_object() && !session.recording())
-    fmt::print("Surface expected to be left: {:.2g} %; truly left of what the candidates can see: {:.2g} %.\n",
-               100.0 * *last.surface_left, 100.0 * (1.0 - last.coverage_visible));
+    fmt::print("Surface expected to be left: {}; truly left of what the candidates can see: {}.\n",
+               percent_text(*last.surface_left), percent_text(1.0 - last.coverage_visible));
   if (session.known_object())
     fmt::print(
         "* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; "

@@ -18,7 +18,7 @@ std::string outcome_text(const JournalStep& last) {
   std::string text;
   if (value("coverage_visible") > 0)
     text += fmt::format(", {:.1f} % of visible surface", 100 * value("coverage_visible"));
-  if (value("total_entropy") > 0) text += fmt::format(", {:.3f} Mbit", value("total_entropy") / 1e6);
+  if (value("entropy") > 0) text += fmt::format(", entropy {:.1f} kbit", value("entropy") / 1e3);
   return text;
 }
 

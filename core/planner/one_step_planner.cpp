@@ -6,6 +6,7 @@
 #include "core/planner/remaining_plan.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/setting/percent_text.hpp"
 
 namespace nextview {
 namespace {
@@ -80,7 +81,7 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
 
 /// " About 12 % of the surface is left: 7 views, 5.12 m." Proven to be the fewest: "7 views (no fewer do), 5.12 m."
 std::string outlook(const Valuation& valuation, const PlanningState& state) {
-  const std::string left = fmt::format(" About {:.2g} % of the surface is left", 100.0 * *valuation.surface_left);
+  const std::string left = fmt::format(" About {} of the surface is left", percent_text(*valuation.surface_left));
   if (valuation.remaining.empty() || state.taken.empty()) return left + ".";
   std::vector<Vector3> stops;
   for (const std::size_t v : valuation.remaining) stops.push_back(state.candidates[v].T_world_camera.translation());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/setting/percent_text.hpp"
+
 namespace nextview {
 
 std::vector<Setting> settings(TerminationConfig& c) {
@@ -26,8 +28,8 @@ std::string termination_reason(const TerminationConfig& config, const ScanProgre
   if (progress.views >= config.views) return fmt::format("{} views taken", progress.views);
   if (!progress.candidates_left) return "no candidate view is left";
   if (config.surface_left > 0.0 && progress.surface_left && *progress.surface_left <= config.surface_left)
-    return fmt::format("no view is worth it, {:.2g} % of the surface is expected to be left",
-                       100.0 * *progress.surface_left);
+    return fmt::format("no view is worth it, {} of the surface is expected to be left",
+                       percent_text(*progress.surface_left));
   if (config.coverage > 0.0 && progress.coverage >= config.coverage)
     return fmt::format("coverage reached {:.1f} % of the visible surface", 100.0 * progress.coverage);
   if (config.gain > 0.0 && progress.best_gain <= config.gain * progress.first_gain)

@@ -5,9 +5,9 @@
 
 namespace nextview {
 
-/// A length [m] as people write it: in mm below a metre.
+/// A length [m] as people write it: in mm below a metre, to three digits.
 inline std::string length_text(double length) {
-  return length < 1.0 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
+  return length < 0.9995 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
 }
 
 }  // namespace nextview

@@ -35,6 +35,11 @@ std::vector<std::vector<std::string>> numbered_rows(const std::string& text) {
   return rows;
 }
 
+/// To three digits, and to the unit from a hundred on: of small parts, too, something is left.
+std::string short_text(double value) {
+  return value < 100.0 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
+}
+
 /// The words behind a label at the beginning of a line.
 std::vector<std::string> behind(const std::string& text, const std::string& label) {
   std::istringstream lines(text);
@@ -75,9 +80,9 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
     const std::vector<std::string> expected = {steps[i].at("step"),
                                                i == 0 ? "start" : steps[i].at("view"),
                                                fmt::format("{:.5g}", cell("gain[voxels]")),
-                                               fmt::format("{:.2f}", cell("distance[m]")),
+                                               short_text(cell("distance[m]")),
                                                steps[i].at("hits"),
-                                               fmt::format("{:.0f}", cell("new_surface[cm²]")),
+                                               short_text(cell("new_surface[cm²]")),
                                                fmt::format("{:.1f}", 100.0 * cell("coverage_visible@5mm")),
                                                fmt::format("{:.1f}", cell("entropy[bits]") / 1e3),
                                                fmt::format("{:.3f}", cell("log_loss_near_surface[nats]"))};

@@ -5,6 +5,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/setting/percent_text.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -138,6 +139,11 @@ TEST(ObjectLengths, RaysGetThroughTheRegionFromWhereverViewsAre) {
 TEST(ObjectLengths, AsText) {
   EXPECT_EQ(length_text(0.0915), "91.5 mm");
   EXPECT_EQ(length_text(1.5), "1.5 m");
+  EXPECT_EQ(length_text(0.99949), "999 mm");
+  EXPECT_EQ(length_text(0.99951), "1 m") << "not 1e+03 mm";
+  EXPECT_EQ(percent_text(0.0045), "0.45 %");
+  EXPECT_EQ(percent_text(0.994), "99 %");
+  EXPECT_EQ(percent_text(0.996), "100 %") << "not 1e+02 %";
 }
 
 /// A box of these sides, in the numbers of an STL file.
