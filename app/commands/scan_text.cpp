@@ -84,7 +84,7 @@ void print_head(const Session& session) {
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
              "new", "coverage", "entropy", "log loss", "seconds");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "cm²",
-             session.recording() ? "% of all" : "% visible", "kbit", "nats*", "");
+             session.recording() ? "% shown" : "% visible", "kbit", "nats*", "");
 }
 
 void print_step(const Session& session, const StepRecord& r) {
@@ -113,7 +113,12 @@ void print_end(const Session& session) {
   if (last.surface_left && session.known_object() && !session.recording())
     fmt::print("Surface expected to be left: {}; truly left of what the candidates can see: {}.\n",
                percent_text(*last.surface_left), percent_text(1.0 - last.coverage_visible));
-  if (session.known_object())
+  if (session.known_object() && session.recording())
+    fmt::print(
+        "* within 3 voxels of the true surface, of which {:.1f} % is covered at d_reg = {}, {:.1f} % at the paper's "
+        "0.5 mm.\n",
+        100.0 * last.coverage, length_text(session.configuration().evaluation.d_reg), 100.0 * last.coverage_paper);
+  else if (session.known_object())
     fmt::print(
         "* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; "
         "of all the\n"

@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 const std::string quick = "--no-pictures --no-surfaces ";
@@ -94,6 +95,8 @@ TEST_F(RecordedScan, IsComparedWithATruthThatIsFound) {
                               "--out " + in("out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("of its points lie on slotted_plate.ply"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("% shown"), HasSubstr("of the true surface, of which ")));
+  EXPECT_THAT(run.out, Not(HasSubstr("some candidate can see"))) << "its rows are shares of what all frames show";
   EXPECT_THAT(read_file(in("out") + "/metrics.json"), AllOf(HasSubstr("\"alignment\""), HasSubstr("\"accuracy_m\"")));
 }
 
