@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/file/gzip_file.hpp"
+#include "core/recording/depth_image_file.hpp"
 #include "core/recording/frame_files.hpp"
 #include "core/recording/number_lines.hpp"
 
@@ -93,6 +94,18 @@ std::optional<GuessedDataset> princeton(const fs::path& folder) {
   return guess;
 }
 
+/// Structured light's usual camera (640 x 480 pixels, 525 px) with as many pixels as the first frame has.
+PinholeCamera usual_camera(const fs::path& folder, const DatasetDescription& d) {
+  PinholeCamera camera{640, 480};
+  try {
+    camera = read_depth_image(find_frame_files(folder, d.frames).front().file, d.depth, {}).camera;
+  } catch (const std::runtime_error&) {  // it is refused by its name when it is read
+  }
+  camera.fx = camera.fy = 525.0 * camera.width / 640;
+  camera.cx = 0.5 * (camera.width - 1), camera.cy = 0.5 * (camera.height - 1);
+  return camera;
+}
+
 /// Intrinsics from a file of the folder, or by their sensor; says which.
 void guess_intrinsics(const fs::path& folder, GuessedDataset& guess) {
   const std::string file = first_there(
@@ -102,8 +115,10 @@ void guess_intrinsics(const fs::path& folder, GuessedDataset& guess) {
     say(guess, fmt::format("intrinsics are those of {}", file));
     return;
   }
-  guess.description.intrinsics = "525 525 319.5 239.5";
-  say(guess, "intrinsics are not told: 525 px and the centre of 640 x 480, usual of structured light");
+  const PinholeCamera camera = usual_camera(folder, guess.description);
+  guess.description.intrinsics = intrinsics_text(camera);
+  say(guess, fmt::format("intrinsics are not told: {:.4g} px and the centre of {} x {}, usual of structured light",
+                         camera.fx, camera.width, camera.height));
 }
 
 /// Of a .npy file; who keeps whole numbers counts millimetres.

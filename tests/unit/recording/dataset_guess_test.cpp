@@ -47,6 +47,15 @@ TEST(DatasetGuess, WithoutAFileOfIntrinsicsTheyAreUsualOnesAndThatIsSaid) {
   EXPECT_EQ(guess->description.poses, "frame-*.pose.txt");
 }
 
+TEST(DatasetGuess, UsualIntrinsicsAreThoseOfAsManyPixels) {
+  const std::string image = made_recording::npy(120, 160, "<f4", made_recording::raw(std::vector<float>(120 * 160)));
+  const MadeFolder folder(Files{{"0.depth.npy", image}, {"0.pose.txt", pose}});
+  const auto guess = guess_dataset(folder.path());
+  ASSERT_TRUE(guess);
+  EXPECT_EQ(guess->description.intrinsics, "131.25 131.25 79.5 59.5");
+  EXPECT_THAT(guess->guessed, Contains(HasSubstr("131.2 px and the centre of 160 x 120")));
+}
+
 TEST(DatasetGuess, RealNumbersAreMetres) {
   for (const auto& [type, data, scale] :
        {std::tuple{"<f4", made_recording::raw<float>({1.5f, 2.5f}), 1.0},
