@@ -159,7 +159,8 @@ int begin(const ScanArguments& arguments) {
 }
 
 /// Everything but the end of a scan stays as it was.
-void adopt_termination(const ScanArguments& arguments, Configuration& configuration) {
+void adopt_termination(const ScanArguments& arguments, SavedSession& saved) {
+  Configuration& configuration = saved.configuration;
   Configuration wanted = configuration;
   arguments.options.apply_to(wanted);
   auto now = settings(configuration), then = settings(wanted);
@@ -168,13 +169,19 @@ void adopt_termination(const ScanArguments& arguments, Configuration& configurat
       throw std::invalid_argument(wanted.as_given(fmt::format(
           "{}: --resume goes on with the settings that the scan was begun with; termination.* alone may change",
           now[i].key)));
+  // With fewer, config.toml would no longer repeat the scan.
+  const auto taken = saved.journal ? int(saved.journal->line().size()) : 0;
+  if (wanted.termination.views != configuration.termination.views && wanted.termination.views < taken)
+    throw std::invalid_argument(
+        wanted.as_given(fmt::format("termination.views: {} has {} already; give more to go on", saved.folder.string(),
+                                    counted(std::size_t(taken), "view"))));
   configuration.termination = wanted.termination;
 }
 
 /// Goes on with a session, by whatever it was ended.
 int resume(const ScanArguments& arguments) {
   SavedSession saved = read_session(arguments.resume);
-  adopt_termination(arguments, saved.configuration);
+  adopt_termination(arguments, saved);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Configuration& c = saved.configuration;

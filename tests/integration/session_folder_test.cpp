@@ -195,6 +195,10 @@ TEST_F(SessionFolders, MistakesAreOneLine) {
   expect_refused("scan --resume " + in("nothing"), "nothing: holds no session");
   expect_refused("scan --resume " + in("out") + " --planner.gain random", "termination.* alone may change");
   expect_refused("scan --resume " + in("out") + " --out " + in("other"), "--out");
+  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("two")).exit_code, 0);
+  const std::string before = read_file(in("two/config.toml"));
+  expect_refused("scan --resume " + in("two") + " --views 1", "two has 2 views already; give more to go on");
+  EXPECT_EQ(read_file(in("two/config.toml")), before);
   write_file(in("out/journal"), "no journal\n");
   expect_refused("scan --resume " + in("out"), "journal: is no journal of a session");
 }
