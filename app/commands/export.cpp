@@ -43,7 +43,7 @@ void require_meaning(const ExportArguments& a) {
     if (given && !meant) throw std::invalid_argument(fmt::format("{}: is an option of {} only", option, of_what));
   };
   require(!a.of.empty(), kind == ExportKind::surface, "--of", "surface");
-  require(a.unseen, kind == ExportKind::surface, "--unseen", "surface");
+  require(a.unseen, kind == ExportKind::surface && a.of != "cloud", "--unseen", "surface --of map");
   require(!a.size.empty(), is_drawn, "--size", "picture, turntable and drawn curves");
   require(a.transparent, is_drawn, "--transparent", "picture, turntable and drawn curves");
   require(!a.look_from.empty(), is_scene, "--look-from", "picture and turntable");
@@ -173,7 +173,7 @@ void add_export_command(CLI::App& program) {
   app->add_option("--step", a->step, "as it was after so many views; else as it stands")->check(CLI::Range(1, 1000000));
   app->add_option("--of", a->of, "the surface of the map, or that of the cloud (default map)")->type_name("map|cloud");
   app->add_flag("--unseen", a->unseen,
-                "also what closes the surface where no view has looked, into NAME_unseen beside NAME");
+                "also what closes the map's surface where no view has looked, into NAME_unseen beside NAME");
   app->add_option("--size", a->size,
                   fmt::format("of a picture in pixels, each side from {} to {} (default 1280x800)", smallest_picture,
                               largest_picture))
@@ -185,7 +185,7 @@ void add_export_command(CLI::App& program) {
       ->type_name("LIST");
   app->add_option("--frames", a->frames, "of a turntable")->check(CLI::Range(2, 3600))->capture_default_str();
   app->footer(
-      "Examples:\n  nextview export out cloud cloud.pcd\n  nextview export out surface part.stl --of cloud --unseen\n"
+      "Examples:\n  nextview export out cloud cloud.pcd\n  nextview export out surface part.stl --unseen\n"
       "  nextview export out views poses.txt --step 8\n  nextview export out curves curves.svg\n"
       "  nextview export out picture scene.png --size 3840x2400 --transparent --layers object,views\n"
       "  nextview export out turntable frames --frames 72");

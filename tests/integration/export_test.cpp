@@ -130,6 +130,7 @@ TEST_F(Export, BadCallsAreToldInOneLineAndNothingIsLost) {
   fs::create_symlink(in("out/journal"), in("link.txt"));
   expect_refused(out + "views " + in("link.txt"), "the session's journal");
   expect_refused(out + "cloud " + in("a.ply") + " --size 64x64", "--size");
+  expect_refused(out + "surface " + in("a.ply") + " --of cloud --unseen", "--unseen: is an option of surface --of map");
   expect_refused(out + "picture " + in("a.png") + " --size 64", "WIDTHxHEIGHT");
   expect_refused(out + "picture " + in("a.png") + " --look-from 3", "--look-from");
   expect_refused(out + "picture " + in("a.png") + " --layers ground", "'ground'");
