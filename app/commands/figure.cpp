@@ -154,6 +154,10 @@ void check(const FigureArguments& a) {
   if (std::ranges::find(names, a.name) == names.end())
     throw std::invalid_argument(
         fmt::format("there is no figure '{}'; did you mean '{}'?", a.name, nearest(a.name, names)));
+  const auto is_scene = [&](const ScanFigure& figure) { return is_wanted(a, figure.name); };
+  if (!a.sessions.empty() && std::ranges::none_of(scan_figures(), is_scene))
+    throw std::invalid_argument(
+        fmt::format("figure {}: is one of a study (--study DIR), not of '{}'", a.name, a.sessions.front()));
   if (!a.size.empty()) picture_size(a.size, "--size");
 }
 

@@ -180,5 +180,11 @@ TEST_F(Messages, AScanThatWentWellSaysNothingOnStandardError) {
   EXPECT_THAT(run.out, ::testing::Not(HasSubstr(" done")));
 }
 
+TEST_F(Messages, AFigureOfAStudyIsNotOfSessions) {
+  EXPECT_EQ(complaint("figure gap_closed coverage_by_view --out " + in("figures")),
+            line("figure gap_closed: is one of a study (--study DIR), not of 'coverage_by_view'"));
+  EXPECT_FALSE(fs::exists(in("figures")));
+}
+
 }  // namespace
 }  // namespace nextview
