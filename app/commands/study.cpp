@@ -78,7 +78,13 @@ int run_file(const StudyArguments& a) {
     progress.clear();
     print_run(number, run, result, seconds);
   };
-  run_study(study, keys, folder, share, a.keep_scans, done, progress, stop.token());
+  try {
+    run_study(study, keys, folder, share, a.keep_scans, done, progress, stop.token());
+  } catch (const Stopped&) {
+    progress.clear();
+    fmt::print(stderr, "What is done stays in {}; the same command with --resume goes on.\n", printable(a.out));
+    throw;
+  }
   progress.clear();
   if (share.shards > 1) {
     fmt::print("Shard {} of {} is done. When all are: nextview study --merge DIR… --out DIR\n", share.shard,

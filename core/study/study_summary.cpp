@@ -83,8 +83,9 @@ class Results {
       next_ = folder + 1;
       return folders_[folder].result(key);
     }
-    throw std::runtime_error(fmt::format("{}: run {} of {} is not done yet; --resume goes on with it",
-                                         folders_.front().path().string(), number, of));
+    throw std::runtime_error(
+        fmt::format("{}: run {} of {} is not done yet; --resume goes on with it, --merge needs all shards",
+                    folders_.front().path().string(), number, of));
   }
 
  private:

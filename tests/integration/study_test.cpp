@@ -94,7 +94,8 @@ TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
   const Result incomplete =
       nextview(fmt::format("study --merge {} --out {}", quoted("array/shard-1"), quoted("incomplete")));
   EXPECT_EQ(incomplete.exit_code, 2);
-  EXPECT_THAT(incomplete.err, HasSubstr("run 2 of 14 is not done yet"));
+  EXPECT_THAT(incomplete.err,
+              HasSubstr("run 2 of 14 is not done yet; --resume goes on with it, --merge needs all shards"));
   EXPECT_FALSE(fs::exists(file("incomplete") / "summary.csv"));
 }
 
@@ -124,6 +125,16 @@ TEST_F(StudyCommand, KilledAtAnyMomentItResumesToTheSameBytes) {
   EXPECT_GE(killed, rounds);
   RecordProperty("killed", killed);
   if (wanted) fmt::print("{} of {} runs were killed\n", killed, 8 * rounds);
+}
+
+TEST_F(StudyCommand, StoppedItSaysHowToGoOn) {
+  for (double after = 0.1; after < 5.0; after *= 1.3) {  // until it is stopped neither before its runs nor after them
+    fs::remove_all(file("out"));
+    const Result run = nextview_behind(fmt::format("timeout --signal=TERM {:.3f}", after),
+                                       fmt::format("study {} --out {}", quoted("study.toml"), quoted("out")));
+    if (run.err.find("out; the same command with --resume goes on.\nnextview: stopped") != run.err.npos) return;
+  }
+  FAIL() << "it was never said";
 }
 
 TEST_F(StudyCommand, LeavesAFolderOfOthersAlone) {
