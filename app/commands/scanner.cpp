@@ -20,9 +20,6 @@ std::string text(const Pose& pose) {
 
 /// A robot moves when someone looks.
 bool confirmed(const Pose& from, const Pose& to) {
-  if (!::isatty(STDIN_FILENO))
-    throw std::runtime_error(
-        "a real robot is to move, and no terminal is there to confirm it: --driver-confirm never moves without asking");
   fmt::print(stderr, "\nMove the camera {:.3g} m to {}? [y/N] ", (to.translation() - from.translation()).norm(),
              text(to));
   std::string answer;
@@ -55,6 +52,10 @@ Scanner::Scanner(const ScannerOptions& options, Configuration& configuration, co
   if (options.confirm == "always") wishes.confirm = confirmed;
   wishes.log = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };
   connection_ = connect_scanner(configuration, wishes, stop);
+  // Before there is a session, which would be in the way of the next try.
+  if (wishes.confirm && !connection_->is_simulated() && !::isatty(STDIN_FILENO))
+    throw std::runtime_error(
+        "a real robot is to move, and no terminal is there to confirm it: --driver-confirm never moves without asking");
 }
 
 void Scanner::reconnect(const std::stop_token& stop) {

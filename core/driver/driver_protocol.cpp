@@ -202,7 +202,7 @@ Failure DriverProtocol::silent(const std::string& request, double seconds, bool 
     return failure(Failure::cancelled, request + ": it did not stop and was ended; reconnect");
   }
   abandon();
-  return failure(Failure::disconnected, fmt::format("{}: no answer within {:g} s", request, seconds));
+  return failure(Failure::disconnected, fmt::format("{}: no answer within {:g} s (driver.timeout)", request, seconds));
 }
 
 /// Nobody waits for what it does any more: it is not to go on moving.

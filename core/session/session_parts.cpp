@@ -138,9 +138,10 @@ ProjectionPlacement projection_placement(const Configuration& c, const PlacedMes
 
 ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
   if (!c.driver.name.empty())
-    throw std::invalid_argument(c.as_given(fmt::format(
-        "driver.name: this scan was taken by the scanner {}, and its captures were not kept: scan again with --driver",
-        c.driver.name)));
+    throw std::invalid_argument(
+        c.as_given(fmt::format("driver.name: this scan was taken by the scanner {}, which alone can repeat it: give "
+                               "--driver, or --resume its folder",
+                               c.driver.name)));
   const std::filesystem::path file = resolve_object(c);
   ConfiguredObject object{file, std::make_shared<PlacedMesh>(load_object_mesh(file, placement(c.object, file), stop))};
   fit_lengths(c, object.placed->mesh.bounding_box().sizes().maxCoeff());

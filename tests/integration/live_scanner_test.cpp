@@ -104,6 +104,7 @@ TEST_F(LiveScanner, AMoveThatNoOneCanConfirmIsNotMade) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("--driver-confirm never"));
   EXPECT_FALSE(fs::exists(in("moved")));
+  EXPECT_FALSE(fs::exists(in("out"))) << "the next try may have the folder";
 }
 
 TEST_F(LiveScanner, ADriverThatCannotBeStartedIsToldInOneLine) {

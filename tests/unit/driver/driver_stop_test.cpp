@@ -76,7 +76,8 @@ TEST(DriverStop, IsSentToWhoIsNotWaitedForAnyMore) {
   const FakeScanner fake("stop", 0.5);
   const auto connection = fake.connect();
   fake.misbehave("slow", "move");
-  EXPECT_THAT(failure_of(connection->move(at(1, 0, 0), {})).reason, HasSubstr("no answer within 0.5 s"));
+  EXPECT_THAT(failure_of(connection->move(at(1, 0, 0), {})).reason,
+              HasSubstr("no answer within 0.5 s (driver.timeout)"));
   fake.behave();
   expect_all_is_well(*connection);  // it would not answer had it not been told to stop
 }
