@@ -126,6 +126,8 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
         fmt::format("voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: lower "
                     "map.resolution, for example to {}",
                     metres(c.map.resolution), metres(longest), longest / c.map.resolution, metres(longest / 50.0)));
+  if (!c.views.file.empty() && !from_file)
+    warnings.push_back("views.file is not read: views.layout must be file for that");
   for (std::string& warning : warnings) warning = c.as_given(warning);
   return warnings;
 }

@@ -47,6 +47,12 @@ TEST(SetupWarnings, CamerasInsideTheObject) {
                                                   HasSubstr("views.radius (0.2 m)"), HasSubstr("0.4"))));
 }
 
+TEST(SetupWarnings, AViewsFileThatIsNotRead) {
+  Configuration c;
+  c.views.file = "views.txt";
+  EXPECT_THAT(of_the_sphere(c), ElementsAre("views.file is not read: views.layout must be file for that"));
+}
+
 TEST(SetupWarnings, CamerasThatAreTooNear) {
   Configuration c;
   c.views.radius = 0.25 + 0.19;
