@@ -24,6 +24,8 @@
 #include "core/results/manifest.hpp"
 #include "core/session/object_mesh.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/study/study.hpp"
+#include "core/view/pose.hpp"
 
 namespace nextview {
 namespace {
@@ -189,14 +191,35 @@ std::string folder_info(const fs::path& folder) {
   return stanford ? range_scans_info(folder) : recording_info(folder);
 }
 
+/// A scene, or a file of candidate views; what is neither is told as a scene.
+std::string text_info(const fs::path& path) {
+  std::vector<Pose> views;
+  try {
+    views = read_views(path);
+  } catch (const std::runtime_error&) {
+    return "a scene of recorded scans: " + scene_info(read_recorded_scene(path));
+  }
+  Eigen::AlignedBox3d box;
+  for (const Pose& view : views) box.extend(view.translation());
+  return fmt::format("candidate views: {}\n  {}", counted(views.size(), "view"), extents(box));
+}
+
+std::string toml_info(const fs::path& path) {
+  const std::string text = read_file(path, std::uintmax_t{1} << 20);
+  const bool is_study = text.find("[[planning]]") != text.npos || text.find("[[maps]]") != text.npos;
+  if (!is_study) return configuration_info(path);
+  const std::size_t runs = read_study(path).size();
+  return fmt::format("a study of {}: nextview study {} --out DIR", counted(runs, "run"), printable(path.string()));
+}
+
 std::string info(const fs::path& path) {
   if (fs::is_directory(path)) return folder_info(path);
   const std::string extension = path.extension().string();
   if (extension == ".ot" || extension == ".bt") return map_info(path);
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".png") return picture_info(path);
-  if (extension == ".toml") return configuration_info(path);
-  if (extension == ".txt") return "a scene of recorded scans: " + scene_info(read_recorded_scene(path));
+  if (extension == ".toml") return toml_info(path);
+  if (extension == ".txt") return text_info(path);
   const fs::path object = resolve_object(path.string());
   return is_cloud(object) ? cloud_info(object) : mesh_info(object);
 }
@@ -219,8 +242,8 @@ void add_info_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
   app->add_option("PATH", *paths,
-                  "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans (.txt), scan graph (.graph, .log), "
-                  "configuration (.toml), picture (.png), "
+                  "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
+                  "configuration or study (.toml), picture (.png), "
                   "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required();
   auto writes_dataset = std::make_shared<bool>(false);

@@ -53,6 +53,17 @@ TEST(Info, TellsWhatFilesHold) {
   EXPECT_EQ(run.err, "");
 }
 
+TEST(Info, TellsViewsAndStudies) {
+  const TemporaryFolder folder;
+  const std::string views = (folder.path() / "views.txt").string(), study = (folder.path() / "study.toml").string();
+  write_file(views, "# poses\n0 0 0 0 0 0 1\n1 2 0 0 0 0 1\n");
+  write_file(study,
+             "name = \"s\"\n[[planning]]\nobjects = [\"box\"]\npolicies = [\"random\"]\nseeds = [1, 2]\nviews = 2\n");
+  const Result run = nextview("info " + views + " " + study);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("candidate views: 2 views\n  1 x 2 x 0 m"), HasSubstr("a study of 2 runs")));
+}
+
 TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
   const TemporaryFolder folder;
   const fs::path scans = folder.path() / "scans", unknown = folder.path() / "unknown";
