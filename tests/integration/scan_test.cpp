@@ -7,6 +7,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
 #include "tests/integration/program.hpp"
+#include "tests/integration/tables.hpp"
 
 namespace nextview {
 namespace {
@@ -61,6 +62,15 @@ TEST(Scan, AnotherSeedGivesAnotherCloud) {
   ASSERT_EQ(nextview(plain + one.path().string() + " --seed 1").exit_code, 0);
   ASSERT_EQ(nextview(plain + two.path().string() + " --seed 2").exit_code, 0);
   EXPECT_FALSE(read_file(one.path() / "cloud.ply") == read_file(two.path() / "cloud.ply"));
+}
+
+TEST(Scan, TheSimulatedCameraStaysInItsWorkingVolume) {
+  const TemporaryFolder folder;
+  const Result run = nextview("scan " + housing() + quick + "--no-pictures --no-surfaces --out " +
+                              folder.path().string() + " --robot.working_volume '-2 -2 0 2 2 2'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const auto& view : read_table(read_file(folder.path() / "views.csv")))
+    EXPECT_GE(std::stod(view.at("z[m]")), 0.0) << "view " << view.at("view");
 }
 
 TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
