@@ -25,7 +25,8 @@ std::vector<Setting> settings(TerminationConfig& c) {
 void TerminationConfig::validate() const { require_in_bounds(*this); }
 
 std::string termination_reason(const TerminationConfig& config, const ScanProgress& progress) {
-  if (progress.views >= config.views) return fmt::format("{} views taken", progress.views);
+  if (progress.views >= config.views)
+    return fmt::format("{} view{} taken", progress.views, progress.views == 1 ? "" : "s");
   if (!progress.candidates_left) return "no candidate view is left";
   if (config.surface_left > 0.0 && progress.surface_left && *progress.surface_left <= config.surface_left)
     return fmt::format("no view is worth it, {} of the surface is expected to be left",

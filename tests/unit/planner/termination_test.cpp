@@ -22,6 +22,14 @@ TEST(Termination, GoesOnWhileNoCriterionIsMet) {
   EXPECT_EQ(termination_reason({20, 0.7, 0.3, 0.01, 0.02}, under_way()), "");
 }
 
+TEST(Termination, OneViewIsNoViews) {
+  TerminationConfig one;
+  one.views = 1;
+  ScanProgress progress = under_way();
+  progress.views = 1;
+  EXPECT_EQ(termination_reason(one, progress), "1 view taken");
+}
+
 TEST(Termination, EveryCriterionStopsForAReasonOfItsOwn) {
   TerminationConfig views, coverage, gain, new_voxels, slope;
   views.views = 5;
