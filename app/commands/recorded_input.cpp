@@ -8,6 +8,7 @@
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/results/manifest.hpp"
+#include "core/session/saved_session.hpp"
 
 namespace nextview {
 
@@ -25,12 +26,13 @@ void RangeScanOptions::add_to(CLI::App& app) {
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
                            const RangeScanOptions& range_scans, const Progress& progress, std::stop_token stop) {
   if (!is_there(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
-  if (is_there(input / "config.toml"))
+  if (is_there(input / "config.toml") && is_session(input))
     return refinement_job(
         input, [&](Configuration& c) { options.apply_to(c); }, progress, stop);
   if (const auto manifest = fs::is_directory(input) ? read_manifest(input) : std::nullopt)
-    throw std::runtime_error(fmt::format("{}: holds no finished scan: its {} was ended before its views were written",
-                                         input.string(), manifest->command));
+    throw std::runtime_error(
+        fmt::format("{}: holds no finished scan: it is what {} left, or was ended before its views were written",
+                    input.string(), manifest->command));
   const auto warn = [&](const std::string& text) {
     fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
   };

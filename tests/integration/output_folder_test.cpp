@@ -123,6 +123,9 @@ TEST_F(OutputFolder, RefineCalibrateAndScoreReplaceNothingThatTheyRead) {
   expect_refused("refine out --out out/../out/ --no-pictures", {"another folder"});
   expect_refused("calibrate out --out out --no-pictures", {"another folder"});
   EXPECT_EQ(contents("out"), before);
+  expect_done("refine out --out refined --no-pictures --no-surfaces --gibbs.sweeps 20");
+  expect_refused("refine refined --out again --no-pictures",
+                 {"refined: holds no finished scan: it is what refine left"});
   write_file(in("scores.csv"), wall_scene(0.05));
   fs::create_hard_link(in("scores.csv"), in("wall.txt"));
   expect_refused("score --scene wall.txt --csv scores.csv", {"--csv scores.csv: is the scene"});
