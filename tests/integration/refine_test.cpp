@@ -106,7 +106,7 @@ TEST_F(Refine, BadInputIsOneLineAndExitCode2) {
   write_file(fs::path(scan()) / "views.csv", "step,view,x[m]\n1,77,0,0,1,0,0,0,1\n");
   expect(scan(), "views.csv:2");
   fs::remove(fs::path(scan()) / "views.csv");
-  expect(scan(), "views.csv");
+  expect(scan(), "holds no finished scan");
 }
 
 TEST(RefineScenes, RecordedScansHaveNoTruthAndWork) {
