@@ -101,7 +101,12 @@ View start_view(const Configuration& c, const SourceDescription& source, const R
 
 std::unique_ptr<Robot> configured_robot(const Configuration& c, const View& start) {
   auto camera = std::make_unique<FreeFlyingCamera>(start.T_world_camera);
-  if (c.recorded.folder.empty()) camera->keep_within(c.driver.volume());
+  if (!c.recorded.folder.empty()) return camera;
+  const auto volume = c.driver.volume();
+  if (!outside(volume, start.T_world_camera.translation()).empty())
+    throw std::invalid_argument(
+        c.as_given("robot.working_volume: the start view lies outside of it; planner.start_view begins elsewhere"));
+  camera->keep_within(volume);
   return camera;
 }
 

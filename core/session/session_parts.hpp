@@ -40,6 +40,7 @@ ConfiguredObject load_object(Configuration& configuration, const std::stop_token
 /// configured.
 View start_view(const Configuration& configuration, const SourceDescription& source, const Robot* robot);
 /// The ideal camera, which stays in its working volume; one that goes through a recording has none.
+/// @throws std::invalid_argument if the start lies outside
 std::unique_ptr<Robot> configured_robot(const Configuration& configuration, const View& start);
 VoxelGrid configured_region(const Configuration& configuration);
 /// The source's region, if it has one and the configuration gives none.

@@ -180,6 +180,12 @@ TEST_F(Messages, AScanThatWentWellSaysNothingOnStandardError) {
   EXPECT_THAT(run.out, ::testing::Not(HasSubstr(" done")));
 }
 
+TEST_F(Messages, AScanBeginsInItsWorkingVolume) {
+  EXPECT_EQ(complaint(scan() + "--robot.working_volume '-2 -2 -2 2 2 0'"),
+            line("--robot.working_volume: the start view lies outside of it; planner.start_view begins elsewhere"));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
 TEST_F(Messages, AFigureOfAStudyIsNotOfSessions) {
   EXPECT_EQ(complaint("figure gap_closed coverage_by_view --out " + in("figures")),
             line("figure gap_closed: is one of a study (--study DIR), not of 'coverage_by_view'"));
