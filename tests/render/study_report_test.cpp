@@ -49,6 +49,7 @@ TEST_F(StudyReport, HasEachNumberWithItsRunsAndHash) {
   EXPECT_THAT(html, HasSubstr("seeds 3, 5"));
   EXPECT_THAT(html, HasSubstr("7 bytes, crc32 0abc"));
   EXPECT_THAT(html, HasSubstr("nextview 9.9, 12 runs"));
+  EXPECT_THAT(html, Not(HasSubstr("difference to ,"))) << "of the box, where nothing is compared";
   EXPECT_EQ(html, report());
 }
 

@@ -74,6 +74,7 @@ class Rows {
       if (const auto dash = row->measure.find(" - "); dash != std::string::npos) return row->measure.substr(dash + 3);
     return {};
   }
+  bool has_reference() const { return !reference().empty(); }
   StudyPart part() const { return part_; }
 
  private:
@@ -83,8 +84,10 @@ class Rows {
 
 Cells columns(const Rows& rows, bool of_means) {
   Cells cells = {"method", of_means ? "objects" : "runs", heading_of(rows.part())};
-  cells.push_back("difference to " + html_text(in_words(rows.reference())) + ", pairwise");
-  cells.emplace_back(of_means ? "better on" : "better in");
+  if (rows.has_reference()) {
+    cells.push_back("difference to " + html_text(in_words(rows.reference())) + ", pairwise");
+    cells.emplace_back(of_means ? "better on" : "better in");
+  }
   if (rows.part() == StudyPart::planning) cells.emplace_back("gap closed");
   for (const Extra& extra : extras(rows.part())) cells.emplace_back(extra.heading);
   cells.emplace_back("of runs");
@@ -97,9 +100,11 @@ Cells cells_of(const Rows& rows, const std::string& method) {
   const SummaryRow* main = rows.find(method, main_measure(rows.part()));
   if (!main) return {};
   Cells cells = {html_text(in_words(method)), fmt::format("{}", main->runs), with_spread(*main, rows.part())};
-  const SummaryRow* pairs = rows.comparison(method);
-  cells.push_back(pairs ? with_spread(*pairs, rows.part()) : "");
-  cells.push_back(pairs && pairs->better ? fmt::format("{} of {}", *pairs->better, pairs->runs) : "");
+  if (rows.has_reference()) {
+    const SummaryRow* pairs = rows.comparison(method);
+    cells.push_back(pairs ? with_spread(*pairs, rows.part()) : "");
+    cells.push_back(pairs && pairs->better ? fmt::format("{} of {}", *pairs->better, pairs->runs) : "");
+  }
   if (rows.part() == StudyPart::planning) {
     const SummaryRow* gap = rows.find(method, "gap_closed");
     cells.push_back(gap ? fixed(gap->mean, 2) : "");
