@@ -119,18 +119,19 @@ double overlap(const Eigen::AlignedBox2d& box, const std::vector<Eigen::AlignedB
   return area;
 }
 
-/// Where a label's box may be: beside its place if it can, else left of it, above it, beneath it, or left of or above
-/// what is in its way.
+/// Where a label's box may be: beside its place if it can, else left of it, above it, beneath it, left of what is in
+/// its way, or above that, as near as it can.
 Eigen::AlignedBox2d place_label(const Eigen::Vector2d& place, const Eigen::Vector2d& label, bool above,
                                 const Eigen::Vector2d& picture, const std::vector<Eigen::AlignedBox2d>& taken) {
   const double right = place.x() + 6, left = place.x() - label.x() - 6, middle = place.x() - label.x() / 2;
   const double usual = place.y() + (above ? 7 : -9), high = place.y() + 12, low = place.y() - label.y() - 12;
   std::vector<Eigen::Vector2d> corners{{right, usual}, {left, usual}, {middle, high},
                                        {middle, low},  {right, low},  {left, low}};
-  for (const Eigen::AlignedBox2d& other : taken) {
-    corners.emplace_back(other.min().x() - label.x() - 2, usual);
-    corners.emplace_back(right, other.max().y() + 2);
-  }
+  for (const Eigen::AlignedBox2d& other : taken) corners.emplace_back(other.min().x() - label.x() - 2, usual);
+  const auto beside = static_cast<std::ptrdiff_t>(corners.size());
+  for (const Eigen::AlignedBox2d& other : taken) corners.emplace_back(right, other.max().y() + 2);
+  std::sort(corners.begin() + beside, corners.end(),
+            [&](const auto& a, const auto& b) { return std::abs(a.y() - usual) < std::abs(b.y() - usual); });
   std::optional<Eigen::AlignedBox2d> best;
   for (const Eigen::Vector2d& corner : corners) {
     const Eigen::Vector2d farthest = (picture - label).cwiseMax(0) - Eigen::Vector2d(4, 1);
