@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/setting/quantity.hpp"
+
 namespace nextview {
 namespace {
 
@@ -79,8 +81,9 @@ TEST(Setting, ADecimalCommaIsMentionedWithThePointThatItTakes) {
     }
     return "";
   };
-  EXPECT_EQ(complaint("3,5 mm"), "map.resolution takes a number, not '3,5 mm'; did you mean '3.5 mm'?");
-  EXPECT_EQ(complaint("1,000,5"), "map.resolution takes a number, not '1,000,5'");
+  const std::string taken = "map.resolution takes " + number_wanted("m");
+  EXPECT_EQ(complaint("3,5 mm"), taken + ", not '3,5 mm'; did you mean '3.5 mm'?");
+  EXPECT_EQ(complaint("1,000,5"), taken + ", not '1,000,5'");
   EXPECT_EQ(value, 0);
 }
 
