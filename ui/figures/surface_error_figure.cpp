@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/setting/percent_text.hpp"
 #include "ui/charts/curve_plot.hpp"
 #include "ui/figures/surface_views.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
@@ -140,7 +141,7 @@ CurvePlot distance_plot(const SurfaceError& error) {
   CurvePlot plot = histogram_plot("How the distances are spread", "signed distance [mm]", -limit, limit, shares,
                                   ColourMap::deviation());
   if (const std::size_t beyond = histogram.below + histogram.above; beyond > 0)
-    plot.remark = fmt::format("{:.2g} % lie farther off", 1e2 * double(beyond) / double(samples));
+    plot.remark = percent_text(double(beyond) / double(samples)) + " lie farther off";
   plot.curves = {upright("mean " + signed_mm(error.bias), error.bias, plot, theme::ink),
                  upright("95 % within ±" + mm(error.percentile_95), error.percentile_95, plot, theme::series[3]),
                  upright("", -error.percentile_95, plot, theme::series[3])};
