@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 
@@ -22,6 +23,14 @@ bool is_text(std::string_view bytes) {
                      [](char c) { return c >= ' ' || c == '\n' || c == '\r' || c == '\t'; });
 }
 
+/// What a download leaves that was answered by a page.
+bool is_web_page(std::string_view bytes) {
+  std::string begin(bytes.substr(0, 100));
+  begin.erase(0, begin.find_first_not_of("\xEF\xBB\xBF \t\r\n"));
+  std::ranges::transform(begin, begin.begin(), [](unsigned char c) { return std::tolower(c); });
+  return begin.starts_with("<!doctype html") || begin.starts_with("<html");
+}
+
 std::string false_text_stl_claim(std::string_view bytes) {
   // Writers end with "endsolid"; readers do not ask for it, and a part of the surface would be missing in silence.
   const std::string_view tail = bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 1000));
@@ -35,6 +44,7 @@ std::string false_stl_claim(std::string_view bytes) {
   if (bytes.size() == expected) return "";
   // Binary headers may begin with "solid" too; only a text has no bytes but characters.
   if (bytes.starts_with("solid") && is_text(bytes.substr(0, 500))) return false_text_stl_claim(bytes);
+  if (is_text(bytes.substr(0, 500))) return "is a text, but no STL text, which begins with 'solid'";
   if (bytes.size() < header)
     return "is neither an STL text nor long enough for a binary STL's header; it may be truncated";
   return fmt::format("its STL header claims {}, which {} {} bytes, but the file has {}; it may be truncated",
@@ -108,6 +118,7 @@ std::string false_glb_claim(std::string_view bytes) {
 }  // namespace
 
 std::string false_claim(std::string_view extension, std::string_view bytes) {
+  if (is_web_page(bytes)) return "is a web page, not a mesh: the download went wrong; get the file itself";
   if (extension == ".ply") return false_ply_claim(bytes);
   if (extension == ".stl") return false_stl_claim(bytes);
   if (extension == ".off") return false_off_claim(bytes);

@@ -136,6 +136,11 @@ RecordedScene read_recorded_scene(const std::filesystem::path& file) {
     } else if (keyword == "view") {
       scene.views.push_back(read_pose(reader, view_form));
       reader.end_of_line(view_form);
+    } else if (scene.scans.empty() && scene.views.empty() && scene.parameters.empty()) {
+      throw std::runtime_error(fmt::format(
+          "{}: is no scene, whose first line begins with 'param', 'scan' or 'view'; other files end otherwise: meshes "
+          "(.stl, .ply, .obj, …), clouds (.ply, .pcd), scan graphs (.graph, .log), settings (.toml)",
+          file.string()));
     } else {
       throw reader.failure(fmt::format("expected a line `{}`, `{}` or `{}`", param_form, scan_form, view_form));
     }

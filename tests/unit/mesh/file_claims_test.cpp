@@ -63,6 +63,18 @@ TEST(FalseClaim, OfAnStlTextIsThatItEnds) {
   EXPECT_THAT(false_claim(".stl", whole.substr(0, whole.rfind("endsolid"))), HasSubstr("must end with 'endsolid'"));
 }
 
+TEST(FalseClaim, OfAnStlIsThatItIsNoOtherText) {
+  const std::string other(200, 'a');
+  for (const std::string& text : {other, other.substr(0, 20)})
+    EXPECT_EQ(false_claim(".stl", text), "is a text, but no STL text, which begins with 'solid'");
+}
+
+TEST(FalseClaim, OfNoMeshIsThatItIsAWebPage) {
+  for (const char* page : {"<!DOCTYPE html>\n<html>Not found</html>", "\n <HTML lang=\"de\">", "\xEF\xBB\xBF<html>"})
+    for (const char* extension : {".stl", ".obj", ".3mf"})
+      EXPECT_THAT(false_claim(extension, page), HasSubstr("is a web page, not a mesh")) << extension;
+}
+
 TEST(FalseClaim, OfGlbIsThatAllOfItIsThere) {
   const std::string whole = files::glb();
   EXPECT_EQ(false_claim(".glb", whole + "more"), "");

@@ -133,7 +133,15 @@ TEST(RecordedScans, truncatedOrGarbage) {
               HasSubstr("ends after 1 of 2 points"));
   std::string bytes;
   for (int i = 0; i < 1000; ++i) bytes.push_back(static_cast<char>(i * 37));
-  EXPECT_THAT(complaint(folder.write("garbage.txt", bytes)), StartsWith(":1:"));
+  EXPECT_THAT(complaint(folder.write("garbage.txt", bytes)), StartsWith(": is no scene"));
+}
+
+TEST(RecordedScans, aTextThatIsNoSceneIsToldSoAndWhatIsRead) {
+  const TemporaryFolder folder;
+  const std::string said = complaint(folder.write("list.txt", "\nmilk\nbread\n"));
+  EXPECT_THAT(said, StartsWith(": is no scene"));
+  EXPECT_THAT(said, HasSubstr("(.stl, .ply"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("px py pz")));
 }
 
 TEST(RecordedScans, theConformanceScenesAreReadWhole) {
