@@ -29,8 +29,8 @@ fs::path file_of(const std::string& file_or_name) {
   if (!is_name) return file_or_name;
   const auto names = demo_names();
   if (std::ranges::find(names, file_or_name) == names.end())
-    throw std::runtime_error(fmt::format("there is no demo '{}', nor a file of this name; did you mean '{}'?",
-                                         file_or_name, nearest(file_or_name, names)));
+    throw std::runtime_error(fmt::format("there is no demo '{}', nor a file of this name; there are {}", file_or_name,
+                                         fmt::join(names, ", ")));
   return demos() / (file_or_name + ending);
 }
 
