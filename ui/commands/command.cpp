@@ -65,10 +65,17 @@ std::string Command::usage() const {
 
 CommandCall Command::read(std::vector<std::string> values) const {
   if (respell) values = respell(std::move(values));
+  const bool begins_with_words = !arguments_.empty() && (arguments_.front().kind == Argument::Kind::text ||
+                                                         arguments_.front().kind == Argument::Kind::file);
+  const char* const hint = begins_with_words && values.size() > 1 ? "; what has blanks stands in double quotes" : "";
   if (values.size() > arguments_.size() || (values.size() < arguments_.size() && !arguments_[values.size()].optional))
     throw std::invalid_argument(
-        fmt::format("{} takes {}: {}", name, arguments_.empty() ? "no value" : "other values", usage()));
-  return read_values(std::move(values));
+        fmt::format("{} takes {}: {}{}", name, arguments_.empty() ? "no value" : "other values", usage(), hint));
+  try {
+    return read_values(std::move(values));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(error.what() + std::string(hint));
+  }
 }
 
 }  // namespace nextview

@@ -161,6 +161,15 @@ TEST(Commands, WrongNumbersOfValuesShowTheUsage) {
   EXPECT_NO_THROW(make_call("refine", {"3"}));
 }
 
+TEST(Commands, OfWordsWithoutQuotesTheQuotesAreTold) {
+  const auto tells_quotes = HasSubstr("; what has blanks stands in double quotes");
+  EXPECT_THAT(error_of([] { parse_call("caption Hello there"); }), tells_quotes);
+  EXPECT_THAT(error_of([] { parse_call("caption Hello there, world"); }), tells_quotes);
+  EXPECT_THAT(error_of([] { parse_call("open my part.stl"); }), tells_quotes);
+  EXPECT_THAT(error_of([] { parse_call("inspect-voxel 0 0"); }), Not(tells_quotes));
+  EXPECT_THAT(error_of([] { parse_call("caption"); }), Not(tells_quotes));
+}
+
 TEST(Commands, WrongValuesSayWhatTheyMustBe) {
   const std::string fraction = error_of([] { make_call("select-view", {"1.5"}); });
   EXPECT_THAT(fraction, HasSubstr("CANDIDATE must be a whole number from 0"));
@@ -168,6 +177,10 @@ TEST(Commands, WrongValuesSayWhatTheyMustBe) {
   for (const char* text : {"", "x", "1x", " 1", "nan", "inf", "-inf", "1e400", "-1", "61", "0x10", "1,5"})
     EXPECT_THAT(error_of([&] { make_call("speed", {text}); }), HasSubstr("a number from 0 to 60")) << text;
   EXPECT_THAT(error_of([] { make_call("voxel-map", {"both"}); }), HasSubstr("one of conventional, gibbs"));
+  EXPECT_EQ(error_of([] {
+              make_call("set", {"sensor.widht", "3"});
+            }),
+            "set: there is no KEY 'sensor.widht'; did you mean 'sensor.width'?");
   EXPECT_THAT(error_of([] { make_call("open", {""}); }), HasSubstr("must be given"));
   EXPECT_NO_THROW(make_call("speed", {"0"}));
   EXPECT_NO_THROW(make_call("speed", {"60"}));
