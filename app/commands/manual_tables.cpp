@@ -56,7 +56,8 @@ std::string settings_row(const CLI::App& command) {
   std::vector<std::string> groups;
   const auto all = settings(configuration);
   for (const Setting& setting : all) {
-    if (!command.get_option_no_throw("--" + setting.key)) continue;
+    const CLI::Option* option = command.get_option_no_throw("--" + setting.key);
+    if (!option || !is_setting(*option)) continue;  // of posterior the seed is its own
     ++taken;
     const std::size_t dot = setting.key.find('.');
     groups.push_back(setting.key.substr(0, dot) + (dot == setting.key.npos ? "" : ".KEY"));

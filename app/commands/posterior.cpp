@@ -157,7 +157,7 @@ void add_posterior_command(CLI::App& program) {
   app->add_option("--prior", arguments->prior, "probability that a voxel is occupied")->capture_default_str();
   app->add_option("--sigma", arguments->sigma, "noise of the ranges [m]; the test problem has its own")->type_name("M");
   app->add_option("--sweeps", arguments->sweeps, "of each chain")->capture_default_str();
-  app->add_option("--seed", arguments->seed)->capture_default_str();
+  app->add_option("--seed", arguments->seed, "of the chains' random numbers")->capture_default_str();
   app->add_option("--csv", arguments->csv, "write a row per voxel, too; - for standard output and no table")
       ->type_name("FILE");
   app->footer(
