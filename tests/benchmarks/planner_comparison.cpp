@@ -1,6 +1,7 @@
 // Coverage against views: planners beside random views and the greedy oracle, which knows the mesh. Prints a row for
 // each object and policy as CSV, and their means; the manual's table comes from it (planning). Beside them the least
-// number of candidates that see 95 and 99 % of what any of them sees.
+// number of candidates that see 95 and 99 % of what any of them sees. A dash stands where there is nothing to compare
+// with: no gap between random views and the oracle, or nothing that views after the first showed.
 //   build/release/planner_comparison                                       the objects of the table, four minutes
 //   build/release/planner_comparison --object part.stl --policy paper      some of it
 //   build/release/planner_comparison --from FILE.csv --chart FILE.png      README's picture of what it printed
@@ -12,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -169,10 +171,13 @@ struct Standing {
   double gap_closed, way_share;
 };
 
+std::string number_or_dash(double number) { return std::isfinite(number) ? fmt::format("{:.3f}", number) : "-"; }
+
 void print(const std::string& object, const std::string& policy, const Course& course, const Standing& standing,
            const LeastViews& least) {
-  fmt::print("{},{},{:.2f},{:.3f},{:.2f},{:.3f},{},{}", object, policy, 100.0 * course.mean(), standing.gap_closed,
-             course.path.back(), standing.way_share, least.of_95, least.of_99);
+  fmt::print("{},{},{:.2f},{},{:.2f},{},{},{}", object, policy, 100.0 * course.mean(),
+             number_or_dash(standing.gap_closed), course.path.back(), number_or_dash(standing.way_share), least.of_95,
+             least.of_99);
   for (const double coverage : course.coverage) fmt::print(",{:.2f}", 100.0 * coverage);
   fmt::print("\n");
   std::fflush(stdout);
