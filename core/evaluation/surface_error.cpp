@@ -86,6 +86,15 @@ void summarise(std::span<const double> distances, const std::vector<double>& mag
   result.histogram = histogram_of(distances, scale_end(result.percentile_99));
 }
 
+/// The triangles that count, as their corners do.
+TriangleMesh seen_of_object(const Surface& surface, const std::vector<float>& distances, std::optional<double> ground) {
+  if (!ground) return seen_part(surface);
+  Surface object = surface;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (std::abs(surface.mesh.vertices[i].z() - *ground) < std::abs(distances[i])) object.seen[i] = 0;
+  return seen_part(object);
+}
+
 }  // namespace
 
 double scale_end(double length) {
@@ -99,12 +108,12 @@ std::optional<SurfaceError> surface_error(const Surface& surface, const SignedDi
                                           const SurfaceSamples& samples, std::span<const std::uint8_t> visible,
                                           const SurfaceErrorOptions& options) {
   check(surface, samples, visible, options);
-  const TriangleMesh seen = seen_part(surface);
   SurfaceError result;
+  result.at_vertices = measured<float>(surface.mesh.vertices, truth);
+  const TriangleMesh seen = seen_of_object(surface, result.at_vertices, options.ground);
   result.area_seen = seen.surface_area();
   if (!(result.area_seen > 0.0)) return std::nullopt;
-  result.area_unseen = surface.mesh.surface_area() - result.area_seen;
-  result.at_vertices = measured<float>(surface.mesh.vertices, truth);
+  result.area_unseen = surface.mesh.surface_area() - seen_part(surface).surface_area();
 
   const auto taken = sample_surface(seen, options.samples, options.seed);
   const std::vector<double> distances = measured<double>(taken.points, truth);

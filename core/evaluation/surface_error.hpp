@@ -14,6 +14,9 @@ struct SurfaceErrorOptions {
   std::vector<double> thresholds = {0.0005, 0.001, 0.002, 0.005, 0.01};  ///< [m], finite, at least 0
   std::size_t samples = 50'000;  ///< spread over the seen part of the reconstructed surface; over 0
   std::uint64_t seed = 1;        ///< of these samples
+  /// Height of a plane that the object stands on [m]: what lies nearer to it than to the object is no surface of the
+  /// object, and does not count.
+  std::optional<double> ground = {};
 };
 
 /// What lies within a threshold: shares from 0 to 1.
@@ -44,7 +47,7 @@ struct DistanceHistogram {
 /// triangles whose three corners are seen.
 struct SurfaceError {
   std::vector<float> at_vertices;             ///< of each vertex, seen or not [m]
-  double area_seen = 0.0, area_unseen = 0.0;  ///< of the reconstructed surface [m^2]
+  double area_seen = 0.0, area_unseen = 0.0;  ///< of the reconstructed surface, without what is of the ground [m^2]
   double bias = 0.0;                          ///< mean of the signed distances [m]
   double rms = 0.0;                           ///< [m]
   /// Of distances without their sign: the smallest that at least so many percent of the samples do not exceed [m].

@@ -61,7 +61,10 @@ std::optional<SignedDistance> truth_of(const ReconstructionInput& input) {
 void examine(ScanSurface& found, const ReconstructionInput& input, const std::optional<SignedDistance>& truth) {
   if (found.surface.empty()) return;
   found.openings = boundary_loops(found.surface.mesh);
-  if (truth) found.surface_error = surface_error(found.surface, *truth, *input.samples, input.visible);
+  if (!truth) return;
+  SurfaceErrorOptions options;
+  if (input.on_ground) options.ground = input.true_mesh->bounding_box().min().z();
+  found.surface_error = surface_error(found.surface, *truth, *input.samples, input.visible, options);
 }
 
 }  // namespace

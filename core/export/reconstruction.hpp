@@ -34,6 +34,7 @@ struct ReconstructionInput {
   const TriangleMesh* true_mesh = nullptr;     ///< null: not known; nor are the samples then
   const SurfaceSamples* samples = nullptr;     ///< of the true surface
   std::span<const std::uint8_t> visible = {};  ///< one per sample, 1: some candidate sees it
+  bool on_ground = false;                      ///< the true mesh stands on a plane that was scanned with it
 };
 
 /// The map's surface and the cloud's, in this order, compared with the truth if that is known. Either may be empty and

@@ -64,7 +64,8 @@ ReconstructionInput input_of(const Session& session) {
           std::move(scans),
           known ? session.mesh().get() : nullptr,
           known ? &known->samples() : nullptr,
-          known ? known->visible() : std::span<const std::uint8_t>{}};
+          known ? known->visible() : std::span<const std::uint8_t>{},
+          session.configuration().object.ground};
 }
 
 }  // namespace
@@ -87,7 +88,8 @@ std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinemen
   for (const Scan& scan : job.scans) scans.push_back(&scan);
   return scan_surfaces({job.grid, refinement.refined, job.sampler.prior, scans, truth ? truth->mesh.get() : nullptr,
                         truth ? &truth->samples : nullptr,
-                        truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{}},
+                        truth ? std::span<const std::uint8_t>(truth->visible) : std::span<const std::uint8_t>{},
+                        job.configuration.object.ground},
                        progress, std::move(stop));
 }
 

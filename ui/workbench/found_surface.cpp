@@ -22,6 +22,7 @@ std::shared_ptr<const FoundSurface> find_surface(const SurfaceQuestion& question
     input.true_mesh = s.mesh.get();
     input.samples = &s.setup->truth->samples();
     input.visible = s.setup->truth->visible();
+    input.on_ground = s.configuration.object.ground;
   }
   try {
     auto found = std::make_shared<FoundSurface>();

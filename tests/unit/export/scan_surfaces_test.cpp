@@ -71,6 +71,20 @@ TEST(ScanSurfaces, OfAScanFromAllSidesLieOnTheObject) {
   expect_near_the_sphere(surfaces[1], 0.002);
 }
 
+TEST(ScanSurfaces, TheGroundBelowTheObjectIsNoErrorOfTheirs) {
+  Configuration c = sphere_scan(12);
+  c.object.ground = true;
+  Session session(c);
+  finish(session);
+  for (const ScanSurface& surface : scan_surfaces(session)) {
+    ASSERT_TRUE(surface.surface_error) << surface.name;
+    EXPECT_LT(surface.surface_error->percentile_95, c.map.resolution) << surface.name;
+    EXPECT_LT(surface.surface_error->area_seen + surface.surface_error->area_unseen,
+              0.9 * surface.surface.mesh.surface_area())
+        << surface.name;
+  }
+}
+
 TEST(ScanSurfaces, OfARefinementLieOnTheObject) {
   const Configuration c = sphere_scan(24);
   const RefinementJob job = refinement_job(c, candidate_views(c.views, Vector3::Zero()));
