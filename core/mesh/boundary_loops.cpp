@@ -87,10 +87,11 @@ std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh) {
 
 std::string summary(std::span<const BoundaryLoop> loops) {
   if (loops.empty()) return "watertight";
-  const Vector3 centre = (1e2 * loops[0].centre).array().round() / 1e2 + 0.0;  // no "-0.00"
-  return fmt::format("{} opening{}{:.1f} cm around ({:.2f}, {:.2f}, {:.2f}) m", loops.size(),
-                     loops.size() == 1 ? ", " : "s, the longest ", 1e2 * loops[0].length, centre.x(), centre.y(),
-                     centre.z());
+  const bool is_small = loops[0].length < 0.01;  // [m]; of parts of millimetres a centre in cm says nothing
+  const Vector3 centre = (1e2 * (is_small ? 1e3 : 1.0) * loops[0].centre).array().round() / 1e2 + 0.0;  // no "-0.00"
+  return fmt::format("{} opening{}{:.1f} {} around ({:.2f}, {:.2f}, {:.2f}) {}", loops.size(),
+                     loops.size() == 1 ? ", " : "s, the longest ", (is_small ? 1e3 : 1e2) * loops[0].length,
+                     is_small ? "mm" : "cm", centre.x(), centre.y(), centre.z(), is_small ? "mm" : "m");
 }
 
 }  // namespace nextview

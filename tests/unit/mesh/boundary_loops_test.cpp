@@ -56,6 +56,12 @@ TEST(BoundaryLoops, aMissingTriangleIsAnOpeningAsLongAsItsSides) {
   EXPECT_EQ(summary(loops), "1 opening, 120.0 cm around (0.10, 0.15, 0.00) m");
 }
 
+TEST(BoundaryLoops, ofAPartOfMillimetresStandInMillimetres) {
+  TriangleMesh mesh = closed_meshes::box({0.001, 0.0, 0.0}, {0.0013, 0.0004, 0.0005});
+  mesh.triangles.erase(mesh.triangles.begin());
+  EXPECT_EQ(summary(boundary_loops(mesh)), "1 opening, 1.2 mm around (1.10, 0.15, 0.00) mm");
+}
+
 TEST(BoundaryLoops, goAroundInOrder) {
   TriangleMesh sphere = closed_meshes::sphere(Vector3::Zero(), 0.1, 4);
   std::erase_if(sphere.triangles, [&](const auto& t) {
