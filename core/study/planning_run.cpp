@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/progress/stopped.hpp"
 #include "core/session/session.hpp"
 #include "core/session/session_folder.hpp"
+#include "core/session/setup_warnings.hpp"
 #include "core/study/run_result.hpp"
 
 namespace nextview {
@@ -65,6 +67,16 @@ RunResult course_of(const Session& session) {
   return result;
 }
 
+/// Its zeros would go into the means as if they were the plan's doing.
+void require_hits(const Session& session) {
+  const auto& records = session.records();
+  if (!session.mesh() || records.empty() ||
+      std::ranges::any_of(records, [](const StepRecord& r) { return r.hits > 0; }))
+    return;
+  const auto warnings = setup_warnings(session.configuration(), *session.mesh(), session.candidates());
+  throw std::runtime_error("no view measured anything" + (warnings.empty() ? "" : ": " + warnings.front()));
+}
+
 }  // namespace
 
 RunResult perform_plan(const Configuration& configuration, RunSeconds& seconds,
@@ -82,6 +94,7 @@ RunResult perform_plan(const Configuration& configuration, RunSeconds& seconds,
     seconds.stages.evaluate += r.seconds.evaluate;
     seconds.stages.score += r.seconds.score;
   }
+  require_hits(session);
   return course_of(session);
 }
 

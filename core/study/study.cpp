@@ -92,10 +92,9 @@ Configuration configuration_of(const Study& study, const StudyRun& run) {
   c.termination.surface_left = 0.0;  // all go on as long, or they could not be compared
   const std::string& place = study.blocks[run.block].place;
   apply_presets(study.settings, c);
-  if (sensor == study.sensors.end())
+  if (sensor == study.sensors.end() && run.sensor != default_sensor)
     give(c, "sensor.preset", beside_study(study.file, run.sensor), "sensors (sensor.preset)", place);
-  else
-    apply_presets(sensor->second.settings, c);
+  if (sensor != study.sensors.end()) apply_presets(sensor->second.settings, c);
   apply(study.settings, c);
   if (sensor != study.sensors.end()) apply(sensor->second.settings, c);
   if (run.part == StudyPart::planning && !study.policies.contains(run.method))

@@ -122,7 +122,7 @@ class StudyReader {
     StudyBlock block;
     block.part = part;
     block.place = place(table);
-    block.sensors = {"paper"};
+    block.sensors = {default_sensor};
     block.seeds = {1};
     block.views = {plans ? 12 : 20};
     block.starts = {plans ? "30 20" : ""};

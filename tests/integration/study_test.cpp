@@ -73,10 +73,10 @@ TEST_F(StudyCommand, ABrokenObjectIsReportedAndTheOthersGoOn) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("4 of 14 runs came to nothing"));
   const std::string csv = read_file(file("out") / "summary.csv");
-  EXPECT_THAT(csv, HasSubstr("planning,1,broken,paper,3,random,failure,0,2,,,,7-8,"));
+  EXPECT_THAT(csv, HasSubstr("planning,1,broken,default,3,random,failure,0,2,,,,7-8,"));
   EXPECT_THAT(csv, HasSubstr("broken.ply"));
-  EXPECT_THAT(csv, HasSubstr("planning,1,box,paper,3,random,mean_coverage[%],0,2,"));
-  EXPECT_THAT(csv, HasSubstr("planning,1,(mean),paper,3,random,mean_coverage[%],0,2,"));  // of two objects
+  EXPECT_THAT(csv, HasSubstr("planning,1,box,default,3,random,mean_coverage[%],0,2,"));
+  EXPECT_THAT(csv, HasSubstr("planning,1,(mean),default,3,random,mean_coverage[%],0,2,"));  // of two objects
 }
 
 TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {

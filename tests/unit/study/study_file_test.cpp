@@ -78,7 +78,7 @@ TEST_F(StudyFile, ARunIsSaidInWords) {
   const Study study = read(small);
   EXPECT_EQ(study.run(1).text(), "sphere, noisy, 6 views, random, start 10 5, seed 7");
   EXPECT_EQ(study.run(16).text(), "missing, noisy, 6 views, random, start 10 5, seed 3") << "without the file's ending";
-  EXPECT_EQ(study.run(32).text(), "box, paper, 4 views, octomap, seed 1") << "a map has no start view";
+  EXPECT_EQ(study.run(32).text(), "box, default, 4 views, octomap, seed 1") << "a map has no start view";
 }
 
 TEST_F(StudyFile, WhatANameMeansOverridesTheSettingsOfAll) {

@@ -85,7 +85,7 @@ TEST_F(StudyLoop, SaysHowManyRunsAreDoneOfThoseThatItDoes) {
     words.emplace_back(what);
   });
   EXPECT_THAT(fractions, ElementsAre(0.0, 0.25, 0.5, 0.75));
-  EXPECT_THAT(words, ElementsAre("run 1 of 4: nowhere, paper, 3 views, random, start 30 20, seed 2",
+  EXPECT_THAT(words, ElementsAre("run 1 of 4: nowhere, default, 3 views, random, start 30 20, seed 2",
                                  MatchesRegex("run 2 of 4: .*, seed 3; about [0-9]+ s left"),
                                  MatchesRegex("run 3 of 4: .*, seed 4; about [0-9]+ s left"),
                                  MatchesRegex("run 4 of 4: .*, seed 5; about [0-9]+ s left")));

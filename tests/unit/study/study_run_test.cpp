@@ -64,6 +64,18 @@ TEST_F(StudyRuns, ABrokenObjectIsAResult) {
   EXPECT_TRUE(run(1).measured.empty());
 }
 
+TEST_F(StudyRuns, WithoutASensorTheCameraSuitsTheObjectAndAPresetThatSeesNothingSaysSo) {
+  std::string small = text;
+  small.replace(small.find("map.resolution = 0.02\n"), 22, "");
+  small.replace(small.find("longest_side = 0.5"), 18, "longest_side = 0.005");
+  study_ = read_study(folder_.write("small.toml", small));
+  EXPECT_GT(run(0).find("mean_coverage[%]", 0)->value, 20.0);
+  small.replace(small.find("views = 4"), 9, "views = 4\nsensors = [\"paper\"]");
+  study_ = read_study(folder_.write("preset.toml", small));
+  EXPECT_NE(run(0).failure.find("no view measured anything: "), std::string::npos) << run(0).failure;
+  EXPECT_NE(run(0).failure.find("sensor.min_range"), std::string::npos);
+}
+
 TEST_F(StudyRuns, AMapIsScoredAsRefineScoresIt) {
   const Configuration c = configuration_of(study_, study_.run(2));
   CandidateViewsConfig around = c.views;

@@ -173,7 +173,7 @@ TEST_F(Summary, ARunThatCameToNothingIsSaid) {
   const StudyFolder all = shard(0, 1);
   EXPECT_EQ(summarise(study_, keys_.keys, {&all, 1}, {1, study_.size()}, all.path()).failed, 2u);
   const std::string csv = read_file(all.path() / "summary.csv");
-  EXPECT_THAT(csv, testing::HasSubstr("planning,1,box,paper,3,farthest,failure,0,2,,,,"));
+  EXPECT_THAT(csv, testing::HasSubstr("planning,1,box,default,3,farthest,failure,0,2,,,,"));
   EXPECT_THAT(csv, testing::HasSubstr("\"it broke \"\"badly\"\"\""));
 }
 

@@ -140,7 +140,7 @@ TEST_F(SummaryTables, SecondsComeBackAsTheyWereKept) {
   ASSERT_EQ(timings.size(), 1u);
   EXPECT_EQ(timings[0].part, "planning");
   EXPECT_EQ(timings[0].object, "no, thing");
-  EXPECT_EQ(timings[0].sensor, "paper");
+  EXPECT_EQ(timings[0].sensor, "default");
   EXPECT_EQ(timings[0].views, 3);
   EXPECT_EQ(timings[0].method, "random");
   const StageSeconds& s = timings[0].seconds.stages;
