@@ -15,6 +15,7 @@
 #include "core/export/scan_files.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
+#include "core/session/scan_loop.hpp"
 #include "core/session/session_folder.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
@@ -158,17 +159,21 @@ int begin(const ScanArguments& arguments) {
   return finish(session, arguments, scanner ? &*scanner : nullptr, folder, pictures, progress, stop.token());
 }
 
-/// Everything but the end of a scan stays as it was.
-void adopt_termination(const ScanArguments& arguments, SavedSession& saved) {
+/// Everything but the end of a scan stays as it was. Whether that has changed.
+bool adopt_termination(const ScanArguments& arguments, SavedSession& saved) {
   Configuration& configuration = saved.configuration;
   Configuration wanted = configuration;
   arguments.options.apply_to(wanted);
   auto now = settings(configuration), then = settings(wanted);
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (!now[i].key.starts_with("termination.") && now[i].text() != then[i].text())
+  bool has_changed = false;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].text() == then[i].text()) continue;
+    has_changed = true;
+    if (!now[i].key.starts_with("termination."))
       throw std::invalid_argument(wanted.as_given(fmt::format(
           "{}: --resume goes on with the settings that the scan was begun with; termination.* alone may change",
           now[i].key)));
+  }
   // With fewer, config.toml would no longer repeat the scan.
   const auto taken = saved.journal ? int(saved.journal->line().size()) : 0;
   if (wanted.termination.views != configuration.termination.views && wanted.termination.views < taken)
@@ -176,12 +181,35 @@ void adopt_termination(const ScanArguments& arguments, SavedSession& saved) {
         wanted.as_given(fmt::format("termination.views: {} has {} already; give more to go on", saved.folder.string(),
                                     counted(std::size_t(taken), "view"))));
   configuration.termination = wanted.termination;
+  return has_changed;
+}
+
+/// By settings that would have ended the scan earlier, config.toml would no longer repeat it.
+void require_no_earlier_end(const Session& session, const SavedSession& saved) {
+  ScanState earlier = session.state();
+  while (earlier.records.size() > 1) {
+    earlier.records.pop_back();
+    const std::string reason = termination(session.configuration().termination, earlier);
+    if (reason.empty()) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: by these settings it would have ended after {} of its {} views: {}; give others of termination.*",
+        saved.folder.string(), earlier.records.size(), session.records().size(), reason));
+  }
+}
+
+/// Whether all files of a scan are there that are wanted now.
+bool is_complete(const ScanArguments& arguments, const std::filesystem::path& folder) {
+  const auto manifest = read_manifest(folder);
+  const auto has = [&](const char* name) { return std::ranges::find(manifest->files, name) != manifest->files.end(); };
+  return manifest && has("metrics.json") && (arguments.no_pictures || has("step_01.png")) &&
+         (arguments.no_surfaces || has("surfaces.json")) &&
+         std::ranges::all_of(manifest->files, [&](const std::string& name) { return is_there(folder / name); });
 }
 
 /// Goes on with a session, by whatever it was ended.
 int resume(const ScanArguments& arguments) {
   SavedSession saved = read_session(arguments.resume);
-  adopt_termination(arguments, saved);
+  const bool has_changed = adopt_termination(arguments, saved);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Configuration& c = saved.configuration;
@@ -198,15 +226,22 @@ int resume(const ScanArguments& arguments) {
     print_step(session, session.records().back());
     pictures.write(session, folder.out());
   };
-  const bool is_restored = restore(session, saved, &folder, each, progress, stop.token());
+  const bool has_all_files = is_complete(arguments, saved.folder) && restore_kept(session, saved, &folder);
+  if (has_all_files)
+    for (const StepRecord& record : session.records()) print_step(session, record);
+  const bool is_restored = has_all_files || restore(session, saved, &folder, each, progress, stop.token());
   progress.clear();
   for (const std::string& notice : saved.notices)
     fmt::print(stderr, "notice: {}\n", printable(fmt::format("{}: {}", saved.folder.string(), notice)));
   if (!is_restored) return exit_stopped;
-  if (!session.finished().empty())
+  if (has_changed) require_no_earlier_end(session, saved);
+  const bool has_finished = !session.finished().empty();
+  if (has_finished)
     fmt::print(
-        "\nIt was finished already: no view is taken, its files are made again. To go on, let it end later, by "
-        "--views,\n--termination.surface_left, or another of termination.*\n");
+        "\nIt was finished already: no view is taken, its files are {}. To go on, let it end later, by "
+        "--views,\n--termination.surface_left, or another of termination.*\n",
+        has_all_files ? "there" : "made again");
+  if (has_finished && has_all_files) return 0;
   folder.keep_configuration(session);
   return finish(session, arguments, scanner ? &*scanner : nullptr, folder, pictures, progress, stop.token());
 }
@@ -237,7 +272,7 @@ void add_scan_command(CLI::App& program) {
       "--out bunny\n"
       "  nextview scan --recorded frames --out recorded\n"
       "  nextview scan --driver \"python3 turntable.py scans\" --map.region \"-0.1 -0.1 0 0.1 0.1 0.2\" --out part\n"
-      "  nextview scan --resume out --views 30\n"
+      "  nextview scan --resume out --termination.surface_left 0 --views 30\n"
       "  nextview scan --config out/config.toml --sensor.range_noise 0.005 --out noisy");
   app->callback([arguments] { throw CLI::RuntimeError(run(*arguments)); });
 }

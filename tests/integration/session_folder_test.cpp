@@ -179,6 +179,31 @@ TEST_F(SessionFolders, AFinishedOneGetsWhatIsMissing) {
   expect_same("part", "whole");
 }
 
+TEST_F(SessionFolders, AFinishedOneThatIsWholeIsNotGoneThroughAgain) {
+  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  const auto before = fs::last_write_time(in("out/map.ot"));
+  const std::string again = "scan --resume " + in("out") + " --no-pictures --no-surfaces";
+  const Result nothing = nextview(again);
+  EXPECT_EQ(nothing.exit_code, 0);
+  EXPECT_THAT(nothing.out, HasSubstr("no view is taken, its files are there"));
+  EXPECT_EQ(fs::last_write_time(in("out/map.ot")), before);
+  fs::remove(in("out/views.csv"));
+  EXPECT_THAT(nextview(again).out, HasSubstr("its files are made again"));
+  EXPECT_TRUE(fs::exists(in("out/views.csv")));
+  EXPECT_THAT(nextview("scan --resume " + in("out") + " --no-surfaces").out, HasSubstr("its files are made again"));
+  EXPECT_TRUE(fs::exists(in("out/step_01.png"))) << "it had been made without pictures";
+}
+
+TEST_F(SessionFolders, MayNotEndEarlierThanItHas) {
+  ASSERT_EQ(
+      nextview("scan box --views 3 --termination.surface_left 0 " + camera + quick + "--out " + in("out")).exit_code,
+      0);
+  const std::string before = read_file(in("out/config.toml"));
+  expect_refused("scan --resume " + in("out") + " --no-pictures --termination.surface_left 1",
+                 "out: by these settings it would have ended after 2 of its 3 views: no view is worth it");
+  EXPECT_EQ(read_file(in("out/config.toml")), before);
+}
+
 TEST_F(SessionFolders, MayBeMovedWithTheObjectThatLiesInside) {
   fs::create_directories(in("a"));
   ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("a/out")).exit_code, 0);
