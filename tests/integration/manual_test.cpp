@@ -13,6 +13,7 @@
 #include "app/commands/manual_tables.hpp"
 #include "core/driver/words.hpp"
 #include "core/file/read_file.hpp"
+#include "core/recording/dataset.hpp"
 #include "tests/integration/manual_pages.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/manual/markdown.hpp"
@@ -132,6 +133,13 @@ std::vector<std::string> links_of(const fs::path& file) {
   for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found)
     links.push_back((*found)[1]);
   return links;
+}
+
+TEST(Manual, HasEveryKeyOfADataset) {
+  const std::string page = read_manual_page("formats").text;
+  DatasetDescription description;
+  for (const Setting& setting : settings(description))
+    EXPECT_NE(page.find("`" + setting.key + "`"), std::string::npos) << setting.key;
 }
 
 TEST(Manual, EveryLinkLeadsSomewhere) {
