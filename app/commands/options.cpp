@@ -47,11 +47,17 @@ std::filesystem::path find_configuration(const std::string& name) {
 
 }  // namespace
 
+CLI::Validator not_empty() {
+  return {[](std::string& text) { return std::string(text.empty() ? "is empty; give a name, or leave it out" : ""); },
+          ""};
+}
+
 void ConfigurationOptions::add_to(CLI::App& app) {
   app.add_option(
-      "OBJECT", object_,
-      "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …; or recorded scans: "
-      "a folder, .graph, .log or .txt");
+         "OBJECT", object_,
+         "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …; or recorded scans: "
+         "a folder, .graph, .log or .txt")
+      ->check(not_empty());
   add_settings_to(app, {""});
 }
 

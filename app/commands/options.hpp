@@ -8,6 +8,9 @@
 
 namespace nextview {
 
+/// Of names: an empty one, as a script has of a variable that is not set, would be taken for none.
+CLI::Validator not_empty();
+
 /// What the command line says of a configuration: files, and settings by their keys, which override them.
 class ConfigurationOptions {
  public:

@@ -259,7 +259,8 @@ void add_scan_command(CLI::App& program) {
   CLI::Option* out = app->add_option("--out", arguments->out,
                                      "folder for the session: new, empty, or with --overwrite that of another one; "
                                      "the next that is free of out, out-2, … if it is not given")
-                         ->type_name("DIR");
+                         ->type_name("DIR")
+                         ->check(not_empty());
   app->add_flag("--overwrite", arguments->overwrite, "replaces the session that is in the folder");
   app->add_option("--resume", arguments->resume,
                   "goes on with the session in this folder, whatever ended it; termination.* may be changed")

@@ -186,6 +186,12 @@ TEST_F(Messages, AScanBeginsInItsWorkingVolume) {
   EXPECT_FALSE(fs::exists(in("out")));
 }
 
+TEST_F(Messages, AnEmptyNameIsNotTakenForNone) {
+  EXPECT_EQ(complaint("scan ''"), line("OBJECT: is empty; give a name, or leave it out; see nextview scan --help"));
+  EXPECT_EQ(complaint("scan box --out ''"),
+            line("--out: is empty; give a name, or leave it out; see nextview scan --help"));
+}
+
 TEST_F(Messages, AFigureOfAStudyIsNotOfSessions) {
   EXPECT_EQ(complaint("figure gap_closed coverage_by_view --out " + in("figures")),
             line("figure gap_closed: is one of a study (--study DIR), not of 'coverage_by_view'"));
