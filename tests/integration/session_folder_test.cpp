@@ -215,6 +215,14 @@ TEST_F(SessionFolders, MayBeMovedWithTheObjectThatLiesInside) {
             0);
 }
 
+TEST_F(SessionFolders, AnObjectThatIsGoneIsToBePutBack) {
+  fs::copy(NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply", in("part.ply"));
+  ASSERT_EQ(nextview("scan " + in("part.ply") + " --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  fs::remove(in("part.ply"));
+  expect_refused("scan --resume " + in("out"),
+                 "part.ply: is not there, and " + in("out") + " was scanned of it; put it back");
+}
+
 TEST_F(SessionFolders, MistakesAreOneLine) {
   ASSERT_EQ(nextview("scan box --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
   expect_refused("scan --resume " + in("nothing"), "nothing: holds no session");
