@@ -109,7 +109,7 @@ int fit_new_surface(const CalibrateArguments& arguments) {
   const StopOnInterrupt stop;
   const ProgressLine progress;
   const std::vector<TrainingObject> learned_from = objects(arguments, configuration, progress, stop.token());
-  out.make();
+  const MadeFolder made = out.make();
   const NewSurfaceCalibration calibration =
       calibrate_new_surface(learned_from, configuration, config, progress, stop.token());
   progress.clear();

@@ -149,7 +149,7 @@ int fit_sensor_model(const CalibrateArguments& arguments) {
   for (const std::string& input : held_out) add_examples(arguments, input, true, examples, progress, stop.token());
   progress.clear();
   OutputFolder out = output_folder(arguments, examples);
-  out.make();
+  const MadeFolder made = out.make();
   const double resolution = examples.front().job.grid.resolution;
   const Configuration configuration = examples.front().job.configuration;
   const MapCalibration calibration = calibrate_map(std::move(examples), arguments.config, progress, stop.token());

@@ -117,7 +117,7 @@ int run(const RefineArguments& arguments) {
   progress.clear();
   for (const std::string& notice : job.notices) fmt::print(stderr, "notice: {}\n", notice);
   out = OutputFolder(arguments.out, job.inputs);
-  out.make();
+  const MadeFolder made = out.make();
   const Refinement refinement = refine(job, progress, stop.token());
   progress.clear();
   print(job, refinement);

@@ -54,17 +54,8 @@ void OutputFolder::require_no_input(std::span<const InputFile> inputs, std::stri
   }
 }
 
-void OutputFolder::make() const {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error || !fs::is_directory(folder_))
-    throw std::runtime_error(fmt::format("{}: cannot be made a folder: {}", folder_.string(),
-                                         error ? error.message() : "there is a file of this name"));
-  require_writable_folder(folder_);
-}
-
 void OutputFolder::begin(const std::string& command, const std::optional<fs::path>& object) {
-  make();
+  const MadeFolder made = make();
   manifest_ = {"nextview " NEXTVIEW_VERSION, command, std::nullopt, {}};
   if (object) manifest_.object = {named_from(folder_, *object), file_hash(*object)};
   remove_earlier_results();
@@ -72,7 +63,7 @@ void OutputFolder::begin(const std::string& command, const std::optional<fs::pat
 }
 
 void OutputFolder::go_on(const std::string& command) {
-  make();
+  const MadeFolder made = make();
   manifest_ = read_manifest(folder_).value_or(Manifest{"nextview " NEXTVIEW_VERSION, command, std::nullopt, {}});
   write_manifest(manifest_, folder_);
 }

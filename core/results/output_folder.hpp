@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/results/input_file.hpp"
+#include "core/results/made_folder.hpp"
 #include "core/results/manifest.hpp"
 
 namespace nextview {
@@ -20,9 +21,8 @@ class OutputFolder {
   /// `option` goes before the folder that the line proposes instead.
   OutputFolder(std::filesystem::path folder, std::span<const InputFile> inputs, std::string_view option = "--out ");
 
-  /// Makes the folder and sees that it can be written to: before a long job. @throws std::runtime_error naming it and
-  /// the reason.
-  void make() const;
+  /// Makes the folder and sees that it can be written to: before a long job. @throws as MadeFolder
+  [[nodiscard]] MadeFolder make() const { return MadeFolder(folder_); }
   /// Makes it, removes what an earlier run left, and begins the list of what `command` leaves. `object` is what is
   /// scanned, if it is known. @throws std::runtime_error naming the file and the reason.
   void begin(const std::string& command, const std::optional<std::filesystem::path>& object = std::nullopt);

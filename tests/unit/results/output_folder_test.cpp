@@ -43,6 +43,22 @@ class OutputFolders : public InTemporaryFolder {
   }
 };
 
+TEST_F(OutputFolders, ThatNothingWasWrittenToAreGoneAgain) {
+  write("there/mine.txt");
+  { const MadeFolder made(folder_ / "there" / "a" / "b"); }
+  EXPECT_FALSE(there("there/a"));
+  EXPECT_TRUE(there("there/mine.txt"));
+  {
+    const MadeFolder made(folder_ / "out" / "b");
+    write("out/result.txt");
+  }
+  EXPECT_FALSE(there("out/b"));
+  EXPECT_TRUE(there("out/result.txt"));
+  { const MadeFolder made(folder_ / "there"); }
+  EXPECT_TRUE(there("there")) << "it was there before";
+  EXPECT_THROW(MadeFolder(folder_ / "there" / "mine.txt"), std::runtime_error);
+}
+
 TEST_F(OutputFolders, RefuseToReplaceAnInputByWhateverNameItIsGiven) {
   const fs::path object = write("out/surface_map.ply");
   fs::create_symlink("out", folder_ / "link");
