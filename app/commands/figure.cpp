@@ -8,10 +8,11 @@
 #include "app/commands/progress.hpp"
 #include "app/commands/report_scans.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
 #include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/results/output_folder.hpp"
+#include "core/results/made_folder.hpp"
 #include "ui/report/scan_figures.hpp"
 #include "ui/report/study_charts.hpp"
 #include "ui/report/study_report.hpp"
@@ -27,7 +28,7 @@ constexpr double design_dpi = 96.0;  // at which a pixel of a drawing is one of 
 struct FigureArguments {
   std::string name, study, out, size;
   std::vector<std::string> sessions;
-  std::vector<int> views = {1, 2, 3, 4, 5, 6, 7, 8};
+  std::vector<int> views;
   double dpi = 2 * design_dpi;
   bool list = false, dark = false;
 };
@@ -106,6 +107,7 @@ void write_study_figures(const FigureArguments& a, const SummaryTable& table, co
 /// Scenes are drawn for a scale, which follows from the drawing's size, if a picture's is given.
 VectorDrawing drawn(const FigureArguments& a, const ScanFigure& figure, std::span<ReportScan> scans) {
   FigurePaper paper{look_of(a), a.dpi / design_dpi, a.views};
+  if (a.views.empty()) paper.views = {1, 2, 3, 4, 5, 6, 7, 8};
   if (a.size.empty()) return figure.draw(scans, paper);
   constexpr double coarse = 0.2;
   paper.scale = coarse;
@@ -113,10 +115,19 @@ VectorDrawing drawn(const FigureArguments& a, const ScanFigure& figure, std::spa
   return figure.draw(scans, paper);
 }
 
+/// Those that are asked for by number; of the default ones, what is not there is left out.
+void require_views(const std::vector<int>& views, const ReportScan& scan) {
+  for (const int view : views)
+    if (std::size_t(view) > scan.states.size())
+      throw std::invalid_argument(
+          fmt::format("--views {}: {} has {}", view, scan.name, counted(scan.states.size(), "view")));
+}
+
 void write_scan_figures(const FigureArguments& a, const std::stop_token& stop) {
   if (std::ranges::none_of(scan_figures(), [&](const ScanFigure& figure) { return is_wanted(a, figure.name); })) return;
   const ProgressLine progress;
   auto scans = a.sessions.empty() ? made_scans(progress, stop) : report_scans(a.sessions, progress, stop);
+  if (is_wanted(a, "strategy")) require_views(a.views, scans.front());
   std::vector<std::string> names;
   for (const ReportScan& scan : scans) names.push_back(scan.name);
   for (const ScanFigure& figure : scan_figures()) {
@@ -166,11 +177,15 @@ int run(const FigureArguments& a) {
   check(a);
   const fs::path study = a.study.empty() ? assets_folder() / "studies" / "nextview" : fs::path(a.study);
   std::optional<SummaryTable> table;
-  if (draws_study(a)) table.emplace(study);
+  if (draws_study(a)) {
+    if (!is_there(study / "summary.csv"))
+      throw std::invalid_argument(fmt::format(
+          "{}: is no folder of a finished study, which has a summary.csv; give --study what `nextview study` wrote",
+          study.string()));
+    table.emplace(study);
+  }
   require_folder_of_figures(a.out);
-  std::error_code error;
-  fs::create_directories(a.out, error);
-  require_writable_folder(a.out);
+  const MadeFolder folder(a.out);
   const StopOnInterrupt stop;
   if (table) write_study_figures(a, *table, study, stop.token());
   write_scan_figures(a, stop.token());

@@ -130,6 +130,7 @@ int merge(const StudyArguments& a) {
   if (study.size() != keys.keys.size())
     throw std::invalid_argument(fmt::format("{}: its keys are not those of its study", first.string()));
   const StudyShare share = share_of(a, study.size());
+  require_results(keys.keys, folders, share.range);  // before there is a folder
   const StudyFolder out = StudyFolder::begin_merged(a.out, folders.front());
   const StudySummary summary = summarise(study, keys.keys, folders, share.range, out.path());
   merge_timings(folders, out.path());
@@ -138,9 +139,9 @@ int merge(const StudyArguments& a) {
 }
 
 int run(const StudyArguments& a) {
-  if (a.merge.empty() == a.file.empty())
+  if (a.merge.empty() == a.file.empty() || a.out.empty())
     throw std::invalid_argument(
-        "study: give either a study's FILE or --merge and its folders; see nextview study --help");
+        "study: give either a study's FILE or --merge and its folders, and --out DIR; see nextview study --help");
   return a.merge.empty() ? run_file(a) : merge(a);
 }
 
@@ -151,7 +152,7 @@ void add_study_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("study", "Compare policies and maps over objects, start views, seeds, sensors");
   app->add_option("FILE", a->file, "what is compared (TOML); assets/studies has examples");
-  app->add_option("--out", a->out, "folder for it: new, or empty")->type_name("DIR")->required();
+  app->add_option("--out", a->out, "folder for it: new, or empty")->type_name("DIR");
   CLI::Option* shard =
       app->add_option("--shard", a->shard, "does each N-th run, beginning with the I-th, in a folder of its own")
           ->type_name("I/N");

@@ -76,16 +76,14 @@ class SummaryFiles {
 class Results {
  public:
   explicit Results(std::span<const StudyFolder> folders) : folders_(folders) {}
-  RunResult read(const std::string& key, std::size_t number, std::size_t of) {
+  RunResult read(const std::string& key) {
     for (std::size_t i = 0; i < folders_.size(); ++i) {
       const std::size_t folder = (next_ + i) % folders_.size();
       if (!folders_[folder].has(key)) continue;
       next_ = folder + 1;
       return folders_[folder].result(key);
     }
-    throw std::runtime_error(
-        fmt::format("{}: run {} of {} is not done yet; --resume goes on with it, --merge needs all shards",
-                    folders_.front().path().string(), number, of));
+    return folders_.front().result(key);  // it was there a moment ago
   }
 
  private:
@@ -95,8 +93,17 @@ class Results {
 
 }  // namespace
 
+void require_results(std::span<const std::string> keys, std::span<const StudyFolder> folders, const RunRange& range) {
+  for (std::size_t number = range.first; number <= range.last; ++number)
+    if (std::ranges::none_of(folders, [&](const StudyFolder& folder) { return folder.has(keys[number - 1]); }))
+      throw std::runtime_error(
+          fmt::format("{}: run {} of {} is not done yet; --resume goes on with it, --merge needs all shards",
+                      folders.front().path().string(), number, keys.size()));
+}
+
 StudySummary summarise(const Study& study, std::span<const std::string> keys, std::span<const StudyFolder> folders,
                        const RunRange& range, const fs::path& out) {
+  require_results(keys, folders, range);
   StudySummary summary;
   SummaryFiles files(study, out);
   Results results(folders);
@@ -108,7 +115,7 @@ StudySummary summarise(const Study& study, std::span<const std::string> keys, st
       std::vector<FinishedRun> runs;
       for (std::size_t i = first; i < first + together; ++i) {
         if (i + 1 < range.first || i + 1 > range.last) continue;
-        runs.push_back({i + 1, keys[i], study.run(i), results.read(keys[i], i + 1, keys.size())});
+        runs.push_back({i + 1, keys[i], study.run(i), results.read(keys[i])});
         files.add(runs.back());
         summary.failed += runs.back().result.failure.empty() ? 0 : 1;
       }

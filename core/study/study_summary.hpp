@@ -44,10 +44,13 @@ struct StudySummary {
   std::size_t runs = 0, failed = 0, rows = 0;
 };
 
+/// @throws std::runtime_error naming the first of these runs that is in none of the folders
+void require_results(std::span<const std::string> keys, std::span<const StudyFolder> folders, const RunRange& range);
+
 /// Goes through the results of all these runs in their fixed order, wherever they lie, and writes summary.csv and
 /// summary.json (the rows), and runs.csv (a row a run), into `out`. In memory are the runs of one object, sensor and
 /// number of views, and the means of each method.
-/// @throws std::runtime_error if a run is in none of the folders, or a file cannot be written
+/// @throws std::runtime_error as require_results(), or if a file cannot be written
 StudySummary summarise(const Study& study, std::span<const std::string> keys, std::span<const StudyFolder> folders,
                        const RunRange& range, const std::filesystem::path& out);
 

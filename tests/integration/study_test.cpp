@@ -96,7 +96,7 @@ TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
   EXPECT_EQ(incomplete.exit_code, 2);
   EXPECT_THAT(incomplete.err,
               HasSubstr("run 2 of 14 is not done yet; --resume goes on with it, --merge needs all shards"));
-  EXPECT_FALSE(fs::exists(file("incomplete") / "summary.csv"));
+  EXPECT_FALSE(fs::exists(file("incomplete")));
 }
 
 /// NEXTVIEW_RANDOM_KILLS sets how many times a study is begun, killed until it is done, and compared; twenty were run.
@@ -176,6 +176,18 @@ TEST_F(StudyCommand, OptionsThatMakeNoSenseAreRefused) {
   }
 }
 
+TEST(Study, WhatIsMissingOfItIsToldInOneLine) {
+  for (const char* without : {"study", "study x.toml", "study --out x"})
+    EXPECT_EQ(
+        nextview(without).err,
+        "nextview: study: give either a study's FILE or --merge and its folders, and --out DIR; see nextview study "
+        "--help\n");
+  EXPECT_EQ(
+      nextview("figure report --study /no/such --out x").err,
+      "nextview: /no/such: is no folder of a finished study, which has a summary.csv; give --study what `nextview "
+      "study` wrote\n");
+}
+
 /// The small study that is shipped; all that it shows works.
 TEST(Study, TheSmokeStudyRuns) {
   const TemporaryFolder folder;
@@ -221,6 +233,13 @@ TEST(Study, TheSmokeStudyRuns) {
   EXPECT_THAT(refused.err, HasSubstr("something else than figures"));
   EXPECT_EQ(nextview("figure gap_close " + from).exit_code, 2);
   EXPECT_THAT(nextview("figure strategy /no/such " + from).err, HasSubstr("/no/such"));
+  const fs::path nothing = folder.path() / "made" / "for_nothing";
+  const Result fourth = nextview(fmt::format("figure strategy {} --views 2,4 --out '{}'", session, nothing.string()));
+  EXPECT_EQ(fourth.exit_code, 2);
+  EXPECT_THAT(fourth.err, HasSubstr("--views 4: slotted_plate has 3 views"));
+  EXPECT_FALSE(fs::exists(nothing.parent_path()));
+  EXPECT_THAT(nextview(fmt::format("figure strategy {} --out /dev/null/f", session)).err,
+              HasSubstr("/dev/null/f: cannot be made a folder: Not a directory"));
 }
 
 }  // namespace
