@@ -109,7 +109,9 @@ void add_calibrate_command(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   add_options_of_sensor_model(*app, *arguments);
-  app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
+  app->add_option("--out", arguments->out, "folder for the results; those of an earlier run are replaced")
+      ->capture_default_str()
+      ->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
   arguments->range_scans.add_to(*app);
   arguments->options.add_settings_to(

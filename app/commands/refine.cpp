@@ -149,7 +149,9 @@ void add_refine_command(CLI::App& program) {
                   "folder that `scan` wrote, folder of range scans (Stanford's: .conf and .ply), or scene file")
       ->required();
   arguments->options.add_settings_to(*app, {"gibbs.", "seed"});
-  app->add_option("--out", arguments->out, "folder for the results")->capture_default_str()->type_name("DIR");
+  app->add_option("--out", arguments->out, "folder for the results; those of an earlier run are replaced")
+      ->capture_default_str()
+      ->type_name("DIR");
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
   app->add_flag("--no-surfaces", arguments->no_surfaces, "make no surfaces: faster");
   arguments->range_scans.add_to(*app);
