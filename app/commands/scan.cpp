@@ -8,6 +8,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
+#include "app/commands/resumed_scan.hpp"
 #include "app/commands/scan_text.hpp"
 #include "app/commands/scanner.hpp"
 #include "app/commands/surface_output.hpp"
@@ -15,7 +16,6 @@
 #include "core/export/scan_files.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
-#include "core/session/scan_loop.hpp"
 #include "core/session/session_folder.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
@@ -159,57 +159,10 @@ int begin(const ScanArguments& arguments) {
   return finish(session, arguments, scanner ? &*scanner : nullptr, folder, pictures, progress, stop.token());
 }
 
-/// Everything but the end of a scan stays as it was. Whether that has changed.
-bool adopt_termination(const ScanArguments& arguments, SavedSession& saved) {
-  Configuration& configuration = saved.configuration;
-  Configuration wanted = configuration;
-  arguments.options.apply_to(wanted);
-  auto now = settings(configuration), then = settings(wanted);
-  bool has_changed = false;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i].text() == then[i].text()) continue;
-    has_changed = true;
-    if (!now[i].key.starts_with("termination."))
-      throw std::invalid_argument(wanted.as_given(fmt::format(
-          "{}: --resume goes on with the settings that the scan was begun with; termination.* alone may change",
-          now[i].key)));
-  }
-  // With fewer, config.toml would no longer repeat the scan.
-  const auto taken = saved.journal ? int(saved.journal->line().size()) : 0;
-  if (wanted.termination.views != configuration.termination.views && wanted.termination.views < taken)
-    throw std::invalid_argument(
-        wanted.as_given(fmt::format("termination.views: {} has {} already; give more to go on", saved.folder.string(),
-                                    counted(std::size_t(taken), "view"))));
-  configuration.termination = wanted.termination;
-  return has_changed;
-}
-
-/// By settings that would have ended the scan earlier, config.toml would no longer repeat it.
-void require_no_earlier_end(const Session& session, const SavedSession& saved) {
-  ScanState earlier = session.state();
-  while (earlier.records.size() > 1) {
-    earlier.records.pop_back();
-    const std::string reason = termination(session.configuration().termination, earlier);
-    if (reason.empty()) continue;
-    throw std::invalid_argument(fmt::format(
-        "{}: by these settings it would have ended after {} of its {} views: {}; give others of termination.*",
-        saved.folder.string(), earlier.records.size(), session.records().size(), reason));
-  }
-}
-
-/// Whether all files of a scan are there that are wanted now.
-bool is_complete(const ScanArguments& arguments, const std::filesystem::path& folder) {
-  const auto manifest = read_manifest(folder);
-  const auto has = [&](const char* name) { return std::ranges::find(manifest->files, name) != manifest->files.end(); };
-  return manifest && has("metrics.json") && (arguments.no_pictures || has("step_01.png")) &&
-         (arguments.no_surfaces || has("surfaces.json")) &&
-         std::ranges::all_of(manifest->files, [&](const std::string& name) { return is_there(folder / name); });
-}
-
 /// Goes on with a session, by whatever it was ended.
 int resume(const ScanArguments& arguments) {
   SavedSession saved = read_session(arguments.resume);
-  const bool has_changed = adopt_termination(arguments, saved);
+  const bool has_changed = adopt_termination(arguments.options, saved);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Configuration& c = saved.configuration;
@@ -226,7 +179,8 @@ int resume(const ScanArguments& arguments) {
     print_step(session, session.records().back());
     pictures.write(session, folder.out());
   };
-  const bool has_all_files = is_complete(arguments, saved.folder) && restore_kept(session, saved, &folder);
+  const bool has_all_files =
+      has_files(saved.folder, !arguments.no_pictures, !arguments.no_surfaces) && restore_kept(session, saved, &folder);
   if (has_all_files)
     for (const StepRecord& record : session.records()) print_step(session, record);
   const bool is_restored = has_all_files || restore(session, saved, &folder, each, progress, stop.token());

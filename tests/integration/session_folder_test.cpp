@@ -200,7 +200,7 @@ TEST_F(SessionFolders, MayNotEndEarlierThanItHas) {
       0);
   const std::string before = read_file(in("out/config.toml"));
   expect_refused("scan --resume " + in("out") + " --no-pictures --termination.surface_left 1",
-                 "out: by these settings it would have ended after 2 of its 3 views: no view is worth it");
+                 "out: by these settings it would have ended after 1 of its 3 views: no view is worth it");
   EXPECT_EQ(read_file(in("out/config.toml")), before);
 }
 

@@ -1,0 +1,59 @@
+#include "app/commands/resumed_scan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/file/counted.hpp"
+#include "core/file/read_file.hpp"
+#include "core/results/manifest.hpp"
+#include "core/session/scan_loop.hpp"
+
+namespace nextview {
+
+bool adopt_termination(const ConfigurationOptions& options, SavedSession& saved) {
+  Configuration& configuration = saved.configuration;
+  Configuration wanted = configuration;
+  options.apply_to(wanted);
+  auto now = settings(configuration), then = settings(wanted);
+  bool has_changed = false;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].text() == then[i].text()) continue;
+    has_changed = true;
+    if (!now[i].key.starts_with("termination."))
+      throw std::invalid_argument(wanted.as_given(fmt::format(
+          "{}: --resume goes on with the settings that the scan was begun with; termination.* alone may change",
+          now[i].key)));
+  }
+  // With fewer, config.toml would no longer repeat the scan.
+  const auto taken = saved.journal ? int(saved.journal->line().size()) : 0;
+  if (wanted.termination.views != configuration.termination.views && wanted.termination.views < taken)
+    throw std::invalid_argument(
+        wanted.as_given(fmt::format("termination.views: {} has {} already; give more to go on", saved.folder.string(),
+                                    counted(std::size_t(taken), "view"))));
+  configuration.termination = wanted.termination;
+  return has_changed;
+}
+
+void require_no_earlier_end(const Session& session, const SavedSession& saved) {
+  const auto& records = session.state().records;
+  ScanState earlier = session.state();
+  for (std::size_t views = 1; views < records.size(); ++views) {
+    earlier.records.assign(records.begin(), records.begin() + std::ptrdiff_t(views));
+    const std::string reason = termination(session.configuration().termination, earlier);
+    if (reason.empty()) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: by these settings it would have ended after {} of its {} views: {}; give others of termination.*",
+        saved.folder.string(), views, records.size(), reason));
+  }
+}
+
+bool has_files(const std::filesystem::path& folder, bool pictures, bool surfaces) {
+  const auto manifest = read_manifest(folder);
+  const auto has = [&](const char* name) { return std::ranges::find(manifest->files, name) != manifest->files.end(); };
+  return manifest && has("metrics.json") && (!pictures || has("step_01.png")) && (!surfaces || has("surfaces.json")) &&
+         std::ranges::all_of(manifest->files, [&](const std::string& name) { return is_there(folder / name); });
+}
+
+}  // namespace nextview
