@@ -37,7 +37,9 @@ fs::path find_conf(const fs::path& folder) {
     if (entry->path().extension() == ".conf" && is_file(entry->path())) names.push_back(entry->path().filename());
   if (error) throw std::runtime_error(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
   if (names.size() == 1) return folder / names.front();
-  if (names.empty()) throw std::runtime_error(fmt::format("{}: has no .conf file that places scans", folder.string()));
+  if (names.empty())
+    throw std::runtime_error(
+        fmt::format("{}: holds neither a finished scan nor range scans, which a .conf file places", folder.string()));
   std::sort(names.begin(), names.end());
   throw std::runtime_error(fmt::format("{}: has {} .conf files, where one is expected: {}", folder.string(),
                                        names.size(), fmt::join(names, ", ")));

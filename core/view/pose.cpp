@@ -85,7 +85,10 @@ std::vector<Pose> read_views(const std::filesystem::path& file) {
   const bool counted = first < lines.size() && !is_view(lines[first]);
   const std::size_t count = counted ? count_of(lines[first]) : lines.size() - first;
   if (count == 0 || count > most)
-    throw fail(first + 1, fmt::format("expected the number of views, from 1 to {}, alone on the first line", most));
+    throw fail(first + 1,
+               fmt::format("expected views as `x y z qx qy qz qw` a line, or first the number of views, from 1 "
+                           "to {}, alone on a line",
+                           most));
   if (counted) ++first;
   if (lines.size() - first > count)
     throw fail(first + count + 1, fmt::format("more than the {} views that the first line tells", count));

@@ -215,7 +215,7 @@ TEST_F(RangeScanFolder, ThereMustBeOneConf) {
   EXPECT_THAT(complaint(), HasSubstr("has 2 .conf files, where one is expected: one.conf, two.conf"));
   std::filesystem::remove(folder / "one.conf");
   std::filesystem::remove(folder / "two.conf");
-  EXPECT_THAT(complaint(), HasSubstr("has no .conf file"));
+  EXPECT_THAT(complaint(), HasSubstr("holds neither a finished scan nor range scans, which a .conf file places"));
 }
 
 TEST_F(RangeScanFolder, WhatIsNoFolderSaysWhy) {

@@ -86,6 +86,7 @@ TEST_F(ViewsFile, MayHaveNoCount) {
   EXPECT_NE(reason("0.1 0.2 0.3 0 0 0\n" + views), "") << "a view of six numbers first";
   EXPECT_NE(reason(views + "2\n").find(":3"), std::string::npos) << "the count comes first";
   EXPECT_NE(reason("\n" + views), "");
+  EXPECT_NE(reason("step,view\n1,7\n").find(":1: expected views as `x y z qx qy qz qw` a line"), std::string::npos);
 }
 
 TEST_F(ViewsFile, OneViewIsReadFromAText) {
