@@ -65,13 +65,16 @@ std::string readiness(const SessionSnapshot& s) {
   return s.next_candidate ? fmt::format("Ready to take candidate {}", *s.next_candidate) : "No candidate is left";
 }
 
+std::string left_text(std::optional<double> seconds) {
+  return seconds.value_or(0) >= 1 ? fmt::format(", about {:.0f} s left", *seconds) : "";
+}
+
 /// "scoring the candidate views, 2 more to do, about 12 s left"
 std::string job_text(const WorkerProgress& progress) {
   std::string text = progress.paused ? "paused: " + progress.what : progress.what;
   if (text.empty()) text = "between two views";
   if (progress.waiting > 0) text += fmt::format(", {} more to do", progress.waiting);
-  if (progress.seconds_left.value_or(0) >= 1) text += fmt::format(", about {:.0f} s left", *progress.seconds_left);
-  return text;
+  return text + left_text(progress.seconds_left);
 }
 
 /// What runs, and how far it is.
@@ -109,7 +112,10 @@ void draw_progress(const PanelContext& context, float left, float right, float y
   const float button = style.px(100), bar = right - left - button;
   const bool has_room = bar >= style.px(min_bar);
   if (!runs && (!context.surface_progress || !has_room)) return draw_readiness(context, left, right, y);
-  if (!runs) return draw_job(style, "making the surface", *context.surface_progress, left, bar, y);
+  if (!runs) {
+    const SurfaceJob& surface = *context.surface_progress;
+    return draw_job(style, "making the surface" + left_text(surface.seconds_left), surface.fraction, left, bar, y);
+  }
   if (!has_room) return;  // the buttons have a Cancel then
   draw_job(style, job_text(progress), progress.fraction, left, bar, y);
   ImGui::SetCursorPos({left + bar + style.px(12), y - style.px(2)});

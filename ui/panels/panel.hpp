@@ -24,9 +24,9 @@ struct PanelContext {
   const Style& style;
   PanelPictures& pictures;
   std::vector<CommandCall>& calls;
-  std::optional<std::size_t>& hovered;       ///< candidate that is pointed at
-  const FoundSurface* surface = nullptr;     ///< the latest that was made; null: none
-  std::optional<double> surface_progress{};  ///< of the one that is being made, 0 to 1
+  std::optional<std::size_t>& hovered;           ///< candidate that is pointed at
+  const FoundSurface* surface = nullptr;         ///< the latest that was made; null: none
+  std::optional<SurfaceJob> surface_progress{};  ///< of the one that is being made
 
   CommandState state() const { return {snapshot, progress, window}; }
 

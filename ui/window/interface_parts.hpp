@@ -25,7 +25,7 @@ struct News {
   std::shared_ptr<const Inspection> inspection;
   std::shared_ptr<const SessionLog::Entries> log;
   std::shared_ptr<const FoundSurface> surface;
-  std::optional<double> surface_progress;
+  std::optional<SurfaceJob> surface_progress;
 
   bool operator==(const News&) const = default;
 };

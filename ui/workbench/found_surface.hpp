@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <stop_token>
 
 #include "core/export/reconstruction.hpp"
@@ -22,6 +23,14 @@ struct SurfaceQuestion {
 struct FoundSurface {
   SurfaceQuestion of;  ///< without a session: there is none yet
   ScanSurface found;
+};
+
+/// Of the surface that is being made.
+struct SurfaceJob {
+  double fraction = 0.0;               ///< 0 to 1
+  std::optional<double> seconds_left;  ///< as it has gone so far; whole seconds
+
+  bool operator==(const SurfaceJob&) const = default;
 };
 
 /// Null if stopped.

@@ -1,5 +1,7 @@
 #include "ui/workbench/inspection_worker.hpp"
 
+#include "core/progress/seconds_left.hpp"
+
 namespace nextview {
 
 InspectionWorker::InspectionWorker(std::function<void()> on_news)
@@ -20,11 +22,14 @@ InspectionWorker::InspectionWorker(std::function<void()> on_news)
 
 void InspectionWorker::ask_surface(const SurfaceQuestion& question) {
   surface_fraction_ = 0.0;
+  surface_asked_ = std::chrono::steady_clock::now();
   surfaces_.ask(question);
 }
 
-std::optional<double> InspectionWorker::surface_progress() const {
-  return surfaces_.busy() ? std::optional(surface_fraction_.load()) : std::nullopt;
+std::optional<SurfaceJob> InspectionWorker::surface_progress() const {
+  if (!surfaces_.busy()) return std::nullopt;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - surface_asked_;
+  return SurfaceJob{surface_fraction_, seconds_left(surface_fraction_, elapsed.count())};
 }
 
 }  // namespace nextview

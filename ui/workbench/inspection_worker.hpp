@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <functional>
 
 #include "ui/workbench/answer_thread.hpp"
@@ -24,8 +25,7 @@ class InspectionWorker {
   void ask_surface(const SurfaceQuestion& question);
   void drop_surface() { surfaces_.drop(); }
   std::shared_ptr<const FoundSurface> surface() const { return surfaces_.answer(); }  ///< likewise
-  /// Of the surface that is being made, 0 to 1; none if none is.
-  std::optional<double> surface_progress() const;
+  std::optional<SurfaceJob> surface_progress() const;                                 ///< none if none is being made
 
   bool busy() const { return inspections_.busy() || surfaces_.busy(); }
 
@@ -37,6 +37,7 @@ class InspectionWorker {
 
   Inspector inspector_;  ///< the thread's alone
   std::atomic<double> surface_fraction_ = 0.0;
+  std::chrono::steady_clock::time_point surface_asked_;
   AnswerThread<Question, Inspection> inspections_;
   AnswerThread<SurfaceQuestion, FoundSurface> surfaces_;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/memory/available_memory.hpp"
+#include "core/progress/seconds_left.hpp"
 #include "core/progress/stopped.hpp"
 #include "ui/workbench/overloaded.hpp"
 #include "ui/workbench/request_kind.hpp"
@@ -15,8 +16,6 @@ namespace {
 
 /// Smaller steps of progress are no news.
 constexpr double min_progress = 0.01;
-/// Nobody needs to be told how long a shorter job will take [s].
-constexpr double min_to_estimate = 1.0;
 
 }  // namespace
 
@@ -53,8 +52,8 @@ WorkerProgress SessionWorker::progress() const {
   const auto opens = [](const auto& waiting) { return opens_another(waiting.second); };
   progress.opening = (running_ && opening_) || std::ranges::any_of(queue_, opens);
   const double elapsed = std::chrono::duration<double>(Clock::now() - job_start_).count();
-  if (running_ && !progress.cancelling && !progress.paused && progress.fraction > 0.02 && elapsed > min_to_estimate)
-    progress.seconds_left = std::ceil(elapsed * (1 - progress.fraction) / progress.fraction);
+  if (running_ && !progress.cancelling && !progress.paused)
+    progress.seconds_left = seconds_left(progress.fraction, elapsed);
   return progress;
 }
 

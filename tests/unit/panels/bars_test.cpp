@@ -103,8 +103,8 @@ TEST_F(Bars, ACancelIsAcknowledgedUntilWhatRunsHasStopped) {
 }
 
 TEST_F(Bars, ASurfaceThatIsMadeIsSeenWhileNothingElseRuns) {
-  desk_.surface_progress = 0.5;
-  EXPECT_THAT(control_bar(), HasSubstr("making the surface"));
+  desk_.surface_progress = SurfaceJob{0.5, 12};
+  EXPECT_THAT(control_bar(), HasSubstr("making the surface, about 12 s left"));
   EXPECT_THAT(control_bar(), Not(HasSubstr("Ready")));
   desk_.progress.busy = true;
   desk_.progress.what = "scoring";

@@ -78,7 +78,7 @@ class Desk {
   WorkerProgress progress;
   WindowState window;
   Inspection inspection;
-  std::optional<double> surface_progress;
+  std::optional<SurfaceJob> surface_progress;
   SessionLog::Entries log;
 
  private:
