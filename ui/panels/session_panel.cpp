@@ -159,7 +159,11 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   }
   std::vector<Setting> settings = nextview::settings(edited_);
   draw_setting(context, find_setting(settings, "object.file"), "Object");  // also when there is none yet
-  if (const auto& mesh = context.snapshot.mesh) small_text(context.style, size_text(*mesh));
+  if (const auto& mesh = context.snapshot.mesh) {
+    const std::string& unit = context.snapshot.guessed_unit;
+    const std::string guess = unit.empty() ? "" : fmt::format("; its unit is taken as {}: Object, unit sets it", unit);
+    small_text(context.style, size_text(*mesh) + guess);
+  }
   ImGui::BeginDisabled(!context.snapshot.loaded());
   for (const auto& [text, key] : {std::pair{"Gain", "planner.gain"},
                                   {"Semantics", "planner.semantics"},

@@ -1,8 +1,10 @@
 // What a session runner shows of its session.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "core/config/known_objects.hpp"
 #include "core/evaluation/map_quality.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "ui/workbench/session_runner.hpp"
@@ -12,6 +14,14 @@ namespace {
 
 constexpr std::size_t max_runs = 6;            ///< that stay for their curves
 constexpr std::size_t surface_points = 4'000;  ///< by which a view is judged before it is taken
+
+/// Nobody doubts those of the objects that come with the program.
+std::string guessed_unit(const Session& session) {
+  if (!session.mesh() || session.configuration().object.unit != LengthUnit::automatic) return "";
+  const LengthUnit taken = session.object().unit;
+  const bool is_known = std::ranges::count(known_objects(), session.name()) > 0;
+  return taken == LengthUnit::automatic || is_known ? "" : std::string(name(taken));
+}
 
 SurfacePoints points_of(const TriangleMesh& mesh, const MeshTopology& topology, std::uint64_t seed) {
   SurfaceSamples samples = sample_surface(mesh, surface_points, seed);
@@ -73,6 +83,7 @@ void SessionRunner::show_session(SessionSnapshot& next) const {
                                   : nullptr;
   next.truth = seen_->truth();
   next.object_name = session_->name();
+  next.guessed_unit = guessed_unit(*session_);
   next.notes = session_->notes();
   next.grid = session_->map().grid();
   next.camera = session_->camera();

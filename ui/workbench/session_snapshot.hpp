@@ -89,6 +89,7 @@ struct SessionSnapshot {
   bool scanner_lost = false;                            ///< which must be reached again
   std::vector<std::string> notes;                       ///< Session::notes
   std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, as the next
+  std::string guessed_unit;                             ///< of the mesh's file: "mm"; empty if nothing was guessed
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread
   LaidOutVoxels voxels;                                 ///< the conventional map; null without a session
   std::shared_ptr<const SeenCloud> cloud;

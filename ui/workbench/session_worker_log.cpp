@@ -37,8 +37,10 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
     for (const std::string& note : now.notes) log.add(Level::note, note);
     return;
   }
-  log.add(Level::note, fmt::format("{}: {}, {}, {} candidate views, {:g} mm voxels", now.object_name,
-                                   size_text(*now.mesh), counted(now.mesh->triangles.size(), "triangle"),
+  const std::string unit =
+      now.guessed_unit.empty() ? "" : fmt::format(" (its unit taken as {}; object.unit sets it)", now.guessed_unit);
+  log.add(Level::note, fmt::format("{}: {}{}, {}, {} candidate views, {:g} mm voxels", now.object_name,
+                                   size_text(*now.mesh), unit, counted(now.mesh->triangles.size(), "triangle"),
                                    now.candidates.size(), 1e3 * now.grid.resolution));
   for (const std::string& note : now.notes) log.add(Level::note, note);
   if (!now.records.empty()) log.add(Level::note, fmt::format("Goes on with {}", counted(now.records.size(), "view")));

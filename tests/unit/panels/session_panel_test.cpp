@@ -100,6 +100,20 @@ TEST_F(SessionPanelTest, AListIsAsLongWhereItsGroupIsOpen) {
   EXPECT_NEAR(list_height(true), alone, 0.1 * alone);
 }
 
+TEST_F(SessionPanelTest, ASizeSaysThatItsUnitWasGuessed) {
+  EXPECT_THAT(panel(), testing::Not(HasSubstr("is taken as")));
+  scan_->guessed_unit = "mm";
+  EXPECT_THAT(panel(), HasSubstr("500 x 500 x 500 mm; its unit is taken as mm: Object, unit sets it"));
+}
+
+/// Nobody takes it for a length that was rounded away.
+TEST_F(SessionPanelTest, ALongestSideThatIsNotSetIsItsOwn) {
+  desk_.frames();
+  for (const SeenText& seen : seen_texts())  // the last one is the group's
+    if (seen.text == "Object") desk_.click(seen.from.x, seen.middle());
+  EXPECT_THAT(panel(), HasSubstr("0 m: its own"));
+}
+
 /// Another scan's settings take the place of those that were shown.
 TEST_F(SessionPanelTest, FollowsTheScan) {
   desk_.frames();

@@ -66,6 +66,21 @@ TEST_F(WorkerLog, HasALineForEachThing) {
 }
 
 TEST_F(WorkerLog, ARankingThatSaysLittleIsAWarning) {
+TEST_F(WorkerLog, SaysWhichUnitWasGuessed) {
+  const TemporaryFolder own;
+  Configuration c = small_scan();
+  c.object.file = own.path() / "part.ply";
+  std::filesystem::copy_file(assets_folder() / "objects" / "box.ply", c.object.file);
+  load(c);
+  EXPECT_EQ(now()->guessed_unit, "m");
+  EXPECT_THAT(last_entry().text, HasSubstr(" (its unit taken as m; object.unit sets it), "));
+  c.object.unit = LengthUnit::metres;
+  load(c);
+  EXPECT_EQ(now()->guessed_unit, "");
+  load();
+  EXPECT_EQ(now()->guessed_unit, "") << "it comes with the program";
+}
+
   Configuration c = small_scan();
   c.views.count = 2;
   c.planner.ray_columns = c.planner.ray_rows = 1;
