@@ -8,6 +8,7 @@
 
 #include "core/mesh/edge_uses.hpp"
 #include "core/mesh/weld.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {
@@ -87,11 +88,10 @@ std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh) {
 
 std::string summary(std::span<const BoundaryLoop> loops) {
   if (loops.empty()) return "watertight";
-  const bool is_small = loops[0].length < 0.01;  // [m]; of parts of millimetres a centre in cm says nothing
-  const Vector3 centre = (1e2 * (is_small ? 1e3 : 1.0) * loops[0].centre).array().round() / 1e2 + 0.0;  // no "-0.00"
-  return fmt::format("{} opening{}{:.1f} {} around ({:.2f}, {:.2f}, {:.2f}) {}", loops.size(),
-                     loops.size() == 1 ? ", " : "s, the longest ", (is_small ? 1e3 : 1e2) * loops[0].length,
-                     is_small ? "mm" : "cm", centre.x(), centre.y(), centre.z(), is_small ? "mm" : "m");
+  const Vector3 centre = (1e4 * loops[0].centre).array().round() / 1e1 + 0.0;  // [mm]; no "-0"
+  return fmt::format("{} opening{}{} around ({:g}, {:g}, {:g}) mm", loops.size(),
+                     loops.size() == 1 ? ", " : "s, the longest ", length_text(loops[0].length), centre.x(), centre.y(),
+                     centre.z());
 }
 
 }  // namespace nextview

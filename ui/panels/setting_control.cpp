@@ -19,6 +19,7 @@ using Wanted = std::optional<std::string>;
 
 /// As the field shows it while nobody writes.
 std::string shown_text(const Setting& setting) {
+    if (setting.key == "object.longest_side" && **number == 0.0) return "0 m: its own";
   if (const auto* number = std::get_if<double*>(&setting.value)) {
     if (setting.unit == "m") return quantity_text(**number);
     return fmt::format("{:.9g}", **number);

@@ -255,7 +255,7 @@ TEST(ScanSurfaces, AreCalledWatertightOnlyIfAllWasSeen) {
             "closed, but only 0 % of it was seen: 0.0 cm² seen, 400.0 cm² is the hull of what no view saw");
   ScanSurface s = strip(10);
   s.openings = boundary_loops(s.surface.mesh);
-  EXPECT_THAT(summary(s), HasSubstr("8 triangles, 1 opening, 100.0 cm around"));
+  EXPECT_THAT(summary(s), HasSubstr("8 triangles, 1 opening, 1 m around"));
   s.surface.mesh.triangles.resize(1);
   EXPECT_THAT(summary(s), HasSubstr(" 1 triangle, "));
 }

@@ -53,7 +53,7 @@ TEST(BoundaryLoops, aMissingTriangleIsAnOpeningAsLongAsItsSides) {
   std::vector<std::uint32_t> corners = loops[0].vertices;
   std::sort(corners.begin(), corners.end());
   EXPECT_EQ(corners, (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_EQ(summary(loops), "1 opening, 120.0 cm around (0.10, 0.15, 0.00) m");
+  EXPECT_EQ(summary(loops), "1 opening, 1.2 m around (100, 150, 0) mm");
 }
 
 TEST(BoundaryLoops, ofAPartOfMillimetresStandInMillimetres) {
@@ -82,7 +82,7 @@ TEST(BoundaryLoops, goAroundInOrder) {
 TEST(BoundaryLoops, theLongestComesFirstAndTheSummaryNamesIt) {
   const TriangleMesh mesh = sheet({"######", "#.##.#", "####.#", "######"});
   EXPECT_EQ(lengths(mesh), (std::vector<double>{20.0, 6.0, 4.0}));
-  EXPECT_EQ(summary(boundary_loops(mesh)), "3 openings, the longest 2000.0 cm around (3.00, 2.00, 0.00) m");
+  EXPECT_EQ(summary(boundary_loops(mesh)), "3 openings, the longest 20 m around (3000, 2000, 0) mm");
   EXPECT_EQ(boundary_loops(mesh)[1].centre, Vector3(4.5, 2.0, 0.0));
 }
 
