@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/setting/quantity.hpp"
+
 namespace nextview {
 
 bool Bounds::allow(double value) const {
@@ -10,11 +12,15 @@ bool Bounds::allow(double value) const {
 }
 
 std::string Bounds::text(const std::string& unit) const {
-  const std::string behind = unit.empty() ? "" : " " + unit;
+  const bool is_length = unit == "m";
+  const std::string behind = unit.empty() || is_length ? "" : " " + unit;
   const std::string zero = or_zero ? "0 or " : "";
-  if (low_included && high_included) return fmt::format("{}from {} to {}{}", zero, low, high, behind);
-  return fmt::format("{}{} {} and {} {}{}", zero, low_included ? "at least" : "over", low,
-                     high_included ? "at most" : "below", high, behind);
+  const auto limit = [&](double value) {
+    return is_length && value != 0.0 ? quantity_text(value) : fmt::format("{}", value);
+  };
+  if (low_included && high_included) return fmt::format("{}from {} to {}{}", zero, limit(low), limit(high), behind);
+  return fmt::format("{}{} {} and {} {}{}", zero, low_included ? "at least" : "over", limit(low),
+                     high_included ? "at most" : "below", limit(high), behind);
 }
 
 }  // namespace nextview

@@ -10,7 +10,7 @@ struct Bounds {
   bool or_zero = false;  ///< 0 as well: off, or chosen by the program
 
   bool allow(double value) const;
-  /// "from 0.2 to 5 m", "over 0 and below 1"
+  /// "from 0.2 to 5 s", "over 0 and below 1"; a length with a unit that suits it: "from 0.01 mm to 1 m"
   std::string text(const std::string& unit = "") const;
 };
 

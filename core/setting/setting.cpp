@@ -138,8 +138,11 @@ void Setting::set(const std::string& new_text) {
 }
 
 void Setting::require_in_bounds() const {
-  if (!std::visit(Allowed{bounds}, value))
-    throw std::invalid_argument(fmt::format("{} must be {}, not {}", key, bounds->text(unit), text()));
+  if (!std::visit(Allowed{bounds}, value)) {
+    const auto* length = unit == "m" ? std::get_if<double*>(&value) : nullptr;
+    throw std::invalid_argument(
+        fmt::format("{} must be {}, not {}", key, bounds->text(unit), length ? quantity_text(**length) : text()));
+  }
   const auto* whole = std::get_if<std::uint64_t*>(&value);
   constexpr auto largest = std::uint64_t(std::numeric_limits<std::int64_t>::max());
   if (whole && **whole > largest)

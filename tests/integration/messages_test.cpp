@@ -40,7 +40,7 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   };
   const std::string file = in("c.toml");
   EXPECT_EQ(with("seed = 1\n[sensor]\nrange_noise = 5\n"),
-            line(file + ":3: sensor.range_noise must be from 0 to 1 m, not 5"));
+            line(file + ":3: sensor.range_noise must be from 0 to 1 m, not 5 m"));
   EXPECT_EQ(with("[map]\n\nhit = 0.2\n"), line(file + ":3: map.hit must be over 0.5 and below 1, not 0.2"));
   EXPECT_EQ(with("[cloud]\noutlier_neighbours = 0\n"),
             line(file + ":2: cloud.outlier_neighbours must be from 1 to 1000, not 0"));
@@ -71,7 +71,7 @@ TEST_F(Messages, OfSeveralFilesTheOneIsNamedThatGaveTheSetting) {
 }
 
 TEST_F(Messages, ARangeErrorOnTheCommandLineNamesTheOption) {
-  EXPECT_EQ(complaint(scan() + "--sensor.range_noise 5"), line("--sensor.range_noise must be from 0 to 1 m, not 5"));
+  EXPECT_EQ(complaint(scan() + "--sensor.range_noise 5"), line("--sensor.range_noise must be from 0 to 1 m, not 5 m"));
   EXPECT_EQ(complaint(scan() + "--views 0"), line("--views (termination.views) must be from 1 to 10000, not 0"));
   EXPECT_EQ(complaint(scan() + "--termination.views 0"), line("--termination.views must be from 1 to 10000, not 0"));
   EXPECT_EQ(complaint(scan() + "--views many"), line("--views (termination.views) takes a whole number, not 'many'"));
@@ -82,7 +82,7 @@ TEST_F(Messages, ARangeErrorOnTheCommandLineNamesTheOption) {
   // The option is wrong, not the file that it overrides.
   EXPECT_EQ(
       complaint(scan() + "--config " + write("c.toml", "[sensor]\nrange_noise = 0.1\n") + " --sensor.range_noise 5"),
-      line("--sensor.range_noise must be from 0 to 1 m, not 5"));
+      line("--sensor.range_noise must be from 0 to 1 m, not 5 m"));
 }
 
 TEST_F(Messages, OfTwoSettingsEachIsNamedAsItWasGiven) {

@@ -94,7 +94,7 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
 TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
   user_.run("step\nstep\n");
   user_.window().ask(command::set("map.resolution", "0.05"));
-  EXPECT_THAT(question(), HasSubstr("resolution = 50 mm starts the scan over. Its 2 views are set aside: undo brings "
+  EXPECT_THAT(question(), HasSubstr("Voxel = 50 mm starts the scan over. Its 2 views are set aside: undo brings "
                                     "them back."));
   user_.type(Key::escape);
   user_.wait();

@@ -31,8 +31,10 @@ Setting setting(Configuration& configuration, const std::string& key) {
   return find_setting(all, key);
 }
 
-/// As the window names a setting.
-std::string shown_name(const Setting& setting) { return fmt::format("{} ({})", setting.label(), setting.key); }
+/// As the Session panel calls a setting.
+std::string field_name(const Setting& setting) { return setting.key == "map.resolution" ? "Voxel" : setting.label(); }
+
+std::string shown_name(const Setting& setting) { return fmt::format("{} ({})", field_name(setting), setting.key); }
 
 constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, too
 
@@ -94,7 +96,8 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
   const Setting wanted = setting(now, key);
   if (wanted.text() == before) return {};
   const auto* length = wanted.unit == "m" ? std::get_if<double*>(&wanted.value) : nullptr;
-  return restart_question(t, fmt::format("{} = {}", wanted.label(), length ? quantity_text(**length) : wanted.text()));
+  return restart_question(t,
+                          fmt::format("{} = {}", field_name(wanted), length ? quantity_text(**length) : wanted.text()));
 }
 
 std::string reset_settings_why_not(const CommandState& t) {

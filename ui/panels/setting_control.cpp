@@ -9,7 +9,6 @@
 
 #include "core/planner/policy.hpp"
 #include "core/setting/quantity.hpp"
-#include "core/setting/rounded.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
@@ -19,8 +18,8 @@ using Wanted = std::optional<std::string>;
 
 /// As the field shows it while nobody writes.
 std::string shown_text(const Setting& setting) {
-    if (setting.key == "object.longest_side" && **number == 0.0) return "0 m: its own";
   if (const auto* number = std::get_if<double*>(&setting.value)) {
+    if (setting.key == "object.longest_side" && **number == 0.0) return "0 m: its own";
     if (setting.unit == "m") return quantity_text(**number);
     return fmt::format("{:.9g}", **number);
   }
@@ -29,14 +28,6 @@ std::string shown_text(const Setting& setting) {
 
 bool shown_in_millimetres(const Setting& setting) {
   return setting.unit == "m" && std::holds_alternative<double*>(setting.value) && shown_text(setting).ends_with(" mm");
-}
-
-/// In the unit that the field shows.
-std::string bounds_text(const Setting& setting) {
-  if (!shown_in_millimetres(setting)) return setting.bounds->text();
-  Bounds bounds = *setting.bounds;
-  for (double* limit : {&bounds.low, &bounds.high}) *limit = rounded(1e3 * *limit, 9);
-  return bounds.text("mm");
 }
 
 /// What was written, in the unit that the field showed if it has none of its own.
@@ -110,7 +101,7 @@ struct Control {
 }  // namespace
 
 std::string setting_help(const Setting& setting) {
-  return setting.explanation() + (setting.bounds ? "; " + bounds_text(setting) : "");
+  return setting.explanation() + (setting.bounds ? "; " + setting.bounds->text(setting.unit == "m" ? "m" : "") : "");
 }
 
 std::optional<std::string> setting_control(const Setting& setting, TypedSetting& typed) {

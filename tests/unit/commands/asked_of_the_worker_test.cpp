@@ -70,7 +70,7 @@ TEST_F(AskedOfTheWorker, SettingsAndSpeed) {
     run("set map.resolution -1");
     ADD_FAILURE();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "resolution (map.resolution) must be from 1e-05 to 1 m, not -1") << "label and key";
+    EXPECT_STREQ(error.what(), "Voxel (map.resolution) must be from 0.01 mm to 1 m, not -1 m") << "label and key";
   }
   EXPECT_EQ(now()->object_name, "box");
 }

@@ -154,13 +154,13 @@ TEST(ResolveObject, FindsPathsAndNames) {
 TEST_F(ConfigurationFile, WhatMakesNoSenseNamesItsPlace) {
   std::ofstream(file()) << "[sensor]\nrange_noise = 5\n";
   EXPECT_EQ(complaint([&] { read_configuration(file()); }),
-            file().string() + ":2: sensor.range_noise must be from 0 to 1 m, not 5");
+            file().string() + ":2: sensor.range_noise must be from 0 to 1 m, not 5 m");
   Configuration configuration;
   read_settings(file(), configuration);
   EXPECT_EQ(configuration.sources,
             (SettingSources{{"sensor.range_noise", {"sensor.range_noise", file().string() + ":2", "5"}}}));
   configuration.sensor.range_noise = 7;
-  EXPECT_EQ(complaint([&] { configuration.validate(); }), "sensor.range_noise must be from 0 to 1 m, not 7")
+  EXPECT_EQ(complaint([&] { configuration.validate(); }), "sensor.range_noise must be from 0 to 1 m, not 7 m")
       << "that is not what the file says";
   configuration.sensor.range_noise = 0.5;
   EXPECT_NO_THROW(configuration.validate());

@@ -8,6 +8,7 @@
 
 #include "core/config/configuration.hpp"
 #include "core/planner/gain_policies.hpp"
+#include "core/setting/quantity.hpp"
 
 namespace nextview {
 namespace {
@@ -131,7 +132,8 @@ TEST(Validate, EachNumberHasItsBoundsAndTheMessageNamesThem) {
     };
     const auto refused = [&](double value) {
       const std::string text = find(names, s.key).bounds->text(s.unit);
-      return fmt::format("{} must be {}, not {}", s.key, text, is_int ? double(int(value)) : value);
+      const std::string is = s.unit == "m" ? quantity_text(value) : fmt::format("{}", is_int ? int(value) : value);
+      return fmt::format("{} must be {}, not {}", s.key, text, is);
     };
     const auto [low, high] = std::pair{s.bounds->low, s.bounds->high};
     EXPECT_EQ(refusal(s.bounds->low_included ? low : above(low)), "");

@@ -53,6 +53,7 @@ TEST(Bounds, AreToldInWords) {
   EXPECT_EQ(from_to(0.5, 10000).text("px"), "from 0.5 to 10000 px");
   EXPECT_EQ(between(0, 1).text(), "over 0 and below 1");
   EXPECT_EQ(over_to(0, 100).text("m"), "over 0 and at most 100 m");
+  EXPECT_EQ(from_to(1e-5, 1).text("m"), "from 0.01 mm to 1 m");
   EXPECT_EQ(zero_or(4, 1e6).text(), "0 or from 4 to 1000000");
 }
 
