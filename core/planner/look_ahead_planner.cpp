@@ -8,6 +8,7 @@
 
 #include "core/planner/new_surface_policy.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/area_text.hpp"
 
 namespace nextview {
 namespace {
@@ -221,9 +222,9 @@ OneStepPlanner::Choice LookAheadPlanner::choose(const PlanningState& state, std:
   const LookAhead found = look_ahead(tree, simulations_, stop);
   const std::size_t first = available[found.best.views.front()];
   if (first == ranked || found.best.value < worth_it * found.of_ranked.value) return {ranked};
-  return {first, fmt::format(" {} views that begin here promise {} cm² in {:.1f} m; after {}, {} cm² in {:.1f} m.",
-                             found.best.views.size(), short_text(found.best.area), found.best.way, ranked,
-                             short_text(found.of_ranked.area), found.of_ranked.way)};
+  return {first, fmt::format(" {} views that begin here promise {} in {:.1f} m; after {}, {} in {:.1f} m.",
+                             found.best.views.size(), area_text(found.best.area), found.best.way, ranked,
+                             area_text(found.of_ranked.area), found.of_ranked.way)};
 }
 
 std::unique_ptr<Planner> make_planner(const PlannerConfig& config) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/planner/remaining_plan.hpp"
+#include "core/setting/area_text.hpp"
 
 namespace nextview {
 namespace {
@@ -102,7 +103,7 @@ std::vector<double> NewSurfacePolicy::finer_values(const PlanningState& state, s
 }
 
 std::string NewSurfacePolicy::promise(double value, const PlanningState& state, const Pose& T_world_camera) const {
-  std::string text = short_text(value) + " cm² of new surface";
+  std::string text = area_text(value) + " of new surface";
   if (!(value > 0.0)) return text;
   const std::shared_ptr<const Seen> seen = see(state.known);
   const std::string where =

@@ -59,14 +59,13 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   std::string text =
       fmt::format("Candidate {}: {}; {} away.", best,
                   policy.promise(chosen.gain, state, state.candidates[best].T_world_camera), length_text(chosen.cost));
-  const std::string unit = policy.unit().empty() ? "" : fmt::format(" {}", policy.unit());
   if (is_per_second) {
     text.back() = ',';
-    text += fmt::format(" {}{} a second.", short_text(chosen.utility), unit);
+    text += fmt::format(" {} a second.", short_text(chosen.utility, policy.unit()));
   }
   const auto second = runner_up(candidates, best);
   if (!second) return text;
-  text += fmt::format(" Runner-up {}: {}{}, {}.", *second, short_text(candidates[*second].gain), unit,
+  text += fmt::format(" Runner-up {}: {}, {}.", *second, short_text(candidates[*second].gain, policy.unit()),
                       length_text(candidates[*second].cost));
   double largest = 0.0;
   for (const Candidate& c : candidates)

@@ -10,6 +10,7 @@
 #include "core/planner/gain_policies.hpp"
 #include "core/planner/new_surface_policy.hpp"
 #include "core/planner/surface_edge_policy.hpp"
+#include "core/setting/area_text.hpp"
 
 namespace nextview {
 namespace {
@@ -49,9 +50,13 @@ std::string short_text(double value) {
   return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
+std::string short_text(double value, const std::string& unit) {
+  if (unit == "cm²") return area_text(value);
+  return unit.empty() ? short_text(value) : fmt::format("{} {}", short_text(value), unit);
+}
+
 std::string Policy::promise(double value, const PlanningState&, const Pose&) const {
-  const std::string in = unit();
-  return fmt::format("gain {}{}{}", short_text(value), in.empty() ? "" : " ", in);
+  return "gain " + short_text(value, unit());
 }
 
 std::span<const PolicyEntry> policies() {

@@ -93,6 +93,8 @@ class Policy {
 
 /// "214", "12.5", "0.083": three digits, and whole numbers in full.
 std::string short_text(double value);
+/// The same with its unit: "12.5 nats"; areas in the unit that suits them, however the policy has them.
+std::string short_text(double value, const std::string& unit);
 
 /// A policy as it is offered.
 struct PolicyEntry {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/file/counted.hpp"
+#include "core/setting/area_text.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/commands/branch_commands.hpp"
 
@@ -81,7 +82,7 @@ std::vector<Difference> differences(const SessionSnapshot& here, const SessionSn
         [](const SessionSnapshot& s) { return percent(s.records.back().coverage_visible); });
     add("coverage of all surface", [](const SessionSnapshot& s) { return percent(s.records.back().coverage); });
   }
-  add("surface seen", [](const SessionSnapshot& s) { return fmt::format("{:.0f} cm²", new_surface(s.records)); });
+  add("surface seen", [](const SessionSnapshot& s) { return area_text(new_surface(s.records)); });
   add("expected to be left", [](const SessionSnapshot& s) {
     const auto& left = s.records.back().surface_left;
     return left ? percent(*left) : std::string("not predicted");

@@ -11,6 +11,7 @@
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/window_commands.hpp"
+#include "core/setting/area_text.hpp"
 
 namespace nextview {
 namespace {
@@ -217,3 +218,8 @@ std::string readable(double value) {
 }
 
 }  // namespace nextview
+std::string readable(double value, const std::string& unit) {
+  if (unit == "cm²") return area_text(value);
+  return unit.empty() ? readable(value) : fmt::format("{} {}", readable(value), unit);
+}
+

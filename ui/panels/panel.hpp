@@ -84,3 +84,5 @@ void table_row(const std::string& name, const std::string& value, const std::str
 std::string readable(double value);
 
 }  // namespace nextview
+/// The same with its unit; areas in the unit that suits them.
+std::string readable(double value, const std::string& unit);

@@ -47,9 +47,9 @@ void draw_ray_details(const PanelContext& context, const ScoreExplanation& expla
   const std::string unit = context.snapshot.gain_unit;
   heading(context.style, fmt::format("Ray {} of {}", index, explanation.rays.size()).c_str());
   const double share = explanation.value != 0 ? 100 * ray.contribution / explanation.value : 0;
-  small_text(context.style,
-             fmt::format("It contributes {} of the view's {} {} ({:.2f} %): the sum over its {} voxels.",
-                         readable(ray.contribution), readable(explanation.value), unit, share, ray.voxels.size()));
+  small_text(context.style, fmt::format("It contributes {} of the view's {} ({:.2f} %): the sum over its {} voxels.",
+                                        readable(ray.contribution, unit), readable(explanation.value, unit), share,
+                                        ray.voxels.size()));
   if (ray.voxels.empty()) return small_text(context.style, "It misses the region of interest.");
   double largest = 0;
   for (const auto& voxel : ray.voxels) largest = std::max(largest, voxel.contribution);

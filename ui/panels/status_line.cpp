@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/file/counted.hpp"
+#include "core/setting/area_text.hpp"
 
 namespace nextview {
 namespace {
@@ -16,8 +17,7 @@ std::string last_step(const SessionSnapshot& s, bool with_seconds) {
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
   const std::string text =
-      fmt::format("View {}: {} points, {} cm² of new surface", r.step, r.points,
-                  r.new_surface < 1 ? fmt::format("{:.2g}", r.new_surface) : fmt::format("{:.0f}", r.new_surface));
+      fmt::format("View {}: {} points, {} of new surface", r.step, r.points, area_text(r.new_surface));
   return with_seconds ? fmt::format("{}, {:.2f} s", text, seconds + r.seconds.refine) : text;
 }
 

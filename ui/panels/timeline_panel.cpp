@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/file/counted.hpp"
+#include "core/setting/area_text.hpp"
 #include "ui/commands/branch_commands.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -20,8 +21,7 @@ constexpr float label_width = 158, start_width = 20, picture_width = 60, picture
 /// What a view came to, in a few characters.
 std::string brief(const SessionSnapshot& s, const StepRecord& record) {
   if (record.coverage_recorded) return fmt::format("{:.0f} %", 100 * *record.coverage_recorded);
-  return s.is_evaluated() ? fmt::format("{:.0f} %", 100 * record.coverage_visible)
-                          : fmt::format("{:.0f} cm²", record.new_surface);
+  return s.is_evaluated() ? fmt::format("{:.0f} %", 100 * record.coverage_visible) : area_text(record.new_surface);
 }
 
 std::string details(const SessionSnapshot& s, std::size_t view, const TimelineStep& step) {
@@ -33,7 +33,7 @@ std::string details(const SessionSnapshot& s, std::size_t view, const TimelineSt
                                     r.overridden ? ", your choice" : "")
           : r.overridden ? ", your own"
                          : ", the start";
-  text += fmt::format("\n{:.0f} cm² of new surface", r.new_surface);
+  text += fmt::format("\n{} of new surface", area_text(r.new_surface));
   if (s.is_evaluated())
     text +=
         fmt::format("\n{:.1f} % of the visible surface, {:.1f} % of all", 100 * r.coverage_visible, 100 * r.coverage);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/setting/area_text.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/scan_commands.hpp"
@@ -117,8 +118,8 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   const RayGrid grid(context.snapshot.configuration.planner, camera, e.rays.size());
   if (grid.cells() == 0 || grid.cells() != e.rays.size()) return;
   const std::string words = fmt::format(
-      "What each of its {} rays adds to the gain.\n\nDark {} {}, pale little, white nothing. Click a ray to see why.",
-      e.rays.size(), readable(largest_contribution(e)), unit);
+      "What each of its {} rays adds to the gain.\n\nDark {}, pale little, white nothing. Click a ray to see why.",
+      e.rays.size(), readable(largest_contribution(e), unit));
   const ImVec4 place = draw_picture(context, "contributions", double(camera.height) / camera.width, words,
                                     [&] { return contribution_picture(e, grid); });
   const float width = context.style.px(1.5f);
@@ -128,7 +129,7 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   if (!cell) return;
   const std::size_t ray = grid.ray(int(*cell) % grid.columns, int(*cell) / grid.columns);
   mark_ray(place, ray, grid, theme::series[0], width);
-  ImGui::SetTooltip("ray %zu: %s %s", ray, readable(e.rays[ray].contribution).c_str(), unit.c_str());
+  ImGui::SetTooltip("ray %zu: %s", ray, readable(e.rays[ray].contribution, unit).c_str());
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) context.post(command::inspect_ray(ray));
 }
 
@@ -138,9 +139,9 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
                                       : fmt::format("candidate {}{}", r.view, r.overridden ? ", your choice" : "");
   table_row("taken from", from);
   const bool in_surface = unit == "cm²";
-  const auto predicted = r.view < 0 && !r.overridden ? "none" : fmt::format("{} {}", readable(r.gain), unit);
+  const auto predicted = r.view < 0 && !r.overridden ? "none" : readable(r.gain, unit);
   table_row("predicted", predicted, "What the planner expected of this view, on the map before it");
-  table_row(in_surface ? "realised" : "new surface", fmt::format("{} cm²", readable(r.new_surface)),
+  table_row(in_surface ? "realised" : "new surface", area_text(r.new_surface),
             "Surface that its points show for the first time, at the registration distance");
   table_row(in_surface ? "entropy lost" : "realised", fmt::format("{} nats", readable(r.realised_gain)),
             "Entropy that the map lost by this view (Eq. 12)");
@@ -155,7 +156,7 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
 void draw_ranked_gain(const PanelContext& context, const ViewInspection& view, double gain) {
   const PlannerConfig& planner = context.snapshot.configuration.planner;
   const std::size_t rays = std::size_t(planner.ray_columns) * planner.ray_rows;
-  const std::string text = fmt::format("{} {}", readable(gain), context.snapshot.gain_unit);
+  const std::string text = readable(gain, context.snapshot.gain_unit);
   const bool by_fewer = view.explanation && view.explanation->rays.size() > rays &&
                         std::abs(gain - view.explanation->value) > 1e-6 * std::abs(gain);
   if (by_fewer)
@@ -171,8 +172,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   const auto candidate =
       view.view.kind == ViewSelection::Kind::next ? s.next_candidate : context.window.selection.candidate();
   if (view.explanation)
-    table_row("expected gain", fmt::format("{} {}", readable(view.explanation->value), unit),
-              "The sum of what its rays contribute");
+    table_row("expected gain", readable(view.explanation->value, unit), "The sum of what its rays contribute");
   if (!candidate || s.records.empty()) return;
   const Candidate& c = s.records.back().candidates[*candidate];
   if (!c.unreachable.empty()) {

@@ -8,6 +8,7 @@
 #include "core/file/read_file.hpp"
 #include "core/session/recent_files.hpp"
 #include "core/session/setup_warnings.hpp"
+#include "core/setting/area_text.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/workbench/request_kind.hpp"
 #include "ui/workbench/session_worker.hpp"
@@ -52,8 +53,9 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
   const StepRecord& r = now.records.back();
   const std::string from = r.view < 0 ? r.overridden ? "your custom view" : "the start view"
                                       : fmt::format("{} {}", now.is_recording() ? "frame" : "candidate", r.view);
-  log.add(Level::note, fmt::format("View {} from {}{}: {} points, {:.0f} cm² of new surface", r.step, from,
-                                   r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, r.new_surface));
+  log.add(Level::note,
+          fmt::format("View {} from {}{}: {} points, {} of new surface", r.step, from,
+                      r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, area_text(r.new_surface)));
   if (r.registration)
     log.add(Level::note,
             r.registration->reliable

@@ -146,7 +146,7 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
                                               scan_->mesh->triangles.size(), n.x(), n.y(), n.z())));
   scan_->grid.size = cube;
   const double usual = std::exchange(scan_->records.back().new_surface, 0.0612);
-  EXPECT_THAT(status(), HasSubstr("0.061 cm² of new surface")) << "of a small part all are less than 1";
+  EXPECT_THAT(status(), HasSubstr(", 6.12 mm² of new surface")) << "of a small part all are less than 1 cm²";
   scan_->records.back().new_surface = usual;
   desk_.window.pointed_at = Vector3(0.0125, -0.2, 0.31);
   EXPECT_THAT(status(), HasSubstr("x 12.5  y -200.0  z 310.0 mm"));

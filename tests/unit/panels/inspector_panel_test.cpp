@@ -46,7 +46,7 @@ TEST_F(InspectorPanel, ARaysVoxelsStandAtTheirDistancesInMillimetres) {
   desk_.window.selection.ray = 1;
   const std::string text = panel();
   EXPECT_THAT(text, HasSubstr("Ray 1 of 3"));
-  EXPECT_THAT(text, HasSubstr("It contributes 12.5 of the view's 50 nats (25.00 %): the sum over its 3 voxels."));
+  EXPECT_THAT(text, HasSubstr("It contributes 12.5 nats of the view's 50 nats (25.00 %): the sum over its 3 voxels."));
   EXPECT_THAT(text, HasSubstr("at [mm] p visibility adds [nats] "
                               "500 unseen 1.000 2.5 540 0.750 0.500 10 580 0.125 0.250 0 at: distance"));
   // Bars: shares of the largest. The column's width is that of the longest one.

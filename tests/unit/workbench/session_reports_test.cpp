@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/setting/area_text.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/workbench/gated_worker.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
@@ -20,7 +21,7 @@ class WorkerLog : public GatedWorker {
   }
   std::string measured() {
     const StepRecord& r = now()->records.back();
-    return fmt::format(": {} points, {:.0f} cm² of new surface", r.points, r.new_surface);
+    return fmt::format(": {} points, {} of new surface", r.points, area_text(r.new_surface));
   }
 };
 
@@ -65,7 +66,6 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   expect_last(Level::warning, own.path().string() + ": is not empty, and holds no session: give another name");
 }
 
-TEST_F(WorkerLog, ARankingThatSaysLittleIsAWarning) {
 TEST_F(WorkerLog, SaysWhichUnitWasGuessed) {
   const TemporaryFolder own;
   Configuration c = small_scan();
@@ -81,6 +81,7 @@ TEST_F(WorkerLog, SaysWhichUnitWasGuessed) {
   EXPECT_EQ(now()->guessed_unit, "") << "it comes with the program";
 }
 
+TEST_F(WorkerLog, ARankingThatSaysLittleIsAWarning) {
   Configuration c = small_scan();
   c.views.count = 2;
   c.planner.ray_columns = c.planner.ray_rows = 1;
