@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <utility>
 
 #include "ui/commands/command_list.hpp"
 #include "ui/panels/log_panel.hpp"
@@ -31,9 +32,21 @@ double Notifications::seconds_left() const {
   return least;
 }
 
+/// Of the object before nothing is news once another is opened, nor that a thing failed once it went well.
+void Notifications::drop_outdated(const PanelContext& context) {
+  if (context.progress.opening && !opening_) notes_.clear();
+  opening_ = context.progress.opening;
+  const std::string failed = std::exchange(message_, context.snapshot.message);
+  std::erase_if(notes_, [&](const Note& note) {
+    return note.seconds_left <= 0 || (failed != message_ && note.entry.text == failed);
+  });
+}
+
 void Notifications::draw(const PanelContext& context, const Rectangle& scene, std::size_t count, double seconds) {
   for (Note& note : notes_) note.seconds_left -= seconds;
-  shrinks_ = std::erase_if(notes_, [](const Note& note) { return note.seconds_left <= 0; }) > 0;
+  const std::size_t before = notes_.size();
+  drop_outdated(context);
+  shrinks_ = notes_.size() < before;
   const auto& log = context.log;
   for (std::size_t back = std::min(count - std::min(seen_, count), log.size()); back > 0; --back) {
     LogEntry entry = log[log.size() - back];

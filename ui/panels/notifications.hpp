@@ -18,7 +18,11 @@ class Notifications {
     LogEntry entry;
     double seconds_left;
   };
+  void drop_outdated(const PanelContext& context);
+
   std::vector<Note> notes_;
+  bool opening_ = false;  ///< another object, in the last frame
+  std::string message_;   ///< SessionSnapshot::message in the last frame
   std::size_t seen_ = 0;  ///< log entries
   bool shrinks_ = false;  ///< some were taken away: ImGui gives the window its new height a frame later
 };

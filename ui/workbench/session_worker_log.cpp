@@ -22,14 +22,13 @@ using Level = LogEntry::Level;
 void log_start(const SessionRequest& request, const SessionSnapshot& before, const SessionSnapshot& now,
                SessionLog& log) {
   if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
-    log.add(is<request::Load>(request) ? Level::warning : Level::note,
-            fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
-                        is<request::Load>(request)         ? "This setting"
-                        : is<request::OpenFile>(request)   ? "Another file"
-                        : is<request::Connect>(request)    ? "A scanner"
-                        : is<request::Disconnect>(request) ? "To leave the scanner"
-                                                           : "Start over",
-                        views == 1 ? "view" : fmt::format("{} views", views)));
+    log.add(Level::note, fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
+                                     is<request::Load>(request)         ? "This setting"
+                                     : is<request::OpenFile>(request)   ? "Another file"
+                                     : is<request::Connect>(request)    ? "A scanner"
+                                     : is<request::Disconnect>(request) ? "To leave the scanner"
+                                                                        : "Start over",
+                                     views == 1 ? "view" : fmt::format("{} views", views)));
   if (!now.mesh || now.is_recording()) {
     log.add(Level::note,
             fmt::format("{}: region {}, {}, {:g} mm voxels", now.object_name, size_text(now.grid.box()),

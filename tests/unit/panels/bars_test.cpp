@@ -187,6 +187,29 @@ TEST_F(Bars, NoNumberOfANotificationComesApart) {
   for (const std::string& line : read_lines("Notifications")) EXPECT_FALSE(line.ends_with(".")) << line;
 }
 
+TEST_F(Bars, ANumberStaysWithItsUnit) {
+  desk_.frames();
+  std::string text = "Of the surface";
+  for (int i = 0; i < 40; ++i) text += fmt::format(" {} %", std::string(std::size_t(1 + i % 7), '1'));
+  desk_.log = {{LogEntry::Level::warning, text}};
+  desk_.frames();
+  EXPECT_GT(read_lines("Notifications").size(), 3u);
+  for (const std::string& line : read_lines("Notifications")) EXPECT_FALSE(line.starts_with("%")) << line;
+}
+
+TEST_F(Bars, ANotificationGoesOnceItIsNoNews) {
+  desk_.frames();
+  scan_->message = "part.stl: no such file";
+  desk_.log = {{LogEntry::Level::warning, scan_->message}, {LogEntry::Level::warning, "the ranking says little"}};
+  EXPECT_EQ(seen_in("Notifications"), "part.stl: no such file the ranking says little");
+  scan_->message.clear();
+  EXPECT_EQ(seen_in("Notifications"), "the ranking says little") << "now it went well";
+  desk_.progress.opening = true;
+  EXPECT_EQ(seen_in("Notifications"), "") << "that was another object";
+  desk_.log.push_back({LogEntry::Level::warning, "the next one is small"});
+  EXPECT_EQ(seen_in("Notifications"), "the next one is small");
+}
+
 TEST_F(Bars, NotificationsLeaveOutTheNamesOfCommands) {
   desk_.window.bring_to_front("log");
   desk_.frames();
