@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
+#include "core/setting/area_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/window_commands.hpp"
-#include "core/setting/area_text.hpp"
 
 namespace nextview {
 namespace {
@@ -63,11 +65,21 @@ void heading(const Style& style, const char* text) {
 
 namespace {
 
+/// A number and its unit belong together: "12 %", "1.19 m", "214 cm²".
+bool joins(const std::string& text, std::size_t space) {
+  constexpr std::array<std::string_view, 13> units = {"%", "mm", "cm", "m",    "mm²",  "cm²", "m²",
+                                                      "s", "px", "°",  "nats", "Mbit", "GB"};
+  if (space == 0 || !std::isdigit(static_cast<unsigned char>(text[space - 1]))) return false;
+  const std::size_t end = text.find_first_of(" \n,.;:)", space + 1);
+  return std::ranges::count(units, std::string_view(text).substr(space + 1, end - space - 1)) > 0;
+}
+
 /// With its lines broken at spaces alone. ImGui breaks them behind points, too: "1.19 m" came apart.
 std::string broken_at_spaces(std::string text, float width) {
   std::size_t line = 0, space = std::string::npos;  // where it begins, and could be broken
   for (std::size_t i = 0; i <= text.size(); ++i) {
     if (i < text.size() && text[i] != ' ' && text[i] != '\n') continue;
+    if (i < text.size() && text[i] == ' ' && joins(text, i)) continue;
     const bool fits = ImGui::CalcTextSize(&text[line], &text[i]).x <= width;
     if (!fits && space != std::string::npos) text[space] = '\n', line = space + 1;
     space = i;
@@ -78,10 +90,14 @@ std::string broken_at_spaces(std::string text, float width) {
 
 }  // namespace
 
+void wrapped_text(const std::string& text) {
+  ImGui::TextWrapped("%s", broken_at_spaces(text, ImGui::GetContentRegionAvail().x).c_str());
+}
+
 void small_text(const Style& style, const std::string& text, const Colour& colour) {
   ImGui::PushFont(style.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
-  ImGui::TextWrapped("%s", broken_at_spaces(text, ImGui::GetContentRegionAvail().x).c_str());
+  wrapped_text(text);
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }
@@ -135,14 +151,15 @@ void tooltip(const std::string& text) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float wrap = ImGui::GetFontSize() * 20, gap = style.ItemSpacing.y;
   const ImVec2 padding = style.WindowPadding, display = ImGui::GetIO().DisplaySize;
-  const ImVec2 inside = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const std::string broken = broken_at_spaces(text, wrap);
+  const ImVec2 inside = ImGui::CalcTextSize(broken.c_str(), nullptr, false, wrap);
   const ImVec2 size(inside.x + 2 * padding.x, inside.y + 2 * padding.y);
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   const float below = to.y + gap, y = below + size.y < display.y ? below : from.y - gap - size.y;
   ImGui::SetNextWindowPos({std::clamp(from.x, gap, std::max(gap, display.x - size.x - gap)), y});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + padding.x);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(broken.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -217,9 +234,9 @@ std::string readable(double value) {
   return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
-}  // namespace nextview
 std::string readable(double value, const std::string& unit) {
   if (unit == "cm²") return area_text(value);
   return unit.empty() ? readable(value) : fmt::format("{} {}", readable(value), unit);
 }
 
+}  // namespace nextview

@@ -52,6 +52,8 @@ bool pressed(Key key, bool repeats = false);
 
 /// A panel's or a group's caption.
 void heading(const Style& style, const char* text);
+/// In as many lines as it needs, none of which ends between a number and its unit.
+void wrapped_text(const std::string& text);
 /// Secondary text in the smaller font.
 void small_text(const Style& style, const std::string& text, const Colour& colour = theme::soft_ink);
 /// Shows `text` beside the last item, even if that is disabled, once the pointer has been on it for a moment.
@@ -82,7 +84,7 @@ std::optional<std::size_t> segmented(const PanelContext& context, const char* id
 void table_row(const std::string& name, const std::string& value, const std::string& help = "");
 /// "1234567", "1234", "12.35", "0.00123": as many digits as people can use.
 std::string readable(double value);
-
-}  // namespace nextview
 /// The same with its unit; areas in the unit that suits them.
 std::string readable(double value, const std::string& unit);
+
+}  // namespace nextview

@@ -47,7 +47,7 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(20), style.px(16)));
   ImGui::Begin("Question", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::TextWrapped("%s", question.c_str());
+  wrapped_text(question);
   if (doubtful) draw_colours(context, *doubtful);
   ImGui::Dummy({0, style.px(8)});
   const std::vector<std::string>& answers = context.progress.answers;
