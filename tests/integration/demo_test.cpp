@@ -129,7 +129,9 @@ TEST_F(Demos, TheOperatorPausesSkipsAndTakesOver) {
   SessionWorker worker;
   InspectionWorker inspector;
   Interface window(target, worker, inspector, 0.25);
-  window.play_demo(demo("hide-panels\ntoggle-legends\ncaption \"one\"\nwait 100\ncaption \"two\"\nwait 100\n").calls);
+  window.play_demo(demo("hide-panels\ntoggle-legends\ntoggle-views\ntoggle-rays\ncaption \"one\"\nwait 100\ncaption "
+                        "\"two\"\nwait 100\n")
+                       .calls);
   const auto frames = [&](int count) {
     for (int i = 0; i < count; ++i) window.draw(0.1);
   };
@@ -160,8 +162,25 @@ TEST_F(Demos, TheOperatorPausesSkipsAndTakesOver) {
   EXPECT_FALSE(shown.demo);
   EXPECT_FALSE(window.state().panels_hidden) << "there is nothing to go on with";
   EXPECT_TRUE(window.state().layers.legends);
-  for (const char* line : {"hide-panels", "toggle-legends"})
+  EXPECT_TRUE(window.state().layers.views);
+  EXPECT_TRUE(window.state().layers.rays);
+  for (const char* line : {"hide-panels", "toggle-legends", "toggle-views", "toggle-rays"})
     EXPECT_EQ(std::ranges::count(window.state().history.lines, line), 2) << "a recording begins with " << line;
+}
+
+TEST_F(Demos, WhatOneLeavesAwayComesBackAtItsEnd) {
+  OffscreenTarget target(320, 180);
+  SessionWorker worker;
+  InspectionWorker inspector;
+  Interface window(target, worker, inspector, 0.25);
+  window.play_demo(demo("hide-panels\ntoggle-legends\ntoggle-views\ntoggle-rays\nwait 0.5\n").calls);
+  for (int i = 0; i < 5; ++i) window.draw(0.05);
+  EXPECT_TRUE(window.state().panels_hidden);
+  for (int i = 0; i < 30; ++i) window.draw(0.1);
+  EXPECT_FALSE(window.state().presentation.demo);
+  EXPECT_FALSE(window.state().panels_hidden);
+  const LayerChoice& layers = window.state().layers;
+  EXPECT_TRUE(layers.legends && layers.views && layers.rays);
 }
 
 TEST_F(Demos, MistakesNameTheirLine) {

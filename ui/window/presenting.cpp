@@ -30,7 +30,7 @@ void Interface::Parts::pass_time(double seconds) {
   const double passed = p.pass(rests && rested ? seconds : 0.0, !script.done());
   rested = rests;
   fly(passed);
-  if (p.demo && script.done()) p = {};
+  if (p.demo && script.done()) take_over();
 }
 
 void Interface::Parts::fly(double seconds) {
@@ -70,13 +70,15 @@ std::vector<InputEvent> Interface::Parts::input_beside_demo(const std::vector<In
   return left;
 }
 
-/// What a demo leaves away comes back by commands, as a recording needs them, too.
+/// What a demo leaves away comes back by commands, as a recording needs them, too; also where it ends by itself.
 void Interface::Parts::take_over() {
   script.stop();
   state.presentation = {};
   course.reset();
   if (state.panels_hidden) do_call(command::hide_panels());
   if (!state.layers.legends) do_call(command::toggle_legends());
+  if (!state.layers.views) do_call(command::toggle_views());
+  if (!state.layers.rays) do_call(command::toggle_rays());
 }
 
 /// From nothing: with the window and the settings as they are at first.
