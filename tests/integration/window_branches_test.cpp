@@ -91,6 +91,38 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
   EXPECT_EQ(user_.target().gl_error(), 0u);
 }
 
+TEST_F(WindowBranches, TheObjectIsSeenWholeWhereTheSceneGetsNarrower) {
+  user_.run("step\nstep\nbranch other\nstep\n");
+  SceneView& scene = user_.window().scene();
+  const Rectangle place = scene.rectangle();
+  user_.run("turn 30 10\n");  // framed no more
+  const auto is_whole = [&] {
+    const auto& vertices = user_.session().mesh->vertices;
+    return std::ranges::all_of(vertices, [&](const Eigen::Vector3f& vertex) {
+      const auto pixel = scene.project(vertex.cast<double>());
+      return pixel && scene.rectangle().contains(pixel->x(), pixel->y());
+    });
+  };
+  ASSERT_TRUE(is_whole());
+  user_.run("compare main\n");
+  EXPECT_LT(scene.rectangle().width, place.width);
+  EXPECT_TRUE(is_whole());
+}
+
+/// It would be made of one of the two only.
+TEST_F(WindowBranches, TheReconstructedSurfaceIsNotCompared) {
+  user_.run("step\nstep\nbranch other\nstep\ntoggle-surface\ncompare main\n");
+  const LayerChoice& layers = user_.window().state().layers;
+  EXPECT_FALSE(layers.surface);
+  EXPECT_TRUE(layers.octree);
+  user_.type(key('9'));
+  user_.wait();
+  EXPECT_FALSE(layers.surface);
+  EXPECT_THAT(user_.worker().log().entries()->back().text, HasSubstr("stop comparing first"));
+  user_.run("stop-comparing\ntoggle-surface\n");
+  EXPECT_TRUE(layers.surface);
+}
+
 TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
   user_.run("step\nstep\n");
   user_.window().ask(command::set("map.resolution", "0.05"));

@@ -61,13 +61,14 @@ void slice_across(CommandTarget& t, SliceAxis chosen) {
 
 /// A surface that would be hidden by what lies in front of it.
 CommandOf<> toggle_surface_alone(const std::string& what, const std::string& words, char letter,
-                                 bool LayerChoice::*shown) {
+                                 bool LayerChoice::*shown,
+                                 std::function<std::string(const CommandState&)> why_not = {}) {
   return {{"toggle-" + what,
            "Layers",
            "Show " + words,
            "Shows or hides " + words + ", without points and voxels in front of it.",
            {{key(letter)}},
-           {},
+           std::move(why_not),
            [shown](const WindowState& w) { return w.layers.*shown; }},
           [shown](CommandTarget& t) {
             LayerChoice& layers = t.window.layers;
@@ -112,8 +113,11 @@ const CommandOf<> command::edit_region{
     }};
 const CommandOf<> command::toggle_missed =
     toggle_surface_alone("missed", "the missed surface, painted on the object", '7', &LayerChoice::missed);
-const CommandOf<> command::toggle_surface = toggle_surface_alone(
-    "surface", "the surface that the views so far make, and how far it is off", '9', &LayerChoice::surface);
+const CommandOf<> command::toggle_surface =
+    toggle_surface_alone("surface", "the surface that the views so far make, and how far it is off", '9',
+                         &LayerChoice::surface, [](const CommandState& t) {
+                           return t.session.compared ? "it is not made of two branches: stop comparing first" : "";
+                         });
 
 const CommandOf<> command::toggle_candidates =
     toggle("candidates", "all candidate views, not only the best five", '8', &LayerChoice::all_candidates);

@@ -55,6 +55,7 @@ using Snapshots = std::vector<std::shared_ptr<const SessionSnapshot>>;
 Snapshots all_snapshots(const Desk& desk) {
   const auto finished = std::make_shared<SessionSnapshot>(*desk.snapshot);
   finished->finished = "5 views taken";
+  finished->compared = nullptr;  // a surface is made of one branch
   const auto live = std::make_shared<SessionSnapshot>(*desk.snapshot);
   live->live = true;
   return {desk.snapshot, finished, live};
