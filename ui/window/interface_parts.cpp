@@ -89,7 +89,9 @@ void Interface::Parts::follow_size() {
 void Interface::Parts::share_scene() {
   const Rectangle before = view.rectangle();
   if (!compared.share(view, layout.scene, news.snapshot, state)) return;
-  if (view.rectangle() != before && !camera_moved) view.move(framing);
+  const Rectangle& now = view.rectangle();
+  if (now != before && !camera_moved) view.move(framing);
+  if (camera_moved && now.width < before.width) view.keep_in_sight(before.width / now.width);
   scene_is_old = true;
 }
 
