@@ -4,6 +4,7 @@
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/integration/window_pixels.hpp"
+#include "ui/appearance/theme.hpp"
 #include "ui/window/box_handles.hpp"
 
 namespace nextview {
@@ -55,6 +56,18 @@ TEST_F(WindowRegion, AFaceThatIsLetGoIsTheSettingAndStartsOver) {
   user_.run("undo\n");
   EXPECT_EQ(user_.session().records.size(), 1u);
   EXPECT_TRUE(region(user_).isApprox(before));
+}
+
+TEST_F(WindowRegion, TheLegendsStayLegible) {
+  user_.run("zoom 6\n");
+  const SceneView& scene = user_.window().scene();
+  const Rectangle place = scene.rectangle(), beneath = scene.beside_legends()[1];
+  const Rectangle legends{beneath.x, place.y, beneath.width, place.height - beneath.height};
+  const auto blue = [&](const Rectangle& r) { return count(user_.look(), r, theme::series[0]); };
+  const int all = blue(place), there = blue(legends);
+  user_.run("edit-region\n");
+  EXPECT_LT(blue(place), all - 100) << "the handles are gone";
+  EXPECT_EQ(blue(legends), there);
 }
 
 TEST_F(WindowRegion, EscapeLeavesAndChangesNothing) {

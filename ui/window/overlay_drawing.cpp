@@ -23,6 +23,16 @@ void draw_label(const Style& style, ImVec2 place, const std::string& text, const
   list.AddText(style.semi_bold, height, corner, to_imgui_u32(colour), text.c_str(), nullptr, wide);
 }
 
+void draw_beside_legends(const SceneView& view, const std::function<void()>& draw) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const Rectangle& r : view.beside_legends()) {
+    if (r.empty()) continue;
+    list.PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
+    draw();
+    list.PopClipRect();
+  }
+}
+
 void draw_segment(SceneView& view, const Vector3& from, const Vector3& to, ImU32 colour, float width) {
   const auto a = view.project(from), b = view.project(to);
   if (a && b) ImGui::GetBackgroundDrawList()->AddLine(at(*a), at(*b), colour, width);

@@ -67,12 +67,15 @@ void RegionHandles::drag(SceneView& view, const PanelContext& context) {
 }
 
 void RegionHandles::draw(SceneView& view, const PanelContext& context) const {
-  if (!context.window.edit_region || !context.snapshot.loaded()) return;
+  if (context.window.edit_region && context.snapshot.loaded())
+    draw_beside_legends(view, [&] { draw_box(view, context); });
+}
+
+void RegionHandles::draw_box(SceneView& view, const PanelContext& context) const {
   const Style& style = context.style;
   const Rectangle& r = view.rectangle();
   const Eigen::AlignedBox3d box = box_.value_or(context.snapshot.grid.box());
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
   draw_edges(view, box, style.px(1.6f));
   const auto active = drag_ ? std::optional(drag_->handle) : pointed_at_;
   for (std::size_t handle = 0; handle < box_handles; ++handle) {
@@ -87,7 +90,6 @@ void RegionHandles::draw(SceneView& view, const PanelContext& context) const {
   draw_label(style, {float(r.x), float(r.y) + style.px(40)},
              drag_ ? "Let go to start the scan over with this region" : "Drag the region by its handles; Esc leaves",
              theme::ink);
-  list.PopClipRect();
 }
 
 }  // namespace nextview

@@ -21,6 +21,7 @@ class RegionHandles {
   };
   void begin_or_point(SceneView& view, const PanelContext& context, const Eigen::AlignedBox3d& region);
   void drag(SceneView& view, const PanelContext& context);
+  void draw_box(SceneView& view, const PanelContext& context) const;
 
   std::optional<Drag> drag_;
   std::optional<std::size_t> pointed_at_;

@@ -190,14 +190,7 @@ void draw_all(SceneView& view, const PanelContext& context) {
 
 /// What lies beneath the legends is left out: they have to be read.
 void draw_selection_overlay(SceneView& view, const PanelContext& context) {
-  if (!context.snapshot.loaded()) return;
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const Rectangle& r : view.beside_legends()) {
-    if (r.empty()) continue;
-    list.PushClipRect({float(r.x), float(r.y)}, {float(r.x + r.width), float(r.y + r.height)});
-    draw_all(view, context);
-    list.PopClipRect();
-  }
+  if (context.snapshot.loaded()) draw_beside_legends(view, [&] { draw_all(view, context); });
 }
 
 }  // namespace nextview
