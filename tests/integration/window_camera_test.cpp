@@ -61,6 +61,20 @@ TEST_F(WindowCamera, EdgesAreRoughWhileItMovesAndSmoothOnceItRests) {
   user_.wait();
 }
 
+/// While it is looked at the overlay draws it; once it is next, the scene does.
+TEST_F(WindowCamera, ACustomViewIsDrawnOnce) {
+  user_.run("undo\ncustom-view\n");
+  const auto names = [&] {
+    std::size_t count = 0;
+    for (const Label& label : scene().layers().views().labels()) count += label.text == "custom view";
+    return count;
+  };
+  EXPECT_EQ(names(), 0u);
+  user_.run("step\ncustom-view\nlook-from 0 80\ntake-custom-view\n");
+  ASSERT_TRUE(user_.session().custom_next_view);
+  EXPECT_EQ(names(), 1u);
+}
+
 TEST_F(WindowCamera, APressFarFromWhereThePointerWasTurnsNothing) {
   user_.move(user_.window().layout().left.x + 20, 300);
   user_.wait();

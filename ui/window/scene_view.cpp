@@ -197,8 +197,6 @@ void SceneView::show_views(const SessionSnapshot& s, const WindowState& window) 
     picture.chosen = s.next_candidate;
     if (s.custom_next_view) picture.custom_view = s.next_view;
   }
-  if (!picture.custom_view && !picture.chosen && window.selection.custom_view)
-    picture.custom_view = window.selection.custom_view;
   const Vector3 target = 0.5 * (s.grid.lower() + s.grid.upper());
   picture.eye = eye_;
   picture.size = frustum_depth(s.candidates, target);

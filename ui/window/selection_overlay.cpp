@@ -76,7 +76,8 @@ void draw_frustum(SceneView& view, const PanelContext& context, const Pose& T_wo
     list.AddLine(at(*base[i]), at(*base[(i + 1) % 4]), line, style.px(1.6f));
   }
   list.AddCircleFilled(at(*apex), style.px(4.5f), line);
-  draw_label(style, at(*apex), label, colour);
+  const Rectangle& r = view.rectangle();
+  draw_label(style, at(*apex), label, colour, r.contains(apex->x(), apex->y()) ? &r : nullptr);
 }
 
 std::array<Vector3, 8> corners_of(const VoxelGrid& grid, std::uint32_t voxel) {
@@ -175,7 +176,8 @@ void draw_all(SceneView& view, const PanelContext& context) {
   };
   if (const auto candidate = selection.candidate()) draw(*candidate);
   if (context.hovered && context.hovered != selection.candidate()) draw(*context.hovered);
-  if (selection.view.kind == ViewSelection::Kind::custom && selection.custom_view)
+  const bool is_next = s.custom_next_view && s.finished.empty();  // which the scene draws itself
+  if (selection.view.kind == ViewSelection::Kind::custom && selection.custom_view && !is_next)
     draw_frustum(view, context, *selection.custom_view, "your custom view", theme::series[0]);
   if (selection.view.kind == ViewSelection::Kind::taken && selection.view.index < s.records.size())
     draw_frustum(view, context, s.records[selection.view.index].T_world_camera,
@@ -188,7 +190,6 @@ void draw_all(SceneView& view, const PanelContext& context) {
 
 }  // namespace
 
-/// What lies beneath the legends is left out: they have to be read.
 void draw_selection_overlay(SceneView& view, const PanelContext& context) {
   if (context.snapshot.loaded()) draw_beside_legends(view, [&] { draw_all(view, context); });
 }
