@@ -11,6 +11,7 @@
 #include "app/commands/resumed_scan.hpp"
 #include "app/commands/scan_text.hpp"
 #include "app/commands/scanner.hpp"
+#include "app/commands/shell_text.hpp"
 #include "app/commands/surface_output.hpp"
 #include "core/config/input_files.hpp"
 #include "core/export/scan_files.hpp"
@@ -99,6 +100,10 @@ void write_results(const Session& session, const ScanArguments& arguments, Outpu
     progress.clear();
     surface_files =
         write_and_print_surfaces(surfaces, session.name(), session.records().size(), out, !arguments.no_pictures);
+    if (surfaces.empty())
+      surface_files = fmt::format(
+          "  (no surfaces: stopped before they were made; nextview export {} surface surface.ply makes one)\n",
+          shell_text(out.path()));
   }
   print_end(session);
   print_files(session, out.path(), !arguments.no_pictures, surface_files);

@@ -53,6 +53,14 @@ TEST_F(Signals, AScanThatIsStoppedKeepsItsViews) {
   }
 }
 
+TEST_F(Signals, AScanThatIsStoppedSaysThatItHasNoSurfaces) {
+  std::string arguments = scan(2000);
+  arguments.replace(arguments.find(" --no-surfaces"), std::string(" --no-surfaces").size(), "");
+  const Result run = signalled(arguments, first_view_is_taken(), "kill -INT $nextview");
+  EXPECT_EQ(run.exit_code, 130) << run.err;
+  EXPECT_THAT(read_file(in("printed")), HasSubstr("(no surfaces: stopped before they were made"));
+}
+
 TEST_F(Signals, WhatIsIgnoredStaysIgnored) {
   const Result run = signalled(scan(40), first_view_is_taken(), "kill -HUP $nextview", "--ignore-signal=HUP");  // nohup
   EXPECT_EQ(run.exit_code, 0) << run.err;
