@@ -65,20 +65,18 @@ void pan(vtkRenderer& renderer, const Vector3& pivot, double x, double y) {
 }
 
 void zoom(vtkRenderer& renderer, const Vector3& pivot, double steps) {
-  step_back(renderer, pivot, std::pow(zoom_per_step, -steps));
-}
-
-void step_back(vtkRenderer& renderer, const Vector3& pivot, double times) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Vector3 position(camera.GetPosition()), focus(camera.GetFocalPoint());
   if (camera.GetParallelProjection()) {
-    const double now = camera.GetParallelScale(), then = std::clamp(now * times, nearest_distance, farthest_distance);
+    const double now = camera.GetParallelScale(),
+                 then = std::clamp(now / std::pow(zoom_per_step, steps), nearest_distance, farthest_distance);
     camera.SetParallelScale(then);
     const Vector3 aside = pivot - position - (pivot - position).dot(forward_of(camera)) * forward_of(camera);
     return shift(renderer, (1 - then / now) * aside);
   }
   const double distance = (position - pivot).norm();
-  const double scale = std::clamp(distance * times, nearest_distance, farthest_distance) / distance;
+  const double scale =
+      std::clamp(distance / std::pow(zoom_per_step, steps), nearest_distance, farthest_distance) / distance;
   stand(renderer, pivot + scale * (position - pivot), pivot + scale * (focus - pivot));
 }
 

@@ -21,8 +21,6 @@ void turn(vtkRenderer& renderer, const Vector3& pivot, double azimuth, double el
 void pan(vtkRenderer& renderer, const Vector3& pivot, double x, double y);
 /// Nearer to a point, which stays where it is in the picture, for positive steps.
 void zoom(vtkRenderer& renderer, const Vector3& pivot, double steps);
-/// So many times as far from a point, which stays where it is in the picture.
-void step_back(vtkRenderer& renderer, const Vector3& pivot, double times);
 /// Moves sideways until a point is in the middle.
 void centre(vtkRenderer& renderer, const Vector3& point);
 

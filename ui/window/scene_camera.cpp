@@ -54,20 +54,20 @@ void SceneView::move(const CameraMotion& motion) {
 }
 
 void SceneView::keep_in_sight(double narrowed) {
+  constexpr double mostly = 1.5;  // who looks at a detail goes on with that
+  const std::vector<Vector3> object = object_outline();
   const Eigen::Vector2d middle(rectangle_.x + rectangle_.width / 2, rectangle_.y + rectangle_.height / 2);
   Eigen::Vector2d reach(0, 0);  // in half sizes of the scene
-  Eigen::AlignedBox3d box;
-  for (const Vector3& point : object_outline()) {
+  for (const Vector3& point : object) {
     const auto pixel = project(point);
     if (!pixel) return;
     const Eigen::Vector2d off = (*pixel - middle).cwiseAbs();
     reach = reach.cwiseMax(Eigen::Vector2d(2 * off.x() / rectangle_.width, 2 * off.y() / rectangle_.height));
-    box.extend(point);
   }
-  if (reach.x() <= 1 || reach.x() > narrowed || reach.y() > 1) return;  // all is seen, or it was not before
-  const Pose camera = camera_pose();
-  const Vector3 forward = camera.linear().col(2);
-  step_back(renderer(), camera.translation() + forward * forward.dot(box.center() - camera.translation()), narrowed);
+  if (reach.x() <= 1 || reach.x() > mostly * narrowed || reach.y() > mostly) return;
+  const Vector3 back = -camera_pose().linear().col(2);
+  constexpr double degrees = 180 / std::numbers::pi;
+  move(camera_motion::LookFrom{degrees * std::atan2(back.y(), back.x()), degrees * std::asin(back.z())});
 }
 
 void SceneView::set_quality(DrawingQuality quality) {

@@ -42,7 +42,7 @@ class SceneView {
   /// Of the map that is shown next, if they are: it need not look for them then.
   void take_faces(std::shared_ptr<const FoundFaces> faces) { faces_ = std::move(faces); }
   void move(const CameraMotion& motion);
-  /// Steps back if the object was seen whole, and is not since the scene is so many times narrower.
+  /// Frames the object from where it is seen if it lost its sides, as the scene got so many times narrower.
   void keep_in_sight(double narrowed);
   /// Unless it is still, objects and surfaces of many triangles have fewer, too.
   void set_quality(DrawingQuality quality);
