@@ -1,4 +1,5 @@
 // How the scene's camera follows hand and keys, what is measured with clicks, and what else of the window has a size.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 
@@ -141,6 +142,24 @@ TEST_F(WindowCamera, AKnownDistanceIsMeasuredByTwoClicks) {
   user_.type(Key::escape);
   user_.wait();
   EXPECT_FALSE(user_.window().state().measurement);
+}
+
+TEST_F(WindowCamera, WhatWasMeasuredIsLegibleBesideTheLegends) {
+  user_.run("toggle-views\ntoggle-rays\nzoom 3\n");
+  const Rectangle beside = scene().beside_legends()[0];
+  double right = 1.0;
+  while (pixel_of(on_sphere(right, 0)).x() > beside.x + beside.width - 30) right -= 0.02;
+  std::string script = "measure\n";
+  for (const double up : {0.0, 0.05}) {
+    const Vector3 point = on_sphere(right, up);
+    script += fmt::format("measure-point {} {} {}\n", point.x(), point.y(), point.z());
+  }
+  user_.run(script);
+  const auto red = [&] { return count(user_.look(), scene().rectangle(), theme::chosen); };
+  const int with_legends = red();
+  user_.run("toggle-legends\n");
+  EXPECT_GT(with_legends, 200);
+  EXPECT_GT(with_legends, 0.8 * red()) << "the rest is beneath them";
 }
 
 TEST_F(WindowCamera, TextGrowsAndComesBackToTheSamePicture) {

@@ -161,7 +161,8 @@ void draw_measurement(SceneView& view, const PanelContext& context, const Measur
   if (!measurement.complete()) return draw_label(style, corner, measure_hint(measurement), theme::chosen);
   const auto sum = std::accumulate(measurement.points.begin(), measurement.points.end(), Vector3(Vector3::Zero()));
   const auto middle = view.project(sum / double(measurement.points.size()));
-  draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, cloud), theme::chosen, &r);
+  const Rectangle beside = view.beside_legends()[0];  // what lies beneath them is not seen
+  draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, cloud), theme::chosen, &beside);
 }
 
 void draw_all(SceneView& view, const PanelContext& context) {
