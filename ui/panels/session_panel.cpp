@@ -161,7 +161,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   draw_setting(context, find_setting(settings, "object.file"), "Object");  // also when there is none yet
   if (const auto& mesh = context.snapshot.mesh) {
     const std::string& unit = context.snapshot.guessed_unit;
-    const std::string guess = unit.empty() ? "" : fmt::format("; its unit is taken as {}: Object, unit sets it", unit);
+    const std::string guess = unit.empty() ? "" : fmt::format("; its unit is taken as {}, Object › unit sets it", unit);
     small_text(context.style, size_text(*mesh) + guess);
   }
   ImGui::BeginDisabled(!context.snapshot.loaded());

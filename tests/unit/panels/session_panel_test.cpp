@@ -103,7 +103,7 @@ TEST_F(SessionPanelTest, AListIsAsLongWhereItsGroupIsOpen) {
 TEST_F(SessionPanelTest, ASizeSaysThatItsUnitWasGuessed) {
   EXPECT_THAT(panel(), testing::Not(HasSubstr("is taken as")));
   scan_->guessed_unit = "mm";
-  EXPECT_THAT(panel(), HasSubstr("500 x 500 x 500 mm; its unit is taken as mm: Object, unit sets it"));
+  EXPECT_THAT(panel(), HasSubstr("500 x 500 x 500 mm; its unit is taken as mm, Object › unit sets it"));
 }
 
 /// Nobody takes it for a length that was rounded away.
