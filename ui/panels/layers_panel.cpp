@@ -78,7 +78,7 @@ void draw_slice(const PanelContext& context) {
   if (!slice || !context.snapshot.loaded()) return;
   const VoxelGrid& grid = context.snapshot.grid;
   slider(context, command::slice_at, "at [mm]", 0.5 * (slice->low + slice->high), grid.lower()[slice->axis],
-         grid.upper()[slice->axis], "%.0f", 1000);
+         grid.upper()[slice->axis], grid.resolution < 2e-3 ? "%.1f" : "%.0f", 1000);
 }
 
 void draw_octree(const PanelContext& context) {

@@ -37,8 +37,8 @@ void draw_summary(const PanelContext& context, std::uint32_t voxel) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(96));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   ImGui::PushFont(context.style.small);
-  const Vector3 centre = 1e3 * s.grid.centre(voxel);
-  table_row("centre", fmt::format("{:.0f}, {:.0f}, {:.0f} mm", centre.x(), centre.y(), centre.z()));
+  const Vector3 centre = (1e5 * s.grid.centre(voxel)).array().round() / 1e2 + 0.0;  // no "-0"
+  table_row("centre", fmt::format("{:g}, {:g}, {:g} mm", centre.x(), centre.y(), centre.z()));
   table_row("conventional", text_of((*s.voxels)[voxel]), "In the occupancy map");
   if (s.gibbs) {
     const Voxel& v = (*s.gibbs->voxels)[voxel];

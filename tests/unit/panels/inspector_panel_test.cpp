@@ -55,6 +55,13 @@ TEST_F(InspectorPanel, ARaysVoxelsStandAtTheirDistancesInMillimetres) {
   EXPECT_NEAR(bars[0].GetWidth(), 0.25f * bars[1].GetWidth(), 1.5f);
 }
 
+TEST_F(InspectorPanel, SmallVoxelsStandAtTenthsOfAMillimetre) {
+  desk_.inspection.view = view_of_a_ray();
+  desk_.window.selection.ray = 1;
+  scan_->grid.resolution = 0.001;
+  EXPECT_THAT(panel(), HasSubstr("675.5 unseen 1.000 2.5 676.5 0.750"));
+}
+
 TEST_F(InspectorPanel, AClickOnARaysVoxelInspectsItsCentre) {
   desk_.inspection.view = view_of_a_ray();
   desk_.window.selection.ray = 1;
@@ -99,6 +106,12 @@ class InspectedVoxel : public InspectorPanel {
 
   const std::uint32_t voxel_ = scan_->grid.index({1, 2, 3});
 };
+
+TEST_F(InspectedVoxel, ASmallOnesPlaceIsNotRoundedAway) {
+  scan_->grid.first = Eigen::Vector3i(-4, 0, 6);
+  scan_->grid.resolution = 0.0005;
+  EXPECT_THAT(panel(), HasSubstr("centre -1.25, 1.25, 4.75 mm"));
+}
 
 TEST_F(InspectedVoxel, ItsNumbersAreItsOwnAndItsPlaceIsInMillimetres) {
   const Vector3 centre = scan_->grid.centre(voxel_);

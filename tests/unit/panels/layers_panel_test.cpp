@@ -28,6 +28,12 @@ class Layers : public testing::Test {
   Desk desk_{1280, 960};
 };
 
+TEST_F(Layers, TheSliceOfASmallPartIsInTenthsOfAMillimetre) {
+  scan_->grid.resolution = 0.0005;
+  layers().voxels.slice = Slice{1, 0.0012, 0.0013};
+  EXPECT_THAT(panel(), testing::ContainsRegex("at \\[mm\\] 1\\.[23]"));
+}
+
 TEST_F(Layers, TheSliceIsInMillimetresAndMovesInMetres) {
   layers().voxels.slice = Slice{1, 0.05, 0.25};
   EXPECT_THAT(panel(), HasSubstr("at [mm] 150"));
