@@ -170,5 +170,16 @@ TEST(SceneOverlay, LabelsKeepClearOfLegends) {
   EXPECT_NE(beside_legends({within}), clear) << "this test sees a label over the legends";
 }
 
+// As the numbers of views: most cameras stand beside a picture of the object.
+TEST(SceneOverlay, OnlyStrongLabelsOfWhatLiesBesideThePictureStandAtItsBorder) {
+  const auto is_drawn = [](const Vector3& place, bool strong) {
+    const auto add = [&](SceneOverlay& overlay) { overlay.labels.push_back({{place}, "12", {1, 0, 0}, strong}); };
+    return !box_of(drawn(1.0, add), 1.0, is_red).isEmpty();
+  };
+  EXPECT_TRUE(is_drawn({0.1, 0.1, 0}, false));
+  EXPECT_FALSE(is_drawn({3.0, 0.1, 0}, false));
+  EXPECT_TRUE(is_drawn({3.0, 0.1, 0}, true));
+}
+
 }  // namespace
 }  // namespace nextview

@@ -92,13 +92,13 @@ void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, cons
   painter.text(x + width / 2, y + 6, text, theme::small_text, theme::ink, TextWeight::regular, TextAlign::centre);
 }
 
-/// Pixels at scale 1, if in front of the camera.
+/// Pixels at scale 1, if no nearer to the camera than what is drawn.
 std::optional<Eigen::Vector2d> project(vtkRenderer& renderer, double scale, const Vector3& point) {
   vtkMatrix4x4* projection =
       renderer.GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer.GetTiledAspectRatio(), -1, 1);
   double clip[4] = {point.x(), point.y(), point.z(), 1.0};
   projection->MultiplyPoint(clip, clip);
-  if (clip[3] <= 0) return {};
+  if (clip[3] <= 0 || clip[2] < -clip[3]) return {};
   const Eigen::Vector2d size = picture_size(renderer, scale);
   return Eigen::Vector2d((clip[0] / clip[3] + 1) / 2 * size.x(), (clip[1] / clip[3] + 1) / 2 * size.y());
 }
@@ -151,10 +151,13 @@ void paint_label(Painter& painter, vtkRenderer& renderer, double scale, const La
     if (pixel && (!place || pixel->y() < place->y())) place = pixel;
   }
   if (!place) return;
+  const Eigen::Vector2d picture = picture_size(renderer, scale);
+  const bool within = Eigen::AlignedBox2d(Eigen::Vector2d::Zero(), picture).contains(*place);
+  if (!label.strong && label.places.size() == 1 && !within) return;  // at the border it would name nothing
   const auto weight = label.strong ? TextWeight::semi_bold : TextWeight::regular;
   const Eigen::Vector2d size(painter.text_width(label.text, theme::small_text, weight) + 8, 20);
   const bool above = label.places.size() == 1;  // of several, the lowest was taken: there is room beneath it
-  const Eigen::AlignedBox2d box = place_label(*place, size, above, picture_size(renderer, scale), taken);
+  const Eigen::AlignedBox2d box = place_label(*place, size, above, picture, taken);
   painter.box(box.min().x(), box.min().y(), size.x(), size.y(), theme::paper, 0.75);
   painter.text(box.min().x() + 4, box.min().y() + 3, label.text, theme::small_text, label.colour, weight);
   taken.push_back(box);
