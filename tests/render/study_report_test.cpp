@@ -25,14 +25,14 @@ class StudyReport : public testing::Test {
         R"({"program": "nextview 9.9", "study": "a", "runs": 12, "objects": {"box": "7 bytes, crc32 0abc"}})");
     folder_.write("summary.csv",
                   "part,block,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n"
-                  "planning,1,box,paper,2,random,mean_coverage[%],0,2,40.25,1.5,,7-8,00aa,\n"
-                  "planning,1,box,paper,2,farthest,failure,0,2,,,,9-10,00bb,<script>alert(1)</script>\n"
-                  "planning,1,(mean),paper,2,random,mean_coverage[%],0,2,41.04,2.5,,1-8,00cc,\n"
-                  "planning,1,(mean),paper,2,farthest,mean_coverage[%],0,2,45.55,3.5,,3-10,00dd,\n"
-                  "planning,1,(mean),paper,2,farthest,mean_coverage[%] - random,0,2,4.51,1.25,2,3-10,00dd,\n"
-                  "planning,1,(mean),paper,2,farthest,path[m],1,2,0.5,0,,3-10,00dd,\n"
-                  "planning,1,(mean),paper,2,farthest,path[m],2,2,1.75,0,,3-10,00dd,\n"
-                  "planning,1,(mean),paper,2,oracle,mean_coverage[%],0,2,60.04,3.5,,5-12,00ee,\n");
+                  "planning,1,box,default,2,random,mean_coverage[%],0,2,40.25,1.5,,7-8,00aa,\n"
+                  "planning,1,box,default,2,farthest,failure,0,2,,,,9-10,00bb,<script>alert(1)</script>\n"
+                  "planning,1,(mean),default,2,random,mean_coverage[%],0,2,41.04,2.5,,1-8,00cc,\n"
+                  "planning,1,(mean),default,2,farthest,mean_coverage[%],0,2,45.55,3.5,,3-10,00dd,\n"
+                  "planning,1,(mean),default,2,farthest,mean_coverage[%] - random,0,2,4.51,1.25,2,3-10,00dd,\n"
+                  "planning,1,(mean),default,2,farthest,path[m],1,2,0.5,0,,3-10,00dd,\n"
+                  "planning,1,(mean),default,2,farthest,path[m],2,2,1.75,0,,3-10,00dd,\n"
+                  "planning,1,(mean),default,2,oracle,mean_coverage[%],0,2,60.04,3.5,,5-12,00ee,\n");
   }
   std::string report() const { return study_report(folder_ / "", SummaryTable(folder_ / "")); }
   TemporaryFolder folder_;
