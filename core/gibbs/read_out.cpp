@@ -41,9 +41,12 @@ ReadOutFeatures::Word& ReadOutFeatures::Word::operator+=(const Word& other) {
   upper += other.upper;
   log_odds += other.log_odds;
   uncrossed += other.uncrossed;
+  passed += other.passed;
   ended += other.ended;
   log_ended += other.log_ended;
   log_crossed += other.log_crossed;
+  near += other.near;
+  behind += other.behind;
   return *this;
 }
 
@@ -67,19 +70,27 @@ ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, std::span<cons
     word.ended = rays[v].ended / (crossed + 0.1f);
     word.log_ended = std::log1p(rays[v].ended);
     word.log_crossed = std::log1p(crossed);
+    word.passed = crossed > 0.0f && rays[v].near == 0.0f ? 1.0f : 0.0f;
+    word.near = rays[v].near > 0.0f ? 1.0f : 0.0f;
+    word.behind = rays[v].behind;
   });
 }
 
 ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
   const Eigen::Vector3i centre = grid_.cell(voxel);
+  static const Word beyond = [] {
+    Word word;
+    word.passed = 1.0f;
+    return word;
+  }();
   Around around;
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         const int steps = std::abs(x) + std::abs(y) + std::abs(z);
         const Eigen::Vector3i cell = centre + Eigen::Vector3i(x, y, z);
-        if (steps == 0 || !grid_.contains(cell)) continue;
-        const Word& word = words_[grid_.index(cell)];
+        if (steps == 0) continue;
+        const Word& word = grid_.contains(cell) ? words_[grid_.index(cell)] : beyond;
         around.all += word;
         if (steps == 1) around.faces += word;
       }
@@ -87,50 +98,44 @@ ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
 }
 
 ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
-  const double occupied = kept_log_odds(occupied_[voxel]), upper = kept_log_odds(upper_[voxel]);
   const RayCount& rays = rays_[voxel];
-  const double ended = std::log((rays.ended + 0.05) / (rays.passed + 0.05));
   const Around a = around(voxel);
-  // Divided so that all are of a size.
-  return {1.0,
-          occupied,
-          upper,
-          occupied * occupied / 10.0,
-          upper * upper / 10.0,
+  return {1.0f,
+          static_cast<float>(kept_log_odds(occupied_[voxel])),
+          static_cast<float>(kept_log_odds(upper_[voxel])),
           a.faces.uninformed,
           a.all.uninformed,
           a.faces.occupied,
           a.all.occupied,
           a.faces.upper,
           a.all.upper,
-          a.faces.log_odds / 6.0,
+          a.faces.log_odds,
           std::log1p(rays.crossed()),
-          ended,
-          ended * ended / 10.0,
+          std::log((rays.ended + 0.05f) / (rays.passed + 0.05f)),
           a.faces.uncrossed,
           a.all.uncrossed,
           a.faces.ended,
           a.all.ended,
-          a.all.log_crossed / 26.0,
+          a.all.log_crossed,
           std::log1p(rays.ended),
-          a.all.log_ended / 26.0,
-          a.faces.log_ended / 6.0,
-          rays.near > 0.0f ? 1.0 : 0.0,
+          a.all.log_ended,
+          a.faces.log_ended,
+          rays.near > 0.0f ? 1.0f : 0.0f,
           rays.behind,
-          rays.behind * rays.behind,
-          std::abs(rays.behind),
-          rays.behind * std::log1p(rays.near) / 5.0};
+          rays.behind * std::log1p(rays.near),
+          a.faces.passed,
+          a.all.passed,
+          a.faces.behind / (a.faces.near + 0.5f),
+          a.all.behind / (a.all.near + 0.5f)};
 }
 
-const ReadOutWeights& fitted_read_out() {
-  static const ReadOutWeights weights{
-      {-6.0810, 0.7657,  -0.7390, 0.3478,  -0.2972, -1.3167, -0.6338, -1.5415, 2.4567,  1.8548,
-       -2.5610, 1.1977,  0.2199,  -0.0644, -0.2183, 0.0608,  1.2163,  0.9131,  -0.1335, 0.0014,
-       0.2763,  -1.0170, 0.8680,  3.5287,  -1.8664, -1.4604, 0.1226,  0.5808},
-      {-7.1147, -0.4634, 0.7672,  0.2079,  -0.3928, -0.5561, 0.2973,  -1.3790, 2.1871,  1.2590,
-       -1.9872, 0.2314,  -2.1293, -0.2926, 0.1951,  0.5361,  0.2583,  1.0566,  -0.2647, 0.3288,
-       1.3846,  0.9902,  -0.3877, 2.0829,  0.9530,  -0.7013, -0.8709, -15.5225}};
-  return weights;
+float ReadOutNetwork::log_odds(const ReadOutFeatures::Vector& features) const {
+  OfUnits sums{};
+  for (std::size_t k = 0; k < features.size(); ++k)
+    for (std::size_t u = 0; u < units; ++u) sums[u] += in[k][u] * features[k];
+  float log_odds = std::inner_product(features.begin(), features.end(), linear.begin(), 0.0f);
+  for (std::size_t u = 0; u < units; ++u) log_odds += out[u] * sums[u] / (1.0f + std::abs(sums[u]));
+  return log_odds;
 }
 
 void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const ReadOutWeights& weights) {
@@ -142,11 +147,11 @@ void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const R
     const ReadOutFeatures::Vector x = features.of(static_cast<std::uint32_t>(v));
     // Where rays only passed, what nobody looked at around it is no evidence of a surface.
     const float most = ReadOutFeatures::a_ray_ended_near(x) ? 1.0f : posterior.occupied[v];
-    const auto logistic = [&](const ReadOutFeatures::Vector& w) {
-      return std::min(most, static_cast<float>(probability(std::inner_product(x.begin(), x.end(), w.begin(), 0.0))));
+    const auto answer = [&](const ReadOutNetwork& network) {
+      return std::min(most, static_cast<float>(probability(network.log_odds(x))));
     };
-    posterior.touch[v] = logistic(weights.touch);
-    posterior.centre[v] = logistic(weights.centre);
+    posterior.touch[v] = answer(weights.touch);
+    posterior.centre[v] = answer(weights.centre);
   });
 }
 

@@ -10,7 +10,7 @@
 /// From what the sampler draws to what people ask. Its levels say how many rays a voxel stops. Whether the surface
 /// touches the voxel, and whether the voxel's centre is inside, are other questions: a voxel that the surface cuts by a
 /// corner stops hardly a ray, and rays end just beside a surface by noise. What the levels of a voxel and of those
-/// around it say of both was learned from made-up parts, whose surface is known (logistic regression).
+/// around it say of both was learned from made-up parts, whose surface is known.
 namespace nextview {
 
 /// The measured rays of a voxel; merged rays count as many as they stand for.
@@ -29,18 +29,18 @@ std::vector<RayCount> ray_counts(const RayLists& lists);
 /// What the read-out looks at: the posterior and the rays of a voxel, and those of the voxels around it.
 class ReadOutFeatures {
  public:
-  static constexpr std::size_t count = 28;
-  using Vector = std::array<double, count>;
+  static constexpr std::size_t count = 27;
+  using Vector = std::array<float, count>;
 
   /// Of GibbsPosterior::occupied, ::upper and ::informed.
   ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays);
-  /// Voxels beyond the grid are taken for free ones that rays cross.
+  /// Voxels beyond the grid are taken for free ones that rays pass.
   Vector of(std::uint32_t voxel) const;
   /// From here on features are of the rays alone, whatever the sampler makes of them; the first is 1.
-  static constexpr std::size_t first_of_rays = 12;
+  static constexpr std::size_t first_of_rays = 10;
   /// Whether one ended in the voxel or in those around it, or within RayCount::reach.
   static bool a_ray_ended_near(const Vector& features) {
-    return features[20] > 0.0 || features[21] > 0.0 || features[23] > 0.0;
+    return features[17] > 0.0f || features[18] > 0.0f || features[20] > 0.0f;
   }
 
  private:
@@ -50,8 +50,11 @@ class ReadOutFeatures {
     float occupied = 0.0f, upper = 0.0f;         ///< 0 if not informed
     float log_odds = 0.0f;                       ///< of being occupied; 0 if not informed
     float uncrossed = 0.0f;                      ///< 1: no measured ray crosses it
+    float passed = 0.0f;                         ///< 1: rays do, and none ends near
     float ended = 0.0f;                          ///< share of its rays that end in it
     float log_ended = 0.0f, log_crossed = 0.0f;  ///< log(1 + rays)
+    float near = 0.0f;                           ///< 1: any ends near it
+    float behind = 0.0f;                         ///< RayCount's
 
     Word& operator+=(const Word& other);
   };
@@ -67,9 +70,20 @@ class ReadOutFeatures {
   std::vector<Word> words_;
 };
 
-/// log-odds = weights . features
+/// One of the questions' answer: log-odds = linear . x + sum over the units of out s(in . x), s(a) = a / (1 + |a|). A
+/// logistic regression, bent where features have a say only together.
+struct ReadOutNetwork {
+  static constexpr std::size_t units = 16;
+  using OfUnits = std::array<float, units>;
+
+  ReadOutFeatures::Vector linear{};
+  OfUnits out{};
+  std::array<OfUnits, ReadOutFeatures::count> in{};  ///< by feature
+
+  float log_odds(const ReadOutFeatures::Vector& features) const;
+};
 struct ReadOutWeights {
-  ReadOutFeatures::Vector touch, centre;
+  ReadOutNetwork touch, centre;
 };
 /// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit; nothing else was looked at.
 const ReadOutWeights& fitted_read_out();

@@ -11,13 +11,13 @@
 #include <cstdio>
 #include <map>
 
-#include "core/calibration/sensor_model_calibration.hpp"
 #include "core/evaluation/baseline_maps.hpp"
 #include "core/evaluation/openings.hpp"
 #include "core/progress/stopwatch.hpp"
 #include "tests/benchmarks/calibrated_terms.hpp"
-#include "tests/benchmarks/evidence_cases.hpp"
-#include "tests/benchmarks/read_out_fit.hpp"
+#include "tests/benchmarks/evidence_posterior.hpp"
+#include "tests/benchmarks/posterior_fit.hpp"
+#include "tests/benchmarks/read_out_of_rays_alone.hpp"
 
 namespace nextview {
 namespace {
@@ -30,119 +30,6 @@ struct Options {
   bool fit = false;
   bool before = true;
 };
-
-std::vector<float> octomap_of(const EvidenceCase& c) {
-  OccupancyMap map(c.grid, {});
-  for (const Scan& scan : c.scans) map.insert(scan);
-  return probabilities(map.voxels());
-}
-
-PosteriorSamplerConfig sampler_of(const EvidenceCase& c) {
-  PosteriorSamplerConfig config;
-  config.model.sigma = std::max(c.sensor.noise, 0.1 * c.grid.resolution);
-  config.model.independence = 0.0;
-  return config;
-}
-
-std::vector<RayCount> rays_of(const EvidenceCase& c) {
-  const PosteriorSamplerConfig config = sampler_of(c);
-  ForwardSensorModel model;  // the lists' extent is that of its sigma, whatever the rays are worth
-  model.sigma = config.model.sigma;
-  return ray_counts(RayLists(c.grid, merge_rays(measurements_of(c.scans), c.grid, config.ray_spacing), model));
-}
-
-/// What the read-out sees of a case.
-struct Evidence {
-  GibbsPosterior posterior;
-  std::vector<RayCount> rays;
-};
-
-Evidence evidence_of(const EvidenceCase& c) {
-  return {sample_posterior(c.grid, measurements_of(c.scans), sampler_of(c), octomap_of(c)), rays_of(c)};
-}
-
-/// The voxels that scores near the surface are of.
-std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
-  const GroundTruth& truth = c.truth.voxels;
-  std::vector<std::uint8_t> mask(truth.touch.size());
-  for (std::size_t v = 0; v < mask.size(); ++v)
-    mask[v] = c.truth.visited[v] && truth.near_surface[v] && !truth.hidden(v);
-  return mask;
-}
-
-/// Those near the surface, which scores are of, and a few of all others that were looked at, so that a voxel in the
-/// open is right too.
-std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& evidence) {
-  constexpr std::uint32_t one_of = 32;
-  constexpr double weight_elsewhere = 0.1;
-  const ReadOutFeatures features(evidence.posterior, evidence.rays);
-  const std::vector<std::uint8_t> scored = scored_voxels(c);
-  const GroundTruth& truth = c.truth.voxels;
-  std::array<ReadOutSamples, 2> samples;
-  samples[1].weight = weight_elsewhere;
-  for (std::uint32_t v = 0; v < scored.size(); ++v) {
-    if (!evidence.posterior.informed[v] || !c.truth.visited[v] || truth.hidden(v)) continue;
-    if (!scored[v] && v % one_of != 0) continue;
-    ReadOutSamples& to = samples[scored[v] ? 0 : 1];
-    to.features.push_back(features.of(v));
-    to.touch.push_back(truth.touch[v]);
-    to.centre.push_back(truth.centre[v]);
-  }
-  return samples;
-}
-
-/// What the conventional map's terms are fitted to, for one sensor.
-struct TermHistories {
-  UpdateHistories touch, centre, posterior;
-
-  void add(const EvidenceCase& c, const GibbsPosterior& gibbs) {
-    const std::vector<std::uint8_t> mask = scored_voxels(c);
-    const auto add = [&](UpdateHistories& histories, const auto& target) {
-      const std::vector<float> targets(target.begin(), target.end());
-      histories.add(c.grid, c.scans, targets, mask);
-    };
-    add(touch, c.truth.voxels.touch.bytes());
-    add(centre, c.truth.voxels.centre.bytes());
-    add(posterior, gibbs.touch);
-  }
-};
-
-void print_terms(const char* name, const UpdateHistories& histories) {
-  const InverseSensorModel m = calibrate(histories.without_ranges(), {}).model;
-  fmt::print("  {}: hit {:.4f} miss {:.4f} clamps {:.4f} {:.4f}\n", name, m.hit, m.miss, m.clamp_min, m.clamp_max);
-}
-
-void print_weights(const char* name, const std::vector<ReadOutSamples>& cases,
-                   std::vector<std::uint8_t> ReadOutSamples::*truth, bool rays_alone) {
-  std::array<bool, ReadOutFeatures::count> used;
-  for (std::size_t k = 0; k < used.size(); ++k) used[k] = !rays_alone || k == 0 || k >= ReadOutFeatures::first_of_rays;
-  fmt::print("{}: {:.5f}\n", name, fmt::join(fit_read_out(cases, truth, used), ", "));
-}
-
-void fit(const Options& options) {
-  std::vector<ReadOutSamples> cases;
-  for (const EvidenceSensor& sensor : fitting_sensors) {
-    TermHistories terms;
-    for (const FittingPart& part : fitting_parts())
-      for (const int views : options.views) {
-        const EvidenceCase c = evidence_case(part.object, part.pose, sensor, views);
-        const Evidence evidence = evidence_of(c);
-        for (ReadOutSamples& samples : samples_of(c, evidence)) cases.push_back(std::move(samples));
-        if (sensor.compared) terms.add(c, evidence.posterior);
-        fmt::print(stderr, "{}, {}, {} views\n", part.object, sensor.name, views);
-      }
-    if (!sensor.compared) continue;
-    fmt::print("{}\n", sensor.name);
-    print_terms("touch", terms.touch);
-    print_terms("centre", terms.centre);
-    print_terms("posterior", terms.posterior);
-    std::fflush(stdout);
-  }
-  print_weights("touch", cases, &ReadOutSamples::touch, false);
-  print_weights("centre", cases, &ReadOutSamples::centre, false);
-  print_weights("touch, rays alone", cases, &ReadOutSamples::touch, true);
-  print_weights("centre, rays alone", cases, &ReadOutSamples::centre, true);
-}
 
 /// Scores of the maps of one sensor and number of views: by map, one an object.
 using Scores = std::map<std::string, std::vector<MapScores>>;
@@ -292,7 +179,7 @@ int main(int argc, char** argv) {
   program.add_flag("--fit", options.fit, "fit the read-outs and the conventional map's terms instead");
   CLI11_PARSE(program, argc, argv);
   try {
-    options.fit ? nextview::fit(options) : nextview::compare(options);
+    options.fit ? nextview::fit_posterior(options.views) : nextview::compare(options);
   } catch (const std::exception& error) {
     fmt::print(stderr, "posterior_comparison: {}\n", error.what());
     return 2;

@@ -14,11 +14,10 @@ struct ReadOutSamples {
   double weight = 1.0;                      ///< of their mean
 };
 
-/// Logistic regression by Newton's method: the weights of the least log loss, the weighted sum over the cases, each a
-/// mean over its voxels. `truth`: ReadOutSamples::touch or ::centre. `used`: of each feature, whether it may have a
-/// weight.
-ReadOutFeatures::Vector fit_read_out(std::span<const ReadOutSamples> cases,
-                                     std::vector<std::uint8_t> ReadOutSamples::*truth,
-                                     const std::array<bool, ReadOutFeatures::count>& used);
+/// The network of little log loss, the weighted sum over the cases, each a mean over its voxels: by stochastic gradient
+/// descent (Adam; Kingma and Ba 2015) over a few passes. `truth`: ReadOutSamples::touch or ::centre. `used`: of each
+/// feature, whether it may have a weight. The same every time.
+ReadOutNetwork fit_read_out(std::span<const ReadOutSamples> cases, std::vector<std::uint8_t> ReadOutSamples::*truth,
+                            const std::array<bool, ReadOutFeatures::count>& used);
 
 }  // namespace nextview

@@ -130,53 +130,58 @@ TEST(ReadOut, LooksAtAVoxelAndThoseAroundIt) {
   by_hand.posterior.informed[0] = 0, by_hand.rays[0] = {};              // at a corner
   const auto x = ReadOutFeatures(by_hand.posterior, by_hand.rays).of(13);
   const auto near = [&](int k, double expected) { EXPECT_NEAR(x[k], expected, 1e-5) << "feature " << k; };
-  const double occupied = std::log(4.0), upper = std::log(1.5);
-  near(0, 1.0), near(1, occupied), near(2, upper), near(3, occupied * occupied / 10), near(4, upper * upper / 10);
-  near(5, 1.0), near(6, 2.0);
-  near(7, 5 * 0.1), near(8, 24 * 0.1), near(9, 5 * 0.05), near(10, 24 * 0.05);
-  near(11, 5 * std::log(1.0 / 9.0) / 6);
-  near(12, std::log(11.0));
-  const double ended = std::log(7.05 / 3.05);
-  near(13, ended), near(14, ended * ended / 10);
-  near(15, 0.0), near(16, 1.0), near(17, 0.0), near(18, 0.0);
-  near(19, 25 * std::log(10.0) / 26);
-  near(20, std::log(8.0)), near(21, 0.0), near(22, 0.0);
-  near(23, 1.0), near(24, -0.8), near(25, 0.64), near(26, 0.8), near(27, -0.8 * std::log(10.0) / 5);
+  near(0, 1.0), near(1, std::log(4.0)), near(2, std::log(1.5));
+  near(3, 1.0), near(4, 2.0);
+  near(5, 5 * 0.1), near(6, 24 * 0.1), near(7, 5 * 0.05), near(8, 24 * 0.05);
+  near(9, 5 * std::log(1.0 / 9.0));
+  near(10, std::log(11.0)), near(11, std::log(7.05 / 3.05));
+  near(12, 0.0), near(13, 1.0), near(14, 0.0), near(15, 0.0);
+  near(16, 25 * std::log(10.0));
+  near(17, std::log(8.0)), near(18, 0.0), near(19, 0.0);
+  near(20, 1.0), near(21, -0.8), near(22, -0.8 * std::log(10.0));
+  near(23, 6.0), near(24, 25.0), near(25, 0.0), near(26, 0.0);
 }
 
 TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
   for (const int beside : {4, 1, 0}) {  // through a face, an edge, a corner
     ByHand by_hand;
-    by_hand.rays[beside] = {1.0f, 3.0f};
+    by_hand.rays[beside] = {1.0f, 3.0f, 2.0f, 0.3f};
     const auto x = ReadOutFeatures(by_hand.posterior, by_hand.rays).of(13);
-    const double share = 3.0 / 4.1;
-    EXPECT_NEAR(x[17], beside == 4 ? share : 0.0, 1e-6);
-    EXPECT_NEAR(x[18], share, 1e-6);
-    EXPECT_NEAR(x[21], std::log(4.0) / 26, 1e-6);
-    EXPECT_NEAR(x[22], beside == 4 ? std::log(4.0) / 6 : 0.0, 1e-6);
+    const bool face = beside == 4;
+    const auto near = [&](int k, double expected) { EXPECT_NEAR(x[k], expected, 1e-5) << "feature " << k; };
+    near(14, face ? 3.0 / 4.1 : 0.0), near(15, 3.0 / 4.1);
+    near(18, std::log(4.0)), near(19, face ? std::log(4.0) : 0.0);
+    near(23, face ? 5.0 : 6.0), near(24, 25.0);
+    near(25, face ? 0.3 / 1.5 : 0.0), near(26, 0.3 / 1.5);
   }
 }
 
-TEST(ReadOut, VoxelsBeyondTheGridAreNeitherUnknownNorHidden) {
+TEST(ReadOut, VoxelsBeyondTheGridArePassedAndNeitherUnknownNorHidden) {
   const ByHand by_hand;
   const ReadOutFeatures features(by_hand.posterior, by_hand.rays);
   for (const std::uint32_t v : {0u, 13u, 26u}) {
     const auto x = features.of(v);
-    for (const int none : {5, 6, 15, 16}) EXPECT_EQ(x[none], 0.0) << v;
+    for (const int none : {3, 4, 12, 13}) EXPECT_EQ(x[none], 0.0f) << v;
+    EXPECT_EQ(x[23], 6.0f) << v;
+    EXPECT_EQ(x[24], 26.0f) << v;
   }
-  EXPECT_LT(features.of(0)[8], features.of(13)[8]);
+  EXPECT_LT(features.of(0)[6], features.of(13)[6]);
 }
 
-TEST(ReadOut, IsTheLogisticOfTheWeightedFeatures) {
+TEST(ReadOut, IsTheLogisticOfWhatTheNetworkSays) {
   ByHand by_hand;
   by_hand.posterior.informed[5] = 0;
   for (RayCount& rays : by_hand.rays) rays = {8.0f, 1.0f, 1.0f, 0.0f};
-  ReadOutWeights weights{{}, {}};
-  weights.touch[0] = -0.4, weights.touch[1] = 0.5;
-  weights.centre[12] = -1.0;
+  ReadOutWeights weights{};
+  weights.touch.linear[0] = -0.4f, weights.touch.linear[1] = 0.5f;
+  weights.centre.linear[10] = -1.0f;
+  weights.centre.in[0][2] = -3.0f, weights.centre.in[10][2] = 1.0f, weights.centre.out[2] = 2.0f;
+  weights.centre.in[10][15] = 0.5f, weights.centre.out[15] = -1.0f;
   read_out(by_hand.posterior, by_hand.rays, weights);
   EXPECT_NEAR(by_hand.posterior.touch[13], 1.0 / (1.0 + std::exp(0.4 + 0.5 * std::log(9.0))), 1e-6);
-  EXPECT_NEAR(by_hand.posterior.centre[13], 1.0 / 11.0, 1e-6);
+  const double crossed = std::log(10.0), bent = (crossed - 3.0) / (1.0 + (3.0 - crossed));
+  const double log_odds = -crossed + 2.0 * bent - 0.5 * crossed / (1.0 + 0.5 * crossed);
+  EXPECT_NEAR(by_hand.posterior.centre[13], 1.0 / (1.0 + std::exp(-log_odds)), 1e-6);
   EXPECT_EQ(by_hand.posterior.touch[5], 0.5f) << "not informed";
   EXPECT_EQ(by_hand.posterior.centre[5], 0.5f);
 }
@@ -184,7 +189,8 @@ TEST(ReadOut, IsTheLogisticOfTheWeightedFeatures) {
 // As at the end of a short camera's range: what nobody looked at lies around, and nothing was met.
 TEST(ReadOut, WhereRaysOnlyPassedItSaysNoMoreThanTheLevels) {
   ByHand by_hand;
-  const ReadOutWeights sure{{4.0}, {4.0}};
+  ReadOutWeights sure{};
+  sure.touch.linear[0] = sure.centre.linear[0] = 4.0f;
   read_out(by_hand.posterior, by_hand.rays, sure);
   EXPECT_EQ(by_hand.posterior.touch[13], 0.1f);
   EXPECT_EQ(by_hand.posterior.centre[13], 0.1f);
