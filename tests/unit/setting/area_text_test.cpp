@@ -8,6 +8,7 @@ namespace {
 TEST(AreaText, HasTheUnitThatSuitsIt) {
   EXPECT_EQ(area_text(0.0), "0 cm²");
   EXPECT_EQ(area_text(0.0612), "6.12 mm²");
+  EXPECT_EQ(area_text(0.771), "0.771 cm²");
   EXPECT_EQ(area_text(1.0), "1 cm²");
   EXPECT_EQ(area_text(45.27), "45.3 cm²");
   EXPECT_EQ(area_text(99.97), "100 cm²");
