@@ -29,7 +29,8 @@ std::vector<bool> hidden_candidates(const SessionSnapshot& s, const Selection& s
   std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return ranked[i].utility; });
   if (!s.finished.empty()) order.clear();
   for (std::size_t k = 0; k < std::min(order.size(), best_shown); ++k) hidden[order[k]] = false;
-  for (const auto& looked_at : {s.next_candidate, selection.candidate()})
+  const auto next = s.finished.empty() ? s.next_candidate : std::nullopt;
+  for (const auto& looked_at : {next, selection.candidate()})
     if (looked_at && *looked_at < hidden.size()) hidden[*looked_at] = false;
   return hidden;
 }
