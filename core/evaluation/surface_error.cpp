@@ -113,7 +113,8 @@ std::optional<SurfaceError> surface_error(const Surface& surface, const SignedDi
   const TriangleMesh seen = seen_of_object(surface, result.at_vertices, options.ground);
   result.area_seen = seen.surface_area();
   if (!(result.area_seen > 0.0)) return std::nullopt;
-  result.area_unseen = surface.mesh.surface_area() - seen_part(surface).surface_area();
+  const double with_ground = options.ground ? seen_part(surface).surface_area() : result.area_seen;
+  result.area_unseen = surface.mesh.surface_area() - with_ground;
 
   const auto taken = sample_surface(seen, options.samples, options.seed);
   const std::vector<double> distances = measured<double>(taken.points, truth);

@@ -51,11 +51,7 @@ ReadOutFeatures::Word& ReadOutFeatures::Word::operator+=(const Word& other) {
 }
 
 ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays)
-    : grid_(posterior.grid),
-      occupied_(posterior.occupied),
-      upper_(posterior.upper),
-      rays_(rays),
-      words_(posterior.occupied.size()) {
+    : grid_(posterior.grid), upper_(posterior.upper), rays_(rays), words_(posterior.occupied.size()) {
   tbb::parallel_for(std::size_t{0}, words_.size(), [&](std::size_t v) {
     Word& word = words_[v];
     if (posterior.informed[v]) {
@@ -99,9 +95,10 @@ ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
 
 ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
   const RayCount& rays = rays_[voxel];
+  const Word& own = words_[voxel];
   const Around a = around(voxel);
   return {1.0f,
-          static_cast<float>(kept_log_odds(occupied_[voxel])),
+          own.log_odds,
           static_cast<float>(kept_log_odds(upper_[voxel])),
           a.faces.uninformed,
           a.all.uninformed,
@@ -110,18 +107,18 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           a.faces.upper,
           a.all.upper,
           a.faces.log_odds,
-          std::log1p(rays.crossed()),
+          own.log_crossed,
           std::log((rays.ended + 0.05f) / (rays.passed + 0.05f)),
           a.faces.uncrossed,
           a.all.uncrossed,
           a.faces.ended,
           a.all.ended,
           a.all.log_crossed,
-          std::log1p(rays.ended),
+          own.log_ended,
           a.all.log_ended,
           a.faces.log_ended,
-          rays.near > 0.0f ? 1.0f : 0.0f,
-          rays.behind,
+          own.near,
+          own.behind,
           rays.behind * std::log1p(rays.near),
           a.faces.passed,
           a.all.passed,

@@ -65,8 +65,8 @@ class ReadOutFeatures {
   Around around(std::uint32_t voxel) const;
 
   VoxelGrid grid_;
-  std::span<const float> occupied_, upper_;  ///< of the posterior, which must outlive it
-  std::span<const RayCount> rays_;           ///< likewise
+  std::span<const float> upper_;    ///< of the posterior, which must outlive it
+  std::span<const RayCount> rays_;  ///< likewise
   std::vector<Word> words_;
 };
 

@@ -28,10 +28,10 @@ struct StudyVariant {
   std::vector<GivenSetting> settings;
 };
 
-/// Each object with each sensor, number of views, method, start view and seed.
 /// The camera of a scan that says nothing of it: a preset would keep its lengths, whatever the object's size.
 inline constexpr const char* default_sensor = "default";
 
+/// Each object with each sensor, number of views, method, start view and seed.
 struct StudyBlock {
   StudyPart part = StudyPart::planning;
   std::vector<std::string> objects, sensors;
