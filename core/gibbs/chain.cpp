@@ -164,8 +164,7 @@ class StateChain final : public Chain {
     std::fill(used.begin(), used.end(), log_prior_odds_);
     // Eq. 8: the prior, and of each ray what it says for the level less what it says for free.
     const bool only_drawn = exact && !mean;
-    const bool settled =
-        state_.conditional(voxel, only_drawn ? std::log(limit) : log_negligible_in_mean_, !only_drawn, used);
+    const bool settled = state_.conditional(voxel, only_drawn ? std::log(limit) : log_negligible_in_mean_, used);
     if (settled && only_drawn) {
       set(voxel, 0);
       return;

@@ -42,7 +42,7 @@ double FirstHitState::change(std::uint32_t voxel, std::uint8_t level) {
   return change;
 }
 
-bool FirstHitState::conditional(std::uint32_t voxel, double, bool, std::span<double> log_weights) const {
+bool FirstHitState::conditional(std::uint32_t voxel, double, std::span<double> log_weights) const {
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
     const std::uint32_t first = first_[entry.ray];
     if (first < entry.incidence) continue;  // hidden: the ray does not care

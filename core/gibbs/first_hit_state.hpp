@@ -18,7 +18,7 @@ class FirstHitState {
   double change(std::uint32_t voxel, std::uint8_t level);
   void set(std::uint32_t voxel, std::uint8_t level) { change(voxel, level); }
   /// What is negligible makes no difference: terms of either sign follow each other here. Returns false.
-  bool conditional(std::uint32_t voxel, double log_negligible, bool bounds, std::span<double> log_weights) const;
+  bool conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
   double log_likelihood() const;
   void add_reach(std::vector<float>& reach, float enough) const;
 

@@ -48,7 +48,7 @@ RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements,
     : grid_(grid), measurements_(measurements), model_(model) {
   model_.validate();
   require_holdable(grid_);
-  sort_rays();
+  take_rays();
   incidences_begin_.assign(rays() + 1, 0);
   std::vector<Block> blocks(grid_.voxel_count() > (1u << 24) ? 1 : 4);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -65,7 +65,7 @@ std::size_t RayLists::bytes() const {
          rays() * (sizeof(RangeMeasurement) + 4 + 4 + 4) + grid_.voxel_count() * 8;
 }
 
-void RayLists::sort_rays() {
+void RayLists::take_rays() {
   auto& rays = measurements_.rays;
   std::erase_if(rays, [&](const RangeMeasurement& ray) {
     bool enters = false;
@@ -77,12 +77,9 @@ void RayLists::sort_rays() {
     throw std::invalid_argument(
         fmt::format("gibbs: {} rays are more than the {} it can hold; merge them with a larger gibbs.ray_spacing",
                     rays.size(), max_rays));
-  std::stable_sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
-  for (std::uint32_t n = 0; n < rays.size(); ++n) {
-    if (n == 0 || rays[n].weight != rays[n - 1].weight)
-      weight_runs_.push_back({n, rays[n].weight, rays[n].weight * model_.independence});
-    weight_.push_back(rays[n].weight);
-    open_value_.push_back(open_value_of(rays[n]));
+  for (const RangeMeasurement& ray : rays) {
+    weight_.push_back(ray.weight);
+    open_value_.push_back(open_value_of(ray));
   }
 }
 

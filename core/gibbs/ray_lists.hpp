@@ -38,16 +38,10 @@ class RayLists {
     /// paper, cone: log p(z | f = this voxel).
     float value;
   };
-  /// Rays from `first` on have this weight and this evidence(), until the next run.
-  struct WeightRun {
-    std::uint32_t first;
-    std::uint32_t weight;
-    double evidence;
-  };
   static constexpr std::uint32_t chord_codes = 1024;
   static double chord(std::uint32_t code);  ///< [voxel edges]
 
-  /// The lists hold the rays that enter the grid, the heaviest first.
+  /// The lists hold the rays that enter the grid, in their order: neighbours in an image stay neighbours in memory.
   /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists).
   RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model);
 
@@ -84,7 +78,6 @@ class RayLists {
   std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }  ///< measured rays that it stands for
   /// What its log-likelihood is multiplied by: its weight, as far as the rays are independent witnesses.
   double evidence(std::uint32_t ray) const { return weight_[ray] * model_.independence; }
-  std::span<const WeightRun> weight_runs() const { return weight_runs_; }
   /// Where a ray's range lies from a voxel that it crosses, along the ray [voxel edges].
   struct RangeFrom {
     float centre;  ///< behind it; less than 0: in front
@@ -103,7 +96,7 @@ class RayLists {
   struct Block;
   template <class Front, class Near>
   void walk(std::uint32_t ray, Front on_front, Near on_near) const;
-  void sort_rays();
+  void take_rays();
   void count(Block& block);
   void lay_out(std::vector<Block>& blocks);
   void fill(Block& block);
@@ -112,10 +105,9 @@ class RayLists {
   float incidence_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
 
   VoxelGrid grid_;
-  RangeMeasurements measurements_;  ///< those that enter the grid, the heaviest first
+  RangeMeasurements measurements_;  ///< those that enter the grid
   ForwardSensorModel model_;
   std::vector<std::uint32_t> weight_;
-  std::vector<WeightRun> weight_runs_;
   std::vector<float> open_value_;
   std::vector<std::uint32_t> incidences_begin_;
   std::vector<Incidence> incidences_;

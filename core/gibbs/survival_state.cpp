@@ -3,46 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gibbs/log_product.hpp"
+#include "core/gibbs/weighted_logs.hpp"
 
 namespace nextview {
-namespace {
-
-/// What rays' log-likelihoods are multiplied by, asked in ascending order of rays.
-class EvidenceCursor {
- public:
-  explicit EvidenceCursor(std::span<const RayLists::WeightRun> runs) : runs_(runs) { step(0); }
-  double evidence(std::uint32_t ray) {
-    while (ray >= end_) step(run_ + 1);
-    return evidence_;
-  }
-  std::uint32_t end() const { return end_; }  ///< the first ray of another evidence
-
- private:
-  void step(std::size_t run) {
-    run_ = run;
-    evidence_ = run < runs_.size() ? runs_[run].evidence : 1.0;
-    end_ = run + 1 < runs_.size() ? runs_[run + 1].first : 0xffffffffu;
-  }
-
-  std::span<const RayLists::WeightRun> runs_;
-  std::size_t run_ = 0;
-  std::uint32_t end_ = 0;
-  double evidence_ = 1.0;
-};
-
-/// log of the sum of what these are the logarithms of.
-double log_sum(std::span<const double> logs) {
-  const double largest = *std::max_element(logs.begin(), logs.end());
-  // Before a ray has spoken all are the prior's; most voxels are asked about only then.
-  static const std::array<double, 6> log_of = {0.0, 0.0, std::log(2.0), std::log(3.0), std::log(4.0), std::log(5.0)};
-  if (std::ranges::all_of(logs, [&](double log) { return log == largest; })) return largest + log_of[logs.size()];
-  double sum = 0.0;
-  for (const double log : logs) sum += std::exp(log - largest);
-  return largest + std::log(sum);
-}
-
-}  // namespace
 
 SurvivalState::SurvivalState(const RayLists& lists, const ForwardSensorModel& model)
     : lists_(lists), levels_(model.levels()) {
@@ -74,7 +37,7 @@ void SurvivalState::reset(std::vector<std::uint8_t> map) {
         cold_[entry.ray()].depth += depth_[level][entry.chord()];
   for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
     cold_[ray].near_sum = near_sum(ray);
-    hot_[ray] = hot(cold_[ray].near_sum * passing(cold_[ray].depth));
+    hot_[ray] = {cold_[ray].near_sum * passing(cold_[ray].depth), static_cast<float>(lists_.evidence(ray))};
   }
 }
 
@@ -96,9 +59,9 @@ void SurvivalState::change_voxel(std::uint32_t voxel, std::uint8_t level, Heard 
   if (old == level) return;
   map_[voxel] = level;
   const auto refresh = [&](std::uint32_t ray) {
-    const Hot now = hot(cold_[ray].near_sum * passing(cold_[ray].depth));
-    heard(ray, hot_[ray], now);
-    hot_[ray] = now;
+    const Hot before = hot_[ray];
+    hot_[ray].s = cold_[ray].near_sum * passing(cold_[ray].depth);
+    heard(before, hot_[ray]);
   };
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
     cold_[entry.ray].near_sum = near_sum(entry.ray);
@@ -111,37 +74,25 @@ void SurvivalState::change_voxel(std::uint32_t voxel, std::uint8_t level, Heard 
 }
 
 double SurvivalState::change(std::uint32_t voxel, std::uint8_t level) {
-  LogProduct change;
-  change_voxel(voxel, level, [&](std::uint32_t ray, const Hot& before, const Hot& now) {
-    change.multiply((1.0 + now.s) / (1.0 + before.s), lists_.evidence(ray));
+  WeightedLogs change;
+  change_voxel(voxel, level, [&](const Hot& before, const Hot& now) {
+    change.add((1.0f + now.s) / (1.0f + before.s), now.evidence);
   });
   return change.sum();
 }
 
 void SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
-  change_voxel(voxel, level, [](std::uint32_t, const Hot&, const Hot&) {});
+  change_voxel(voxel, level, [](const Hot&, const Hot&) {});
 }
 
-bool SurvivalState::conditional(std::uint32_t voxel, double log_negligible, bool bounds,
-                                std::span<double> log_weights) const {
+bool SurvivalState::conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const {
   if (lists_.is_near(voxel)) near_terms(voxel, log_weights);
-  switch (levels_) {
-    case 2:
-      return front_terms<2>(voxel, log_negligible, bounds, log_weights);
-    case 3:
-      return front_terms<3>(voxel, log_negligible, bounds, log_weights);
-    case 4:
-      return front_terms<4>(voxel, log_negligible, bounds, log_weights);
-    case 5:
-      return front_terms<5>(voxel, log_negligible, bounds, log_weights);
-    default:
-      return front_terms<6>(voxel, log_negligible, bounds, log_weights);
-  }
+  return front_terms(voxel, log_negligible, log_weights);
 }
 
 /// The terms of Eq. 8 of the rays that may have ended in the voxel.
 void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weights) const {
-  std::array<LogProduct, max_levels> products;
+  std::array<WeightedLogs, max_levels> sums;
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
     const float pass_front = passing(cold_[entry.ray].depth);
     if (pass_front == 0.0f) continue;
@@ -161,62 +112,53 @@ void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weight
     }
     const float here = reaching * own.value;
     const float if_free = 1.0f + pass_front * (before + after);
-    const double evidence = lists_.evidence(entry.ray);
+    const float evidence = hot_[entry.ray].evidence;
     for (int q = 1; q < levels_; ++q) {
       const float passed = passing_[q][own.chord];
       const float s = pass_front * (before + (1.0f - passed) * here + passed * after);
-      products[q].multiply((1.0f + s) / if_free, evidence);
+      sums[q].add((1.0f + s) / if_free, evidence);
     }
   }
-  for (int q = 1; q < levels_; ++q) log_weights[q - 1] += products[q].sum();
+  for (int q = 1; q < levels_; ++q) log_weights[q - 1] += sums[q].sum();
 }
 
-/// The ray's state if a voxel in front of it were free.
-SurvivalState::Hot SurvivalState::without(RayLists::FrontEntry entry, std::uint8_t level) const {
+/// The ray's s if a voxel in front of it were free.
+float SurvivalState::without(RayLists::FrontEntry entry, std::uint8_t level) const {
   const Cold& ray = cold_[entry.ray()];
-  return hot(ray.near_sum * passing(ray.depth - depth_[level][entry.chord()]));
+  return ray.near_sum * passing(ray.depth - depth_[level][entry.chord()]);
 }
 
 /// The terms of Eq. 8 of the rays whose range lies behind the voxel.
-template <int Levels>
-bool SurvivalState::front_terms(std::uint32_t voxel, double log_negligible, bool bounds,
-                                std::span<double> log_weights) const {
-  constexpr double least_product = 1e-200;  // far enough from where numbers end for a part's factors more
+bool SurvivalState::front_terms(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const {
+  constexpr std::size_t lanes = WeightedLogs::lanes;
   const auto entries = lists_.front(voxel);
   const std::uint8_t level = map_[voxel];
-  EvidenceCursor cursor(lists_.weight_runs());
-  std::size_t part = 1;  // one ray often settles it; if not, look at more before asking again
-  for (std::size_t k = 0; k < entries.size();) {
-    // Factors of rays of one evidence are multiplied before their logarithm is taken. All are at most 1, as a voxel in
-    // front can only block: once every level's product is below `enough`, the weights are sure to be negligible.
-    const double evidence = cursor.evidence(entries[k].ray());
-    const double enough = std::exp((log_negligible - log_sum(log_weights)) / evidence);
-    std::array<double, Levels> products;
-    products.fill(1.0);
-    double largest = 1.0, least = 1.0;
-    while (k < entries.size() && entries[k].ray() < cursor.end() && largest >= enough && least > least_product) {
-      for (const std::size_t end = std::min(k + part, entries.size()); k < end && entries[k].ray() < cursor.end();
-           ++k) {
-        const RayLists::FrontEntry entry = entries[k];
-        const Hot ray = level == 0 ? hot_[entry.ray()] : without(entry, level);
-        for (int q = 1; q < Levels; ++q) products[q] *= (1.0f + ray.s * passing_[q][entry.chord()]) * ray.inverse;
-      }
-      part = std::min<std::size_t>(2 * part, 8);
-      largest = *std::max_element(products.begin() + 1, products.end());
-      least = *std::min_element(products.begin() + 1, products.end());
+  // All terms are at most 0, as a voxel in front can only block: once each weight is below this, all together are sure
+  // to be negligible.
+  const double enough = log_negligible - std::log(double(log_weights.size()));
+  for (std::size_t k = 0; k < entries.size(); k += lanes) {
+    WeightedLogs::Lanes s{}, evidence{}, factors;  // where there is no ray, its evidence is 0
+    std::array<std::uint32_t, lanes> chords{};
+    for (std::size_t i = 0; i < std::min(lanes, entries.size() - k); ++i) {
+      const RayLists::FrontEntry entry = entries[k + i];
+      const Hot& ray = hot_[entry.ray()];
+      s[i] = level == 0 ? ray.s : without(entry, level);
+      evidence[i] = ray.evidence;
+      chords[i] = entry.chord();
     }
-    const bool settled = largest < enough;
-    if (settled && !bounds) return true;
-    for (int q = 1; q < Levels; ++q) log_weights[q - 1] += evidence * std::log(products[q]);
-    if (settled) return true;
+    for (int q = 1; q < levels_; ++q) {
+      for (std::size_t i = 0; i < lanes; ++i) factors[i] = (1.0f + s[i] * passing_[q][chords[i]]) / (1.0f + s[i]);
+      log_weights[q - 1] += WeightedLogs::sum_of(factors, evidence);
+    }
+    if (*std::ranges::max_element(log_weights) < enough) return true;
   }
   return false;
 }
 
 double SurvivalState::log_likelihood() const {
-  LogProduct product;
-  for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) product.multiply(1.0 + hot_[ray].s, lists_.evidence(ray));
-  return product.sum();
+  WeightedLogs sum;
+  for (const Hot& ray : hot_) sum.add(1.0f + ray.s, ray.evidence);
+  return sum.sum();
 }
 
 void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {

@@ -28,8 +28,8 @@ class SurvivalState {
 
   /// Adds log p(z | m with q) - log p(z | m with 0) to log_weights[q - 1] for each level q >= 1 (Eqs. 6-8); they hold
   /// the log prior odds before. Exact, except that the sum stops once the weights together are sure to be below
-  /// exp(log_negligible): it returns true, and they are upper bounds that are too, if `bounds` are wanted.
-  bool conditional(std::uint32_t voxel, double log_negligible, bool bounds, std::span<double> log_weights) const;
+  /// exp(log_negligible): it returns true, and they are upper bounds that are too.
+  bool conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
 
   double log_likelihood() const;
 
@@ -38,7 +38,7 @@ class SurvivalState {
 
  private:
   struct Hot {
-    float s, inverse;  ///< s, and 1 / (1 + s)
+    float s, evidence;  ///< s, and RayLists::evidence
   };
   struct Cold {
     float near_sum = 0.0f;   ///< S
@@ -48,16 +48,14 @@ class SurvivalState {
   static constexpr int depth_unit = 4096;
   static constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
 
-  /// `heard(ray, before, now)` of each ray that notices.
+  /// `heard(before, now)` of each ray that notices.
   template <class Heard>
   void change_voxel(std::uint32_t voxel, std::uint8_t level, Heard heard);
   static float passing(std::int32_t depth);
-  static Hot hot(float s) { return {s, 1.0f / (1.0f + s)}; }
   float near_sum(std::uint32_t ray) const;
   void near_terms(std::uint32_t voxel, std::span<double> log_weights) const;
-  template <int Levels>
-  bool front_terms(std::uint32_t voxel, double log_negligible, bool bounds, std::span<double> log_weights) const;
-  Hot without(RayLists::FrontEntry entry, std::uint8_t level) const;
+  bool front_terms(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
+  float without(RayLists::FrontEntry entry, std::uint8_t level) const;
 
   const RayLists& lists_;
   int levels_;

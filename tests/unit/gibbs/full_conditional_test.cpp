@@ -149,7 +149,7 @@ std::vector<double> sampled_from(const Problem& problem, const ForwardSensorMode
   State state(lists, model);
   state.reset(map);
   std::vector<double> logs(model.levels() - 1, std::log(prior / (model.levels() - 1) / (1.0 - prior)));
-  state.conditional(v, -std::numeric_limits<double>::infinity(), true, logs);
+  state.conditional(v, -std::numeric_limits<double>::infinity(), logs);
   logs.insert(logs.begin(), 0.0);
   const double sum = log_sum(logs);
   for (double& l : logs) l = std::exp(l - sum);
