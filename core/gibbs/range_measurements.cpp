@@ -23,7 +23,16 @@ struct CellRay {
   }
 };
 
-/// Numbers the cells of a scan: gnomonic around the scan's mean direction within 60 degrees of it, one face of a cube
+/// Each of 29 bits at the place of twice its number.
+std::uint64_t spread(std::uint64_t bits) {
+  bits = (bits | bits << 16) & 0x0000ffff0000ffff;
+  bits = (bits | bits << 8) & 0x00ff00ff00ff00ff;
+  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0f;
+  bits = (bits | bits << 2) & 0x3333333333333333;
+  return (bits | bits << 1) & 0x5555555555555555;
+}
+
+/// Numbers the cells of a scan, neighbours near each other (a Z-order curve): gnomonic around the scan's mean direction within 60 degrees of it, one face of a cube
 /// each beyond, so that a panorama has cells too.
 class DirectionCells {
  public:
@@ -42,7 +51,7 @@ class DirectionCells {
              0x1fffffff;
     };
     const std::uint64_t face = axis * 2 + (d[axis] < 0.0);
-    return face << 58 | cell(d[(axis + 1) % 3]) << 29 | cell(d[(axis + 2) % 3]);
+    return face << 58 | spread(cell(d[(axis + 1) % 3])) << 1 | spread(cell(d[(axis + 2) % 3]));
   }
 
  private:
