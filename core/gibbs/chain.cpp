@@ -33,6 +33,8 @@ class StateChain final : public Chain {
         moves_(lists.grid(), sites, state_) {
     const int occupied_levels = state_.levels() - 1;
     log_prior_odds_ = std::log(config.prior / occupied_levels / (1.0 - config.prior));
+    // A voxel that stops some rays and passes others leaves the others room: a chain of those needs no swaps.
+    swaps_ = config.swaps >= 0 ? config.swaps : config.model.kind == ForwardModel::attenuation ? 0 : 1;
   }
 
   void start(std::vector<std::uint8_t> map) override { state_.reset(std::move(map)); }
@@ -47,7 +49,7 @@ class StateChain final : public Chain {
     changed_ = 0;
     update_levels(mean);
     if (config_.sampler == Sampler::exact) {
-      for (int pass = 0; pass < config_.swaps; ++pass) changed_ += moves_.swap(random(Draw::swaps, pass));
+      for (int pass = 0; pass < swaps_; ++pass) changed_ += moves_.swap(random(Draw::swaps, pass));
       for (int pass = 0; pass < config_.plaquettes; ++pass)
         changed_ += moves_.redraw_plaquettes(random(Draw::plaquettes, pass));
     }
@@ -76,7 +78,7 @@ class StateChain final : public Chain {
   /// The inner loop of Algorithm 1: single-voxel updates in the order of the voxels. While one is drawn all others
   /// stay, so p(m_-i | z, x) of Eq. 5 does, and with it the posterior.
   void update_levels(PosteriorSums* mean) {
-    const bool front_too = mean && mean->near_sweeps++ % 8 == 0;
+    const bool front_too = mean && mean->near_sweeps++ % 16 == 0;
     if (front_too) ++mean->front_sweeps;
     // Algorithm 1 may occupy any voxel.
     if (front_too || config_.sampler == Sampler::algorithm1)
@@ -114,6 +116,7 @@ class StateChain final : public Chain {
       const std::uint32_t voxel = std::min({next_near, next_occupied, next_look});
       if (voxel == none) return;
       if (l + 8 < looks_.size()) lists_.prefetch_front(looks_[l + 8].voxel);
+      if (l + 4 < looks_.size()) state_.prefetch_rays(looks_[l + 4].voxel);
       if (voxel == next_near || voxel == next_occupied)
         update(voxel, draws.uniform(voxel)[0], voxel == next_near ? mean : nullptr);
       else
@@ -210,6 +213,7 @@ class StateChain final : public Chain {
   std::uint32_t sweep_ = 0;
   std::size_t changed_ = 0;
   double log_prior_odds_;
+  int swaps_;
   const double log_negligible_in_mean_ = std::log(negligible_in_mean);
   State state_;
   NeighbourMoves<State> moves_;

@@ -14,7 +14,7 @@ struct PosteriorSums {
   std::vector<double> occupied, upper;  ///< sums of P(level > 0) and P(uppermost level), per voxel
   std::vector<float> reach;             ///< measured rays that get there, see SurvivalState::add_reach
   int near_sweeps = 0;                  ///< sweeps that voxels near a hit have had
-  int front_sweeps = 0;                 ///< ... and those in front only: every eighth, as they hardly change
+  int front_sweeps = 0;                 ///< ... and those in front only: every sixteenth, as they hardly change
   int reach_samples = 0;
 };
 

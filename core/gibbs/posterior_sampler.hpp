@@ -34,11 +34,11 @@ struct PosteriorSamplerConfig {
   Sampler sampler = Sampler::exact;
   UpdatedVoxels updated = UpdatedVoxels::occupied_and_free;
   StartMap start = StartMap::octree;
-  int swaps = 1;                 ///< passes of neighbour swaps per sweep
+  int swaps = -1;                ///< passes of neighbour swaps per sweep; -1: none with attenuation, else 1
   int plaquettes = 0;            ///< passes of 2 x 2 plaquettes per sweep
   int chains = 2;                ///< independent of each other
   int sweeps = 400;              ///< at most, a chain
-  int burn_in = 8;               ///< sweeps before the first attempt at a mean
+  int burn_in = 4;               ///< sweeps before the first attempt at a mean
   bool until_stationary = true;  ///< stop once stationary; otherwise all sweeps, burn-in left out, are the mean
   /// Fitted to levels that are drawn as by default: with another model, attenuations or prior, the sampler
   /// Algorithm 1, or if not all voxels are updated, it is `levels`.

@@ -32,8 +32,8 @@ std::uint64_t spread(std::uint64_t bits) {
   return (bits | bits << 1) & 0x5555555555555555;
 }
 
-/// Numbers the cells of a scan, neighbours near each other (a Z-order curve): gnomonic around the scan's mean direction within 60 degrees of it, one face of a cube
-/// each beyond, so that a panorama has cells too.
+/// Numbers the cells of a scan, neighbours near each other (a Z-order curve): gnomonic around the scan's mean direction
+/// within 60 degrees of it, one face of a cube each beyond, so that a panorama has cells too.
 class DirectionCells {
  public:
   DirectionCells(const Vector3& mean, double spacing) : spacing_(spacing) {

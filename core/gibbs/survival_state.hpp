@@ -31,6 +31,11 @@ class SurvivalState {
   /// exp(log_negligible): it returns true, and they are upper bounds that are too.
   bool conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
 
+  /// Asks the memory for what conditional() will need of the rays in front of whose ranges a voxel lies.
+  void prefetch_rays(std::uint32_t voxel) const {
+    for (const RayLists::FrontEntry entry : lists_.front(voxel)) __builtin_prefetch(&hot_[entry.ray()]);
+  }
+
   double log_likelihood() const;
 
   /// Adds to `reach` of each voxel how many measured rays get there; those that have reached `enough` may get less.
