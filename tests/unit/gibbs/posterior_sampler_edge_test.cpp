@@ -163,7 +163,7 @@ TEST(PosteriorSamplerEdges, configurationsOutOfBoundsNameTheField) {
                          {"prior", [](auto& c) { c.prior = 1.0; }},
                          {"sigma", [](auto& c) { c.model.sigma = nan; }},
                          {"sigma", [](auto& c) { c.model.sigma = 0.0; }},
-                         {"swaps", [](auto& c) { c.swaps = -1; }},
+                         {"swaps", [](auto& c) { c.swaps = -2; }},
                          {"plaquettes", [](auto& c) { c.plaquettes = -1; }},
                          {"chains", [](auto& c) { c.chains = 0; }},
                          {"sweeps", [](auto& c) { c.sweeps = 0; }},
