@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/panel_list.hpp"
 #include "ui/commands/window_commands.hpp"
 
 namespace nextview {
@@ -53,7 +54,8 @@ void draw_menus(const PanelContext& context, std::initializer_list<const char*> 
 void draw_panels_and_mouse(const PanelContext& context) {
   if (!ImGui::BeginTable("panels and mouse", 2, ImGuiTableFlags_SizingFixedFit)) return;
   draw_heading(context.style, "Panels");
-  for (const Shortcut& shortcut : command::panel.shortcuts()) draw_row(shortcut.text(), shortcut.values.front());
+  for (const Shortcut& shortcut : command::panel.shortcuts())
+    draw_row(shortcut.text(), panel_info(shortcut.values.front()).title);
   draw_heading(context.style, "Mouse");
   for (const auto& [gesture, help] : mouse) draw_row(gesture, help);
   ImGui::EndTable();
