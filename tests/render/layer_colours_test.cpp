@@ -133,6 +133,29 @@ TEST(ViewsLayer, ALockedRangeKeepsItsColoursAndSaysSo) {
   });
 }
 
+TEST(ViewsLayer, AScaleIsExplainedWhereACandidateHasItsColours) {
+  draw_scene(64, 64, [](Scene& scene) {
+    const auto candidates = samples::candidates();
+    const std::vector<double> scores(candidates.size(), 30.0);
+    std::vector<std::size_t> hidden;
+    for (std::size_t i = 1; i < candidates.size(); ++i) hidden.push_back(i);
+    ViewsPicture picture;
+    picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
+    picture.candidates = candidates;
+    picture.scores = scores;
+    picture.hidden = hidden;
+    scene.views().show(picture);
+    EXPECT_EQ(scene.views().legends().at(0).title, picture.score_name);
+    picture.chosen = 0;
+    scene.views().show(picture);
+    EXPECT_EQ(scene.views().legends().at(0).title, "views") << "the only one that is drawn is the chosen one";
+    const std::array<std::size_t, 1> taken{0};
+    picture.chosen.reset(), picture.taken = taken;
+    scene.views().show(picture);
+    EXPECT_EQ(scene.views().legends().at(0).title, "views") << "the only one that is drawn was taken";
+  });
+}
+
 /// A square that fills the picture, its corners of these classes, and how many pixels have which colour.
 std::map<std::array<int, 3>, int> colours_of_square(const std::vector<std::uint8_t>& classes) {
   const Image image = draw_scene(300, 300, [&](Scene& scene) {

@@ -62,16 +62,19 @@ struct Scores {
   double low = 0.0, high = 0.0;       ///< of the colours
   bool below = false, above = false;  ///< some scores are beyond these
   bool any = false;                   ///< some candidate is left to have one
+  bool drawn = false;                 ///< ... and is drawn in its colour
 
   ColourMap map;
-  std::vector<bool> taken, unreachable;
+  std::vector<bool> taken, unreachable, hidden;
 
   Scores(const ViewsPicture& picture, const ColourMap& of_scores)
-      : map(of_scores), taken(picture.candidates.size(), false), unreachable(picture.candidates.size(), false) {
+      : map(of_scores), taken(picture.candidates.size(), false), unreachable(taken), hidden(taken) {
     for (const std::size_t index : picture.taken) taken[index] = true;
     for (const std::size_t index : picture.unreachable) unreachable[index] = true;
+    for (const std::size_t index : picture.hidden) hidden.at(index) = true;
     for (std::size_t i = 0; i < picture.scores.size(); ++i) {
       if (taken[i] || unreachable[i]) continue;
+      drawn |= !hidden[i] && (picture.chosen != i || picture.custom_view);
       low = any ? std::min(low, picture.scores[i]) : picture.scores[i];
       high = any ? std::max(high, picture.scores[i]) : picture.scores[i];
       any = true;
@@ -100,7 +103,7 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
   if (picture.scores.empty() && picture.hidden.size() < picture.candidates.size())
     views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
-  if (scores.any) {
+  if (scores.drawn) {
     result.push_back({picture.score_name,
                       {},
                       Legend::Range{scores.map, scores.low, scores.high, picture.score_unit,
@@ -154,10 +157,8 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   const auto at_eye = [&](const Pose& view) {
     return picture.eye && stands_at(*picture.eye, view.translation(), picture.size);
   };
-  std::vector<bool> hidden(picture.candidates.size(), false);
-  for (const std::size_t i : picture.hidden) hidden.at(i) = true;
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
-    if (hidden[i]) continue;
+    if (scores.hidden[i]) continue;
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
     const Colour colour = scores.colour(picture, i);
     if (!at_eye(picture.candidates[i])) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "core/file/counted.hpp"
@@ -82,7 +83,9 @@ std::vector<Difference> differences(const SessionSnapshot& here, const SessionSn
         [](const SessionSnapshot& s) { return percent(s.records.back().coverage_visible); });
     add("coverage of all surface", [](const SessionSnapshot& s) { return percent(s.records.back().coverage); });
   }
-  add("surface seen", [](const SessionSnapshot& s) { return area_text(new_surface(s.records)); });
+  const double seen_here = new_surface(here.records), seen_there = new_surface(there.records);
+  const double most = std::max(seen_here, seen_there);
+  result.push_back({"surface seen", area_text(seen_here, most), area_text(seen_there, most)});
   add("expected to be left", [](const SessionSnapshot& s) {
     const auto& left = s.records.back().surface_left;
     return left ? percent(*left) : std::string("not predicted");

@@ -17,5 +17,11 @@ TEST(AreaText, HasTheUnitThatSuitsIt) {
   EXPECT_EQ(area_text(2.83e7), "2830 m²");
 }
 
+TEST(AreaText, HasTheUnitOfTheLargestThatItStandsBeside) {
+  EXPECT_EQ(area_text(8442.0, 11'200.0), "0.844 m²");
+  EXPECT_EQ(area_text(0.0612, 3.0), "0.0612 cm²");
+  EXPECT_EQ(area_text(0.0612, 0.08), "6.12 mm²");
+}
+
 }  // namespace
 }  // namespace nextview
