@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "core/mesh/confinement.hpp"
+#include "core/mesh/declared_unit.hpp"
 
 namespace nextview {
 namespace {
@@ -93,6 +94,7 @@ ImportedTriangles read_scene(ServedFiles& files) {
   if (!scene) throw failure(importer, files);
   ImportedTriangles all;
   append(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), all);
+  all.unit = declared_unit(files.name.substr(files.name.rfind('.')), files.bytes, *scene);
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mesh/served_files.hpp"
+#include "core/view/length_unit.hpp"
 
 namespace nextview {
 
@@ -12,6 +13,7 @@ namespace nextview {
 struct ImportedTriangles {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  LengthUnit unit = LengthUnit::automatic;  ///< that the file declares, beyond what its type says
 };
 
 /// No file of 1 GiB that anybody has seen holds more.

@@ -74,7 +74,8 @@ void check_coordinates(const ImportedTriangles& mesh) {
         wrong, counted(mesh.vertices.size(), "vertex", "vertices")));
 }
 
-/// What a type of file says that its unit is, as its specification has it or its reader delivers it.
+/// What a type of file says that its unit is where the file does not, as its specification has it or its reader
+/// delivers it.
 LengthUnit unit_of_type(const std::string& extension) {
   const auto is = [&](std::initializer_list<std::string_view> those) { return std::ranges::count(those, extension); };
   if (is({".gltf", ".glb", ".dae", ".x3d"})) return LengthUnit::metres;
@@ -83,8 +84,9 @@ LengthUnit unit_of_type(const std::string& extension) {
   return LengthUnit::automatic;
 }
 
-LengthUnit unit_taken(LengthUnit asked, const std::string& extension, double longest) {
+LengthUnit unit_taken(LengthUnit asked, LengthUnit declared, const std::string& extension, double longest) {
   constexpr double longest_in_metres = 10.0;
+  if (asked == LengthUnit::automatic) asked = declared;
   if (asked == LengthUnit::automatic) asked = unit_of_type(extension);
   if (asked != LengthUnit::automatic) return asked;
   return longest > longest_in_metres ? LengthUnit::millimetres : LengthUnit::metres;
@@ -163,7 +165,7 @@ PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options, co
   check_precision(box);
   const double longest = box.sizes().maxCoeff();
   const bool scaled = options.longest_side > 0.0;
-  const LengthUnit unit = scaled ? LengthUnit::automatic : unit_taken(options.unit, extension, longest);
+  const LengthUnit unit = scaled ? LengthUnit::automatic : unit_taken(options.unit, imported.unit, extension, longest);
   const MeshPlacement placement{options.centred ? box.center() : Eigen::Vector3d::Zero().eval(),
                                 scaled ? options.longest_side / longest : own_scale(longest, unit),
                                 up_taken(options.up, extension)};

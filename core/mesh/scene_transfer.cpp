@@ -10,7 +10,7 @@ namespace {
 
 /// Comes first. Then the message, or the vertices and the triangles.
 struct TransferHeader {
-  std::uint64_t out_of_memory = 0, message = 0, vertices = 0, triangles = 0;
+  std::uint64_t out_of_memory = 0, message = 0, vertices = 0, triangles = 0, unit = 0;
 };
 constexpr std::uint64_t longest_message = 1 << 12;  // [bytes]
 
@@ -53,18 +53,19 @@ bool has_valid_indices(const ImportedTriangles& scene) {
 }  // namespace
 
 void send_scene(int pipe, const ImportedTriangles& scene) {
-  const TransferHeader header = {0, 0, scene.vertices.size(), scene.triangles.size()};
+  const TransferHeader header = {0, 0, scene.vertices.size(), scene.triangles.size(),
+                                 static_cast<std::uint64_t>(scene.unit)};
   send(pipe, &header, sizeof(header)) && send(pipe, scene.vertices) && send(pipe, scene.triangles);
 }
 
 void send_message(int pipe, std::string_view message) {
   message = message.substr(0, longest_message);
-  const TransferHeader header = {0, message.size(), 0, 0};
+  const TransferHeader header = {0, message.size(), 0, 0, 0};
   send(pipe, &header, sizeof(header)) && send(pipe, message.data(), message.size());
 }
 
 void send_out_of_memory(int pipe) {
-  const TransferHeader header = {1, 0, 0, 0};
+  const TransferHeader header = {1, 0, 0, 0, 0};
   send(pipe, &header, sizeof(header));
 }
 
@@ -78,7 +79,9 @@ ReceivedScene receive_scene(ReadingProcess& process) {
   } else if (header.message > 0 && header.message <= longest_message) {
     received.message.resize(header.message);
     if (process.receive(received.message.data(), received.message.size())) received.kind = Kind::message;
-  } else if (header.message == 0 && header.vertices <= max_vertices && header.triangles <= max_triangles) {
+  } else if (header.message == 0 && header.vertices <= max_vertices && header.triangles <= max_triangles &&
+             header.unit <= static_cast<std::uint64_t>(LengthUnit::micrometres)) {
+    received.scene.unit = static_cast<LengthUnit>(header.unit);
     if (receive(process, header.vertices, received.scene.vertices) &&
         receive(process, header.triangles, received.scene.triangles) && has_valid_indices(received.scene))
       received.kind = Kind::scene;

@@ -163,16 +163,17 @@ TEST(SceneTransfer, whatComesIsNotBelieved) {
     const std::array<std::uint32_t, 3> corners = {0, 1, last};
     return std::string(reinterpret_cast<const char*>(corners.data()), sizeof(corners));
   };
-  EXPECT_EQ(received({0, 0, 3, 1}, vertices + triangle(2)), Kind::scene);
-  EXPECT_EQ(received({0, 0, 3, 1}, vertices + triangle(3)), Kind::nothing) << "no such vertex";
-  EXPECT_EQ(received({0, 0, 3, 1}, vertices), Kind::nothing) << "cut short";
+  EXPECT_EQ(received({0, 0, 3, 1, 0}, vertices + triangle(2)), Kind::scene);
+  EXPECT_EQ(received({0, 0, 3, 1, 99}, vertices + triangle(2)), Kind::nothing) << "no such unit";
+  EXPECT_EQ(received({0, 0, 3, 1, 0}, vertices + triangle(3)), Kind::nothing) << "no such vertex";
+  EXPECT_EQ(received({0, 0, 3, 1, 0}, vertices), Kind::nothing) << "cut short";
   EXPECT_EQ(received({0, 0}), Kind::nothing);
   EXPECT_EQ(received({}), Kind::nothing);
-  EXPECT_EQ(received({0, 5, 0, 0}, "hello"), Kind::message);
-  EXPECT_EQ(received({0, ~0ull, 0, 0}, "hello"), Kind::nothing);
-  EXPECT_EQ(received({0, 0, ~0ull, 0}), Kind::nothing);
-  EXPECT_EQ(received({0, 0, 3, ~0ull}, vertices), Kind::nothing);
-  EXPECT_EQ(received({1, 0, 0, 0}), Kind::out_of_memory);
+  EXPECT_EQ(received({0, 5, 0, 0, 0}, "hello"), Kind::message);
+  EXPECT_EQ(received({0, ~0ull, 0, 0, 0}, "hello"), Kind::nothing);
+  EXPECT_EQ(received({0, 0, ~0ull, 0, 0}), Kind::nothing);
+  EXPECT_EQ(received({0, 0, 3, ~0ull, 0}, vertices), Kind::nothing);
+  EXPECT_EQ(received({1, 0, 0, 0, 0}), Kind::out_of_memory);
 }
 
 TEST(SceneTransfer, whatIsAnnouncedAndDoesNotComeTakesNoMemory) {
@@ -184,7 +185,7 @@ TEST(SceneTransfer, whatIsAnnouncedAndDoesNotComeTakesNoMemory) {
   const long before = peak_memory();
   ReadingProcess process(
       [&](int pipe) {
-        const std::uint64_t header[] = {0, 0, 0, max_triangles};
+        const std::uint64_t header[] = {0, 0, 0, max_triangles, 0};
         [[maybe_unused]] const ssize_t sent = ::write(pipe, header, sizeof(header));
         ::pause();
       },

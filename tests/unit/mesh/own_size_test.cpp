@@ -30,6 +30,29 @@ TEST(OwnSize, IsThatOfTheTypesUnit) {
   }
 }
 
+// 3MF and AMF name theirs, FBX has it in centimetres; where they do not, it is that of the type.
+TEST(OwnSize, IsInTheUnitThatTheFileDeclares) {
+  const TemporaryFolder folder;
+  const auto amf = [](const std::string& unit) {
+    std::string text = "<?xml version=\"1.0\"?>\n<amf " + unit + "><object id=\"0\"><mesh><vertices>";
+    for (const auto& c : files::corners)
+      text += fmt::format("<vertex><coordinates><x>{}</x><y>{}</y><z>{}</z></coordinates></vertex>", c[0], c[1], c[2]);
+    text += "</vertices><volume>";
+    for (const auto& f : files::faces)
+      text += fmt::format("<triangle><v1>{}</v1><v2>{}</v2><v3>{}</v3></triangle>", f[0], f[1], f[2]);
+    return text + "</volume></mesh></object></amf>";
+  };
+  for (const auto& [unit, taken] : {std::pair{"unit=\"inch\"", LengthUnit::inches},
+                                    {"unit='meter'", LengthUnit::metres},
+                                    {"unit = \"micron\"", LengthUnit::micrometres},
+                                    {"", LengthUnit::millimetres}})
+    for (const auto& file : {folder.write("t.3mf", files::three_mf(unit)), folder.write("t.amf", amf(unit))}) {
+      EXPECT_EQ(at_own_size(file).unit, taken) << file << unit;
+      EXPECT_NEAR(longest(at_own_size(file)) / metres_per(taken), 4.0, 1e-5) << file << unit;
+      EXPECT_NEAR(longest(at_own_size(file, LengthUnit::centimetres)), 0.04, 1e-6) << "asked for";
+    }
+}
+
 TEST(OwnSize, InGltfIsInMetresHoweverLong) {
   const TemporaryFolder folder;
   folder.write("buffer.bin", files::gltf_buffer());

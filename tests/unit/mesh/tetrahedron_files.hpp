@@ -143,10 +143,11 @@ inline std::string zip(const std::map<std::string, std::string>& files) {
          std::string(2, '\0');
 }
 
-inline std::string three_mf() {
+inline std::string three_mf(const std::string& unit = R"(unit="millimeter")") {
   std::string model =
       R"(<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<model )" +
+      unit + R"( xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
 <resources><object id="1" type="model"><mesh><vertices>)";
   for (const auto& c : corners)
     model += "<vertex x=\"" + std::to_string(c[0]) + "\" y=\"" + std::to_string(c[1]) + "\" z=\"" +
