@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
 #include "app/commands/session_info.hpp"
 #include "core/cloud/point_cloud.hpp"
 #include "core/cloud/range_scan_folder.hpp"
@@ -13,6 +14,7 @@
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
+#include "core/file/gzip_file.hpp"
 #include "core/file/png_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
@@ -213,13 +215,14 @@ std::string toml_info(const fs::path& path) {
 }
 
 std::string info(const fs::path& path) {
-  if (fs::is_directory(path)) return folder_info(path);
+  std::error_code ignored;  // what cannot be looked at is told by who reads it
+  if (fs::is_directory(path, ignored)) return folder_info(path);
   const std::string extension = path.extension().string();
   if (extension == ".ot" || extension == ".bt") return map_info(path);
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".png") return picture_info(path);
   if (extension == ".toml") return toml_info(path);
-  if (extension == ".txt") return text_info(path);
+  if (without_gz(path).extension() == ".txt") return text_info(path);
   const fs::path object = resolve_object(path.string());
   return is_cloud(object) ? cloud_info(object) : mesh_info(object);
 }
@@ -245,7 +248,8 @@ void add_info_command(CLI::App& program) {
                   "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
                   "configuration or study (.toml), picture (.png), "
                   "a folder of results or of recorded data, or gearbox, bunny, …")
-      ->required();
+      ->required()
+      ->check(not_empty());
   auto writes_dataset = std::make_shared<bool>(false);
   app->add_flag(
       "--write-dataset", *writes_dataset,

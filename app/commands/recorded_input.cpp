@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/config/input_files.hpp"
+#include "core/file/gzip_file.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/results/manifest.hpp"
@@ -42,7 +43,7 @@ RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& op
   const Configuration configuration = options.configuration();
   try {
     RefinementJob job = refinement_job(scene, configuration.gibbs, configuration.seed, warn);
-    job.name = fs::absolute(input).lexically_normal().stem().string();
+    job.name = without_gz(fs::absolute(input).lexically_normal()).stem().string();
     job.configuration = configuration;
     job.inputs = recorded_files(input);
     for (const fs::path& file : configuration.read_from) job.inputs.push_back({file, "read as configuration"});

@@ -25,8 +25,13 @@ bool ends_in_one_of(const std::array<std::string_view, N>& endings, const std::f
   return std::ranges::find(endings, file.extension().string()) != endings.end();
 }
 
+/// Scenes may be compressed.
+bool is_scan_file(const std::filesystem::path& file) {
+  return ends_in_one_of(recordings, file) || without_gz(file).extension() == ".txt";
+}
+
 bool is_recording(const std::filesystem::path& input) {
-  if (ends_in_one_of(recordings, input)) return true;
+  if (is_scan_file(input)) return true;
   const bool is_name = std::ranges::find(known_objects(), input.string(),
                                          [](const char* name) { return std::string(name); }) != known_objects().end();
   std::error_code ignored;
@@ -64,7 +69,7 @@ Configuration with_next_input(Configuration configuration, const std::filesystem
 
 std::string not_an_input(const std::filesystem::path& file) {
   const std::filesystem::path unpacked = without_gz(file);
-  if (ends_in_one_of(recordings, file) || ends_in_one_of(others, unpacked)) return "";
+  if (is_scan_file(file) || ends_in_one_of(others, unpacked)) return "";
   return not_a_mesh_type(lower_case_extension(unpacked));
 }
 

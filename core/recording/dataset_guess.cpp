@@ -220,12 +220,12 @@ DescribedDataset described_file(const fs::path& file) {
   const fs::path extension = file.extension();
   if (extension == ".graph" || extension == ".log")
     found.description.format = RecordingFormat::scan_graph;
-  else if (extension == ".txt")
+  else if (without_gz(file).extension() == ".txt")
     found.description.format = RecordingFormat::scene;
   else
-    throw std::runtime_error(
-        fmt::format("{}: is no recording; a folder, a scan graph (.graph, .log), a scene (.txt) or a dataset.toml is",
-                    file.string()));
+    throw std::runtime_error(fmt::format(
+        "{}: is no recording; a folder, a scan graph (.graph, .log), a scene (.txt, .txt.gz) or a dataset.toml is",
+        file.string()));
   return found;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/file/atomic_file.hpp"
+#include "core/file/gzip_file.hpp"
 
 namespace nextview {
 namespace {
@@ -123,7 +123,7 @@ RecordedScan read_scan(LineReader& reader) {
 }  // namespace
 
 RecordedScene read_recorded_scene(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
+  const std::string text = read_plain_or_gzip(file);
   if (text.empty()) throw std::runtime_error(fmt::format("{}: is empty", file.string()));
   LineReader reader(file, text);
   RecordedScene scene;

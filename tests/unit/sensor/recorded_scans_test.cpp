@@ -45,6 +45,10 @@ TEST(RecordedScans, everyPartIsRead) {
   EXPECT_LT((scene.views[1] * Vector3(0, 1, 0) - Vector3(0, -1, 0)).norm(), 1e-12);
 }
 
+TEST(RecordedScans, aCompressedOneIsReadAsItIs) {
+  EXPECT_FALSE(read_recorded_scene(conformance_file("scans1.txt.gz")).scans.empty());
+}
+
 /// The message, after checking that it is one line that begins with the file's name.
 std::string complaint(const std::filesystem::path& file) {
   try {
