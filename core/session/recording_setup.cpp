@@ -222,12 +222,15 @@ std::string alignment_note(const Alignment& alignment, const std::string& mesh_n
   std::string note = fmt::format("{:.0f} % of its points lie on {}, {} from it (root mean square)",
                                  100.0 * alignment.overlap, mesh_name, length_text(alignment.residual));
   if (alignment.overlap >= doubtful) return note;
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& p : scanned) box.extend(p);
+  const auto longest = [&](const auto& points) {  // along the axes that the mesh has in its file
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& p : points) box.extend(alignment.T_surface_cloud * p.cast<double>());
+    return length_text(box.sizes().maxCoeff());
+  };
   return note + fmt::format(
                     "; is it the same object? The scans are {} long, the mesh {}: object.unit or "
                     "object.longest_side sets its size",
-                    length_text(box.sizes().maxCoeff()), length_text(mesh.bounding_box().sizes().maxCoeff()));
+                    longest(scanned), longest(mesh.vertices));
 }
 
 AlignedTruth aligned_truth(const Configuration& c, const PointCloud& scanned, const std::stop_token& stop) {
