@@ -224,7 +224,8 @@ void add_scan_command(CLI::App& program) {
   app->add_option("--resume", arguments->resume,
                   "goes on with the session in this folder, whatever ended it; termination.* may be changed")
       ->type_name("DIR")
-      ->excludes(out);
+      ->excludes(out)
+      ->excludes(app->get_option("OBJECT"));
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");
   app->add_flag("--no-surfaces", arguments->no_surfaces, "make no surfaces: faster");
   app->footer(
