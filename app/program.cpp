@@ -57,7 +57,7 @@ int end(int exit_code) {
 /// The arguments that nothing takes, in the order they were typed in, and what the first mistyped option may be.
 std::string too_much(const CLI::App& program) {
   const std::vector<std::string> words = program.remaining(true);
-  std::vector<std::string> options = {"threads"};
+  std::vector<std::string> options = {"threads", "version", "help"};
   for (const CLI::App* command : program.get_subcommands())
     for (const CLI::Option* option : command->get_options())
       options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
@@ -68,6 +68,14 @@ std::string too_much(const CLI::App& program) {
   std::string name = mistyped->substr(0, mistyped->find('='));
   name.erase(0, name.find_first_not_of('-'));
   return text + fmt::format("; did you mean '--{}'?", nextview::nearest(name, options));
+}
+
+/// What CLI11 says, but for what it says of options as "At Most 1 required but received 2", "1 required INT missing".
+std::string reason_of(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t twice = text.find(": At Most 1 required but received "), without = text.find(": 1 required ");
+  if (twice != text.npos) return text.substr(0, twice) + " is given more than once";
+  return without == text.npos ? text : text.substr(0, without) + " is given no value";
 }
 
 int run(int argc, char** argv) {
@@ -91,7 +99,7 @@ int run(int argc, char** argv) {
     const auto commands = program.get_subcommands();
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
     const bool is_too_much = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError);
-    const std::string reason = is_too_much ? too_much(program) : error.what();
+    const std::string reason = is_too_much ? too_much(program) : reason_of(error);
     return fail(fmt::format("{} nextview {}--help", reason + (reason.ends_with('?') ? " See" : "; see"), command));
   }
   return 0;

@@ -17,6 +17,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/planner/gain_policies.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/setting/rounded.hpp"
 
 namespace nextview {
 namespace {
@@ -32,6 +33,12 @@ std::string beside(const fs::path& file, const std::string& said, bool may_be_fo
   std::error_code ignored;
   const bool is_there = fs::is_regular_file(there, ignored) || (may_be_folder && fs::is_directory(there, ignored));
   return !said.empty() && fs::path(said).is_relative() && is_there ? there.string() : said;
+}
+
+/// What a setting takes that is no text: "a number [m]".
+std::string bare_value(const Setting& setting) {
+  if (std::holds_alternative<bool*>(setting.value)) return "true or false";
+  return setting.unit.empty() ? "a number" : fmt::format("a number [{}]", setting.unit);
 }
 
 /// `all`: the configuration's own settings, which take a while to list.
@@ -108,8 +115,8 @@ class TomlReader {
         std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
     const auto line = node.source().begin.line;
     if (takes_text != node.is_string())
-      throw failure(line,
-                    fmt::format("{} takes {} quotes, as a single value", setting.key, takes_text ? "a text in" : "no"));
+      throw failure(line, takes_text ? fmt::format("{} takes a text in quotes, as a single value", setting.key)
+                                     : fmt::format("{} takes {}, without quotes", setting.key, bare_value(setting)));
     if (const auto* text = node.as_string()) return text->get();
     if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
     if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
@@ -157,7 +164,7 @@ void require_region_cube(const Configuration& c) {
                                         : length_text(rounded_up(edge / most_voxels_along_side)) + " or larger";
   require(voxels >= 1.0 && voxels <= most_voxels_along_side,
           fmt::format("map.region_edge / map.resolution must be from 1 to {} voxels, not {}: make voxels {}",
-                      most_voxels_along_side, voxels, fits));
+                      most_voxels_along_side, rounded(voxels, 6), fits));
 }
 
 void require_region(const Configuration& c) {

@@ -115,10 +115,19 @@ std::string false_glb_claim(std::string_view bytes) {
   return fmt::format("its glTF header claims {} bytes, but the file has {}; it may be truncated", length, bytes.size());
 }
 
+std::string false_3mf_claim(std::string_view bytes) {
+  if (!bytes.starts_with("PK")) return "is no 3MF, which is a ZIP archive";
+  // Its directory is at the end; Assimp says of an archive without one that there is no such file.
+  return bytes.find("PK\5\6") == std::string_view::npos ? "its ZIP archive has no end; it may be truncated" : "";
+}
+
 }  // namespace
 
 std::string false_claim(std::string_view extension, std::string_view bytes) {
   if (is_web_page(bytes)) return "is a web page, not a mesh: the download went wrong; get the file itself";
+  if (extension == ".3mf") return false_3mf_claim(bytes);
+  if (bytes.starts_with("PK\3\4")) return "is a ZIP archive, not a mesh: unpack it, or give a 3MF its own ending";
+  if (bytes.starts_with("\x1f\x8b")) return "is compressed with gzip, which its name must say: end it in .gz";
   if (extension == ".ply") return false_ply_claim(bytes);
   if (extension == ".stl") return false_stl_claim(bytes);
   if (extension == ".off") return false_off_claim(bytes);

@@ -28,8 +28,9 @@ std::string not_a_mesh_type(std::string_view extension) {
   for (const auto& [ending, name] : exact_types)
     if (extension == ending)
       return fmt::format("{} is not a mesh: it holds exact surfaces; export it as STL, OBJ or 3MF", name);
-  return fmt::format(
-      "'{}' is no known mesh file type; use ply, obj, stl, off, 3mf, amf, gltf, glb, dae, fbx, 3ds or x3d", extension);
+  const std::string reason = extension.empty() ? "has no ending that says its type"
+                                               : fmt::format("'{}' is no known mesh file type", extension);
+  return reason + "; use ply, obj, stl, off, 3mf, amf, gltf, glb, dae, fbx, 3ds or x3d";
 }
 
 bool has_companions(std::string_view extension) { return extension == ".gltf" || extension == ".glb"; }

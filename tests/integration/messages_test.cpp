@@ -45,6 +45,8 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   EXPECT_EQ(with("[cloud]\noutlier_neighbours = 0\n"),
             line(file + ":2: cloud.outlier_neighbours must be from 1 to 1000, not 0"));
   EXPECT_EQ(with("[termination]\nviews = 0\n"), line(file + ":2: termination.views must be from 1 to 10000, not 0"));
+  EXPECT_EQ(with("[map]\nresolution = \"2 mm\"\n"),
+            line(file + ":2: map.resolution takes a number [m], without quotes"));
   EXPECT_EQ(with("[views]\ncount = -1\n"), line(file + ":2: views.count must be from 1 to 10000, not -1"));
   EXPECT_EQ(with("[gibbs]\neta_hit = 0\n"), line(file + ":2: gibbs.eta_hit must be over 0 and at most 1000, not 0"));
   EXPECT_EQ(with("[planner]\nray_rows = 0\n"), line(file + ":2: planner.ray_rows must be from 1 to 2000, not 0"));
@@ -101,6 +103,18 @@ TEST_F(Messages, AnObjectThatIsNotThereIsToldWithItsPlace) {
   EXPECT_EQ(complaint(bare + "--config " + file), line(file + ":3: object.file: none.ply" + missing));
   EXPECT_EQ(complaint(bare + "--object.file none.ply"), line("--object.file: none.ply" + missing));
   EXPECT_EQ(complaint(bare + "--config " + file + " other.ply"), line("other.ply" + missing));
+}
+
+TEST_F(Messages, WhatIsGivenTwiceEmptyOrInVainIsToldSo) {
+  EXPECT_EQ(complaint(scan() + "--views 2 --views 3"),
+            line("--views is given more than once; see nextview scan --help"));
+  EXPECT_EQ(complaint(scan() + "--threads"), line("--threads is given no value; see nextview scan --help"));
+  EXPECT_EQ(complaint("info ''"), line("PATH: is empty; give a name, or leave it out; see nextview info --help"));
+  EXPECT_THAT(complaint("scan sphere --resume " + in("out")), HasSubstr("OBJECT excludes --resume"));
+  EXPECT_THAT(complaint("--verion"), HasSubstr("did you mean '--version'?"));
+  fs::create_symlink(in("loop.stl"), in("loop.stl"));
+  EXPECT_EQ(complaint("info " + in("loop.stl")),
+            line(in("loop.stl") + ": cannot be read: Too many levels of symbolic links"));
 }
 
 TEST_F(Messages, HelpTellsTheBounds) {

@@ -196,7 +196,9 @@ TEST_F(ConfigurationFile, SettingsThatDoNotGoTogetherAreAllNamedAsTheyWereGiven)
             ":1: map.hit_decay and map.miss_decay must be 0 with planner.semantics (FILE:2) reference, whose map "
             "knows no range"},
            {"map.region_edge = 1.28\nmap.resolution = 1e-4",
-            ":1: map.region_edge / map.resolution (FILE:2) must be from 1 to 1024 voxels, not 12800"}}) {
+            ":1: map.region_edge / map.resolution (FILE:2) must be from 1 to 1024 voxels, not 12800: make"},
+           {"map.region_edge = 1.28\nmap.resolution = 1e-5",
+            ":1: map.region_edge / map.resolution (FILE:2) must be from 1 to 1024 voxels, not 128000: make"}}) {
     const Configuration bad = read(text);
     std::string expected = "FILE" + reason;
     for (std::size_t at; (at = expected.find("FILE")) != expected.npos;) expected.replace(at, 4, file().string());

@@ -67,8 +67,9 @@ TEST(BrokenMeshFile, emptyUnknownOrTooLarge) {
     EXPECT_THAT(complaint(file, {.largest_file = bytes.size() - 1}), HasSubstr("bytes")) << name;
     EXPECT_EQ(complaint(file, {.largest_file = bytes.size()}), "no complaint") << name;
   }
-  for (const char* name : {"mesh.txt", "mesh", "mesh.ply.bak", "mesh."})
+  for (const char* name : {"mesh.txt", "mesh.ply.bak", "mesh."})
     EXPECT_THAT(complaint(folder.write(name, files::ply_text())), HasSubstr("no known mesh file type")) << name;
+  EXPECT_THAT(complaint(folder.write("mesh", files::ply_text())), HasSubstr("has no ending that says its type"));
 }
 
 TEST(BrokenMeshFile, garbageOfAnyType) {

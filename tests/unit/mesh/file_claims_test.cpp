@@ -75,6 +75,19 @@ TEST(FalseClaim, OfNoMeshIsThatItIsAWebPage) {
       EXPECT_THAT(false_claim(extension, page), HasSubstr("is a web page, not a mesh")) << extension;
 }
 
+TEST(FalseClaim, OfAnArchiveIsThatItIsAMesh) {
+  for (const char* extension : {".stl", ".ply", ".obj", ".amf"})
+    EXPECT_THAT(false_claim(extension, files::three_mf()), HasSubstr("is a ZIP archive, not a mesh")) << extension;
+  EXPECT_THAT(false_claim(".stl", std::string("\x1f\x8b\x08\0 and more", 14)), HasSubstr("end it in .gz"));
+}
+
+TEST(FalseClaim, OfA3mfIsThatItIsAWholeArchive) {
+  const std::string whole = files::three_mf();
+  EXPECT_EQ(false_claim(".3mf", whole), "");
+  EXPECT_THAT(false_claim(".3mf", whole.substr(0, 400)), HasSubstr("may be truncated"));
+  EXPECT_EQ(false_claim(".3mf", files::stl_text()), "is no 3MF, which is a ZIP archive");
+}
+
 TEST(FalseClaim, OfGlbIsThatAllOfItIsThere) {
   const std::string whole = files::glb();
   EXPECT_EQ(false_claim(".glb", whole + "more"), "");
