@@ -118,6 +118,8 @@ Configuration ConfigurationOptions::with_object() const {
     const std::string folder = configuration.recorded.folder;
     configuration.recorded = recorded;
     configuration.recorded.folder = folder;
+  } else if (given_.contains("recorded.truth")) {
+    configuration.recorded.truth = recorded.truth;  // to be refused
   }
   return configuration;
 }

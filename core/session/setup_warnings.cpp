@@ -11,6 +11,7 @@
 #include "core/mesh/surface_samples.hpp"
 #include "core/planner/policy.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {
@@ -81,8 +82,6 @@ Standing standing(const Configuration& c, const TriangleMesh& object, std::span<
   return s;
 }
 
-std::string metres(double length) { return fmt::format("{:.3g} m", length); }
-
 }  // namespace
 
 std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMesh& object,
@@ -101,17 +100,17 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
   };
   warn(s.inside, fmt::format("inside the object, where nothing of its outside is seen; it reaches {} from its centre: "
                              "change {} ({}), or scale it with object.longest_side",
-                             metres(reach), stand, from_file ? c.views.file : metres(c.views.radius)));
+                             length_text(reach), stand, from_file ? c.views.file : length_text(c.views.radius)));
   warn(s.near, fmt::format("nearer to the object than sensor.min_range ({}), which gives no range; the nearest is {} "
                            "off: lower sensor.min_range, or change {}",
-                           metres(c.sensor.min_range), metres(s.nearest), stand));
+                           length_text(c.sensor.min_range), length_text(s.nearest), stand));
   warn(s.far, fmt::format("farther from the object than sensor.max_range ({}), where nothing is seen; the farthest is "
                           "{} off: raise sensor.max_range, or change {}",
-                          metres(c.sensor.max_range), metres(s.farthest), stand));
+                          length_text(c.sensor.max_range), length_text(s.farthest), stand));
   if (!policy_entry(c.planner.gain).baseline)
     warn(s.beyond_rays, fmt::format("scored by rays that end before the object: planner.ray_length is {}, and it is up "
                                     "to {} off: raise planner.ray_length",
-                                    metres(c.planner.ray_length), metres(s.farthest)));
+                                    length_text(c.planner.ray_length), length_text(s.farthest)));
   if (s.inside < s.views && s.max_in_image < min_in_image)
     warnings.push_back(
         fmt::format("no view has more than {:.0f} % of the object in its image: widen "
@@ -122,10 +121,10 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
                              "sensor.field_of_view ({:g} deg)",
                              stand, c.sensor.field_of_view));
   if (longest < min_voxels * c.map.resolution)
-    warnings.push_back(
-        fmt::format("voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: lower "
-                    "map.resolution, for example to {}",
-                    metres(c.map.resolution), metres(longest), longest / c.map.resolution, metres(longest / 50.0)));
+    warnings.push_back(fmt::format(
+        "voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: lower "
+        "map.resolution, for example to {}",
+        length_text(c.map.resolution), length_text(longest), longest / c.map.resolution, length_text(longest / 50.0)));
   if (!c.views.file.empty() && !from_file)
     warnings.push_back("views.file is not read: views.layout must be file for that");
   for (std::string& warning : warnings) warning = c.as_given(warning);

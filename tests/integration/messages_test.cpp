@@ -111,6 +111,7 @@ TEST_F(Messages, WhatIsGivenTwiceEmptyOrInVainIsToldSo) {
   EXPECT_EQ(complaint(scan() + "--threads"), line("--threads is given no value; see nextview scan --help"));
   EXPECT_EQ(complaint("info ''"), line("PATH: is empty; give a name, or leave it out; see nextview info --help"));
   EXPECT_THAT(complaint("scan sphere --resume " + in("out")), HasSubstr("OBJECT excludes --resume"));
+  EXPECT_THAT(complaint(scan() + "--truth part.stl"), HasSubstr("only recorded scans are compared with a mesh"));
   EXPECT_THAT(complaint("--verion"), HasSubstr("did you mean '--version'?"));
   fs::create_symlink(in("loop.stl"), in("loop.stl"));
   EXPECT_EQ(complaint("info " + in("loop.stl")),

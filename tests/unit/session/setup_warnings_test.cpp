@@ -44,7 +44,7 @@ TEST(SetupWarnings, CamerasInsideTheObject) {
   Configuration c;
   c.views.radius = 0.2;
   EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("49 of 49 views"), HasSubstr("inside the object"),
-                                                  HasSubstr("views.radius (0.2 m)"), HasSubstr("0.4"))));
+                                                  HasSubstr("views.radius (200 mm)"), HasSubstr("it reaches 4"))));
 }
 
 TEST(SetupWarnings, AViewsFileThatIsNotRead) {
@@ -56,8 +56,8 @@ TEST(SetupWarnings, AViewsFileThatIsNotRead) {
 TEST(SetupWarnings, CamerasThatAreTooNear) {
   Configuration c;
   c.views.radius = 0.25 + 0.19;
-  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("49 of 49 views"), HasSubstr("sensor.min_range (0.2 m)"),
-                                                  HasSubstr("0.19"), HasSubstr("views.radius"))));
+  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("49 of 49 views"), HasSubstr("sensor.min_range (200 mm)"),
+                                                  HasSubstr("the nearest is 19"), HasSubstr("views.radius"))));
   c.views.radius = 0.25 + 0.21;
   EXPECT_THAT(of_the_sphere(c), IsEmpty());
 }
@@ -75,7 +75,7 @@ TEST(SetupWarnings, CamerasThatAreTooFar) {
 TEST(SetupWarnings, ScoringRaysThatEndBeforeTheObject) {
   Configuration c;
   c.planner.ray_length = 0.6;
-  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("planner.ray_length is 0.6 m"), HasSubstr("up to 0.65"))));
+  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("planner.ray_length is 600 mm"), HasSubstr("up to 65"))));
   c.planner.gain = "random";  // casts none
   EXPECT_THAT(of_the_sphere(c), IsEmpty());
 }
@@ -83,7 +83,7 @@ TEST(SetupWarnings, ScoringRaysThatEndBeforeTheObject) {
 TEST(SetupWarnings, VoxelsAsCoarseAsTheObject) {
   Configuration c;
   c.map.resolution = 0.2;
-  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("voxels of 0.2 m"), HasSubstr("0.5 m long"),
+  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("voxels of 200 mm"), HasSubstr("500 mm long"),
                                                   HasSubstr("2.5 of them"), HasSubstr("map.resolution"))));
   c.map.resolution = 0.05;
   EXPECT_THAT(of_the_sphere(c), IsEmpty());
