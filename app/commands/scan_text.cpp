@@ -120,10 +120,10 @@ void print_end(const Session& session) {
         100.0 * last.coverage, length_text(session.configuration().evaluation.d_reg), 100.0 * last.coverage_paper);
   else if (session.known_object())
     fmt::print(
-        "* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {:g} mm; "
-        "of all the\n"
+        "* within 3 voxels of the surface. Coverage: of the surface that some candidate can see, at d_reg = {}; of all "
+        "the\n"
         "  surface {:.1f} %; at the paper's 0.5 mm {:.1f} %.\n",
-        1e3 * session.configuration().evaluation.d_reg, 100.0 * last.coverage, 100.0 * last.coverage_paper);
+        length_text(session.configuration().evaluation.d_reg), 100.0 * last.coverage, 100.0 * last.coverage_paper);
   if (session.setup().recorded) print_orders(session);
   if (last.coverage_any_pose)
     fmt::print("  Of the surface that any pose could see {:.1f} %.\n", 100.0 * *last.coverage_any_pose);

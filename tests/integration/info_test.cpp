@@ -132,8 +132,9 @@ TEST(Info, WhatCannotBeReadIsALineAndTheRestIsTold) {
 TEST(OwnSize, APartInMillimetresIsScannedAsLargeAsItIs) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
-  const Result run = nextview("scan " + scaled_box(folder.path(), 183.0).string() + " " + quick + "--out " + out);
+  const Result run = nextview("scan " + scaled_box(folder.path(), 183.00123).string() + " " + quick + "--out " + out);
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("at d_reg = 0.915 mm")) << "as in its second line, though it is 0.915006";
   EXPECT_THAT(run.out, AllOf(HasSubstr("91.5 x 54.9 x 18.3 mm (its unit taken as mm)"), HasSubstr("voxels 2 mm")));
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& point : read_ply(folder.path() / "out" / "cloud.ply")) box.extend(point);
