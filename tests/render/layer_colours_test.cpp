@@ -145,14 +145,14 @@ TEST(ViewsLayer, AScaleIsExplainedWhereACandidateHasItsColours) {
     picture.scores = scores;
     picture.hidden = hidden;
     scene.views().show(picture);
-    EXPECT_EQ(scene.views().legends().at(0).title, picture.score_name);
+    EXPECT_EQ(scene.views().legends().front().title, picture.score_name);
     picture.chosen = 0;
     scene.views().show(picture);
-    EXPECT_EQ(scene.views().legends().at(0).title, "views") << "the only one that is drawn is the chosen one";
+    EXPECT_EQ(scene.views().legends().front().title, "views") << "the only one that is drawn is the chosen one";
     const std::array<std::size_t, 1> taken{0};
     picture.chosen.reset(), picture.taken = taken;
     scene.views().show(picture);
-    EXPECT_EQ(scene.views().legends().at(0).title, "views") << "the only one that is drawn was taken";
+    EXPECT_EQ(scene.views().legends().front().title, "views") << "the only one that is drawn was taken";
   });
 }
 
