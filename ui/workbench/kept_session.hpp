@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/file/same_file.hpp"
 #include "core/session/camera_bookmarks.hpp"
 #include "core/session/session_folder.hpp"
 
@@ -41,6 +42,9 @@ class KeptSession {
   void set_cameras(std::vector<CameraBookmark> cameras);
   /// Null if it is kept nowhere.
   SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
+  bool is_in(const std::filesystem::path& folder) const {
+    return folder_ && folder_->keeps() && same_file(folder_->path(), folder);
+  }
   /// What is kept, wherever; null if nothing is.
   SessionFolder* record() { return folder_ ? &*folder_ : nullptr; }
   /// Makes another folder one of the same session, also where this one is in memory alone. Nothing without captures.

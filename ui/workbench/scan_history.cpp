@@ -60,6 +60,20 @@ HistoryEntry ScanHistory::travel(Entries& from, Entries& to, HistoryEntry now, s
   return entry;
 }
 
+std::optional<HistoryEntry> ScanHistory::left_in(const std::filesystem::path& folder, const Progress& progress,
+                                                 const std::stop_token& stop) const {
+  for (const Entries* entries : {&redo_, &undo_})
+    for (const HistoryEntry& entry : *entries) {
+      if (!entry.kept->is_in(folder)) continue;
+      StepTree& tree = *entry.tree;
+      HistoryEntry left{entry.session, entry.scanner, entry.kept,           entry.tree,
+                        tree.at,       tree.branches, *tree.stand(tree.at), entry.kept->cameras()};
+      bring_back_maps(*left.session, tree, left.at, left.stand, progress, stop);
+      return left;
+    }
+  return std::nullopt;
+}
+
 void ScanHistory::bring_back_maps(const Session& session, const StepTree& tree, std::uint32_t number,
                                   const Stand& stand, const Progress& progress, const std::stop_token& stop) {
   if (stand.state->has_maps) return;

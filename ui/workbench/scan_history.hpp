@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/session/driver_setup.hpp"
@@ -46,6 +48,11 @@ class ScanHistory {
   /// @throws Stopped; then nothing has changed. @pre can_undo(), can_redo()
   HistoryEntry undo(HistoryEntry now, std::size_t limit, const Progress& progress, const std::stop_token& stop);
   HistoryEntry redo(HistoryEntry now, std::size_t limit, const Progress& progress, const std::stop_token& stop);
+
+  /// The session that is kept in this folder, where it stood when it was left; with its maps. None if no state is its.
+  /// @throws Stopped
+  std::optional<HistoryEntry> left_in(const std::filesystem::path& folder, const Progress& progress,
+                                      const std::stop_token& stop) const;
 
   /// The states lose their maps, the oldest first, until they take no more; `now` keeps its own.
   void keep_within(std::size_t limit, const ScanState* now);

@@ -5,7 +5,6 @@
 
 #include "core/config/object_lengths.hpp"
 #include "core/config/opened_input.hpp"
-#include "core/file/same_file.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/driver_setup.hpp"
@@ -14,9 +13,7 @@
 
 namespace nextview {
 
-bool SessionRunner::is_own(const std::filesystem::path& folder) const {
-  return kept_ && kept_->folder() && same_file(kept_->folder()->path(), folder);
-}
+bool SessionRunner::is_own(const std::filesystem::path& folder) const { return kept_ && kept_->is_in(folder); }
 
 SessionRunner::~SessionRunner() {
   if (kept_) kept_->close(session_.get());

@@ -31,6 +31,10 @@ void look_at_each_view(Session& session, const SavedSession& saved, const std::f
 /// It goes on where it stands, in its own folder. Each of its views can be undone.
 void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
   if (is_own(folder)) throw std::invalid_argument(folder.string() + ": is the session that is open");
+  if (std::optional<HistoryEntry> left = history_.left_in(folder, control.progress, control.stop)) {
+    history_.push(now(), left->stand.state.get(), ScanHistory::limit(left->session->configuration()));
+    return adopt(*std::move(left));  // it is this program that writes it: nobody could go on with it who read it
+  }
   const auto shared = std::make_shared<SavedSession>(read_session(folder));
   SavedSession& saved = *shared;
   const Configuration& c = saved.configuration;
@@ -72,8 +76,9 @@ void SessionRunner::compare_what_is_shown() {
 }
 
 void SessionRunner::tell_notices(const SavedSession& saved, std::size_t first) const {
+  const std::string folder = saved.folder.string();
   for (std::size_t k = first; notice_ && k < saved.notices.size(); ++k)
-    notice_(saved.folder.string() + ": " + saved.notices[k]);
+    notice_(saved.notices[k].starts_with(folder) ? saved.notices[k] : folder + ": " + saved.notices[k]);
 }
 
 /// With the end that was set there, too.

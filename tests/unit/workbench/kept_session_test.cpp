@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST_F(KeptSessionTest, IsThereFromTheFirstViewOn) {
   auto first = runner();
@@ -52,12 +53,30 @@ TEST_F(KeptSessionTest, ASecondProgramShowsItAndSaysThatNothingIsKept) {
   first->load(small_scan(), job_control());
   steps(*first, 2);
   second->open(kept().front(), job_control());
-  EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("another program")));
+  EXPECT_THAT(notices_, testing::ElementsAre(StartsWith(kept().front().string() + ": another program")));
   steps(*second, 1);
   EXPECT_EQ(second->snapshot()->records.size(), 3u);
   EXPECT_EQ(first->snapshot()->records.size(), 2u);
   EXPECT_EQ(read_journal(kept().front()).line().size(), 2u);
   EXPECT_EQ(kept().size(), 1u);
+}
+
+TEST_F(KeptSessionTest, OneThatWasLeftIsOpenedAgainAndGoneOnWith) {
+  auto runner = this->runner();
+  runner->load(small_scan(), job_control());
+  steps(*runner, 2);
+  const fs::path folder = kept().front();
+  const auto was = runner->snapshot();
+  runner->load(small_scan(), job_control());
+  steps(*runner, 1);
+  runner->open(folder, job_control());
+  expect_same_scan(*was, *runner->snapshot());
+  EXPECT_THAT(notices_, testing::IsEmpty()) << "no other program writes it";
+  steps(*runner, 1);
+  EXPECT_EQ(read_journal(folder).line().size(), 3u);
+  runner->undo(job_control());
+  runner->undo(job_control());
+  EXPECT_EQ(runner->snapshot()->records.size(), 1u) << "the session that was left for it";
 }
 
 TEST_F(KeptSessionTest, WhatIsExportedIsASession) {
