@@ -58,11 +58,11 @@ class Commands : public InTemporaryFolder {
   /// Does these lines, each of which must be done, and looks at the window.
   void walk(User& user, const std::string& lines) {
     SCOPED_TRACE(lines);
-    const std::size_t before = user.worker().log().count();
+    const std::size_t before = user.worker().log().told().count;
     for (const CommandCall& call : parse_script(lines)) walked_.insert(call.command->name);
     user.run(lines);
     const auto log = *user.worker().log().entries();
-    for (std::size_t i = log.size() - (user.worker().log().count() - before); i < log.size(); ++i)
+    for (std::size_t i = log.size() - (user.worker().log().told().count - before); i < log.size(); ++i)
       for (const CommandCall& call : parse_script(lines))
         EXPECT_FALSE(log[i].text.starts_with(call.command->name + ": ")) << log[i].text;
     EXPECT_EQ(user.session().message, "");

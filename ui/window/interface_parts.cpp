@@ -43,10 +43,10 @@ void Interface::Parts::take_input() {
   for (const InputEvent& event : events) {
     if (std::holds_alternative<input::Expose>(event)) composer.forget();
     if (const auto* drop = std::get_if<input::Drop>(&event)) {
-      if (drop->count > 1)
+      do_for_people(command::open(drop->file.string()));
+      if (drop->count > 1)  // once it opens: what was said before is of the object before
         worker.log().add(LogEntry::Level::warning, fmt::format("{} files were dropped: one is opened, {}", drop->count,
                                                                drop->file.filename().string()));
-      do_for_people(command::open(drop->file.string()));
     }
   }
 }
@@ -118,14 +118,13 @@ void Interface::Parts::draw_interface(double seconds) {
   std::vector<CommandCall> calls;
   std::optional<std::size_t> hovered;
   const WorkerProgress shown = asked_call.with_question(progress());
-  const PanelContext context{*news.snapshot,       shown,    state, *news.inspection, *news.log,
-                             host.style(),         pictures, calls, hovered,          news.surface.get(),
-                             news.surface_progress};
+  const PanelContext context{*news.snapshot, shown, state,   *news.inspection,   *news.log.entries,    host.style(),
+                             pictures,       calls, hovered, news.surface.get(), news.surface_progress};
   state.scene_camera = view.camera_pose();
   point_at(ImGui::GetIO().MousePos);
   panels.obey_keys(context);
   follow_pointer(context, seconds);
-  panels.draw(context, layout, worker.log().count(), seconds);
+  panels.draw(context, layout, news.log.count, seconds);
   splitters.draw(context, layout);
   if (!news.progress.doubtful) {
     draw_selection_overlay(view, context);

@@ -23,7 +23,7 @@ struct News {
   std::shared_ptr<const SessionSnapshot> snapshot;
   WorkerProgress progress;
   std::shared_ptr<const Inspection> inspection;
-  std::shared_ptr<const SessionLog::Entries> log;
+  SessionLog::Told log;
   std::shared_ptr<const FoundSurface> surface;
   std::optional<SurfaceJob> surface_progress;
 
@@ -90,8 +90,8 @@ struct Interface::Parts {
   std::optional<PictureSize> size_before;  ///< of the target, while a picture of the window is drawn in another size
 
   News latest() const {
-    return {worker.snapshot(),      worker.progress(),   inspector.answer(),
-            worker.log().entries(), inspector.surface(), inspector.surface_progress()};
+    return {worker.snapshot(),   worker.progress(),   inspector.answer(),
+            worker.log().told(), inspector.surface(), inspector.surface_progress()};
   }
   bool works() const;
   bool at_rest() const;

@@ -4,21 +4,15 @@ namespace nextview {
 
 void SessionLog::add(LogEntry::Level level, std::string text) {
   const std::lock_guard lock(mutex_);
-  Entries entries = *entries_;
+  Entries entries = *told_.entries;
   if (entries.size() == most) entries.erase(entries.begin());
   entries.push_back({level, std::move(text)});
-  entries_ = std::make_shared<const Entries>(std::move(entries));
-  ++count_;
+  told_ = {std::make_shared<const Entries>(std::move(entries)), told_.count + 1};
 }
 
-std::shared_ptr<const SessionLog::Entries> SessionLog::entries() const {
+SessionLog::Told SessionLog::told() const {
   const std::lock_guard lock(mutex_);
-  return entries_;
-}
-
-std::size_t SessionLog::count() const {
-  const std::lock_guard lock(mutex_);
-  return count_;
+  return told_;
 }
 
 }  // namespace nextview

@@ -16,17 +16,24 @@ struct LogEntry {
 class SessionLog {
  public:
   using Entries = std::vector<LogEntry>;
+  /// Both of one moment: only so does the count say which entries are new.
+  struct Told {
+    std::shared_ptr<const Entries> entries =
+        std::make_shared<Entries>();  ///< never null, never changes; the last `most`
+    std::size_t count = 0;            ///< of all that were added
+
+    bool operator==(const Told&) const = default;
+  };
 
   void add(LogEntry::Level level, std::string text);
-  std::shared_ptr<const Entries> entries() const;  ///< never null, never changes; the last `most` of them
-  std::size_t count() const;                       ///< of all that were added
+  Told told() const;
+  std::shared_ptr<const Entries> entries() const { return told().entries; }
 
   static constexpr std::size_t most = 500;
 
  private:
   mutable std::mutex mutex_;
-  std::size_t count_ = 0;
-  std::shared_ptr<const Entries> entries_ = std::make_shared<Entries>();
+  Told told_;
 };
 
 }  // namespace nextview

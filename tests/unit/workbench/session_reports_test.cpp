@@ -109,7 +109,7 @@ TEST(SessionLog, KeepsTheLatestAndCountsAll) {
   ASSERT_EQ(entries->size(), SessionLog::most);
   EXPECT_EQ(entries->front().text, "3");
   EXPECT_EQ(entries->back().text, "502");
-  EXPECT_EQ(log.count(), 503u);
+  EXPECT_EQ(log.told().count, 503u);
 }
 
 /// Each run, told apart by its entropies, in the order in which they were made; of too many the oldest go.
