@@ -183,6 +183,22 @@ TEST_F(Demos, WhatOneLeavesAwayComesBackAtItsEnd) {
   EXPECT_TRUE(layers.legends && layers.views && layers.rays);
 }
 
+TEST_F(Demos, WhatOneEndsWithStaysUntilTheNextObject) {
+  User user(tiny_scan(), 320, 180, 0.25);
+  user.window().play_demo(demo("open box\nstep\ntoggle-octree\ntoggle-cloud\ncloud-colour distance\n"
+                               "object-style solid\n")
+                              .calls);
+  user.wait();
+  const LayerChoice& layers = user.window().state().layers;
+  ASSERT_FALSE(user.window().state().presentation.demo);
+  EXPECT_TRUE(layers.cloud && !layers.octree) << "that is what was shown";
+  user.run("open sphere\n");
+  EXPECT_TRUE(layers.octree && !layers.cloud);
+  EXPECT_EQ(layers.object_style, MeshStyle::ghost);
+  EXPECT_EQ(layers.cloud_colouring, CloudColouring::single);
+  EXPECT_EQ(user.window().state().history.lines.back(), "cloud-colour single") << "a recording has it, too";
+}
+
 TEST_F(Demos, MistakesNameTheirLine) {
   const std::string file = (folder_ / "demo.nextview").string();
   EXPECT_EQ(error_of("wait 1\nwiat 1\n"), file + ":2: there is no command 'wiat'; did you mean 'wait'?");

@@ -81,8 +81,8 @@ void Palette::run(const PanelContext& context) {
     const Command& command = *call.command;
     const std::string reason = command.why_not_now(context.state());
     if (!reason.empty()) throw std::invalid_argument(reason);
+    if (&command != &command::palette) context.post(command::palette());  // before a demo, which begins without it
     context.post(std::move(call));
-    if (&command != &command::palette) context.post(command::palette());
   } catch (const std::invalid_argument& error) {
     error_ = error.what();
   }

@@ -103,6 +103,7 @@ void Interface::Parts::follow_session() {
     state.selection = {};
     camera_moved = false;
     framing = camera_motion::Frame{};
+    if (std::exchange(layers_are_of_demo, false)) leave_layers_of_demo();
     if (std::exchange(object, s.object_name) != s.object_name) {  // what was cut there may not even be here
       state.layers.section.reset();
       state.layers.voxels.slice.reset();

@@ -80,6 +80,7 @@ struct Interface::Parts {
   double motion_began = 0;                         ///< in the operator's time [s]
   bool dragged = false;                            ///< by the pointer, since it was at rest
   std::optional<CameraCourse> course;              ///< of the flight that is under way
+  bool layers_are_of_demo = false;                 ///< which has ended, and whose object is still there
   bool rested = false;                             ///< nothing ran at the begin of the last frame
   DrawingQuality quality = DrawingQuality::still;  ///< that the scene is drawn with
   bool scene_is_old = true;
@@ -101,6 +102,7 @@ struct Interface::Parts {
   void fly(double seconds);
   std::vector<InputEvent> input_beside_demo(const std::vector<InputEvent>& events);
   void take_over();
+  void leave_layers_of_demo();
   void play(const std::string& demo);
   void record(const CommandCall& call, std::uint64_t request, bool playing);
   void record_done();

@@ -75,10 +75,30 @@ void Interface::Parts::take_over() {
   script.stop();
   state.presentation = {};
   course.reset();
+  layers_are_of_demo = true;
   if (state.panels_hidden) do_call(command::hide_panels());
   if (!state.layers.legends) do_call(command::toggle_legends());
   if (!state.layers.views) do_call(command::toggle_views());
   if (!state.layers.rays) do_call(command::toggle_rays());
+}
+
+/// What a demo ended with stays in sight as long as its object is there; who opens the next one begins as usual.
+void Interface::Parts::leave_layers_of_demo() {
+  const LayerChoice usual;
+  const LayerChoice& now = state.layers;
+  const auto set_back = [&](const CommandOf<>& toggle, bool LayerChoice::*shown) {
+    if (now.*shown != usual.*shown) do_call(toggle());
+  };
+  set_back(command::toggle_missed, &LayerChoice::missed);  // these two switch others
+  set_back(command::toggle_surface, &LayerChoice::surface);
+  set_back(command::toggle_object, &LayerChoice::object);
+  set_back(command::toggle_octree, &LayerChoice::octree);
+  set_back(command::toggle_cloud, &LayerChoice::cloud);
+  set_back(command::toggle_candidates, &LayerChoice::all_candidates);
+  if (now.object_style != usual.object_style) do_call(command::object_style(usual.object_style));
+  if (now.cloud_colouring != usual.cloud_colouring) do_call(command::cloud_colour(usual.cloud_colouring));
+  if (now.map != usual.map) do_call(command::voxel_map(usual.map));
+  if (now.colouring != usual.colouring) do_call(command::voxel_colour(usual.colouring));
 }
 
 /// From nothing: with the window and the settings as they are at first.
@@ -97,6 +117,7 @@ void Interface::Parts::play(const std::string& demo) {
   state = std::move(first);
   recorder.begin_with_nothing();
   course.reset();
+  layers_are_of_demo = false;
   script.stop();
   script.add(std::move(calls));
 }

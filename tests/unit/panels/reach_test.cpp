@@ -126,7 +126,7 @@ TEST(Reach, EveryCommandThroughThePalette) {
       calls = desk.frames();
     }
     ASSERT_FALSE(calls.empty()) << command.name << " " << values;
-    EXPECT_EQ(calls.front().text(), command.name + (values.empty() ? "" : " " + values));
+    EXPECT_EQ(calls.back().text(), command.name + (values.empty() ? "" : " " + values));
     desk.window = before;
     desk.frames();
   }
