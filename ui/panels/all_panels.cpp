@@ -100,13 +100,14 @@ void obey_answers(const PanelContext& context) {
 
 void AllPanels::obey_keys(const PanelContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool is_typing = io.WantTextInput || context.window.palette_open || !context.window.file_for.empty();
+  const bool is_covered = context.window.palette_open || !context.window.file_for.empty();  // a question, by these
   if (popups_ > 0) {
     ImGuiContext& imgui = *ImGui::GetCurrentContext();
     if (!pressed(Key::escape)) return;
     if (imgui.OpenPopupStack.Size == popups_) ImGui::ClosePopupToLevel(popups_ - 1, true);
     imgui.NavDisableMouseHover = true;  // until the pointer moves: a menu within a menu would open again beneath it
-  } else if (!context.progress.question.empty() && (pressed(Key::escape) || (pressed(Key::enter) && !is_typing))) {
+  } else if (!context.progress.question.empty() && !is_covered &&
+             (pressed(Key::escape) || (pressed(Key::enter) && !io.WantTextInput))) {
     obey_answers(context);
   } else if (!context.window.file_for.empty()) {
     if (pressed(Key::escape)) context.post(command::file_dialog());

@@ -20,7 +20,7 @@ class AllPanels {
   /// `log_count`: of all entries ever; `seconds`: since the last frame.
   void draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds);
   /// Emits the commands whose keys are pressed, before draw(). Whatever is in front has the keyboard: a menu or a list,
-  /// then a question, the file dialog, the palette, the sheet of keys, the manual, a text that is written; Escape
+  /// then the file dialog, the palette, a question, the sheet of keys, the manual, a text that is written; Escape
   /// closes it, and no other key does anything else.
   void obey_keys(const PanelContext& context);
   /// How long the picture stays as it is if nothing happens [s].

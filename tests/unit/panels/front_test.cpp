@@ -88,6 +88,20 @@ TEST(Front, AQuestionIsAnsweredFirst) {
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
 }
 
+/// The palette lies over the question: whoever closes it has not answered.
+TEST(Front, EscapeClosesThePaletteBeforeItAnswers) {
+  Desk desk;
+  open_all_ways(desk);
+  desk.progress.question = "Move the robot?";
+  desk.progress.answers = {"Move", "Cancel"};
+  desk.window.palette_open = true;
+  desk.frames();
+  desk.type(Key::escape);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"palette"});
+  desk.type(Key::escape);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
+}
+
 /// Letters that were meant for something else must not act on a session that is about to be replaced.
 TEST(Front, WhileAnotherSessionIsOpenedNothingIsDoneToThisOne) {
   Desk desk;
