@@ -66,10 +66,7 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
   ImGui::TableNextColumn();
   if (!c.available) {
     const int step = step_of(s, candidate);
-    const std::string view = fmt::format("view {}", step), taken = "taken, " + view;
-    const float room = ImGui::GetContentRegionAvail().x + ImGui::GetStyle().CellPadding.x;
-    const bool has_room = ImGui::CalcTextSize(taken.c_str()).x <= room;
-    ImGui::TextUnformatted(step == 0 ? "not reachable" : has_room ? taken.c_str() : view.c_str());
+    ImGui::TextUnformatted(step == 0 ? "not reachable" : fmt::format("view {}", step).c_str());
     if (step == 0) tooltip(c.unreachable);
     return;
   }

@@ -43,7 +43,7 @@ class CandidatesPanel : public testing::Test {
 
 TEST_F(CandidatesPanel, EachNumberStandsInItsColumnWithItsUnit) {
   EXPECT_THAT(rows(), ElementsAre("6 160 0.75 0.2000", "1 40 0.25 0.0500", "3 20 2.00 0.0200", "0 10 0.50 0.0100",
-                                  "7 5 1.50 -0.0300", "4 80 1.00 -0.1000", "5 taken, view 2", "2 not reachable"));
+                                  "7 5 1.50 -0.0300", "4 80 1.00 -0.1000", "5 view 2", "2 not reachable"));
   EXPECT_THAT(panel(), HasSubstr("candidate gain [nats] cost [m] utility"));
   EXPECT_THAT(panel(), HasSubstr("ranked by occlusion-aware"));
   scan_->gain_unit = "";
