@@ -56,10 +56,13 @@ Configuration with_input(Configuration configuration, const std::filesystem::pat
   return configuration;
 }
 
+bool carries_settings(const std::filesystem::path& file) {
+  return file.extension() == ".toml" || file.extension() == ".png";
+}
+
 Configuration with_next_input(Configuration configuration, const std::filesystem::path& input) {
-  const bool has_settings = input.extension() == ".toml" || input.extension() == ".png";
   ObjectConfig& object = configuration.object;
-  if (!has_settings && input != object.file && !same_file(input, object.file)) {
+  if (!carries_settings(input) && input != object.file && !same_file(input, object.file)) {
     object.unit = LengthUnit::automatic;
     object.up = UpAxis::automatic;
     for (const char* key : {"object.unit", "object.up"}) configuration.sources.erase(key);

@@ -12,6 +12,9 @@ namespace nextview {
 /// this one. @throws std::runtime_error "file:line: reason" for a .toml
 Configuration with_input(Configuration configuration, const std::filesystem::path& input);
 
+/// The file holds settings, not what is scanned.
+bool carries_settings(const std::filesystem::path& file);
+
 /// The same after another object: what was set of that one's file, its unit and its axis upwards, holds of no other.
 Configuration with_next_input(Configuration configuration, const std::filesystem::path& input);
 

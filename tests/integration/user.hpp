@@ -56,7 +56,7 @@ class User {
     interface_.run_script(parse_script(script));
     wait();
   }
-  void drop(const std::filesystem::path& file) { interface_.push(input::Drop{file}); }
+  void drop(const std::filesystem::path& file, std::size_t count = 1) { interface_.push(input::Drop{file, count}); }
 
   Image look() { return target_.read_back(); }
   const SessionSnapshot& session() {

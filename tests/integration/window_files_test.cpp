@@ -1,5 +1,6 @@
 // Pictures and scripts that the window writes and plays.
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include "core/file/atomic_file.hpp"
 #include "tests/integration/small_scan.hpp"
@@ -55,6 +56,46 @@ TEST_F(WindowFiles, LinesOfAScriptThatFailAreToldAndTheOthersDone) {
   EXPECT_EQ(failures[5].substr(0, 7), "11 set:");
   EXPECT_EQ(user.session().records.size(), 2u);
   EXPECT_TRUE(user.window().script_is_done());
+}
+
+TEST_F(WindowFiles, OfSeveralFilesThatAreDroppedItIsSaidWhichIsOpened) {
+  User user(small_scan());
+  user.wait();
+  user.drop("sphere", 2);
+  user.wait();
+  EXPECT_EQ(user.session().object_name, "sphere");
+  const ImGuiWindow* const notes = ImGui::FindWindowByName("Notifications");
+  EXPECT_TRUE(notes && notes->WasActive) << "it went with what was said of the object before";
+}
+
+TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
+  User user(small_scan());
+  user.run("step\nstep\n");
+  write_file(folder_ / "wrong.toml", "[map]\nresolutoin = 0.01\n");
+  user.drop(file("wrong.toml"));
+  user.wait();
+  EXPECT_EQ(user.window().question(), "") << "it is refused";
+  write_file(folder_ / "mine.toml", "[sensor]\nrange_noise = 0.001\n");
+  user.drop(file("mine.toml"));
+  user.wait();
+  EXPECT_EQ(user.window().question(),
+            "Taking the settings of mine.toml starts the scan over. Its 2 views are set "
+            "aside: undo brings them back.");
+  EXPECT_EQ(user.session().records.size(), 2u);
+}
+
+TEST_F(WindowFiles, AMapAloneFillsTheSceneAndHasNoFirstSteps) {
+  User user(small_scan());
+  user.window().show_guide(true);
+  user.run("step\nexport-map " + file("map.ot") + "\n");
+  SceneView& scene = user.window().scene();
+  const auto distance = [&] { return (scene.camera_pose().translation() - user.session().grid.box().center()).norm(); };
+  user.run("open " + file("map.ot") + "\n");
+  const double opened = distance();
+  user.run("frame all\n");
+  EXPECT_NEAR(opened, distance(), 1e-6) << "its region is much larger";
+  const ImGuiWindow* const guide = ImGui::FindWindowByName("First steps");
+  EXPECT_FALSE(guide && guide->WasActive) << "there is no first view to be taken";
 }
 
 TEST(Window, AScriptThatEndsTooEarlyHasFailed) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/config/known_objects.hpp"
+#include "core/config/opened_input.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/setting/quantity.hpp"
 #include "ui/commands/command_target.hpp"
@@ -100,6 +101,20 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
                           fmt::format("{} = {}", field_name(wanted), length ? quantity_text(**length) : wanted.text()));
 }
 
+/// The settings of a file start the scan over as any other does; another object, everybody knows, takes its place.
+CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std::string>& values) {
+  const std::filesystem::path file = values.at(0);
+  if (carries_settings(file)) {
+    try {
+      with_next_input(t.session.configuration, file).validate();
+      return restart_question(t, fmt::format("Taking the settings of {}", file.filename().string()));
+    } catch (const std::exception&) {
+      return {};  // it will be refused, and nothing is lost
+    }
+  }
+  return {what_is_lost(t, true), "Open"};
+}
+
 std::string reset_settings_why_not(const CommandState& t) {
   return t.session.live ? "the scanner's own are among them: connect it again" : needs_session(t);
 }
@@ -121,9 +136,7 @@ const CommandOf<std::string> command::open{
      {},
      {},
      false,
-     [](const CommandState& s, const auto&) {
-       return CommandQuestion{what_is_lost(s, true), "Open"};
-     }},
+     ask_before_opening},
     argument::file("file", "a mesh file, a known object, recorded scans, a map, or a .toml file", objects),
     [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};
 

@@ -34,7 +34,8 @@ void draw_steps(const PanelContext& context) {
 void draw_guide(const PanelContext& context, const Rectangle& scene) {
   const SessionSnapshot& s = context.snapshot;
   const bool is_asked = !context.progress.question.empty(), is_opening = context.progress.opening;
-  if (!context.window.guide_open || !s.records.empty() || is_asked || (is_opening && !s.loaded())) return;
+  const bool is_begun = !s.records.empty() || !s.finished.empty();  // a map alone is finished without a view
+  if (!context.window.guide_open || is_begun || is_asked || (is_opening && !s.loaded())) return;
   const Style& style = context.style;
   const float margin = style.px(12), width = style.px(250);  // of the legends to come: the object is framed beside them
   if (float(scene.width) < style.px(420) || float(scene.height) < style.px(260))

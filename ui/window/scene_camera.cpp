@@ -12,7 +12,7 @@
 
 namespace nextview {
 
-std::vector<Vector3> SceneView::object_outline() const {
+std::vector<Vector3> SceneView::object_outline() {
   if (!shown_) return scene_.outline();
   const SessionSnapshot& s = *shown_;
   if (s.mesh) return extreme_points(s.mesh->vertices);
@@ -21,7 +21,9 @@ std::vector<Vector3> SceneView::object_outline() const {
   for (const Eigen::Vector3f& point : s.cloud->points)
     if (region.contains(point.cast<double>())) inside.push_back(point);
   const auto outline = extreme_points(inside.empty() ? s.cloud->points : inside);
-  return outline.empty() ? corners(region) : outline;
+  if (!outline.empty()) return outline;
+  const std::span<const Vector3> voxels = scene_.octree().outline();  // of a map alone they are all that there is
+  return voxels.empty() ? corners(region) : std::vector<Vector3>(voxels.begin(), voxels.end());
 }
 
 void SceneView::move(const CameraMotion& motion) {

@@ -85,7 +85,7 @@ class SceneView {
   void show_section(const SessionSnapshot& snapshot, const LayerChoice& choice);
   const TriangleMesh* shown_surface() const;
   /// Points that enclose what is scanned, as far as it is known [m, world].
-  std::vector<Vector3> object_outline() const;
+  std::vector<Vector3> object_outline();
   void show_rays(const SessionSnapshot& snapshot, const ScoreExplanation* explanation, const Vector3& origin);
   /// Where the scene's camera is, if a view that is drawn is from there.
   std::optional<Vector3> eye_of_a_view(const SessionSnapshot& snapshot, const WindowState& window);
