@@ -49,8 +49,14 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   if (!layout.status.empty()) draw_status_line(context, layout.status);
   draw_hairlines(layout);
   const Rectangle beneath_menu{0, layout.menu.height, layout.menu.width, layout.height - layout.menu.height};
-  const Rectangle& front = layout.scene.width < context.style.px(420) ? beneath_menu : layout.scene;
-  if (!context.window.presentation.demo) notifications_.draw(context, front, log_count, seconds);
+  const bool is_narrow = layout.scene.width < context.style.px(420);
+  const Rectangle& front = is_narrow ? beneath_menu : layout.scene;
+  Rectangle beside_controls = front;  // Step and Play stay in reach, whatever is told
+  if (is_narrow) {
+    beside_controls.y += layout.control_bar.height;
+    beside_controls.height -= layout.control_bar.height;
+  }
+  if (!context.window.presentation.demo) notifications_.draw(context, beside_controls, log_count, seconds);
   if (!layout.scene.empty()) draw_guide(context, layout.scene);
   draw_question(context, front);
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});

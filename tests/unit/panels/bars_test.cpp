@@ -210,6 +210,20 @@ TEST_F(Bars, ANotificationGoesOnceItIsNoNews) {
   EXPECT_EQ(seen_in("Notifications"), "the next one is small");
 }
 
+TEST(Notifications, InANarrowWindowStepAndPlayStayInReach) {
+  for (const auto& [width, height] : {std::pair{640, 480}, {1000, 700}, {1280, 800}}) {
+    Desk desk(width, height);
+    desk.snapshot = made_scan();
+    desk.frames();
+    desk.log = {{LogEntry::Level::warning, "it went wrong"}};
+    desk.frames();
+    const ImGuiWindow* const notes = ImGui::FindWindowByName("Notifications");
+    ASSERT_TRUE(notes && notes->WasActive);
+    const Rectangle& bar = desk.layout().control_bar;
+    EXPECT_GE(notes->Pos.y, bar.y + bar.height) << width;
+  }
+}
+
 TEST_F(Bars, NotificationsLeaveOutTheNamesOfCommands) {
   desk_.window.bring_to_front("log");
   desk_.frames();
