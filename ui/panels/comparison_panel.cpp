@@ -108,7 +108,7 @@ void draw_comparison_panel(const PanelContext& context, const Rectangle& rectang
   if (ImGui::SmallButton("Stop comparing")) context.post(command::stop_comparing());
   ImGui::PushFont(context.style.small);
   if (ImGui::BeginTable("differences", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH)) {
-    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("");
     ImGui::TableSetupColumn("");
     draw_cells({"", branches.current().name, other.name});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/panels/made_scan.hpp"
+#include "tests/unit/panels/seen.hpp"
 
 namespace nextview {
 namespace {
@@ -14,6 +15,16 @@ TEST(Comparison, TellsSettingsFromWhatCameOfThem) {
   EXPECT_EQ(rows.at(0).name, "termination.views");
   EXPECT_EQ(rows.at(1).name, "views");
   EXPECT_EQ(rows.at(1).here, "2");
+}
+
+TEST(Comparison, WhatIsComparedIsReadWholeInANarrowPanel) {
+  Desk desk(1100, 800);
+  open_all_ways(desk);
+  ASSERT_TRUE(desk.snapshot->compared);
+  desk.window.bring_to_front("comparison");
+  desk.frames();
+  ASSERT_NE(read("Compare"), "");
+  for (const SeenText& cut : cut_texts()) EXPECT_NE(cut.window, "Compare") << cut.text;
 }
 
 }  // namespace
