@@ -113,7 +113,8 @@ const CommandOf<> command::dark{{"dark",
 
 const CommandOf<double, double, double> command::panel_sizes{
     {"panel-sizes", "Window", "Sizes of the panels…",
-     "How wide the panels at the left and at the right are, and how high those below. Or drag their borders."},
+     "How wide the panels at the left and at the right are, and how high those below. Or drag their borders; a double "
+     "click on one gives it its usual place."},
     argument::number("left", "[px]", PlaceSizes::smallest, PlaceSizes::largest),
     argument::number("right", "[px]", PlaceSizes::smallest, PlaceSizes::largest),
     argument::number("lower", "[px]", PlaceSizes::smallest, PlaceSizes::largest),

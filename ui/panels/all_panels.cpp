@@ -2,6 +2,8 @@
 
 #include <imgui_internal.h>
 
+#include <utility>
+
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/scanner_commands.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -104,6 +106,21 @@ void obey_answers(const PanelContext& context) {
 
 }  // namespace
 
+/// Of itself ImGui goes to texts alone, and nowhere before a click. Tab begins at the first control of the panel that
+/// was clicked, or brought to the front, last; arrows go on from there.
+void AllPanels::begin_among_controls(const PanelContext& context) {
+  ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  const std::string& in_front = panel_info(context.window.in_front(context.window.open)).title;
+  ImGuiWindow* const shown = ImGui::FindWindowByName(in_front.c_str());
+  if (std::exchange(in_front_, in_front) != in_front && shown) ImGui::FocusWindow(shown);
+  ImGuiWindow* const panel = imgui.NavWindow ? imgui.NavWindow : shown;
+  if (!pressed(Key::tab) || imgui.IO.NavVisible || !panel || !panel->WasActive) return;
+  ImGui::NavMoveRequestCancel();
+  ImGui::FocusWindow(panel);
+  ImGui::NavInitWindow(panel, true);
+  imgui.NavDisableHighlight = false;
+}
+
 void AllPanels::obey_keys(const PanelContext& context) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_covered = context.window.palette_open || !context.window.file_for.empty();  // a question, by these
@@ -124,6 +141,7 @@ void AllPanels::obey_keys(const PanelContext& context) {
   } else if (context.window.manual && !io.WantTextInput) {
     if (pressed(Key::escape)) context.post(command::manual());
   } else if (!io.WantTextInput) {
+    begin_among_controls(context);
     obey_shortcuts(context);
   }
 }

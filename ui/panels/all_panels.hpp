@@ -28,13 +28,15 @@ class AllPanels {
 
  private:
   void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open);
+  void begin_among_controls(const PanelContext& context);
 
   std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
   FileDialog file_dialog_;
   ManualSheet manual_;
   Notifications notifications_;
-  int popups_ = 0;  ///< menus and lists that were open in the last frame; Escape has closed one since, maybe
+  std::string in_front_;  ///< the title of the panel that was brought there last, in the last frame
+  int popups_ = 0;        ///< menus and lists that were open in the last frame; Escape has closed one since, maybe
 };
 
 }  // namespace nextview

@@ -102,6 +102,22 @@ TEST(Front, EscapeClosesThePaletteBeforeItAnswers) {
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
 }
 
+TEST(Front, TabBeginsInThePanelThatWasShownLastWithoutAClick) {
+  Desk desk;
+  desk.snapshot = scanned(small_scan(), 2);
+  desk.frames();
+  for (const auto& [panel, title] : {std::pair{Key::f3, "Layers"}, {Key::f4, "Candidates"}, {Key::f3, "Layers"}}) {
+    desk.type(panel);
+    desk.frames();
+    desk.type(Key::tab);
+    desk.frames();
+    const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    ASSERT_TRUE(imgui.NavWindow) << title;
+    EXPECT_STREQ(imgui.NavWindow->Name, title);
+    EXPECT_TRUE(imgui.IO.NavVisible && imgui.NavId != 0) << title << ": nobody sees where one is";
+  }
+}
+
 /// Letters that were meant for something else must not act on a session that is about to be replaced.
 TEST(Front, WhileAnotherSessionIsOpenedNothingIsDoneToThisOne) {
   Desk desk;
