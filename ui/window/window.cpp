@@ -246,7 +246,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
   SessionWorker worker(has_news);
   if (!script.demo) worker.keep_sessions(state_folder());
   InspectionWorker inspector(has_news);
-  Interface interface(target, worker, inspector, scale);
+  Interface interface(target, worker, inspector, scale * text_scale_of_display(scale));
   ScriptErrors errors(script.file);
   interface.script().set_on_failure([&](const ScriptFailure& failure) { errors.add(failure); });
   if (start.scanner)
@@ -260,7 +260,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
   if (!start.record.empty()) interface.record(start.record);
   script.demo ? interface.play_demo(script.calls) : interface.run_script(script.calls);
   prepare(target.handle(), interface);
-  const WindowPreferences before = read_preferences(state_folder(), {.text_scale = text_scale_of_display(scale)});
+  const WindowPreferences before = read_preferences(state_folder());
   interface.set_text_scale(before.text_scale);
   interface.set_dark(before.dark);
   interface.set_place_sizes(before.place_sizes);

@@ -24,7 +24,7 @@ double usual_text_scale(int width, int height, int millimetres) {
   return per_inch < fine ? 1.0 : in_quarters(per_inch / usual);
 }
 
-WindowPreferences read_preferences(const std::filesystem::path& state, const WindowPreferences& otherwise) {
+WindowPreferences read_preferences(const std::filesystem::path& state) {
   try {
     const auto json = parse_json<nlohmann::json>(read_file(state / file_name));
     const auto size = [&](const char* name, double usual) {
@@ -36,7 +36,7 @@ WindowPreferences read_preferences(const std::filesystem::path& state, const Win
             json.value("dark", false),
             {size("left", usual.left), size("right", usual.right), size("lower", usual.lower)}};
   } catch (const std::exception&) {
-    return otherwise;
+    return {};
   }
 }
 
