@@ -17,7 +17,7 @@ constexpr std::array mouse = {
     std::pair{"Wheel", "nearer to the pointer, farther"},
     std::pair{"Double click", "turn around this point"},
     std::pair{"Arrows, =, −", "turn, nearer, farther"},
-    std::pair{"Tab, arrows, Space", "go through a panel's controls, press one"},
+    std::pair{"Tab, arrows, Space", "go through the controls, press one"},
     std::pair{"Click a frustum", "look at this view"},
     std::pair{"Click a voxel", "inspect it"},
     std::pair{"Click a ray", "inspect it"},
