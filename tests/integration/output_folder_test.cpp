@@ -275,7 +275,7 @@ TEST_F(OutputFolder, AFolderOfAKnownObjectsNameDoesNotHideIt) {
 TEST_F(OutputFolder, SenselessSetupsAreToldBeforeTheFirstView) {
   const Result blind = run("scan box --out out --sensor.max_range 0.3" + quick);
   EXPECT_EQ(blind.exit_code, 0);
-  EXPECT_THAT(blind.err, AllOf(HasSubstr("warning: 7 of 7 views"), HasSubstr("sensor.max_range (0.3 m)")));
+  EXPECT_THAT(blind.err, AllOf(HasSubstr("warning: 7 of 7 views"), HasSubstr("sensor.max_range (300 mm)")));
   EXPECT_THAT(run("scan box --out out" + quick).err, Not(HasSubstr("warning")));
 }
 

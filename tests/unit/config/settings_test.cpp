@@ -155,7 +155,7 @@ TEST(Validate, RejectsWhatIsNoUsableNumber) {
     const bool is_double = std::holds_alternative<double*>(s.value), is_int = std::holds_alternative<int*>(s.value);
     std::vector<std::string> bad;
     if (is_double) bad = {"nan", "inf", "-inf", "-1e6", "1e300"};
-    if (is_int) bad = {"-1", "-2147483648"};
+    if (is_int) bad = {"-2", "-2147483648"};
     for (const std::string& text : bad) {
       Configuration configuration;
       configuration.views.layout = ViewLayout::rings;
