@@ -103,7 +103,7 @@ std::vector<Legend> legends_of(const ViewsPicture& picture, const Scores& scores
   if (picture.scores.empty() && picture.hidden.size() < picture.candidates.size())
     views.swatches.push_back({"candidate", theme::object});
   std::vector<Legend> result;
-  if (scores.drawn) {
+  if (scores.drawn || (scores.any && picture.range)) {  // of a locked one it is to be seen that it is
     result.push_back({picture.score_name,
                       {},
                       Legend::Range{scores.map, scores.low, scores.high, picture.score_unit,
