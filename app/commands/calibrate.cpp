@@ -7,7 +7,7 @@
 
 #include "app/commands/commands.hpp"
 #include "core/config/known_objects.hpp"
-#include "core/file/gzip_file.hpp"
+#include "core/sensor/recorded_scans.hpp"
 
 namespace nextview {
 namespace {
@@ -77,7 +77,7 @@ void add_options_of_sensor_model(CLI::App& app, CalibrateArguments& arguments) {
 bool is_recorded(const std::string& input) {
   const auto names = known_objects();
   if (std::find(names.begin(), names.end(), input) != names.end()) return false;
-  return fs::is_directory(input) || without_gz(input).extension() == ".txt";
+  return fs::is_directory(input) || is_scene_file(input);
 }
 
 fs::path input_path(const std::string& input) {

@@ -14,7 +14,6 @@
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
-#include "core/file/gzip_file.hpp"
 #include "core/file/png_text.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
@@ -24,6 +23,7 @@
 #include "core/recording/dataset_guess.hpp"
 #include "core/recording/recording.hpp"
 #include "core/results/manifest.hpp"
+#include "core/sensor/recorded_scans.hpp"
 #include "core/session/object_mesh.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/study/study.hpp"
@@ -222,7 +222,7 @@ std::string info(const fs::path& path) {
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".png") return picture_info(path);
   if (extension == ".toml") return toml_info(path);
-  if (without_gz(path).extension() == ".txt") return text_info(path);
+  if (is_scene_file(path)) return text_info(path);
   const fs::path object = resolve_object(path.string());
   return is_cloud(object) ? cloud_info(object) : mesh_info(object);
 }

@@ -13,11 +13,12 @@
 #include "core/file/png_text.hpp"
 #include "core/file/same_file.hpp"
 #include "core/mesh/mesh_types.hpp"
+#include "core/sensor/recorded_scans.hpp"
 
 namespace nextview {
 namespace {
 
-constexpr std::array<std::string_view, 3> recordings = {".graph", ".log", ".txt"};
+constexpr std::array<std::string_view, 2> scan_graphs = {".graph", ".log"};
 constexpr std::array<std::string_view, 3> others = {".toml", ".png", ".pcd"};
 
 template <std::size_t N>
@@ -25,9 +26,8 @@ bool ends_in_one_of(const std::array<std::string_view, N>& endings, const std::f
   return std::ranges::find(endings, file.extension().string()) != endings.end();
 }
 
-/// Scenes may be compressed.
 bool is_scan_file(const std::filesystem::path& file) {
-  return ends_in_one_of(recordings, file) || without_gz(file).extension() == ".txt";
+  return ends_in_one_of(scan_graphs, file) || is_scene_file(file);
 }
 
 bool is_recording(const std::filesystem::path& input) {

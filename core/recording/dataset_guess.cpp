@@ -10,6 +10,7 @@
 #include "core/recording/depth_image_file.hpp"
 #include "core/recording/frame_files.hpp"
 #include "core/recording/number_lines.hpp"
+#include "core/sensor/recorded_scans.hpp"
 
 namespace nextview {
 namespace {
@@ -220,7 +221,7 @@ DescribedDataset described_file(const fs::path& file) {
   const fs::path extension = file.extension();
   if (extension == ".graph" || extension == ".log")
     found.description.format = RecordingFormat::scan_graph;
-  else if (without_gz(file).extension() == ".txt")
+  else if (is_scene_file(file))
     found.description.format = RecordingFormat::scene;
   else
     throw std::runtime_error(fmt::format(

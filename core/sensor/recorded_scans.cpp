@@ -122,6 +122,8 @@ RecordedScan read_scan(LineReader& reader) {
 
 }  // namespace
 
+bool is_scene_file(const std::filesystem::path& file) { return without_gz(file).extension() == ".txt"; }
+
 RecordedScene read_recorded_scene(const std::filesystem::path& file) {
   const std::string text = read_plain_or_gzip(file);
   if (text.empty()) throw std::runtime_error(fmt::format("{}: is empty", file.string()));

@@ -20,6 +20,9 @@ struct RecordedScene {
   std::vector<Pose> views;  ///< T_world_camera
 };
 
+/// By its name: .txt, or .txt.gz.
+bool is_scene_file(const std::filesystem::path& file);
+
 /// Reads a text, or one compressed with gzip whose name ends in .gz, of lines: `param NAME VALUE`; `scan px py pz qx qy
 /// qz qw N`, then N points `x y z` (camera frame, [m]); `view px py pz qx qy qz qw`. Poses are T_world_camera;
 /// quaternions within 1e-3 of length 1 are normalised. Empty lines are skipped. Points lie within 1e6 m of the sensor.
