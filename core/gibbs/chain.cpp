@@ -89,12 +89,17 @@ class StateChain final : public Chain {
 
   void update_all(PosteriorSums* mean, bool front_too) {
     const CounterRandom draws = random(Draw::levels);
-    const auto& near = sites_.near_voxels;
-    const auto& front = sites_.front_voxels;
-    for (std::size_t n = 0, f = 0; n < near.size() || f < front.size();) {
-      const bool is_near = f == front.size() || (n < near.size() && near[n] < front[f]);
-      const std::uint32_t voxel = is_near ? near[n++] : front[f++];
-      update(voxel, draws.uniform(voxel)[0], is_near || front_too ? mean : nullptr);
+    update_near(draws, mean);
+    for (const std::uint32_t voxel : sites_.front_voxels)
+      update(voxel, draws.uniform(voxel)[0], front_too ? mean : nullptr);
+  }
+
+  void update_near(const CounterRandom& draws, PosteriorSums* mean) {
+    const std::vector<std::uint32_t>& voxels = sites_.near_voxels;
+    for (std::size_t n = 0; n < voxels.size(); ++n) {
+      if (n + 4 < voxels.size()) lists_.prefetch_near(voxels[n + 4]);
+      if (n + 2 < voxels.size()) state_.prefetch_near(voxels[n + 2]);
+      update(voxels[n], draws.uniform(voxels[n])[0], mean);
     }
   }
 
@@ -103,31 +108,17 @@ class StateChain final : public Chain {
   /// rays say: the gaps between those that need a look are drawn instead (geometric).
   void update_unsettled(PosteriorSums* mean) {
     const CounterRandom draws = random(Draw::levels);
-    const auto& near = sites_.near_voxels;
-    const std::vector<std::uint32_t> occupied = occupied_front_voxels();
     draw_looks();
-    static constexpr std::uint32_t none = 0xffffffffu;
-    const auto at = [](const std::vector<std::uint32_t>& list, std::size_t k) {
-      return k < list.size() ? list[k] : none;
-    };
-    for (std::size_t n = 0, o = 0, l = 0;;) {
-      const std::uint32_t next_near = at(near, n), next_occupied = at(occupied, o);
-      const std::uint32_t next_look = l < looks_.size() ? looks_[l].voxel : none;
-      const std::uint32_t voxel = std::min({next_near, next_occupied, next_look});
-      if (voxel == none) return;
+    update_near(draws, mean);
+    for (const std::uint32_t voxel : occupied_front_voxels()) looks_.push_back({voxel, draws.uniform(voxel)[0]});
+    for (std::size_t l = 0; l < looks_.size(); ++l) {
       if (l + 8 < looks_.size()) lists_.prefetch_front(looks_[l + 8].voxel);
-      if (l + 4 < looks_.size()) state_.prefetch_rays(looks_[l + 4].voxel);
-      if (voxel == next_near || voxel == next_occupied)
-        update(voxel, draws.uniform(voxel)[0], voxel == next_near ? mean : nullptr);
-      else
-        update(voxel, looks_[l].u, nullptr);
-      n += voxel == next_near;
-      o += voxel == next_occupied;
-      l += voxel == next_look;
+      if (l + 4 < looks_.size()) state_.prefetch_front(looks_[l + 4].voxel);
+      update(looks_[l].voxel, looks_[l].u, nullptr);
     }
   }
 
-  /// The front voxels whose uniform number leaves open what they become, with that number.
+  /// The free voxels in front whose uniform number leaves open what they become, with that number.
   void draw_looks() {
     const CounterRandom draws = random(Draw::looks);
     const double log_settled = std::log1p(-config_.prior);
@@ -139,7 +130,8 @@ class StateChain final : public Chain {
       for (int half = 0; half < 4; half += 2) {
         next += static_cast<std::size_t>(std::min(std::log(u[half]) / log_settled, 4e9));
         if (next >= count) return;
-        looks_.push_back({sites_.front_voxels[next++], 1.0 - config_.prior * u[half + 1]});
+        const std::uint32_t voxel = sites_.front_voxels[next++];
+        if (state_.map()[voxel] == 0) looks_.push_back({voxel, 1.0 - config_.prior * u[half + 1]});
       }
     }
   }

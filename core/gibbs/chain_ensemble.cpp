@@ -44,6 +44,9 @@ ChainEnsemble::ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig
   diagnostics_.chain_bytes = chains_.front()->bytes();
   const std::size_t step = std::max<std::size_t>(1, sites.near_voxels.size() / traced_voxels);
   for (std::size_t k = 0; k < sites.near_voxels.size(); k += step) traced_.push_back(sites.near_voxels[k]);
+  if (!config.keep_traces) return;
+  kept_ = sites.near_voxels;
+  std::ranges::sort(kept_);
 }
 
 void ChainEnsemble::begin_mean(int sweeps) {
@@ -82,22 +85,23 @@ void ChainEnsemble::sweep_into_mean(int c) {
     traces_[c][t].push_back(chains_[c]->map()[traced_[t]] > 0 ? 1.0 : 0.0);
   if (config_.keep_traces) keep_levels(c);
   const int done = sums.near_sweeps;
-  // What one chain alone finds reached often enough for all is settled.
-  if (std::int64_t{done} * reach_samples_ / window_ > std::int64_t{done - 1} * reach_samples_ / window_)
+  // What one chain alone finds reached often enough for all is settled; for so many samples, a longer mean has no more.
+  if (done <= window_ &&
+      std::int64_t{done} * reach_samples_ / window_ > std::int64_t{done - 1} * reach_samples_ / window_)
     chains_[c]->add_reach(sums, 0.5f * static_cast<float>(reach_samples_ * config_.chains));
 }
 
 void ChainEnsemble::keep_levels(int c) {
-  const std::size_t bytes_per_sweep = std::max<std::size_t>(1, sites_.near_voxels.size()) * chains_.size();
+  const std::size_t bytes_per_sweep = std::max<std::size_t>(1, kept_.size()) * chains_.size();
   auto& kept = levels_[c];
   std::vector<std::uint8_t>& now = kept.emplace_back();
-  for (const std::uint32_t v : sites_.near_voxels) now.push_back(chains_[c]->map()[v]);
+  for (const std::uint32_t v : kept_) now.push_back(chains_[c]->map()[v]);
   if (kept.size() > config_.max_trace_bytes / bytes_per_sweep) kept.pop_front();
 }
 
 LevelTraces ChainEnsemble::take_level_traces() {
   const auto dropped = static_cast<std::size_t>(diagnostics_.sweeps - diagnostics_.burn_in) - levels_.front().size();
-  return {sites_.near_voxels, std::move(levels_), dropped};
+  return {kept_, std::move(levels_), dropped};
 }
 
 void ChainEnsemble::diagnose() {
@@ -114,9 +118,11 @@ void ChainEnsemble::diagnose() {
   for (const auto chain : chains) d.trend = std::max(d.trend, std::abs(geweke_z(chain)));
   diagnose_voxels();
   count_voxels();
-  d.stationary = d.r_hat < largest_r_hat && d.trend < largest_trend &&
+  d.stationary = d.r_hat < largest_r_hat && !trends() &&
                  static_cast<double>(d.disagreeing_voxels) <= max_disagreeing * static_cast<double>(d.informed_voxels);
 }
+
+bool ChainEnsemble::trends() const { return diagnostics_.trend >= largest_trend; }
 
 bool ChainEnsemble::informed(std::size_t voxel) const {
   double reach = 0.0;

@@ -22,6 +22,8 @@ class ChainEnsemble {
   void sweep(int count, bool into_mean);
   /// Fills in the diagnostics of the mean.
   void diagnose();
+  /// Whether the mean's beginning was unlike its end when it was diagnosed: the start is still felt.
+  bool trends() const;
 
   bool informed(std::size_t voxel) const;
   /// Mean over the chains of PosteriorSums::occupied or ::upper. @pre the voxel is a site
@@ -44,6 +46,7 @@ class ChainEnsemble {
   std::vector<std::unique_ptr<Chain>> chains_;
   std::vector<PosteriorSums> sums_;
   std::vector<std::uint32_t> traced_;                     ///< a sample of the voxels near a return
+  std::vector<std::uint32_t> kept_;                       ///< those that take_level_traces() is of
   std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
   std::vector<std::deque<std::vector<std::uint8_t>>> levels_;  ///< LevelTraces::levels
   int window_ = 1;                                             ///< sweeps of the mean

@@ -19,7 +19,8 @@ class FirstHitState {
   void set(std::uint32_t voxel, std::uint8_t level) { change(voxel, level); }
   /// What is negligible makes no difference: terms of either sign follow each other here. Returns false.
   bool conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
-  void prefetch_rays(std::uint32_t) const {}
+  void prefetch_front(std::uint32_t) const {}
+  void prefetch_near(std::uint32_t) const {}
   double log_likelihood() const;
   void add_reach(std::vector<float>& reach, float enough) const;
 

@@ -15,6 +15,7 @@ namespace nextview {
 namespace {
 
 constexpr int first_window = 16;  ///< sweeps of the first mean that is tried
+constexpr int few_sweeps = 4;     ///< that R-hat needs for its halves
 constexpr int sweeps_between_reports = 4;
 
 class Stopwatch {
@@ -33,24 +34,34 @@ class Schedule {
       : chains_(chains), config_(config), diagnostics_(diagnostics), progress_(progress), stop_(stop) {}
 
   void run(bool warm) {
-    // A mean needs four sweeps for R-hat's halves.
-    const int burn_in = std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - 4));
+    const int burn_in =
+        std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - few_sweeps));
     const int first = config_.until_stationary ? first_window : config_.sweeps;
     may_end_ = std::min(burn_in + first, config_.sweeps);
     sweep(burn_in, false);
-    for (int window = first;; window *= 2) {
-      window = std::max(4, std::min(window, config_.sweeps - diagnostics_.sweeps));
-      may_end_ = diagnostics_.sweeps + window;
-      chains_.begin_mean(window);
-      sweep(window, true);
-      chains_.diagnose();
-      report();
-      if (diagnostics_.stationary && config_.until_stationary) return;
-      if (stop_.stop_requested() || diagnostics_.sweeps + 4 > config_.sweeps) return;
+    for (int window = first; !ends_in_mean_of(window); window *= 2) {
     }
   }
 
  private:
+  /// Sweeps into a new mean, and says whether that is the last. Tests of so few sweeps fail by chance, too: as long as
+  /// there is no trend, a quarter more are asked for, up to twice as many. A start that is still felt is left out.
+  bool ends_in_mean_of(int window) {
+    chains_.begin_mean(std::min(window, config_.sweeps - diagnostics_.sweeps));
+    const int end = diagnostics_.sweeps + 2 * window;
+    for (int next = window; diagnostics_.sweeps < end; next = window / 4) {
+      const int count = std::max(few_sweeps, std::min(next, config_.sweeps - diagnostics_.sweeps));
+      may_end_ = diagnostics_.sweeps + count;
+      sweep(count, true);
+      chains_.diagnose();
+      report();
+      if (diagnostics_.stationary && config_.until_stationary) return true;
+      if (stop_.stop_requested() || diagnostics_.sweeps + few_sweeps > config_.sweeps) return true;
+      if (chains_.trends()) return false;
+    }
+    return false;
+  }
+
   void sweep(int count, bool into_mean) {
     for (int done = 0; done < count; done += sweeps_between_reports) {
       if (stop_.stop_requested() && (!into_mean || done >= 4)) return;

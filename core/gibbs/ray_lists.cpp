@@ -61,7 +61,7 @@ RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements,
 }
 
 std::size_t RayLists::bytes() const {
-  return front_.size() * sizeof(FrontEntry) + near_.size() * incidence_bytes +
+  return front_begin_.back() * sizeof(FrontEntry) + near_.size() * incidence_bytes +
          rays() * (sizeof(RangeMeasurement) + 4 + 4 + 4) + grid_.voxel_count() * 8;
 }
 
@@ -148,7 +148,8 @@ void RayLists::lay_out(std::vector<Block>& blocks) {
                  "merge rays with a larger gibbs.ray_spacing, or use a coarser map");
   front_begin_[voxels] = static_cast<std::uint32_t>(front);
   near_begin_[voxels] = static_cast<std::uint32_t>(near);
-  front_.resize(front);
+  front_.resize(front + entries_beyond);
+  std::fill_n(front_.end() - entries_beyond, entries_beyond, FrontEntry{});
   near_.resize(near);
   for (std::size_t ray = 0; ray < rays(); ++ray) incidences_begin_[ray + 1] += incidences_begin_[ray];
   incidences_.resize(near);

@@ -50,17 +50,20 @@ class RayLists {
 
   const VoxelGrid& grid() const { return grid_; }
   std::size_t rays() const { return measurements_.rays.size(); }
-  std::size_t incidence_count() const { return front_.size() + near_.size(); }
+  std::size_t incidence_count() const { return front_begin_.back() + near_.size(); }
   std::size_t bytes() const;
 
+  /// Entries that may be read along with the last one, whatever they are.
+  static constexpr std::size_t entries_beyond = 15;
   std::span<const FrontEntry> front(std::uint32_t voxel) const {
     return {front_.data() + front_begin_[voxel], front_.data() + front_begin_[voxel + 1]};
   }
   std::span<const NearEntry> near(std::uint32_t voxel) const {
     return {near_.data() + near_begin_[voxel], near_.data() + near_begin_[voxel + 1]};
   }
-  /// Asks the memory for what front() will show of a voxel.
-  void prefetch_front(std::uint32_t voxel) const { __builtin_prefetch(front_.data() + front_begin_[voxel]); }
+  /// Ask the memory for what front() and near() will show of a voxel.
+  void prefetch_front(std::uint32_t voxel) const { prefetch(front(voxel)); }
+  void prefetch_near(std::uint32_t voxel) const { prefetch(near(voxel)); }
   bool observed(std::uint32_t voxel) const {
     return front_begin_[voxel] < front_begin_[voxel + 1] || near_begin_[voxel] < near_begin_[voxel + 1];
   }
@@ -94,6 +97,10 @@ class RayLists {
 
  private:
   struct Block;
+  template <class Entry>
+  static void prefetch(std::span<const Entry> entries) {
+    for (std::size_t k = 0; k < entries.size(); k += 64 / sizeof(Entry)) __builtin_prefetch(&entries[k]);
+  }
   template <class Front, class Near>
   void walk(std::uint32_t ray, Front on_front, Near on_near) const;
   void take_rays();

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -33,21 +34,6 @@ std::vector<RayCount> ray_counts(const RayLists& lists) {
     if (count.near > 0.0f) count.behind /= count.near;
   });
   return counts;
-}
-
-ReadOutFeatures::Word& ReadOutFeatures::Word::operator+=(const Word& other) {
-  uninformed += other.uninformed;
-  occupied += other.occupied;
-  upper += other.upper;
-  log_odds += other.log_odds;
-  uncrossed += other.uncrossed;
-  passed += other.passed;
-  ended += other.ended;
-  log_ended += other.log_ended;
-  log_crossed += other.log_crossed;
-  near += other.near;
-  behind += other.behind;
-  return *this;
 }
 
 ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays)
@@ -127,12 +113,13 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
 }
 
 float ReadOutNetwork::log_odds(const ReadOutFeatures::Vector& features) const {
-  OfUnits sums{};
-  for (std::size_t k = 0; k < features.size(); ++k)
-    for (std::size_t u = 0; u < units; ++u) sums[u] += in[k][u] * features[k];
-  float log_odds = std::inner_product(features.begin(), features.end(), linear.begin(), 0.0f);
-  for (std::size_t u = 0; u < units; ++u) log_odds += out[u] * sums[u] / (1.0f + std::abs(sums[u]));
-  return log_odds;
+  using Units = Eigen::Array<float, units, 1>;
+  const auto of = [](const OfUnits& values) { return Eigen::Map<const Units>(values.data()); };
+  Units sums = Units::Zero();
+  for (std::size_t k = 0; k < features.size(); ++k) sums += features[k] * of(in[k]);
+  const Units bent = of(out) * sums / (1.0f + sums.abs());
+  const float straight = std::inner_product(features.begin(), features.end(), linear.begin(), 0.0f);
+  return std::accumulate(bent.begin(), bent.end(), straight);
 }
 
 void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const ReadOutWeights& weights) {

@@ -56,7 +56,20 @@ class ReadOutFeatures {
     float near = 0.0f;                           ///< 1: any ends near it
     float behind = 0.0f;                         ///< RayCount's
 
-    Word& operator+=(const Word& other);
+    Word& operator+=(const Word& other) {
+      uninformed += other.uninformed;
+      occupied += other.occupied;
+      upper += other.upper;
+      log_odds += other.log_odds;
+      uncrossed += other.uncrossed;
+      passed += other.passed;
+      ended += other.ended;
+      log_ended += other.log_ended;
+      log_crossed += other.log_crossed;
+      near += other.near;
+      behind += other.behind;
+      return *this;
+    }
   };
   /// Sums over the voxels that share a face with one, and over all 26.
   struct Around {

@@ -3,17 +3,35 @@
 #include "core/random/counter_random.hpp"
 
 namespace nextview {
+namespace {
+
+/// Calls `visit(voxel)` for all voxels of a grid, brick after brick: the rays through one are few, and stay at hand.
+template <class Visit>
+void for_each_in_bricks(const VoxelGrid& grid, Visit visit) {
+  constexpr int edge = 8;
+  const Eigen::Vector3i end = grid.size;
+  const auto voxels = [&](const Eigen::Vector3i& first) {
+    const Eigen::Vector3i last = (first.array() + edge).min(end.array());
+    for (int z = first.z(); z < last.z(); ++z)
+      for (int y = first.y(); y < last.y(); ++y)
+        for (int x = first.x(); x < last.x(); ++x) visit(static_cast<std::uint32_t>(grid.index({x, y, z})));
+  };
+  for (int z = 0; z < end.z(); z += edge)
+    for (int y = 0; y < end.y(); y += edge)
+      for (int x = 0; x < end.x(); x += edge) voxels({x, y, z});
+}
+
+}  // namespace
 
 Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map) {
   Sites sites;
-  const auto voxels = static_cast<std::uint32_t>(lists.grid().voxel_count());
-  sites.kind.assign(voxels, Sites::none);
-  for (std::uint32_t v = 0; v < voxels; ++v) {
-    if (!lists.observed(v)) continue;
-    if (config.updated == UpdatedVoxels::occupied && (start_map.empty() || start_map[v] < 0.5f)) continue;
+  sites.kind.assign(lists.grid().voxel_count(), Sites::none);
+  for_each_in_bricks(lists.grid(), [&](std::uint32_t v) {
+    if (!lists.observed(v)) return;
+    if (config.updated == UpdatedVoxels::occupied && (start_map.empty() || start_map[v] < 0.5f)) return;
     sites.kind[v] = lists.is_near(v) ? Sites::near : Sites::front;
     (lists.is_near(v) ? sites.near_voxels : sites.front_voxels).push_back(v);
-  }
+  });
   return sites;
 }
 

@@ -10,7 +10,7 @@ namespace nextview {
 /// latter are many, and nearly all of them stay free.
 struct Sites {
   enum Kind : std::uint8_t { none, front, near };
-  std::vector<std::uint32_t> near_voxels, front_voxels;  ///< ascending
+  std::vector<std::uint32_t> near_voxels, front_voxels;  ///< brick after brick
   std::vector<Kind> kind;                                ///< per voxel of the grid
 
   std::size_t count() const { return near_voxels.size() + front_voxels.size(); }

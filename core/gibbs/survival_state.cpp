@@ -6,64 +6,36 @@
 #include "core/gibbs/weighted_logs.hpp"
 
 namespace nextview {
-namespace {
-
-/// exp(-depth / depth_unit): a chain asks for it more often than for anything else. The factors of the depth's lower,
-/// middle and upper bits.
-class Exponentials {
- public:
-  explicit Exponentials(double depth_unit) {
-    for (std::size_t i = 0; i < size; ++i) {
-      lower_[i] = static_cast<float>(std::exp(-double(i) / depth_unit));
-      middle_[i] = static_cast<float>(std::exp(-double(i) * size / depth_unit));
-      upper_[i] = static_cast<float>(std::exp(-double(i) * size * size / depth_unit));
-    }
-  }
-  /// @pre 0 <= depth
-  float of(std::int32_t depth) const {
-    const auto at = static_cast<std::uint32_t>(depth);
-    return lower_[at % size] * middle_[at / size % size] * upper_[std::min(at / (size * size), size - 1)];
-  }
-
- private:
-  static constexpr std::uint32_t size = 128;
-  std::array<float, size> lower_, middle_, upper_;
-};
-
-}  // namespace
-
 SurvivalState::SurvivalState(const RayLists& lists, const ForwardSensorModel& model)
     : lists_(lists), levels_(model.levels()) {
   for (int level = 0; level < levels_; ++level)
     for (std::uint32_t code = 0; code < RayLists::chord_codes; ++code) {
       const double passing = model.transmission(level, RayLists::chord(code));
-      depth_[level][code] =
-          passing > 0.0 ? static_cast<std::int32_t>(std::lround(-std::log(passing) * depth_unit)) : opaque;
-      passing_[level][code] = SurvivalState::passing(depth_[level][code]);
+      depth_[level][code] = passing > 0.0
+                                ? static_cast<std::int32_t>(std::lround(-std::log(passing) * optical_depth::unit))
+                                : optical_depth::opaque;
+      passing_[level][code] = optical_depth::passing(depth_[level][code]);
+      if (level > 0) passing_pairs_[(level - 1) / 2][code][(level - 1) % 2] = passing_[level][code];
     }
   reset(std::vector<std::uint8_t>(lists.grid().voxel_count(), 0));
 }
 
 std::size_t SurvivalState::bytes() const {
-  return map_.size() + hot_.size() * sizeof(Hot) + cold_.size() * sizeof(Cold);
-}
-
-float SurvivalState::passing(std::int32_t depth) {
-  static const Exponentials exponentials(depth_unit);
-  return depth >= opaque ? 0.0f : exponentials.of(depth);
+  return map_.size() + rays_.size() * sizeof(RayWitness) + survivals_.size() * sizeof(RaySurvival);
 }
 
 void SurvivalState::reset(std::vector<std::uint8_t> map) {
   map_ = std::move(map);
-  cold_.assign(lists_.rays(), {});
-  hot_.resize(lists_.rays());
+  survivals_.assign(lists_.rays(), {});
+  rays_.resize(lists_.rays());
   for (std::uint32_t voxel = 0; voxel < map_.size(); ++voxel)
     if (const std::uint8_t level = map_[voxel])
       for (const RayLists::FrontEntry entry : lists_.front(voxel))
-        cold_[entry.ray()].depth += depth_[level][entry.chord()];
+        survivals_[entry.ray()].depth += depth_[level][entry.chord()];
   for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
-    cold_[ray].near_sum = near_sum(ray);
-    hot_[ray] = {cold_[ray].near_sum * passing(cold_[ray].depth), static_cast<float>(lists_.evidence(ray))};
+    survivals_[ray].near_sum = near_sum(ray);
+    rays_[ray] = {survivals_[ray].near_sum * optical_depth::passing(survivals_[ray].depth),
+                  static_cast<float>(lists_.evidence(ray))};
   }
 }
 
@@ -85,30 +57,30 @@ void SurvivalState::change_voxel(std::uint32_t voxel, std::uint8_t level, Heard 
   if (old == level) return;
   map_[voxel] = level;
   const auto refresh = [&](std::uint32_t ray) {
-    const Hot before = hot_[ray];
-    hot_[ray].s = cold_[ray].near_sum * passing(cold_[ray].depth);
-    heard(before, hot_[ray]);
+    const RayWitness before = rays_[ray];
+    rays_[ray].s = survivals_[ray].near_sum * optical_depth::passing(survivals_[ray].depth);
+    heard(before, rays_[ray]);
   };
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
-    cold_[entry.ray].near_sum = near_sum(entry.ray);
+    survivals_[entry.ray].near_sum = near_sum(entry.ray);
     refresh(entry.ray);
   }
   for (const RayLists::FrontEntry entry : lists_.front(voxel)) {
-    cold_[entry.ray()].depth += depth_[level][entry.chord()] - depth_[old][entry.chord()];
+    survivals_[entry.ray()].depth += depth_[level][entry.chord()] - depth_[old][entry.chord()];
     refresh(entry.ray());
   }
 }
 
 double SurvivalState::change(std::uint32_t voxel, std::uint8_t level) {
   WeightedLogs change;
-  change_voxel(voxel, level, [&](const Hot& before, const Hot& now) {
+  change_voxel(voxel, level, [&](const RayWitness& before, const RayWitness& now) {
     change.add((1.0f + now.s) / (1.0f + before.s), now.evidence);
   });
   return change.sum();
 }
 
 void SurvivalState::set(std::uint32_t voxel, std::uint8_t level) {
-  change_voxel(voxel, level, [](const Hot&, const Hot&) {});
+  change_voxel(voxel, level, [](const RayWitness&, const RayWitness&) {});
 }
 
 bool SurvivalState::conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const {
@@ -120,7 +92,7 @@ bool SurvivalState::conditional(std::uint32_t voxel, double log_negligible, std:
 void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weights) const {
   std::array<WeightedLogs, max_levels> sums;
   for (const RayLists::NearEntry entry : lists_.near(voxel)) {
-    const float pass_front = passing(cold_[entry.ray].depth);
+    const float pass_front = optical_depth::passing(survivals_[entry.ray].depth);
     if (pass_front == 0.0f) continue;
     // before: what ends in front of the voxel; after: what ends behind it, were it free
     float pass = 1.0f, before = 0.0f, after = 0.0f, reaching = 1.0f;
@@ -138,7 +110,7 @@ void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weight
     }
     const float here = reaching * own.value;
     const float if_free = 1.0f + pass_front * (before + after);
-    const float evidence = hot_[entry.ray].evidence;
+    const float evidence = rays_[entry.ray].evidence;
     for (int q = 1; q < levels_; ++q) {
       const float passed = passing_[q][own.chord];
       const float s = pass_front * (before + (1.0f - passed) * here + passed * after);
@@ -148,49 +120,26 @@ void SurvivalState::near_terms(std::uint32_t voxel, std::span<double> log_weight
   for (int q = 1; q < levels_; ++q) log_weights[q - 1] += sums[q].sum();
 }
 
-/// The ray's s if a voxel in front of it were free.
-float SurvivalState::without(RayLists::FrontEntry entry, std::uint8_t level) const {
-  const Cold& ray = cold_[entry.ray()];
-  return ray.near_sum * passing(ray.depth - depth_[level][entry.chord()]);
-}
-
 /// The terms of Eq. 8 of the rays whose range lies behind the voxel.
 bool SurvivalState::front_terms(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const {
-  constexpr std::size_t lanes = WeightedLogs::lanes;
-  const auto entries = lists_.front(voxel);
   const std::uint8_t level = map_[voxel];
-  // All terms are at most 0, as a voxel in front can only block: once each weight is below this, all together are sure
-  // to be negligible.
-  const double enough = log_negligible - std::log(double(log_weights.size()));
-  for (std::size_t k = 0; k < entries.size(); k += lanes) {
-    WeightedLogs::Lanes s{}, evidence{}, factors;  // where there is no ray, its evidence is 0
-    std::array<std::uint32_t, lanes> chords{};
-    for (std::size_t i = 0; i < std::min(lanes, entries.size() - k); ++i) {
-      const RayLists::FrontEntry entry = entries[k + i];
-      const Hot& ray = hot_[entry.ray()];
-      s[i] = level == 0 ? ray.s : without(entry, level);
-      evidence[i] = ray.evidence;
-      chords[i] = entry.chord();
-    }
-    for (int q = 1; q < levels_; ++q) {
-      for (std::size_t i = 0; i < lanes; ++i) factors[i] = (1.0f + s[i] * passing_[q][chords[i]]) / (1.0f + s[i]);
-      log_weights[q - 1] += WeightedLogs::sum_of(factors, evidence);
-    }
-    if (*std::ranges::max_element(log_weights) < enough) return true;
-  }
-  return false;
+  const FrontTerms terms{lists_.front(voxel), rays_.data(), survivals_.data(), passing_pairs_,
+                         level == 0 ? nullptr : &depth_[level]};
+  // Once each weight is below this, all together are sure to be negligible.
+  return add_front_terms(terms, log_negligible - std::log(double(log_weights.size())), log_weights);
 }
 
 double SurvivalState::log_likelihood() const {
   WeightedLogs sum;
-  for (const Hot& ray : hot_) sum.add(1.0f + ray.s, ray.evidence);
+  for (const RayWitness& ray : rays_) sum.add(1.0f + ray.s, ray.evidence);
   return sum.sum();
 }
 
 void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {
   std::vector<float> behind_front(lists_.rays());  // of the measured rays that each ray stands for, how many get so far
   for (std::uint32_t ray = 0; ray < lists_.rays(); ++ray) {
-    float pass = behind_front[ray] = static_cast<float>(lists_.weight(ray)) * passing(cold_[ray].depth);
+    float pass = behind_front[ray] =
+        static_cast<float>(lists_.weight(ray)) * optical_depth::passing(survivals_[ray].depth);
     for (const RayLists::Incidence& incidence : lists_.incidences(ray)) {
       reach[incidence.voxel] += pass;
       pass *= passing_[map_[incidence.voxel]][incidence.chord];
@@ -209,7 +158,7 @@ void SurvivalState::add_reach(std::vector<float>& reach, float enough) const {
       continue;
     }
     for (const RayLists::FrontEntry entry : entries) {
-      const bool blocked = cold_[entry.ray()].depth > 0;
+      const bool blocked = survivals_[entry.ray()].depth > 0;
       if (!blocked) reach[voxel] += behind_front[entry.ray()];
       wanted[entry.ray()] |= blocked;
     }

@@ -2,7 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "core/gibbs/ray_lists.hpp"
+#include "core/gibbs/front_terms.hpp"
+#include "core/gibbs/optical_depth.hpp"
 
 namespace nextview {
 
@@ -11,7 +12,7 @@ namespace nextview {
 /// In both, p(z | m) = floor (1 + s): s = T S, T the share of the ray that passes the voxels in front, S the sum over
 /// the near voxels j of T_j (1 - e_j) g_j (T_j: what passes the near voxels before j; e_j = exp(-kappa_j L_j): what
 /// passes j; g_j: density of the range there over the floor's). Beyond range, S is a constant and all voxels are in
-/// front. Optical depth is kept in fixed point: exact whatever the order, so nothing drifts.
+/// front.
 class SurvivalState {
  public:
   SurvivalState(const RayLists& lists, const ForwardSensorModel& model);
@@ -31,9 +32,19 @@ class SurvivalState {
   /// exp(log_negligible): it returns true, and they are upper bounds that are too.
   bool conditional(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
 
-  /// Asks the memory for what conditional() will need of the rays in front of whose ranges a voxel lies.
-  void prefetch_rays(std::uint32_t voxel) const {
-    for (const RayLists::FrontEntry entry : lists_.front(voxel)) __builtin_prefetch(&hot_[entry.ray()]);
+  /// Ask the memory for what conditional() will need of the rays in front of, or near, whose ranges a voxel lies.
+  void prefetch_front(std::uint32_t voxel) const {
+    for (const RayLists::FrontEntry entry : lists_.front(voxel)) {
+      __builtin_prefetch(&rays_[entry.ray()]);
+      if (map_[voxel] != 0) __builtin_prefetch(&survivals_[entry.ray()]);
+    }
+  }
+  void prefetch_near(std::uint32_t voxel) const {
+    for (const RayLists::NearEntry entry : lists_.near(voxel)) {
+      __builtin_prefetch(&lists_.incidence(entry.incidence));
+      __builtin_prefetch(&survivals_[entry.ray]);
+      __builtin_prefetch(&rays_[entry.ray]);
+    }
   }
 
   double log_likelihood() const;
@@ -42,33 +53,23 @@ class SurvivalState {
   void add_reach(std::vector<float>& reach, float enough) const;
 
  private:
-  struct Hot {
-    float s, evidence;  ///< s, and RayLists::evidence
-  };
-  struct Cold {
-    float near_sum = 0.0f;   ///< S
-    std::int32_t depth = 0;  ///< optical depth of the voxels in front, in units of 1 / depth_unit
-  };
   static constexpr int max_levels = 1 + ForwardSensorModel::max_attenuations;
-  static constexpr int depth_unit = 4096;
-  static constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
 
   /// `heard(before, now)` of each ray that notices.
   template <class Heard>
   void change_voxel(std::uint32_t voxel, std::uint8_t level, Heard heard);
-  static float passing(std::int32_t depth);
   float near_sum(std::uint32_t ray) const;
   void near_terms(std::uint32_t voxel, std::span<double> log_weights) const;
   bool front_terms(std::uint32_t voxel, double log_negligible, std::span<double> log_weights) const;
-  float without(RayLists::FrontEntry entry, std::uint8_t level) const;
 
   const RayLists& lists_;
   int levels_;
-  std::array<std::array<std::int32_t, RayLists::chord_codes>, max_levels> depth_{};  ///< of a level along a chord
-  std::array<std::array<float, RayLists::chord_codes>, max_levels> passing_{};       ///< exp(-depth)
+  std::array<OfChords<std::int32_t>, max_levels> depth_{};                   ///< optical depth of a level along a chord
+  std::array<OfChords<float>, max_levels> passing_{};                        ///< what passes it
+  std::array<OfChords<PassingPair>, (max_levels + 1) / 2> passing_pairs_{};  ///< the same, for FrontTerms
   std::vector<std::uint8_t> map_;
-  std::vector<Hot> hot_;
-  std::vector<Cold> cold_;
+  std::vector<RayWitness> rays_;        ///< by ray
+  std::vector<RaySurvival> survivals_;  ///< by ray
 };
 
 }  // namespace nextview

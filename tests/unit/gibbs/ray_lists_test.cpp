@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "core/gibbs/sites.hpp"
@@ -165,8 +166,15 @@ TEST(Sites, AreWhatRaysObserve) {
   for (const UpdatedVoxels updated : {UpdatedVoxels::occupied_and_free, UpdatedVoxels::occupied}) {
     PosteriorSamplerConfig config;
     config.updated = updated;
-    const Sites sites = find_sites(lists, config, start);
-    EXPECT_TRUE(std::ranges::is_sorted(sites.near_voxels) && std::ranges::is_sorted(sites.front_voxels));
+    Sites sites = find_sites(lists, config, start);
+    const auto bricks = [&](std::uint32_t v) {
+      const Eigen::Vector3i brick = lists.grid().cell(v) / 8;
+      return std::array{brick.z(), brick.y(), brick.x()};
+    };
+    EXPECT_TRUE(std::ranges::is_sorted(sites.near_voxels, {}, bricks));
+    EXPECT_TRUE(std::ranges::is_sorted(sites.front_voxels, {}, bricks));
+    std::ranges::sort(sites.near_voxels);
+    std::ranges::sort(sites.front_voxels);
     EXPECT_EQ(sites.count(), sites.near_voxels.size() + sites.front_voxels.size());
     for (std::uint32_t v = 0; v < start.size(); ++v) {
       const bool is_site = lists.observed(v) && (updated == UpdatedVoxels::occupied_and_free || start[v] >= 0.5f);
