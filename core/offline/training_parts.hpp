@@ -10,4 +10,9 @@ namespace nextview {
 /// and seed give the same part.
 TriangleMesh training_part(std::uint32_t number, std::uint64_t seed);
 
+/// One with rings and rows of small things, narrow grooves and thin walls, down to a few millimetres: what bolt
+/// circles, fins, gears and bearings are like. About 0.5 m long; half of them have walls on multiples of 5 mm. Pieces
+/// may be loose.
+TriangleMesh detailed_training_part(std::uint32_t number, std::uint64_t seed);
+
 }  // namespace nextview

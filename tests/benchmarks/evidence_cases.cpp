@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 
 #include "core/evaluation/visited_voxels.hpp"
 #include "core/mesh/mesh_file.hpp"
@@ -15,7 +16,7 @@ namespace nextview {
 namespace {
 
 constexpr std::uint64_t fitting_seed = 19;
-constexpr std::string_view part_prefix = "part ";
+constexpr std::string_view part_prefix = "part ", detailed_prefix = "detailed part ";
 
 /// Turned about all three axes, and moved off the grid by a share of a voxel.
 Eigen::Affine3d off_the_grid() {
@@ -23,16 +24,29 @@ Eigen::Affine3d off_the_grid() {
          Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitX());
 }
 
+bool is_made_up(const std::string& object) {
+  return object.starts_with(part_prefix) || object.starts_with(detailed_prefix);
+}
+
+TriangleMesh made_up(const std::string& object) {
+  const auto number = [&](std::string_view prefix) { return std::uint32_t(std::stoul(object.substr(prefix.size()))); };
+  return object.starts_with(part_prefix) ? training_part(number(part_prefix), fitting_seed)
+                                         : detailed_training_part(number(detailed_prefix), fitting_seed);
+}
+
 PlacedMesh mesh_of(const std::string& object) {
-  if (!object.starts_with(part_prefix)) return load_placed_mesh(resolve_object(object), {0.5});
+  if (!is_made_up(object)) return load_placed_mesh(resolve_object(object), {0.5});
+  static std::map<std::string, TriangleMesh> made;  // each is asked for by all cameras
+  const auto [part, is_new] = made.try_emplace(object);
+  if (is_new) part->second = made_up(object);
   PlacedMesh placed;
-  placed.mesh = training_part(std::uint32_t(std::stoul(object.substr(part_prefix.size()))), fitting_seed);
+  placed.mesh = part->second;
   return placed;
 }
 
 std::vector<Opening> openings_of(const std::string& object, const MeshPlacement& placement, const Eigen::Affine3d& T) {
   std::vector<Opening> openings;
-  if (object.starts_with(part_prefix)) return openings;
+  if (is_made_up(object)) return openings;
   const auto file = resolve_object(object).replace_extension(".json");
   if (!std::filesystem::exists(file)) return openings;
   for (Opening opening : read_openings(file)) {
@@ -70,10 +84,11 @@ EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const E
 }
 
 std::vector<FittingPart> fitting_parts() {
-  constexpr int count = 12;
+  constexpr int count = 12;  // of each kind
   std::vector<FittingPart> parts;
-  for (int i = 1; i <= count; ++i)
-    parts.push_back({fmt::format("{}{}", part_prefix, i), i % 2 ? EvidencePose::turned : EvidencePose::as_placed});
+  for (const std::string_view kind : {part_prefix, detailed_prefix})
+    for (int i = 1; i <= count; ++i)
+      parts.push_back({fmt::format("{}{}", kind, i), i % 2 ? EvidencePose::turned : EvidencePose::as_placed});
   return parts;
 }
 

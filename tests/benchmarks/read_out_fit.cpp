@@ -11,7 +11,7 @@ namespace nextview {
 namespace {
 
 constexpr int features = ReadOutFeatures::count, units = ReadOutNetwork::units;
-constexpr int batch = 1024, passes = 8;
+constexpr int batch = 1024, passes = 40;
 constexpr float first_step = 5e-3f, decay = 1e-5f;
 
 using Inputs = Eigen::Matrix<float, Eigen::Dynamic, features, Eigen::RowMajor>;

@@ -1,7 +1,6 @@
 #include "ui/figures/session_figure.hpp"
 
-#include <fmt/format.h>
-
+#include "core/setting/length_text.hpp"
 #include "ui/charts/scan_curves.hpp"
 #include "ui/layers/ray_segments.hpp"
 #include "ui/render_target/offscreen_target.hpp"
@@ -22,6 +21,12 @@ PointCloud thinned(const std::vector<std::shared_ptr<const Scan>>& scans) {
     for (const Eigen::Vector3f& p : scan->hits)
       if (i++ % stride == 0) points.push_back(p);
   return points;
+}
+
+/// How near a point must come to what it covers [m].
+double d_reg_of(const Session& session) {
+  const RecordedSurface* recorded = session.setup().recorded.get();
+  return recorded ? recorded->d_reg() : session.configuration().evaluation.d_reg;
 }
 
 }  // namespace
@@ -70,21 +75,20 @@ StepPicture step_picture(const Session& session) {
   }
   picture.entropy.y_unit = "Mbit";
   picture.entropy.series = {unmeasured, total};
-  picture.coverage.title = fmt::format("Surface coverage at d_reg = {:g} mm", 1e3 * c.evaluation.d_reg);
+  picture.coverage.title = "Surface coverage at d_reg = " + length_text(d_reg_of(session));
   if (session.known_object()) picture.coverage.series = {visible, all};
   if (session.recording()) picture.coverage.series.insert(picture.coverage.series.begin(), recorded);
   return picture;
 }
 
 std::vector<ChartContent> session_charts(const Session& session) {
-  ScanCourse course{session.records(), session.map().grid().voxel_count(), session.configuration().evaluation.d_reg,
-                    session.planner().unit(), session.known_object() != nullptr};
+  ScanCourse course{session.records(), session.map().grid().voxel_count(), d_reg_of(session), session.planner().unit(),
+                    session.known_object() != nullptr};
   std::optional<CoverageByOrder> orders;
   const auto taken = frames_taken(session.state().known);
   if (const RecordedSurface* recorded = session.setup().recorded.get(); recorded && !taken.empty()) {
     orders = recorded->compare_orders(taken, session.configuration().seed);
     course.orders = &*orders;
-    course.d_reg = recorded->d_reg();
   }
   return scan_charts(course);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <regex>
+#include <utility>
 
 namespace nextview {
 namespace {
@@ -35,18 +36,22 @@ std::string unmarked(std::string_view marked) {
   return result;
 }
 
-/// The cells of "| a | b |".
+/// The cells of "| a | b |"; "\|" is a bar within one.
 std::vector<std::string> cells(std::string_view line) {
   line = trimmed(line);
   if (line.starts_with('|')) line.remove_prefix(1);
   if (line.ends_with('|')) line.remove_suffix(1);
   std::vector<std::string> result;
-  for (bool more = true; more;) {
-    const std::size_t end = line.find('|');
-    more = end != line.npos;
-    result.push_back(unmarked(trimmed(line.substr(0, end))));
-    line.remove_prefix(more ? end + 1 : line.size());
+  std::string cell;
+  const auto end_cell = [&] { result.push_back(unmarked(trimmed(std::exchange(cell, {})))); };
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool escaped = line.substr(i).starts_with("\\|");
+    if (line[i] == '|')
+      end_cell();
+    else
+      cell += escaped ? line[++i] : line[i];
   }
+  end_cell();
   return result;
 }
 

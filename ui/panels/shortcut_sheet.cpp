@@ -15,7 +15,7 @@ constexpr std::array mouse = {
     std::pair{"Left drag", "turn the scene"},
     std::pair{"Middle or Shift + left drag", "move it"},
     std::pair{"Wheel", "nearer to the pointer, farther"},
-    std::pair{"Double click", "turn around this point"},
+    std::pair{"Double click", "bring this point to the middle"},
     std::pair{"Arrows, =, −", "turn, nearer, farther"},
     std::pair{"Tab, arrows, Space", "go through the controls, press one"},
     std::pair{"Click a frustum", "look at this view"},
@@ -88,7 +88,7 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
     ImGui::TableNextColumn();
     draw_menus(context, {"File", "Scan", "Timeline", "Gibbs", "Window"});
     ImGui::TableNextColumn();
-    draw_menus(context, {"Select", "Scene"});
+    draw_menus(context, {"Select", "Scene", "Layers"});
     ImGui::TableNextColumn();
     draw_panels_and_mouse(context);
     ImGui::EndTable();

@@ -54,6 +54,8 @@ TEST(Markdown, ATablesCellsNeedNoSpacesAndNoBarAtTheEnd) {
   EXPECT_THAT(rows("|a|b|c|\n|1|\n|1|2|3|4|\n"),
               ElementsAre(ElementsAre("a", "b", "c"), ElementsAre("1", "", ""), ElementsAre("1", "2", "3")))
       << "all rows are as long as the heads";
+  EXPECT_THAT(rows("|a|b|\n|-|-|\n|P(x \\| y)|`--of map\\|cloud`|\n"),
+              ElementsAre(ElementsAre("a", "b"), ElementsAre("P(x | y)", "--of map|cloud")));
 }
 
 TEST(Markdown, WhatBeginsLikeSomethingElseIsText) {

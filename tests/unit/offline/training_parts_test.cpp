@@ -49,5 +49,21 @@ TEST(TrainingParts, AreThoseThatTheDefaultGainWasFittedTo) {
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(volumes[i], expected[i], 0.1) << i;
 }
 
+/// The read-out of the Gibbs map was learned from these.
+TEST(TrainingParts, InDetailAreWatertightAndThoseThatTheReadOutWasFittedTo) {
+  const std::vector<double> expected = {19461.30, 19910.22};  // [cm^3]
+  for (std::uint32_t number = 1; number <= 2; ++number) {
+    const TriangleMesh part = detailed_training_part(number, 19);
+    SCOPED_TRACE(number);
+    const MeshTopology joined = topology(part);
+    EXPECT_TRUE(joined.watertight()) << joined.summary();
+    EXPECT_FALSE(joined.inward);
+    EXPECT_NEAR(part.bounding_box().sizes().maxCoeff(), 0.5, 0.05);
+    EXPECT_LT(part.bounding_box().center().norm(), 0.03);
+    EXPECT_NEAR(1e6 * volume(part), expected[number - 1], 0.1);
+    EXPECT_TRUE(number == 2 || same(part, detailed_training_part(number, 19)));
+  }
+}
+
 }  // namespace
 }  // namespace nextview
