@@ -75,8 +75,8 @@ class StateChain final : public Chain {
                          sweep_);
   }
 
-  /// The inner loop of Algorithm 1: single-voxel updates in the order of the voxels. While one is drawn all others
-  /// stay, so p(m_-i | z, x) of Eq. 5 does, and with it the posterior.
+  /// The inner loop of Algorithm 1: single-voxel updates, those near ranges first, each kind brick after brick. While
+  /// one is drawn all others stay, so p(m_-i | z, x) of Eq. 5 does, and with it the posterior.
   void update_levels(PosteriorSums* mean) {
     const bool front_too = mean && mean->near_sweeps++ % 16 == 0;
     if (front_too) ++mean->front_sweeps;
@@ -108,9 +108,8 @@ class StateChain final : public Chain {
   /// rays say: the gaps between those that need a look are drawn instead (geometric).
   void update_unsettled(PosteriorSums* mean) {
     const CounterRandom draws = random(Draw::levels);
-    draw_looks();
+    draw_looks(draws);
     update_near(draws, mean);
-    for (const std::uint32_t voxel : occupied_front_voxels()) looks_.push_back({voxel, draws.uniform(voxel)[0]});
     for (std::size_t l = 0; l < looks_.size(); ++l) {
       if (l + 8 < looks_.size()) lists_.prefetch_front(looks_[l + 8].voxel);
       if (l + 4 < looks_.size()) state_.prefetch_front(looks_[l + 4].voxel);
@@ -118,35 +117,32 @@ class StateChain final : public Chain {
     }
   }
 
-  /// The free voxels in front whose uniform number leaves open what they become, with that number.
-  void draw_looks() {
-    const CounterRandom draws = random(Draw::looks);
+  /// The voxels in front that need a look, with their uniform numbers: those that are occupied, and free ones whose
+  /// number leaves open what they become. In one order whatever their levels: were it theirs to decide which comes
+  /// first, the chain would have another distribution than the posterior.
+  void draw_looks(const CounterRandom& draws) {
+    const CounterRandom gaps = random(Draw::looks);
     const double log_settled = std::log1p(-config_.prior);
-    const std::size_t count = sites_.front_voxels.size();
-    looks_.clear();
-    std::size_t next = 0;
-    for (std::uint64_t k = 0;; ++k) {
-      const auto u = draws.uniform(k);
-      for (int half = 0; half < 4; half += 2) {
-        next += static_cast<std::size_t>(std::min(std::log(u[half]) / log_settled, 4e9));
-        if (next >= count) return;
-        const std::uint32_t voxel = sites_.front_voxels[next++];
-        if (state_.map()[voxel] == 0) looks_.push_back({voxel, 1.0 - config_.prior * u[half + 1]});
-      }
-    }
-  }
-
-  std::vector<std::uint32_t> occupied_front_voxels() const {
-    std::vector<std::uint32_t> occupied;
     const auto map = state_.map();
-    for (std::size_t begin = 0; begin < map.size(); begin += 64) {
-      const auto part = map.subspan(begin, std::min<std::size_t>(64, map.size() - begin));
-      if (std::all_of(part.begin(), part.end(), [](std::uint8_t level) { return level == 0; })) continue;
-      for (std::size_t k = 0; k < part.size(); ++k)
-        if (part[k] && sites_.kind[begin + k] == Sites::front)
-          occupied.push_back(static_cast<std::uint32_t>(begin + k));
+    std::uint64_t drawn = 0;
+    std::size_t next = 0;  // that is looked at though it is free
+    double u = 0.0;
+    const auto draw_next = [&] {
+      const auto numbers = gaps.uniform(drawn / 2);
+      const std::size_t half = 2 * (drawn++ % 2);
+      next += static_cast<std::size_t>(std::min(std::log(numbers[half]) / log_settled, 4e9));
+      u = 1.0 - config_.prior * numbers[half + 1];
+    };
+    looks_.clear();
+    draw_next();
+    for (std::size_t place = 0; place < sites_.front_voxels.size(); ++place) {
+      const std::uint32_t voxel = sites_.front_voxels[place];
+      if (map[voxel] != 0)
+        looks_.push_back({voxel, draws.uniform(voxel)[0]});
+      else if (place == next)
+        looks_.push_back({voxel, u});
+      if (place == next) ++next, draw_next();
     }
-    return occupied;
   }
 
   /// Draws the level of a voxel from its full conditional (Eqs. 8-9), given the uniform number.

@@ -173,7 +173,8 @@ void ChainEnsemble::diagnose_voxels() {
     samples.push_back(effective_sample_size(chains));
   }
   diagnostics_.voxel_r_hat = quantile(r_hats, 0.95, 1.0);
-  diagnostics_.voxel_effective_samples = quantile(samples, 0.05, double(window_) * config_.chains);
+  diagnostics_.voxel_effective_samples =
+      quantile(samples, 0.05, double(diagnostics_.sweeps - diagnostics_.burn_in) * config_.chains);
 }
 
 void ChainEnsemble::count_voxels() {

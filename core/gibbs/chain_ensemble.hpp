@@ -16,7 +16,7 @@ class ChainEnsemble {
   void start(int chain, std::vector<std::uint8_t> levels) { chains_[chain]->start(std::move(levels)); }
   std::span<const std::uint8_t> map(int chain) const { return chains_[chain]->map(); }
 
-  /// Starts a new mean, over the next `sweeps` sweeps: what was before becomes burn-in.
+  /// Starts a new mean, over the next `sweeps` sweeps or more: what was before becomes burn-in.
   void begin_mean(int sweeps);
   /// Sweeps of all chains side by side, a thread a chain.
   void sweep(int count, bool into_mean);
@@ -49,8 +49,8 @@ class ChainEnsemble {
   std::vector<std::uint32_t> kept_;                       ///< those that take_level_traces() is of
   std::vector<std::vector<std::vector<double>>> traces_;  ///< [chain][traced voxel][sweep of the mean]: occupied or not
   std::vector<std::deque<std::vector<std::uint8_t>>> levels_;  ///< LevelTraces::levels
-  int window_ = 1;                                             ///< sweeps of the mean
-  int reach_samples_ = 2;  ///< of each chain over the mean: a tenth of the sweeps, fewer where expensive
+  int window_ = 1;                                             ///< sweeps that the mean was begun for
+  int reach_samples_ = 2;  ///< of each chain over those: a tenth of them, fewer where expensive
 };
 
 }  // namespace nextview

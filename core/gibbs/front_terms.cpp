@@ -77,7 +77,7 @@ struct Both {
 };
 template <class Pair>
 HWY_INLINE Both both(const Pair* pairs, IntegerVector at) {
-  static_assert(sizeof(Pair) == sizeof(std::int64_t));
+  static_assert(sizeof(Pair) == sizeof(std::int64_t) && alignof(Pair) == alignof(std::int64_t));
 #if HWY_TARGET == HWY_SCALAR
   const float* const begin = reinterpret_cast<const float*>(pairs);
   const IntegerVector twice = hn::Add(at, at);

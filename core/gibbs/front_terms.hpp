@@ -8,12 +8,12 @@
 namespace nextview {
 
 /// What a chain knows of a ray, see SurvivalState: what is asked for whenever a voxel in front is looked at, ...
-struct RayWitness {
+struct alignas(8) RayWitness {
   float s;         ///< T S
   float evidence;  ///< RayLists::evidence
 };
 /// ... and what s is made of.
-struct RaySurvival {
+struct alignas(8) RaySurvival {
   float near_sum = 0.0f;   ///< S
   std::int32_t depth = 0;  ///< optical depth of the voxels in front, which T is of
 };
@@ -22,7 +22,7 @@ struct RaySurvival {
 template <class T>
 using OfChords = std::array<T, RayLists::chord_codes>;
 /// What passes voxels of two levels; side by side, as both are asked for together.
-using PassingPair = std::array<float, 2>;
+struct alignas(8) PassingPair : std::array<float, 2> {};
 
 /// A voxel in front of rays' ranges, and what they say of it.
 struct FrontTerms {

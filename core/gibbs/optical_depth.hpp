@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace nextview {
 
@@ -10,7 +11,10 @@ namespace nextview {
 /// to it, so nothing drifts.
 namespace optical_depth {
 inline constexpr int unit = 4096;
-inline constexpr std::int32_t opaque = 1 << 22;  ///< nothing passes: what an occupied voxel adds in `beam`
+/// Nothing passes, as no float is left of exp(-128): what an occupied voxel adds in `beam`. No voxel adds more, so that
+/// `most_voxels` on a ray add up without overflow.
+inline constexpr std::int32_t opaque = 1 << 19;
+inline constexpr std::int32_t most_voxels = std::numeric_limits<std::int32_t>::max() / opaque;
 
 /// exp(-depth / unit) of the lower, middle and upper bits of a depth: their product is what passes. A chain asks for it
 /// more often than for anything else.

@@ -45,34 +45,35 @@ class Schedule {
 
  private:
   /// Sweeps into a new mean, and says whether that is the last. Tests of so few sweeps fail by chance, too: as long as
-  /// there is no trend, a quarter more are asked for, up to twice as many. A start that is still felt is left out.
+  /// there is no trend, a quarter more are asked for, up to twice as many. A start that is still felt is left out, if
+  /// sweeps are left for a mean of as many.
   bool ends_in_mean_of(int window) {
     chains_.begin_mean(std::min(window, config_.sweeps - diagnostics_.sweeps));
-    const int end = diagnostics_.sweeps + 2 * window;
-    for (int next = window; diagnostics_.sweeps < end; next = window / 4) {
+    for (int next = window;; next = window / 4) {
       const int count = std::max(few_sweeps, std::min(next, config_.sweeps - diagnostics_.sweeps));
       may_end_ = diagnostics_.sweeps + count;
       sweep(count, true);
       chains_.diagnose();
       report();
+      const int taken = diagnostics_.sweeps - diagnostics_.burn_in, left = config_.sweeps - diagnostics_.sweeps;
       if (diagnostics_.stationary && config_.until_stationary) return true;
-      if (stop_.stop_requested() || diagnostics_.sweeps + few_sweeps > config_.sweeps) return true;
-      if (chains_.trends()) return false;
+      if (stop_.stop_requested() || left < few_sweeps) return true;
+      if (left >= taken && (chains_.trends() || taken >= 2 * window)) return false;
     }
-    return false;
   }
 
   void sweep(int count, bool into_mean) {
     for (int done = 0; done < count; done += sweeps_between_reports) {
-      if (stop_.stop_requested() && (!into_mean || done >= 4)) return;
+      if (stop_.stop_requested() && (!into_mean || done >= few_sweeps)) return;
       report();
       chains_.sweep(std::min(sweeps_between_reports, count - done), into_mean);
     }
   }
 
-  void report() const {
+  void report() {
     // Of what it takes until it is asked again whether that is enough.
-    if (progress_) progress_(std::min(1.0, double(diagnostics_.sweeps) / may_end_), "refining the map", diagnostics_);
+    done_ = std::max(done_, std::min(1.0, double(diagnostics_.sweeps) / may_end_));
+    if (progress_) progress_(done_, "refining the map", diagnostics_);
   }
 
   ChainEnsemble& chains_;
@@ -80,7 +81,8 @@ class Schedule {
   SamplerDiagnostics& diagnostics_;
   const SamplerProgress& progress_;
   std::stop_token stop_;
-  int may_end_ = 1;  ///< after so many sweeps it is asked whether they are enough
+  double done_ = 0.0;  ///< as told last: it never goes back
+  int may_end_ = 1;    ///< after so many sweeps it is asked whether they are enough
 };
 
 std::string warning(const SamplerDiagnostics& d, bool stopped) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/gibbs/optical_depth.hpp"
 #include "core/map/traversal.hpp"
 #include "core/memory/available_memory.hpp"
 
@@ -40,6 +41,13 @@ void RayLists::require_holdable(const VoxelGrid& grid) {
   if (grid.voxel_count() > max_voxels)
     throw std::invalid_argument(fmt::format("gibbs: {} voxels are more than the {} it can hold; use a coarser map",
                                             grid.voxel_count(), max_voxels));
+  // A ray crosses no more voxels than that.
+  const auto sides = grid.size.cast<std::int64_t>().sum();
+  if (sides > optical_depth::most_voxels)
+    throw std::invalid_argument(
+        fmt::format("gibbs: a region of {} voxels along its three sides together is longer than "
+                    "the {} it can hold; use a coarser map",
+                    sides, optical_depth::most_voxels));
 }
 
 double RayLists::chord(std::uint32_t code) { return code * longest_chord / (chord_codes - 1); }

@@ -45,7 +45,7 @@ class RayLists {
   /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists).
   RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model);
 
-  /// @throws std::invalid_argument if the grid has too many voxels.
+  /// @throws std::invalid_argument if the grid has too many voxels, or is too long.
   static void require_holdable(const VoxelGrid& grid);
 
   const VoxelGrid& grid() const { return grid_; }

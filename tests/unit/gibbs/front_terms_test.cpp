@@ -18,7 +18,7 @@ struct Problem {
   std::vector<RayLists::FrontEntry> entries;
   std::vector<RayWitness> rays;
   std::vector<RaySurvival> survivals;
-  std::vector<OfChords<PassingPair>> passing = std::vector<OfChords<PassingPair>>(2);
+  std::vector<OfChords<PassingPair>> passing = std::vector<OfChords<PassingPair>>(3);
   OfChords<std::int32_t> own_depth;
 
   Problem(std::size_t count, std::uint64_t seed) {
@@ -26,19 +26,22 @@ struct Problem {
     constexpr std::size_t ray_count = 1000;
     for (std::size_t r = 0; r < ray_count; ++r) {
       const auto u = draws.uniform(r);
-      const auto depth = static_cast<std::int32_t>(u[1] < 0.05 ? 2.0 * optical_depth::opaque : 3e4 * u[0] * u[0]);
+      const auto depth =
+          static_cast<std::int32_t>(optical_depth::opaque * (u[1] < 0.3 ? 2.0 * u[0] : 0.1 * u[0] * u[0]));
       survivals.push_back({static_cast<float>(u[2] < 0.1 ? 0.0 : std::exp(10.0 * u[2] - 3.0)), depth + 2048});
       rays.push_back({survivals.back().near_sum * optical_depth::passing(depth + 2048), static_cast<float>(u[3])});
     }
     for (std::uint32_t code = 0; code < RayLists::chord_codes; ++code) {
-      for (int level = 0; level < 4; ++level)
-        passing[level / 2][code][level % 2] = static_cast<float>(std::exp(-0.1 * (level + 1) * code / 1023.0));
+      for (int level = 0; level < 5; ++level)
+        passing[level / 2][code][level % 2] =
+            level == 2 ? 0.0f : static_cast<float>(std::exp(-0.1 * (level + 1) * code / 1023.0));
       own_depth[code] = static_cast<std::int32_t>(2 * code);
     }
-    for (std::size_t k = 0; k < count + RayLists::entries_beyond; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       const auto u = draws.uniform(ray_count + k);
       entries.push_back({static_cast<std::uint32_t>(u[0] * ray_count) << 10 | static_cast<std::uint32_t>(u[1] * 1024)});
     }
+    entries.resize(count + RayLists::entries_beyond, {0xffffffff});  // of no ray
   }
   FrontTerms terms(bool is_free) const {
     return {std::span(entries).first(entries.size() - RayLists::entries_beyond), rays.data(), survivals.data(), passing,
@@ -75,13 +78,23 @@ bool add_plainly(const FrontTerms& terms, double enough, std::span<double> log_w
   return false;
 }
 
+TEST(OpticalDepth, SaysWhatPasses) {
+  for (std::int32_t depth = 0; depth < optical_depth::opaque; depth += 1 + depth / 50) {
+    const double expected = std::exp(-double(depth) / optical_depth::unit);
+    if (expected < 1e-30) break;
+    ASSERT_NEAR(optical_depth::passing(depth), expected, 1e-6 * expected) << depth;
+  }
+  EXPECT_EQ(optical_depth::passing(optical_depth::opaque), 0.0f);
+  EXPECT_EQ(optical_depth::passing(std::numeric_limits<std::int32_t>::max()), 0.0f);
+}
+
 class FrontTermsOn : public OnInstructionSet {};
 
 TEST_P(FrontTermsOn, AreThePlainSumToTheLastBit) {
-  for (std::size_t count = 0; count < 70; ++count) {
+  for (std::size_t count = 0; count < 600; count += count < 70 ? 1 : 59) {
     const Problem problem(count, count);
     for (const bool is_free : {false, true})
-      for (const std::size_t levels : {1, 2, 3, 4})
+      for (const std::size_t levels : {1, 2, 3, 4, 5})
         for (const double enough : {-std::numeric_limits<double>::infinity(), -1.5, 0.0}) {
           std::vector<double> weights(levels, -0.5), expected = weights;
           const bool settled = add_front_terms(problem.terms(is_free), enough, weights);
