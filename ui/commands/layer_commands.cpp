@@ -113,11 +113,10 @@ const CommandOf<> command::edit_region{
     }};
 const CommandOf<> command::toggle_missed =
     toggle_surface_alone("missed", "the missed surface, painted on the object", '7', &LayerChoice::missed);
-const CommandOf<> command::toggle_surface =
-    toggle_surface_alone("surface", "the surface that the views so far make, and how far it is off", '9',
-                         &LayerChoice::surface, [](const CommandState& t) {
-                           return t.session.compared ? "it is not made of two branches: stop comparing first" : "";
-                         });
+const CommandOf<> command::toggle_surface = toggle_surface_alone(
+    "surface", "the reconstructed surface and its errors", '9', &LayerChoice::surface, [](const CommandState& t) {
+      return t.session.compared ? "it is not made of two branches: stop comparing first" : "";
+    });
 
 const CommandOf<> command::toggle_candidates =
     toggle("candidates", "all candidate views, not only the best five", '8', &LayerChoice::all_candidates);
