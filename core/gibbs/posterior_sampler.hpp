@@ -87,8 +87,9 @@ struct GibbsPosterior {
   std::vector<Voxel> voxels_of(std::span<const float> p, const InverseSensorModel& classes) const;
 };
 
-/// Is given every few sweeps how far a run has come, and how it goes: `so_far` has the traces up to now, what is worked
-/// out from them as of the last mean that was tried. It is valid during the call. Called from the thread that samples.
+/// Is given every few sweeps how far a run has come, which never goes back, and how it goes: `so_far` has the traces up
+/// to now, what is worked out from them as of the last mean that was tried. It is valid during the call. Called from
+/// the thread that samples.
 using SamplerProgress = std::function<void(double fraction, std::string_view what, const SamplerDiagnostics& so_far)>;
 
 /// Draws from p(m | z). `start_map`: probabilities that StartMap::octree starts from (occupied where p >= 0.5), and

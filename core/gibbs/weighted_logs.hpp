@@ -12,9 +12,6 @@ namespace nextview {
 /// bits are the same on every processor, and no logarithm waits for another.
 class WeightedLogs {
  public:
-  static constexpr std::size_t lanes = 8;
-  using Lanes = std::array<float, lanes>;
-
   /// @pre the factor is greater than 0, finite and no denormal number
   void add(float factor, float weight) {
     factors_[count_] = factor;
@@ -28,15 +25,6 @@ class WeightedLogs {
     factors.fill(1.0f);
     std::copy_n(factors_.begin(), count_, factors.begin());
     return sum_ + (count_ == 0 ? 0.0 : sum_of(factors, weights_));
-  }
-
-  /// Of eight.
-  static float sum_of(const Lanes& factors, const Lanes& weights) {
-    Lanes terms;
-    for (std::size_t i = 0; i < lanes; ++i) terms[i] = weights[i] * log(factors[i]);
-    for (std::size_t half = lanes / 2; half > 0; half /= 2)
-      for (std::size_t i = 0; i < half; ++i) terms[i] += terms[i + half];
-    return terms[0];
   }
 
   /// Natural logarithm, to 2e-7 of itself or of 1, whichever is more. @pre as add()
@@ -53,6 +41,18 @@ class WeightedLogs {
   }
 
  private:
+  static constexpr std::size_t lanes = 8;
+  using Lanes = std::array<float, lanes>;
+
+  /// Of eight.
+  static float sum_of(const Lanes& factors, const Lanes& weights) {
+    Lanes terms;
+    for (std::size_t i = 0; i < lanes; ++i) terms[i] = weights[i] * log(factors[i]);
+    for (std::size_t half = lanes / 2; half > 0; half /= 2)
+      for (std::size_t i = 0; i < half; ++i) terms[i] += terms[i + half];
+    return terms[0];
+  }
+
   Lanes factors_{}, weights_{};
   std::size_t count_ = 0;
   double sum_ = 0.0;

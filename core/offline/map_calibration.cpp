@@ -115,12 +115,9 @@ void check(std::span<const CalibrationExample> examples) {
 MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const MapCalibrationConfig& config,
                              const Progress& progress, std::stop_token stop) {
   check(examples);
-  // A refinement that is not stationary yet counts to its next test; the calibration never goes back.
-  double done = 0.0;
   const auto part = [&](double begin, double end) {
-    return [&progress, &done, begin, end](double fraction, std::string_view what) {
-      done = std::max(done, begin + (end - begin) * fraction);
-      if (progress) progress(done, what);
+    return [&progress, begin, end](double fraction, std::string_view what) {
+      if (progress) progress(begin + (end - begin) * fraction, what);
     };
   };
   const auto check_stop = [&] {
