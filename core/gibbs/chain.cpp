@@ -90,8 +90,12 @@ class StateChain final : public Chain {
   void update_all(PosteriorSums* mean, bool front_too) {
     const CounterRandom draws = random(Draw::levels);
     update_near(draws, mean);
-    for (const std::uint32_t voxel : sites_.front_voxels)
-      update(voxel, draws.uniform(voxel)[0], front_too ? mean : nullptr);
+    const std::vector<std::uint32_t>& voxels = sites_.front_voxels;
+    for (std::size_t n = 0; n < voxels.size(); ++n) {
+      if (n + 8 < voxels.size()) lists_.prefetch_front(voxels[n + 8]);
+      if (n + 3 < voxels.size()) state_.prefetch_front(voxels[n + 3]);
+      update(voxels[n], draws.uniform(voxels[n])[0], front_too ? mean : nullptr);
+    }
   }
 
   void update_near(const CounterRandom& draws, PosteriorSums* mean) {

@@ -3,11 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 
 namespace nextview {
 namespace {
@@ -18,9 +18,11 @@ struct CellRay {
   float range;  ///< infinity beyond range
   std::uint32_t ray;
 
+  /// By cell, then range, then number: compared as whole numbers, as ranges are not negative.
   bool operator<(const CellRay& other) const {
-    return std::tie(cell, range, ray) < std::tie(other.cell, other.range, other.ray);
+    return cell != other.cell ? cell < other.cell : within_cell() < other.within_cell();
   }
+  std::uint64_t within_cell() const { return std::uint64_t{std::bit_cast<std::uint32_t>(range)} << 32 | ray; }
 };
 
 /// Each of 29 bits at the place of twice its number.
@@ -81,6 +83,7 @@ std::vector<RangeMeasurement> merge_origin(const RangeMeasurements& measurements
   for (const std::uint32_t n : numbers) mean += measurements.direction(measurements.rays[n]);
   const DirectionCells cells(mean, spacing);
   std::vector<CellRay> rays;
+  rays.reserve(numbers.size());
   for (const std::uint32_t n : numbers) {
     const RangeMeasurement& ray = measurements.rays[n];
     const float range =
@@ -116,7 +119,6 @@ RangeMeasurements merge_each_origin(const RangeMeasurements& measurements, const
 void RangeMeasurements::add(const Scan& scan) {
   const auto origin = static_cast<std::uint32_t>(origins.size());
   origins.push_back(scan.origin);
-  rays.reserve(rays.size() + scan.hits.size() + scan.misses.size());
   const auto append = [&](const Eigen::Vector3f& end, bool beyond_range) {
     const double range = (end.cast<double>() - scan.origin).norm();
     if (range > 0.0) rays.push_back({end, origin, 1, beyond_range || range > max_range});
@@ -131,6 +133,9 @@ RangeMeasurements measurements_of(std::span<const Scan> scans) {
     throw std::invalid_argument(
         "a Gibbs map needs the sensor's maximum range (Scan::max_range): up to there a ray that met nothing saw");
   RangeMeasurements measurements{max_range, {}, {}};
+  std::size_t rays = 0;
+  for (const Scan& scan : scans) rays += scan.hits.size() + scan.misses.size();
+  measurements.rays.reserve(rays);
   for (const Scan& scan : scans) measurements.add(scan);
   return measurements;
 }

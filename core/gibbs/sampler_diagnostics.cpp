@@ -55,6 +55,13 @@ double autocovariance(std::span<const std::span<const double>> chains, std::size
   return sum / static_cast<double>(chains.size());
 }
 
+/// The quantile of the standard normal that Student's t stands for (Wallace 1959, within a hundredth).
+double normal_quantile(double t, double degrees_of_freedom) {
+  const double size = (8.0 * degrees_of_freedom + 1.0) / (8.0 * degrees_of_freedom + 3.0) *
+                      std::sqrt(degrees_of_freedom * std::log1p(t * t / degrees_of_freedom));
+  return std::copysign(size, t);
+}
+
 }  // namespace
 
 double split_r_hat(std::span<const std::span<const double>> chains) {
@@ -103,7 +110,8 @@ double geweke_z(std::span<const double> chain) {
   const double variance = of_tail + std::max(variance_of_mean(head), time / static_cast<double>(head.size()));
   if (variance == 0.0)
     return difference == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), difference);
-  return difference / std::sqrt(variance);
+  // Few values hardly know what they vary by: of eight, 2.6 standard errors are no rare thing.
+  return normal_quantile(difference / std::sqrt(variance), static_cast<double>(tail.size() - 1));
 }
 
 }  // namespace nextview

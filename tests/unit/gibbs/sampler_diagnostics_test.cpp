@@ -138,6 +138,22 @@ TEST(GewekeZ, rarelyRaisesAFalseAlarm) {
   }
 }
 
+TEST(GewekeZ, isAsRareAsItSaysForFewValuesToo) {
+  constexpr int chains = 20'000;
+  for (const std::size_t size : {12u, 16u, 20u, 32u}) {
+    int alarms = 0, strong_alarms = 0;
+    for (std::uint32_t index = 0; index < chains; ++index) {
+      const double z = geweke_z(normals(size, index));
+      alarms += std::abs(z) > 1.96;
+      strong_alarms += std::abs(z) > 2.576;
+    }
+    EXPECT_GT(alarms, 0.02 * chains) << size << ": nominal: 5 %";
+    EXPECT_LT(alarms, 0.06 * chains) << size << ": nominal: 5 %";
+    EXPECT_GT(strong_alarms, 0.002 * chains) << size << ": nominal: 1 %";
+    EXPECT_LT(strong_alarms, 0.012 * chains) << size << ": nominal: 1 %";
+  }
+}
+
 TEST(GewekeZ, seesATrend) {
   EXPECT_GT(std::abs(geweke_z(line(1'000, 0.0, 1.0))), 3.0) << "a line looks like slow mixing, too";
   Series rising = normals(1'000, 1);
