@@ -1,5 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace nextview {
 
@@ -17,6 +19,8 @@ void add_figure_command(CLI::App& program);
 void add_driver_command(CLI::App& program);
 void add_demo_command(CLI::App& program);
 void add_help_command(CLI::App& program);
+
+std::vector<std::string> figure_names();  ///< that `figure` draws
 
 /// Exit codes: 0 done, 2 bad input or settings, 130 stopped by the user.
 inline constexpr int exit_bad_input = 2;

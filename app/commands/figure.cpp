@@ -35,15 +35,6 @@ struct FigureArguments {
 
 bool is_wanted(const FigureArguments& a, const std::string& name) { return a.name == "all" || a.name == name; }
 
-std::vector<std::string> known_figures() {
-  std::vector<std::string> names = {"all"};
-  for (const StudyFigure& figure : study_figures()) names.push_back(figure.name);
-  for (const ScanFigure& figure : scan_figures()) names.push_back(figure.name);
-  names.emplace_back(time_table_name);
-  names.emplace_back(report_name);
-  return names;
-}
-
 void print_list() {
   for (const StudyFigure& figure : study_figures()) fmt::print("{:<22} {}\n", figure.name, figure.caption);
   for (const ScanFigure& figure : scan_figures()) fmt::print("{:<22} {}\n", figure.name, figure.caption);
@@ -141,7 +132,7 @@ void write_scan_figures(const FigureArguments& a, const std::stop_token& stop) {
 
 /// A folder that holds anything but figures by these names is not written to.
 void require_folder_of_figures(const fs::path& out) {
-  const auto names = known_figures();
+  const auto names = figure_names();
   std::error_code error;
   for (fs::directory_iterator entry(out, error), end; !error && entry != end; entry.increment(error))
     if (std::ranges::find(names, entry->path().stem().string()) == names.end())
@@ -161,7 +152,7 @@ bool draws_study(const FigureArguments& a) {
 void check(const FigureArguments& a) {
   if (a.name.empty() || a.out.empty())
     throw std::invalid_argument("figure: give a NAME, or all, and --out DIR; or --list");
-  const auto names = known_figures();
+  const auto names = figure_names();
   if (std::ranges::find(names, a.name) == names.end())
     throw std::invalid_argument(
         fmt::format("there is no figure '{}'; did you mean '{}'?", a.name, nearest(a.name, names)));
@@ -193,6 +184,15 @@ int run(const FigureArguments& a) {
 }
 
 }  // namespace
+
+std::vector<std::string> figure_names() {
+  std::vector<std::string> names = {"all"};
+  for (const StudyFigure& figure : study_figures()) names.push_back(figure.name);
+  for (const ScanFigure& figure : scan_figures()) names.push_back(figure.name);
+  names.emplace_back(time_table_name);
+  names.emplace_back(report_name);
+  return names;
+}
 
 void add_figure_command(CLI::App& program) {
   auto a = std::make_shared<FigureArguments>();

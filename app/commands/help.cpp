@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -10,8 +11,11 @@
 #include "app/commands/man_page.hpp"
 #include "app/commands/manual_tables.hpp"
 #include "app/commands/shell_completion.hpp"
+#include "core/config/configuration.hpp"
+#include "core/config/known_objects.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/setting/setting.hpp"
+#include "ui/commands/demo_file.hpp"
 #include "ui/manual/manual.hpp"
 #include "ui/manual/markdown.hpp"
 
@@ -27,21 +31,27 @@ std::size_t terminal_width() {
 }
 
 void print_topics() {
-  fmt::print("The manual (nextview help TOPIC prints a page; the window has it in its Help menu):\n\n");
+  fmt::print(
+      "The manual (nextview help TOPIC prints a page, and nextview help map.hit what a setting is; the window has it "
+      "in its Help menu):\n\n");
   for (const std::string& topic : manual_topics()) fmt::print("  {:<14}{}\n", topic, read_manual_page(topic).title);
   fmt::print("\nThe options of a command: nextview COMMAND --help. The pages as files: {}\n", manual_folder().string());
 }
 
-/// A page, or the options of a subcommand.
+void print_markdown(const std::string& text) { fmt::print("{}", plain_text(parse_markdown(text), terminal_width())); }
+
+/// A page, the options of a subcommand, or what a setting is, or a group of them.
 void print_topic(const std::string& topic, const CLI::App& program) {
   auto known = manual_topics();
-  if (std::ranges::find(known, topic) != known.end()) {
-    fmt::print("{}", plain_text(parse_markdown(read_manual_page(topic).text), terminal_width()));
-    return;
-  }
+  if (std::ranges::find(known, topic) != known.end()) return print_markdown(read_manual_page(topic).text);
   for (const CLI::App* command : program.get_subcommands({})) {
     if (command->get_name() == topic) return fmt::print("{}", command->help());
     known.push_back(command->get_name());
+  }
+  if (const std::string page = settings_page(topic); !page.empty()) return print_markdown(page);
+  if (topic.find('.') != topic.npos) {
+    Configuration configuration;
+    for (const Setting& setting : settings(configuration)) known.push_back(setting.key);
   }
   throw std::runtime_error(
       fmt::format("there is no topic '{}'; did you mean '{}'? See nextview help", topic, nearest(topic, known)));
@@ -54,6 +64,13 @@ void write_pages(const std::filesystem::path& folder, const CLI::App& program) {
     write_file(folder / (topic + ".md"), with_tables(read_manual_page(topic).text, program));
 }
 
+/// What commands take beside files, for the shell to complete.
+std::map<std::string, std::vector<std::string>> names_taken() {
+  const std::vector<std::string> objects(known_objects().begin(), known_objects().end());
+  return {{"help", manual_topics()}, {"demo", demo_names()}, {"figure", figure_names()},
+          {"scan", objects},         {"window", objects},    {"calibrate", objects}};
+}
+
 }  // namespace
 
 void add_help_command(CLI::App& program) {
@@ -62,22 +79,23 @@ void add_help_command(CLI::App& program) {
     bool man_page = false, completion = false;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* app = program.add_subcommand("help", "Print the manual: its topics, or the page of one");
-  app->add_option("TOPIC", a->topic, "a page of the manual, or a command; without one, what there is");
+  CLI::App* app = program.add_subcommand("help", "Print the manual: its topics, the page of one, or what a setting is");
+  app->add_option("TOPIC", a->topic,
+                  "a page of the manual, a command, a setting, or a group of settings; without one, what there is");
   app->add_option("--write", a->folder,
                   "writes all pages into this folder, with the tables that are made from the program's declarations "
                   "made anew: what developers do after they changed one")
       ->type_name("DIR");
   app->add_flag("--man", a->man_page, "prints the page that `man nextview` shows");
   app->add_flag("--completion", a->completion, "prints what bash reads to complete commands and options");
-  app->footer("Examples:\n  nextview help\n  nextview help planning");
+  app->footer("Examples:\n  nextview help\n  nextview help planning\n  nextview help planner.cost_weight");
   app->callback([a, &program] {
     if (!a->folder.empty())
       write_pages(a->folder, program);
     else if (a->man_page)
       fmt::print("{}", man_page(program));
     else if (a->completion)
-      fmt::print("{}", bash_completion(program, manual_topics()));
+      fmt::print("{}", bash_completion(program, names_taken()));
     else if (a->topic.empty())
       print_topics();
     else

@@ -31,13 +31,20 @@ std::string values_of(const Setting& setting) {
   return setting.bounds ? setting.bounds->text(setting.unit) : setting.unit;
 }
 
-/// A table a group of keys: "sensor.", "map.", …; those without a group first.
-std::string settings_tables() {
+/// Of a key: "sensor" of sensor.width; empty for a key without one.
+std::string group_of(const std::string& key) {
+  const std::size_t dot = key.find('.');
+  return dot == key.npos ? "" : key.substr(0, dot);
+}
+
+/// A table a group of keys: "sensor.", "map.", …; those without a group first. Of all keys, or of those that are asked
+/// for by key or group.
+std::string settings_tables(const std::string& only = "") {
   Configuration configuration;
   std::string tables, group = "-";
   for (const Setting& setting : settings(configuration)) {
-    const std::size_t dot = setting.key.find('.');
-    const std::string its = dot == setting.key.npos ? "" : setting.key.substr(0, dot);
+    const std::string its = group_of(setting.key);
+    if (!only.empty() && only != setting.key && only != its) continue;
     if (its != group) {
       group = its;
       tables += fmt::format("{}## {}\n\n| key | is | may be | default |\n|---|---|---|---|\n",
@@ -59,8 +66,8 @@ std::string settings_row(const CLI::App& command) {
     const CLI::Option* option = command.get_option_no_throw("--" + setting.key);
     if (!option || !is_setting(*option)) continue;  // of posterior the seed is its own
     ++taken;
-    const std::size_t dot = setting.key.find('.');
-    groups.push_back(setting.key.substr(0, dot) + (dot == setting.key.npos ? "" : ".KEY"));
+    const std::string group = group_of(setting.key);
+    groups.push_back(group.empty() ? setting.key : group + ".KEY");
   }
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
   if (taken == 0) return "";
@@ -92,6 +99,14 @@ std::string table(const std::string& name, const CLI::App& program) {
 }
 
 }  // namespace
+
+std::string settings_page(const std::string& key_or_group) {
+  const std::string tables = settings_tables(key_or_group);
+  if (tables.empty()) return "";
+  return tables +
+         "\nEach is an option of the commands that use it (`--KEY VALUE`), and may stand in a file for `--config`: "
+         "`nextview help settings`.\n";
+}
 
 std::string with_tables(const std::string& page, const CLI::App& program) {
   constexpr std::string_view begin = "<!-- table: ", end = "<!-- end -->";

@@ -9,4 +9,7 @@ namespace nextview {
 /// @throws std::runtime_error naming a table that is not known.
 std::string with_tables(const std::string& page, const CLI::App& program);
 
+/// What the settings of a key or of a group of them are, as Markdown; empty if there is none: "map.hit", "sensor".
+std::string settings_page(const std::string& key_or_group);
+
 }  // namespace nextview

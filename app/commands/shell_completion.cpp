@@ -21,11 +21,12 @@ _nextview() {{
   done
   case $option in
 {}  esac
-  if [ -z "$words" ] && [[ $word == -* || $command == help ]]; then
+  if [ -z "$words" ] && [[ $word == -* ]]; then
     case $command in
 {}    esac
-  elif [ -z "$words$command" ]; then
-    words='{}'
+  elif [ -z "$words" ]; then
+    case $command in
+{}    esac
   fi
   COMPREPLY=($(compgen -W "$words" -- "$word"))
 }}
@@ -59,18 +60,19 @@ std::map<Words, Words> options_by_choices(const CLI::App& program) {
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& program, const Words& topics) {
+std::string bash_completion(const CLI::App& program, const std::map<std::string, Words>& names) {
   Words commands;
-  std::string of_commands, values;
+  std::string of_commands, values, of_names;
   for (const CLI::App* command : program.get_subcommands({})) {
     const std::string& name = command->get_name();
     commands.push_back(name);
-    Words words = long_options(*command);
-    if (name == "help") words.insert(words.end(), topics.begin(), topics.end());
-    of_commands += "  " + when({name == "window" ? "window | ''" : name}, words);  // which is also no command
+    // The window is also no command.
+    of_commands += "  " + when({name == "window" ? "window | ''" : name}, long_options(*command));
   }
+  for (const auto& [command, words] : names) of_names += "  " + when({command}, words);
+  of_names += "  " + when({"''"}, commands);
   for (const auto& [words, options] : options_by_choices(program)) values += when(options, words);
-  return fmt::format(script, fmt::join(commands, " | "), values, of_commands, fmt::join(commands, " "));
+  return fmt::format(script, fmt::join(commands, " | "), values, of_commands, of_names);
 }
 
 }  // namespace nextview

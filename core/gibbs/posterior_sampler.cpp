@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "core/gibbs/chain_ensemble.hpp"
 #include "core/gibbs/independence.hpp"
 #include "core/gibbs/read_out.hpp"
 #include "core/memory/available_memory.hpp"
+#include "core/progress/stopwatch.hpp"
 
 namespace nextview {
 namespace {
@@ -17,14 +17,6 @@ namespace {
 constexpr int first_window = 16;  ///< sweeps of the first mean that is tried
 constexpr int few_sweeps = 4;     ///< that R-hat needs for its halves
 constexpr int sweeps_between_reports = 4;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Sweeps until stopped, stationary, or all sweeps are made.
 class Schedule {
@@ -111,6 +103,51 @@ void read_out(GibbsPosterior& posterior, const RayLists& lists, const PosteriorS
   }
 }
 
+/// The rays by voxel, and the voxels that are updated.
+struct ListedRays {
+  RayLists lists;
+  Sites sites;
+};
+
+/// Merges and lists them; the model learns how independent they are.
+ListedRays list_rays(const VoxelGrid& grid, const RangeMeasurements& measurements, PosteriorSamplerConfig& config,
+                     std::span<const float> start_map, SamplerDiagnostics& d) {
+  const Stopwatch watch(d.build_seconds);
+  const RangeMeasurements merged = merge_rays(measurements, grid, config.ray_spacing);
+  config.model = with_independence(config.model, merged, grid);
+  RayLists lists(grid, merged, config.model);
+  Sites sites = find_sites(lists, config, start_map);
+  d.measured_rays = measurements.rays.size();
+  d.merged_rays = lists.rays();
+  d.observed_voxels = sites.count();
+  d.incidences = lists.incidence_count();
+  d.list_bytes = lists.bytes();
+  return {std::move(lists), std::move(sites)};
+}
+
+void sample(GibbsPosterior& posterior, const ListedRays& rays, const PosteriorSamplerConfig& config,
+            std::span<const float> start_map, std::span<const std::vector<std::uint8_t>> warm,
+            const SamplerProgress& progress, std::stop_token stop) {
+  SamplerDiagnostics& d = posterior.diagnostics;
+  const Stopwatch watch(d.sample_seconds);
+  ChainEnsemble chains(rays.lists, config, rays.sites, d);
+  for (int c = 0; c < config.chains; ++c)
+    chains.start(c, std::size_t(c) < warm.size() ? warm[c] : start_levels(rays.lists, config, start_map, c));
+  Schedule(chains, config, d, progress, stop).run(!warm.empty());
+  for (std::size_t v = 0; v < posterior.occupied.size(); ++v) {
+    posterior.informed[v] = chains.informed(v);
+    if (!posterior.informed[v]) continue;
+    const bool updated = rays.sites.kind[v] != Sites::none;  // otherwise it keeps what it has
+    posterior.occupied[v] = updated             ? chains.mean(v, &PosteriorSums::occupied)
+                            : start_map.empty() ? 0.0f
+                                                : start_map[v];
+    posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
+  }
+  read_out(posterior, rays.lists, config);
+  for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
+  if (config.keep_traces) posterior.traces = chains.take_level_traces();
+}
+
 }  // namespace
 
 std::vector<Setting> settings(PosteriorSamplerConfig& c) {
@@ -172,42 +209,13 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
                            {},
                            {}};
   SamplerDiagnostics& d = posterior.diagnostics;
-  const Stopwatch building;
   if (progress) progress(0.0, "listing the rays of each voxel", d);
-  const RangeMeasurements merged = merge_rays(measurements, grid, config.ray_spacing);
-  config.model = with_independence(config.model, merged, grid);
-  const RayLists lists(grid, merged, config.model);
-  const Sites sites = find_sites(lists, config, start_map);
-  d.measured_rays = measurements.rays.size();
-  d.merged_rays = lists.rays();
-  d.observed_voxels = sites.count();
-  d.incidences = lists.incidence_count();
-  d.list_bytes = lists.bytes();
-  d.build_seconds = building.seconds();
-
+  const ListedRays rays = list_rays(grid, measurements, config, start_map, d);
   constexpr std::uint64_t bytes_per_voxel = 32;  // of a chain's map, state and sums
   require_memory(bytes_per_voxel * voxels * std::uint64_t(config.chains),
                  fmt::format("gibbs: {} chains of {} voxels", config.chains, voxels),
                  "use fewer chains (gibbs.chains) or a coarser map");
-  const Stopwatch sampling;
-  ChainEnsemble chains(lists, config, sites, d);
-  for (int c = 0; c < config.chains; ++c) {
-    chains.start(c, std::size_t(c) < warm.size() ? warm[c] : start_levels(lists, config, start_map, c));
-  }
-  Schedule(chains, config, d, progress, stop).run(!warm.empty());
-  for (std::size_t v = 0; v < voxels; ++v) {
-    posterior.informed[v] = chains.informed(v);
-    if (!posterior.informed[v]) continue;
-    const bool updated = sites.kind[v] != Sites::none;  // otherwise it keeps what it has
-    posterior.occupied[v] = updated             ? chains.mean(v, &PosteriorSums::occupied)
-                            : start_map.empty() ? 0.0f
-                                                : start_map[v];
-    posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
-  }
-  read_out(posterior, lists, configured);
-  for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
-  if (config.keep_traces) posterior.traces = chains.take_level_traces();
-  d.sample_seconds = sampling.seconds();
+  sample(posterior, rays, config, start_map, warm, progress, stop);
   if (stop.stop_requested()) d.stationary = false;  // asked early, it would say so by chance
   d.warning = warning(d, stop.stop_requested());
   return posterior;

@@ -126,7 +126,8 @@ std::shared_ptr<const CandidateGenerator> configured_candidates(const Configurat
                                            c.planner.ray_window);
   return std::make_shared<AdaptiveCandidates>(
       std::move(views), few,
-      AdaptiveCandidatesConfig{c.views.adaptive, c.views.radius, c.planner.ray_length, c.planner.new_surface, c.seed});
+      AdaptiveCandidatesConfig{c.views.adaptive, c.views.radius, c.sensor.min_range, c.planner.ray_length,
+                               c.planner.new_surface, c.seed});
 }
 
 ProjectionPlacement projection_placement(const Configuration& c, const PlacedMesh& object) {

@@ -13,7 +13,9 @@
 namespace nextview {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Manual, CheapExamplesRun) {
   for (const auto& file : manual_pages()) {
@@ -82,6 +84,20 @@ TEST(Manual, IsPrintedByTopicAndKnowsTheNearest) {
   EXPECT_THAT(wrong.err, HasSubstr("there is no topic 'planing'; did you mean 'planning'?"));
 }
 
+TEST(Manual, SaysWhatASettingIs) {
+  const Result one = nextview("help planner.cost_weight"), group = nextview("help planner");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.out, HasSubstr("weight of the distance in the utility"));
+  EXPECT_THAT(one.out, Not(HasSubstr("ray_columns")));
+  EXPECT_THAT(one.out, HasSubstr("0.3")) << "its default";
+  EXPECT_THAT(group.out, AllOf(HasSubstr("planner.cost_weight"), HasSubstr("planner.ray_columns")));
+  EXPECT_THAT(group.out, Not(HasSubstr("map.hit")));
+  EXPECT_THAT(nextview("help seed").out, HasSubstr("seed of everything random"));
+  const Result wrong = nextview("help planner.cost");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean 'planner.cost_weight'?"));
+}
+
 TEST(Manual, TheShellIsToldWhatAnOptionTakes) {
   const Result completion = nextview("help --completion");
   EXPECT_EQ(completion.exit_code, 0) << completion.err;
@@ -89,6 +105,24 @@ TEST(Manual, TheShellIsToldWhatAnOptionTakes) {
        {"    --driver-confirm) words='always never' ;;\n", "    --of) words='map cloud' ;;\n",
         "    --fit) words='sensor-model new-surface' ;;\n", "    --gibbs.sampler) words='exact algorithm1' ;;\n"})
     EXPECT_THAT(completion.out, HasSubstr(line));
+}
+
+TEST(Manual, TheShellCompletesWhatACommandTakes) {
+  const auto completed = [](const std::string& words, int at) {
+    return nextview_behind(fmt::format("bash -c 'source <(\"$0\" help --completion); COMP_WORDS=({}); COMP_CWORD={}; "
+                                       "_nextview; echo \"${{COMPREPLY[@]}}\"'",
+                                       words, at),
+                           "")
+        .out;
+  };
+  EXPECT_EQ(completed("nextview fig", 1), "figure\n");
+  EXPECT_EQ(completed("nextview figure rep", 2), "report\n");
+  EXPECT_EQ(completed("nextview demo to", 2), "tour\n");
+  EXPECT_EQ(completed("nextview scan gear", 2), "gearbox\n");
+  EXPECT_EQ(completed("nextview help plann", 2), "planning\n");
+  EXPECT_EQ(completed("nextview scan --resu", 2), "--resume\n");
+  EXPECT_EQ(completed("nextview scan gearbox --gibbs.sampler alg", 4), "algorithm1\n");
+  EXPECT_EQ(completed("nextview refine scan_", 2), "\n") << "bash completes files";
 }
 
 TEST(Manual, AnOptionThatWouldDoNothingIsRefused) {

@@ -95,10 +95,24 @@ TEST(AdaptiveCandidates, LookAtTheObjectFromAboutTheDistance) {
   const Knowledge known = one_side();
   for (const Pose& pose : made_for(known)) {
     const double distance = pose.translation().norm();  // the object is about the middle of the region
-    EXPECT_GT(distance, 0.4);
+    EXPECT_GT(distance, 0.25);
     EXPECT_LT(distance, 1.2);
     EXPECT_GT(pose.linear().col(2).dot(-pose.translation() / distance), 0.9);
   }
+}
+
+TEST(AdaptiveCandidates, AreNoNearerThanTheCameraSees) {
+  const Knowledge known = one_side();
+  const auto nearest_of = [&](double min_range) {
+    AdaptiveCandidatesConfig c = config(100);
+    c.min_range = min_range;
+    double nearest = 2.0;
+    for (const Pose& pose : made_for(known, c)) nearest = std::min(nearest, pose.translation().norm());
+    return nearest;
+  };
+  EXPECT_LT(nearest_of(0.2), 0.6);
+  EXPECT_GT(nearest_of(0.8), 0.65);  // Gaussian samples are drawn about them
+  EXPECT_GT(nearest_of(5.0), 0.8) << "as far as they go";
 }
 
 TEST(AdaptiveCandidates, ShowNewSurfaceTheMostFirstButForEveryThird) {
