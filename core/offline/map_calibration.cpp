@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 
 namespace nextview {
@@ -115,11 +116,6 @@ void check(std::span<const CalibrationExample> examples) {
 MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const MapCalibrationConfig& config,
                              const Progress& progress, std::stop_token stop) {
   check(examples);
-  const auto part = [&](double begin, double end) {
-    return [&progress, begin, end](double fraction, std::string_view what) {
-      if (progress) progress(begin + (end - begin) * fraction, what);
-    };
-  };
   const auto check_stop = [&] {
     if (stop.stop_requested()) throw Stopped();
   };
@@ -127,8 +123,8 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
   UpdateHistories histories;
   for (std::size_t e = 0; e < examples.size(); ++e) {
     const RefinementJob& job = examples[e].job;
-    Refinement refinement = refine(
-        job, part(0.8 * double(e) / double(examples.size()), 0.8 * double(e + 1) / double(examples.size())), stop);
+    const auto done = [&](std::size_t count) { return 0.8 * double(count) / double(examples.size()); };
+    Refinement refinement = refine(job, part(progress, done(e), done(e + 1)), stop);
     check_stop();
     auto mask = scored_voxels(refinement.posterior, refinement.conventional.voxels(), config.band);
     UpdateHistories of_example;
@@ -142,7 +138,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
   MapCalibration result;
   result.config = config;
   result.before = examples.front().job.model;
-  result.fit = calibrate(histories, result.before, config.fit, part(0.8, 0.95), stop);
+  result.fit = calibrate(histories, result.before, config.fit, part(progress, 0.8, 0.95), stop);
   check_stop();
   for (const Prepared& p : prepared) result.examples.push_back(score(p, result.before, result.fit.model, stop));
   return result;
