@@ -43,7 +43,8 @@ void print_markdown(const std::string& text) { fmt::print("{}", plain_text(parse
 /// A page, the options of a subcommand, or what a setting is, or a group of them.
 void print_topic(const std::string& topic, const CLI::App& program) {
   auto known = manual_topics();
-  if (std::ranges::find(known, topic) != known.end()) return print_markdown(read_manual_page(topic).text);
+  if (std::ranges::find(known, topic) != known.end())
+    return print_markdown(read_manual_page(topic).text + "\n\n" + settings_page(topic));
   for (const CLI::App* command : program.get_subcommands({})) {
     if (command->get_name() == topic) return fmt::print("{}", command->help());
     known.push_back(command->get_name());

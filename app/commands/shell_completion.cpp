@@ -13,7 +13,7 @@ using Words = std::vector<std::string>;
 
 constexpr std::string_view script = R"(# Made by `nextview help --completion` from what the program declares.
 _nextview() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} option=${{COMP_WORDS[COMP_CWORD - 1]}} command='' words='' i
+  local word=${{COMP_WORDS[COMP_CWORD]}} option=${{COMP_WORDS[COMP_CWORD - 1]}} command='' words='' files='' i
   # --option=value is three words to bash
   if [ "$word" = = ]; then word=''; elif [ "$option" = = ]; then option=${{COMP_WORDS[COMP_CWORD - 2]}}; fi
   for ((i = 1; i < COMP_CWORD; ++i)); do
@@ -24,11 +24,13 @@ _nextview() {{
   if [ -z "$words" ] && [[ $word == -* ]]; then
     case $command in
 {}    esac
-  elif [ -z "$words" ]; then
+  elif [ -z "$words" ] && [[ $option != -* ]]; then
     case $command in
 {}    esac
+    files=$(compgen -f -- "$word")
   fi
-  COMPREPLY=($(compgen -W "$words" -- "$word"))
+  local IFS=$'\n'
+  COMPREPLY=($(IFS=' '; compgen -W "$words" -- "$word") $files)
 }}
 complete -o default -F _nextview nextview
 )";

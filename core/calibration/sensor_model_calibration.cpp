@@ -141,7 +141,7 @@ void CalibrationConfig::validate() const {
 }
 
 Calibration calibrate(const UpdateHistories& all, const InverseSensorModel& start, const CalibrationConfig& config,
-                      const CalibrationProgress& progress, std::stop_token stop) {
+                      const Progress& progress, std::stop_token stop) {
   config.validate();
   start.validate();
   const bool ranges_matter = config.range_dependent || start.range_dependent();

@@ -1,11 +1,10 @@
 #pragma once
-#include <functional>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/calibration/update_histories.hpp"
+#include "core/progress/progress.hpp"
 
 namespace nextview {
 
@@ -33,8 +32,6 @@ struct Calibration {
   bool converged = false;                ///< that descent met a tolerance, with a gradient below 1e-5
 };
 
-using CalibrationProgress = std::function<void(double fraction, std::string_view what)>;
-
 /// Fits hit and miss, and as configured the clamps and the decays, to the histories' targets: the least cross entropy
 /// that BFGS finds (Ceres). What is not fitted, and the bounds of the classes, stay those of `start`.
 ///
@@ -48,7 +45,6 @@ using CalibrationProgress = std::function<void(double fraction, std::string_view
 /// @throws std::invalid_argument if there are no histories, the start or the configuration is not valid, or
 ///         occupancy_threshold is not between 0.001 and 0.999.
 Calibration calibrate(const UpdateHistories& histories, const InverseSensorModel& start,
-                      const CalibrationConfig& config = {}, const CalibrationProgress& progress = {},
-                      std::stop_token stop = {});
+                      const CalibrationConfig& config = {}, const Progress& progress = {}, std::stop_token stop = {});
 
 }  // namespace nextview

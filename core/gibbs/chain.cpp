@@ -169,8 +169,9 @@ class StateChain final : public Chain {
     for (double& w : used) occupied += w = std::exp(w - largest);
     const double free = std::exp(-largest);
     double p_occupied = occupied / (free + occupied);  // Eq. 9
-    // Algorithm 1 puts p(occ) or p(free) in its place.
+    // Algorithm 1 puts p(occ) or p(free) in its place, and so may occupy what the rays leave no weight at all.
     if (!exact) p_occupied = p_occupied > 0.5 ? algorithm1_occupied : algorithm1_free;
+    if (!exact && occupied == 0.0) occupied = used.front() = 1.0;
 
     if (mean) {
       mean->occupied[voxel] += p_occupied;

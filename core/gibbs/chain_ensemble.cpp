@@ -13,6 +13,8 @@ constexpr std::size_t traced_voxels = 500;
 constexpr double largest_r_hat = 1.05;
 constexpr double largest_trend = 2.576;   ///< |z| at p = 0.01
 constexpr double max_disagreeing = 1e-4;  ///< of the informed voxels
+/// Of the log-posterior; of few sweeps a share of as many values is enough.
+constexpr double fewest_samples = 10.0, least_sample_share = 0.25;
 
 /// Binary divergence D_KL(p || q) [nats], both kept off 0 and 1.
 double divergence(double p, double q) {
@@ -118,7 +120,9 @@ void ChainEnsemble::diagnose() {
   for (const auto chain : chains) d.trend = std::max(d.trend, std::abs(geweke_z(chain)));
   diagnose_voxels();
   count_voxels();
+  const double values = double(d.sweeps - d.burn_in) * config_.chains;
   d.stationary = d.r_hat < largest_r_hat && !trends() &&
+                 d.effective_samples >= std::min(fewest_samples, least_sample_share * values) &&
                  static_cast<double>(d.disagreeing_voxels) <= max_disagreeing * static_cast<double>(d.informed_voxels);
 }
 

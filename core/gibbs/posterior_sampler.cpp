@@ -82,9 +82,10 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
   if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
   return fmt::format(
-      "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {} voxels "
-      "differ between chains (at most {}); more sweeps may help",
-      d.sweeps, d.r_hat, d.trend, d.disagreeing_voxels, d.informed_voxels / 10000);
+      "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {:.0f} "
+      "effective "
+      "samples (10), {} voxels differ between chains (at most {}); more sweeps may help",
+      d.sweeps, d.r_hat, d.trend, d.effective_samples, d.disagreeing_voxels, d.informed_voxels / 10000);
 }
 
 /// As the levels were drawn that the read-out was fitted to.
@@ -131,8 +132,13 @@ void sample(GibbsPosterior& posterior, const ListedRays& rays, const PosteriorSa
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch watch(d.sample_seconds);
   ChainEnsemble chains(rays.lists, config, rays.sites, d);
-  for (int c = 0; c < config.chains; ++c)
-    chains.start(c, std::size_t(c) < warm.size() ? warm[c] : start_levels(rays.lists, config, start_map, c));
+  for (int c = 0; c < config.chains; ++c) {
+    auto levels = std::size_t(c) < warm.size() ? warm[c] : start_levels(rays.lists, config, start_map, c);
+    // What is never updated stays free: it would stand in the rays' way for ever.
+    for (std::size_t v = 0; v < levels.size(); ++v)
+      if (rays.sites.kind[v] == Sites::none) levels[v] = 0;
+    chains.start(c, std::move(levels));
+  }
   Schedule(chains, config, d, progress, stop).run(!warm.empty());
   for (std::size_t v = 0; v < posterior.occupied.size(); ++v) {
     posterior.informed[v] = chains.informed(v);

@@ -94,8 +94,8 @@ using SamplerProgress = std::function<void(double fraction, std::string_view wha
 
 /// Draws from p(m | z). `start_map`: probabilities that StartMap::octree starts from (occupied where p >= 0.5), and
 /// that UpdatedVoxels::occupied updates; empty: all free. `warm`: states of an earlier posterior, which take the place
-/// of the start and of the burn-in. The same bytes on any number of threads; a requested stop ends the sweeps early and
-/// the diagnostics say so.
+/// of the start and of half of the burn-in. The same bytes on any number of threads; a requested stop ends the sweeps
+/// early and the diagnostics say so.
 /// @throws std::invalid_argument for a configuration out of bounds, or rays that would not fit into memory.
 GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
                                 const PosteriorSamplerConfig& config, std::span<const float> start_map = {},

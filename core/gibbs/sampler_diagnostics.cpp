@@ -55,7 +55,8 @@ double autocovariance(std::span<const std::span<const double>> chains, std::size
   return sum / static_cast<double>(chains.size());
 }
 
-/// The quantile of the standard normal that Student's t stands for (Wallace 1959, within a hundredth).
+/// The quantile of the standard normal that Student's t stands for (Wallace 1959: within a
+/// hundredth from four degrees of freedom on, and too small below).
 double normal_quantile(double t, double degrees_of_freedom) {
   const double size = (8.0 * degrees_of_freedom + 1.0) / (8.0 * degrees_of_freedom + 3.0) *
                       std::sqrt(degrees_of_freedom * std::log1p(t * t / degrees_of_freedom));

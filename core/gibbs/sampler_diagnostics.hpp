@@ -15,8 +15,9 @@ double split_r_hat(std::span<const std::span<const double>> chains);
 double effective_sample_size(std::span<const std::span<const double>> chains);
 
 /// Geweke's statistic: the difference between the mean of the first tenth and that of the last half, in standard errors
-/// that account for autocorrelation; about standard normal if there is no trend, however few the values (what would be
-/// Student's t is told as the normal quantile that is as rare). 0 if nothing varies. @pre at least 4 values
+/// that account for autocorrelation; about standard normal if there is no trend, of few values too (what would be
+/// Student's t is told as the normal quantile that is as rare; of under ten values as a smaller one). 0 if nothing
+/// varies. @pre at least 4 values
 double geweke_z(std::span<const double> chain);
 
 /// How a run of the sampler went.

@@ -116,16 +116,13 @@ void check(std::span<const CalibrationExample> examples) {
 MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const MapCalibrationConfig& config,
                              const Progress& progress, std::stop_token stop) {
   check(examples);
-  const auto check_stop = [&] {
-    if (stop.stop_requested()) throw Stopped();
-  };
   std::vector<Prepared> prepared;
   UpdateHistories histories;
   for (std::size_t e = 0; e < examples.size(); ++e) {
     const RefinementJob& job = examples[e].job;
     const auto done = [&](std::size_t count) { return 0.8 * double(count) / double(examples.size()); };
     Refinement refinement = refine(job, part(progress, done(e), done(e + 1)), stop);
-    check_stop();
+    throw_if_stopped(stop);
     auto mask = scored_voxels(refinement.posterior, refinement.conventional.voxels(), config.band);
     UpdateHistories of_example;
     of_example.add(job.grid, job.scans, refinement.posterior.touch, mask, stop);
@@ -139,7 +136,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
   result.config = config;
   result.before = examples.front().job.model;
   result.fit = calibrate(histories, result.before, config.fit, part(progress, 0.8, 0.95), stop);
-  check_stop();
+  throw_if_stopped(stop);
   for (const Prepared& p : prepared) result.examples.push_back(score(p, result.before, result.fit.model, stop));
   return result;
 }

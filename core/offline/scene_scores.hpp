@@ -12,7 +12,7 @@ namespace nextview {
 
 /// The candidate views of a recorded scene, scored after all its scans.
 struct SceneScores {
-  std::vector<std::string> gains;  ///< 'combined' is the last if it was asked for
+  std::vector<std::string> gains;  ///< those of single voxels first, in the order of `names`
   std::vector<ViewScore> views;    ///< in the scene's order; raw values
 };
 

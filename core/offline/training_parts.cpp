@@ -68,7 +68,8 @@ class Designer {
     }
   }
 
-  /// Moves the middle into the origin, and makes it smaller; walls to multiples of `raster` then, if it is not 0.
+  /// Moves the middle into the origin, and makes it smaller; walls to multiples of half of `raster` then, if it is not
+  /// 0.
   void place(const Vector3& middle, double scale, double raster) {
     for (std::vector<Solid>* solids : {&added_, &removed_})
       for (Solid& solid : *solids) {

@@ -22,7 +22,7 @@ constexpr std::size_t few_rays = 3;                          // one in so many, 
 constexpr double nearest_share = 0.4, farthest_share = 1.1;  // of the configured distance
 constexpr double scatter = 0.14;                             // of what is looked at, as a share of the object's size
 constexpr double spread = 0.1;                               // of Gaussian samples, as a share of the way to the object
-constexpr double clearance = 0.15;                           // from the object's box, as a share of its size
+constexpr double clearance = 0.15;                           // at least, from the object's box, as a share of its size
 
 bool alike(const Pose& a, const Pose& b, double distance) {
   constexpr double near = 0.2;             // as a share of the distance
@@ -101,12 +101,13 @@ struct AdaptiveCandidates::Drawing {
         size(seen.size() * seen.grid().resolution),
         // The box grows towards where was not looked yet: half way to the region's middle, where the object stands.
         middle(0.5 * (seen.object().center() + 0.5 * (region.lower() + region.upper()))),
+        nearest(nearest_share * config.distance),
         farthest(farthest_share * config.distance),
-        nearest(std::clamp(config.min_range, nearest_share * config.distance, farthest)) {}
+        from_box(std::max(clearance * size, config.min_range)) {}
 
   double distance(double share) const { return nearest + (farthest - nearest) * share; }
   void add(std::vector<Pose>& poses, const Vector3& position, const Vector3& target) const {
-    if (evidence.object().exteriorDistance(position) > clearance * size) poses.push_back(look_at(position, target));
+    if (evidence.object().exteriorDistance(position) > from_box) poses.push_back(look_at(position, target));
   }
 
   const SurfaceEvidence& evidence;
@@ -114,7 +115,8 @@ struct AdaptiveCandidates::Drawing {
   CounterRandom random;
   double size;  ///< of the object as far as it is known [m]
   Vector3 middle;
-  double farthest, nearest;  ///< of a pose from what it looks at [m]
+  double nearest, farthest;  ///< of a pose from what it looks at [m]
+  double from_box;           ///< more than that is a pose from the object's box [m]
 };
 
 /// Looking at the object from all around.

@@ -12,7 +12,7 @@ namespace nextview {
 struct AdaptiveCandidatesConfig {
   int kept = 16;            ///< views made at each step, beside the fixed ones
   double distance = 0.9;    ///< from which the object is looked at: from two fifths of it to a tenth more [m]
-  double min_range = 0.2;   ///< of the camera: no place is looked at from nearer [m]
+  double min_range = 0.2;   ///< of the camera: no view is nearer to what is known of the object [m]
   double ray_length = 1.5;  ///< [m]
   NewSurfaceModel model = NewSurfaceModel::fitted();
   std::uint64_t seed = 1;

@@ -61,7 +61,8 @@ CombinedPolicy::CombinedPolicy(const std::string& weights) {
 }
 
 PolicyNeeds CombinedPolicy::needs() const {
-  return {std::ranges::any_of(gains_, &Gain::needs_occlusion), false, false};
+  return {std::ranges::any_of(gains_, &Gain::needs_occlusion), std::ranges::any_of(gains_, &Gain::needs_posterior),
+          false};
 }
 
 Valuation CombinedPolicy::values(const PlanningState& state, std::span<const std::size_t> available,

@@ -103,16 +103,17 @@ TEST(AdaptiveCandidates, LookAtTheObjectFromAboutTheDistance) {
 
 TEST(AdaptiveCandidates, AreNoNearerThanTheCameraSees) {
   const Knowledge known = one_side();
+  const SurfaceEvidence evidence(known.map.grid(), known.map.voxels(), known.map.voxels(), 0.5);
   const auto nearest_of = [&](double min_range) {
     AdaptiveCandidatesConfig c = config(100);
     c.min_range = min_range;
     double nearest = 2.0;
-    for (const Pose& pose : made_for(known, c)) nearest = std::min(nearest, pose.translation().norm());
+    for (const Pose& pose : made_for(known, c))
+      nearest = std::min(nearest, evidence.object().exteriorDistance(pose.translation()));
     return nearest;
   };
-  EXPECT_LT(nearest_of(0.2), 0.6);
-  EXPECT_GT(nearest_of(0.8), 0.65);  // Gaussian samples are drawn about them
-  EXPECT_GT(nearest_of(5.0), 0.8) << "as far as they go";
+  EXPECT_LT(nearest_of(0.1), 0.5);
+  EXPECT_GT(nearest_of(0.6), 0.6);
 }
 
 TEST(AdaptiveCandidates, ShowNewSurfaceTheMostFirstButForEveryThird) {

@@ -122,7 +122,9 @@ TEST_F(Policies, SayWhatTheyNeed) {
   config.combined_weights = "area-factor=1";
   EXPECT_TRUE(made("combined")->needs().occlusions);
   config.combined_weights = "average-entropy=1";
-  EXPECT_FALSE(made("combined")->needs().occlusions);
+  EXPECT_FALSE(made("combined")->needs().occlusions || made("combined")->needs().posterior);
+  config.combined_weights = "average-entropy=1,gibbs=1";
+  EXPECT_TRUE(made("combined")->needs().posterior);
 }
 
 TEST_F(Policies, BaselinesByHand) {
