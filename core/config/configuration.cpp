@@ -196,6 +196,8 @@ void require_valid(const Configuration& c) {
   require_region(c);
   require(!make_policy(c.planner)->needs().true_surface || c.evaluation.enabled,
           fmt::format("planner.gain {} knows the mesh: it needs evaluation.enabled", c.planner.gain));
+  require(c.termination.coverage == 0.0 || c.evaluation.enabled,
+          "termination.coverage is a share of the true surface: it needs evaluation.enabled");
   require(!c.map.model.range_dependent() || c.planner.semantics == Semantics::published,
           "map.hit_decay and map.miss_decay must be 0 with planner.semantics reference, whose map knows no range");
 }

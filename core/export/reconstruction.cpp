@@ -6,6 +6,7 @@
 
 #include "core/file/counted.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/length_text.hpp"
 #include "core/surface/map_surface.hpp"
 #include "core/surface/seen_part.hpp"
 
@@ -118,8 +119,8 @@ std::string summary(const ScanSurface& s) {
   std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
                                  closedness(s.surface, s.openings));
   if (!s.surface_error) return text;
-  return text + fmt::format("; 95 % of what was seen within {:.2f} mm of the true surface",
-                            1e3 * s.surface_error->percentile_95);
+  return text + fmt::format("; 95 % of what was seen within {} of the true surface",
+                            length_text(s.surface_error->percentile_95));
 }
 
 }  // namespace nextview

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace nextview {
 namespace {
@@ -16,6 +17,25 @@ int pixels(double focal_length, double extent) {
   return std::clamp(static_cast<int>(std::lround(focal_length * extent)) + 1, fewest_pixels, most_pixels);
 }
 
+/// Points per area, where there are any: the parts of their box that hold none do not count. 0 if it has no area.
+double density(const std::vector<Eigen::Array2d>& points) {
+  constexpr double points_a_part = 4.0;
+  if (points.empty()) return 0.0;
+  Eigen::Array2d low = points.front(), high = low;
+  for (const Eigen::Array2d& point : points) low = low.min(point), high = high.max(point);
+  const Eigen::Array2d extent = high - low;
+  if (extent.minCoeff() <= flattest) return 0.0;
+  const double edge = std::sqrt(extent.prod() * points_a_part / double(points.size()));
+  const Eigen::Array2i parts = (extent / edge).round().cast<int>().max(1);
+  std::vector<std::uint8_t> holds_any(std::size_t(parts.prod()));
+  for (const Eigen::Array2d& point : points) {
+    const Eigen::Array2i at = ((point - low) / extent * parts.cast<double>()).cast<int>().min(parts - 1);
+    holds_any[std::size_t(at.y()) * std::size_t(parts.x()) + std::size_t(at.x())] = 1;
+  }
+  const auto held = double(std::ranges::count(holds_any, 1));
+  return double(points.size()) / (extent.prod() * held / double(holds_any.size()));
+}
+
 }  // namespace
 
 void CloudCamera::see(const Vector3& point) {
@@ -26,6 +46,12 @@ void CloudCamera::see(const Vector3& point) {
   if (!held) return;
   low_ = low_.min(slope);
   high_ = high_.max(slope);
+  frame_.push_back(slope);
+}
+
+void CloudCamera::end_of_frame() {
+  if (const double of_frame = density(frame_); of_frame > 0.0) densities_.push_back(of_frame);
+  frame_.clear();
 }
 
 PinholeCamera CloudCamera::camera() const {
@@ -38,9 +64,11 @@ PinholeCamera CloudCamera::camera() const {
   low -= wider;
   high += wider;
   const Eigen::Array2d extent = high - low;
-  const double a_frame = static_cast<double>(points_) / static_cast<double>(std::max<std::size_t>(frames_, 1));
-  const double focal_length =
-      std::min(std::sqrt(std::max(a_frame, 4.0) / extent.prod()), (most_pixels - 1) / extent.maxCoeff());
+  std::vector<double> densities = densities_;
+  const auto median = densities.begin() + std::ptrdiff_t(densities.size() / 2);
+  std::nth_element(densities.begin(), median, densities.end());
+  const double dense = std::max(densities.empty() ? 0.0 : *median, 4.0 / extent.prod());
+  const double focal_length = std::min(std::sqrt(dense), (most_pixels - 1) / extent.maxCoeff());
   // The outermost rays go through the centres of the outermost pixels.
   PinholeCamera camera{pixels(focal_length, extent.x()), pixels(focal_length, extent.y())};
   camera.fx = (camera.width - 1) / extent.x();

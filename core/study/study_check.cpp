@@ -19,6 +19,17 @@ void complete_block(StudyBlock& block) {
     return std::ranges::find(block.methods, method) != block.methods.end();
   };
   require(!block.objects.empty(), "a block needs 'objects'");
+  const auto twice = [](std::vector<std::string> names) {
+    std::ranges::sort(names);
+    const auto found = std::ranges::adjacent_find(names);
+    return found == names.end() ? "" : *found;
+  };
+  std::vector<std::string> labels;
+  for (const std::string& object : block.objects) labels.push_back(object_label(object));
+  require(twice(labels).empty(),
+          fmt::format("two objects are called '{}': what is told of them by name would be one's", twice(labels)));
+  require(twice(block.methods).empty(),
+          fmt::format("'{}' stands twice in '{}': it would count twice", twice(block.methods), methods));
   require(!block.methods.empty(), fmt::format("a block needs '{}'", methods));
   require(block.reference.empty() || has(block.reference),
           fmt::format("the reference, '{}', is none of the block's {}", block.reference, methods));

@@ -13,6 +13,7 @@ namespace {
 struct Value {
   const char* name;
   std::function<double(const StepRecord&)> of;
+  bool is_of_choice = false;  ///< the start view, which nobody chose, has none
 };
 
 void add_series(ChartContent& content, const ScanCourse& course, const std::vector<Value>& values,
@@ -24,6 +25,7 @@ void add_series(ChartContent& content, const ScanCourse& course, const std::vect
       series.y.push_back(*at_start);
     }
     for (const StepRecord& r : course.records) {
+      if (value.is_of_choice && r.view < 0) continue;
       series.x.push_back(r.step);
       series.y.push_back(value.of(r));
     }
@@ -82,14 +84,14 @@ ChartContent gain_chart(const ScanCourse& course) {
     ChartContent surface{"New surface of a view [cm²]", "view", "", "new surface", "cm²", {}, {}, true};
     add_series(surface, course,
                {{"seen", [](const StepRecord& r) { return r.new_surface; }},
-                {"expected", [](const StepRecord& r) { return r.gain; }}});
+                {"expected", [](const StepRecord& r) { return r.gain; }, true}});
     return surface;
   }
   const std::string unit = course.gain_unit.empty() ? "" : fmt::format(" [{}]", course.gain_unit);
   ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
   add_series(content, course,
              {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
-              {"predicted", [](const StepRecord& r) { return r.gain; }}});
+              {"predicted", [](const StepRecord& r) { return r.gain; }, true}});
   return content;
 }
 

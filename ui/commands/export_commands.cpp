@@ -41,11 +41,18 @@ void write(CommandTarget& t, ExportKind kind, const std::string& file, const Sur
   t.worker.post(request::ExportOne{kind, file, surface});
 }
 
+/// Another request would end it before its last frame.
+void require_no_turntable(const WindowState& window) {
+  if (window.picture && window.picture->of == PictureRequest::Of::turntable)
+    throw std::invalid_argument("a turntable is being drawn: wait until it is written, or cancel it");
+}
+
 /// On the drawing thread, which has the pixels.
 void draw(CommandTarget& t, ExportKind kind, PictureRequest::Of of, const std::string& file,
           const std::optional<std::string>& wanted_size, const std::optional<Background>& behind, int frames = 1) {
   require_ending(export_entry(kind), file);
   require_no_kept_file(file, t.session.configuration, {});
+  require_no_turntable(t.window);
   std::optional<PictureSize> pixels;
   if (wanted_size) pixels = picture_size(*wanted_size, fmt::format("export-{}: SIZE", export_entry(kind).name));
   t.window.picture = PictureRequest{of, file, pixels, behind == Background::transparent, frames};
@@ -104,6 +111,7 @@ const CommandOf<std::string, std::optional<std::string>> command::save_picture{
     argument::file("file", "a file that ends in .png", argument::fixed({"window.png"})),
     size(),
     [](CommandTarget& t, const std::string& file, const auto& wanted_size) {
+      require_no_turntable(t.window);
       PictureRequest picture{PictureRequest::Of::window, file};
       if (wanted_size) picture.size = picture_size(*wanted_size, "save-picture: SIZE");
       t.window.picture = picture;

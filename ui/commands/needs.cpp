@@ -26,7 +26,7 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
   if (t.progress.refining)
     lost = "The Gibbs map is being sampled.";
   else if (s.gibbs && !s.gibbs_kept && !s.planned_on_posterior)
-    lost = fmt::format("The Gibbs map of {} is kept nowhere: export the scan (Ctrl+E) to keep it.",
+    lost = fmt::format("The Gibbs map of {} is kept nowhere: to keep it, cancel and export the scan (Ctrl+E).",
                        counted(s.gibbs->views, "view"));
   if (!undoable && !s.kept && !s.records.empty())
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",

@@ -16,7 +16,7 @@ class ScanCurves : public testing::Test {
     records_.resize(2);
     for (int i = 0; i < 2; ++i) {
       StepRecord& r = records_[i];
-      r.step = i + 1;
+      r.step = i + 1, r.view = 5 + i;
       r.entropy = (i + 1) * 1e6, r.total_entropy = (i + 1) * 3e6;
       r.coverage = 0.25 * (i + 1), r.coverage_visible = 0.375 * (i + 1);
       r.quality.divergence = (i + 1) * 7e3;
@@ -86,6 +86,16 @@ TEST_F(ScanCurves, NewSurfaceIsComparedWithWhatWasExpected) {
   EXPECT_THAT(chart.series.at(0).y, ElementsAre(13, 14));
   EXPECT_THAT(chart.series.at(1).y, ElementsAre(11, 12));
   EXPECT_EQ(chart.y_unit, "cm²");
+}
+
+TEST_F(ScanCurves, NobodyExpectedAnythingOfTheStartView) {
+  course_.gain_unit = "cm²";
+  auto records = std::vector<StepRecord>(course_.records.begin(), course_.records.end());
+  records.front().view = -1;
+  course_.records = records;
+  const ChartContent chart = gain_chart(course_);
+  EXPECT_THAT(chart.series.at(0).x, ElementsAre(1, 2));
+  EXPECT_THAT(chart.series.at(1).x, ElementsAre(2));
 }
 
 TEST_F(ScanCurves, AGainOfAnotherUnitStandsBesideTheEntropyThatWasLost) {

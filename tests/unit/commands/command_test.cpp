@@ -268,7 +268,8 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   map->views = 2;
   session.gibbs = map;
   const auto question = [&] { return command::quit.question({session, {}, {}}, {}).text; };
-  EXPECT_THAT(question(), HasSubstr("The Gibbs map of 2 views is kept nowhere: export the scan (Ctrl+E) to keep it."));
+  EXPECT_THAT(question(),
+              HasSubstr("The Gibbs map of 2 views is kept nowhere: to keep it, cancel and export the scan (Ctrl+E)."));
   session.gibbs_kept = true;
   EXPECT_EQ(question(), "");
 }

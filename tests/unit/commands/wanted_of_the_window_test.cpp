@@ -48,6 +48,10 @@ TEST_F(WantedOfTheWindow, PicturesAreOfWhatTheirNameSays) {
             (PictureRequest{Of::scene, "a.png", PictureSize{640, 480}}));
   EXPECT_EQ(picture("export-curves a.svg"), (PictureRequest{Of::curves, "a.svg"}));
   EXPECT_EQ(picture("export-turntable frames"), (PictureRequest{Of::turntable, "frames", {}, false, 36}));
+  EXPECT_THAT(error_of("save-picture a.png"), HasSubstr("a turntable is being drawn"));
+  EXPECT_THAT(error_of("export-curves a.svg"), HasSubstr("a turntable is being drawn"));
+  EXPECT_EQ(window_.picture->file, "frames") << "it goes on";
+  window_.picture.reset();
   EXPECT_EQ(picture("export-turntable frames 12 320x200 transparent"),
             (PictureRequest{Of::turntable, "frames", PictureSize{320, 200}, true, 12}));
   window_.picture.reset();

@@ -46,6 +46,23 @@ TEST(CloudCamera, HasAboutAPixelAPoint) {
   }
 }
 
+// Frames that show a disc here and there in the image: neither what is empty of a frame nor where others are counts.
+TEST(CloudCamera, PixelsAreAsDenseAsPointsWhereThereAreAny) {
+  constexpr double focal_length = 100.0;
+  CloudCamera seen;
+  for (const Eigen::Vector2d& middle :
+       {Eigen::Vector2d(-0.5, -0.3), Eigen::Vector2d(0.4, 0.3), Eigen::Vector2d(0, 0)}) {
+    for (int v = -100; v <= 100; ++v)
+      for (int u = -100; u <= 100; ++u)
+        if (const Eigen::Vector2d at = Eigen::Vector2d(u, v) / focal_length; (at - middle).norm() < 0.2)
+          seen.see({at.x(), at.y(), 1.0});
+    seen.end_of_frame();
+  }
+  const PinholeCamera camera = seen.camera();
+  EXPECT_NEAR(camera.fx, focal_length, 0.1 * focal_length);
+  EXPECT_NEAR(camera.width, 1.3 * focal_length, 0.1 * 1.3 * focal_length) << "as wide as all of them";
+}
+
 TEST(CloudCamera, HasAtMost640PixelsASideAndAtLeastTwo) {
   const PinholeCamera large = seeing(1000, 500, {-0.8, -0.4}, {0.8, 0.4}).camera();
   EXPECT_EQ(large.width, 640);

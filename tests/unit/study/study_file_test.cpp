@@ -123,6 +123,10 @@ TEST_F(StudyFile, SaysWhereItIsWrong) {
   expect(block + "sensors = [\"none\"]\n", ":1: ", "there is no sensor 'none'");
   expect(block + "reference = \"oracle\"\n", ":1: ", "is none of the block's policies");
   expect(block + "seeds = []\n", ":4: ", "must have from 1");
+  expect("[[planning]]\nobjects = [\"a/part.ply\", \"b/part.obj\"]\npolicies = [\"random\"]\n",
+         ":1: ", "two objects are called 'part'");
+  expect("[[planning]]\nobjects = [\"box\"]\npolicies = [\"random\", \"random\"]\n",
+         ":1: ", "'random' stands twice in 'policies'");
 }
 
 TEST_F(StudyFile, AKeyFollowsFromWhatMakesTheResultAndFromNothingElse) {
