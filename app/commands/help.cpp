@@ -15,7 +15,7 @@
 #include "core/config/known_objects.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/setting/setting.hpp"
-#include "ui/commands/demo_file.hpp"
+#include "ui/demo/demo_window.hpp"
 #include "ui/manual/manual.hpp"
 #include "ui/manual/markdown.hpp"
 
