@@ -106,8 +106,7 @@ void check(std::span<const CalibrationExample> examples) {
   for (const CalibrationExample& e : examples)
     if (e.job.grid.resolution != examples.front().job.grid.resolution)
       throw std::invalid_argument(fmt::format(
-          "calibration: {} has voxels of {} m, {} of {} m; a sensor model is for one "
-          "size",
+          "calibration: {} has voxels of {} m, {} of {} m; a sensor model is for one size: give --resolution",
           e.job.name, e.job.grid.resolution, examples.front().job.name, examples.front().job.grid.resolution));
 }
 

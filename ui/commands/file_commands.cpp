@@ -193,7 +193,7 @@ const CommandOf<std::string> command::export_scan{
      .shortcuts = {{key('E'), true}, {key('S'), true}},
      .why_not = needs_view,
      .writes = true},
-    argument::file("folder", "a folder; it is made if it is not there", argument::fixed({"scan"})),
+    argument::file("folder", "a folder; it is made if it is not there", argument::fixed({"my_scan"})),
     [](CommandTarget& t, const std::string& folder) { t.worker.post(request::Export{folder}); }};
 
 const CommandOf<std::string> command::save_script{
