@@ -139,6 +139,9 @@ OutputFolder output_folder(const CalibrateArguments& arguments, std::span<const 
 int fit_sensor_model(const CalibrateArguments& arguments) {
   if (arguments.fitted.empty()) throw std::invalid_argument("calibrate: there is nothing to fit to");
   const std::vector<std::string> held_out = held_out_inputs(arguments);
+  if (arguments.views_given && std::ranges::all_of(arguments.fitted, is_recorded) &&
+      std::ranges::all_of(held_out, is_recorded))
+    throw std::invalid_argument("calibrate: --views is of objects: finished scans keep the views that they have");
   [[maybe_unused]] const OutputFolder at_first_sight(arguments.out, named_inputs(arguments, held_out));
   require_no_session(arguments.out);
   const StopOnInterrupt stop;

@@ -27,16 +27,19 @@ void RangeScanOptions::add_to(CLI::App& app) {
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
                            const RangeScanOptions& range_scans, const Progress& progress, std::stop_token stop) {
   if (!is_there(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
-  if (is_there(input / "config.toml") && is_session(input))
+  const auto warn = [&](const std::string& text) {
+    fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
+  };
+  const bool is_finished = is_there(input / "config.toml") && is_session(input);
+  if (range_scans.resolution > 0.0 && (is_finished || !fs::is_directory(input)))
+    warn("--voxel is for range scans: this keeps the voxels that it has");
+  if (is_finished)
     return refinement_job(
         input, [&](Configuration& c) { options.apply_to(c); }, progress, stop);
   if (const auto manifest = fs::is_directory(input) ? read_manifest(input) : std::nullopt)
     throw std::runtime_error(
         fmt::format("{}: holds no finished scan: it is what {} left, or was ended before its views were written",
                     input.string(), manifest->command));
-  const auto warn = [&](const std::string& text) {
-    fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
-  };
   const RecordedScene scene = fs::is_directory(input)
                                   ? read_range_scan_folder(input, range_scans.stand_off, range_scans.resolution, warn)
                                   : read_recorded_scene(input);

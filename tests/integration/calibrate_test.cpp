@@ -142,6 +142,7 @@ TEST_F(Calibrate, AScanAsInputHasNothingHeldOutUnlessAskedForAndIsNotOverwritten
   EXPECT_EQ(read_table(read("first", "scores.csv")).size(), 3u);
   const std::string before = read("scan", "scores.csv");
   expect_error("calibrate " + in("scan") + " --no-pictures --out " + in("scan"), "another folder");
+  expect_error("calibrate " + in("scan") + " --views 9 --no-pictures --out " + in("second"), "--views is of objects");
   EXPECT_EQ(read("scan", "scores.csv"), before);
 }
 

@@ -78,11 +78,13 @@ TEST_F(Refine, EveryModelAndThePaperRun) {
   }
 }
 
-TEST_F(Refine, WarnsWhenItIsNotStationary) {
-  const Result run = nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") +
-                              " --gibbs.model paper --gibbs.sweeps 8 --gibbs.burn_in 0 --gibbs.start occupied");
+TEST_F(Refine, WarnsWhenItIsNotStationaryAndOfWhatAFinishedScanHasItself) {
+  const Result run =
+      nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") +
+               " --gibbs.model paper --gibbs.sweeps 8 --gibbs.burn_in 0 --gibbs.start occupied --voxel 0.5");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("not stationary after 8 sweeps"));
+  EXPECT_THAT(run.err, HasSubstr("--voxel is for range scans"));
 }
 
 TEST_F(Refine, BadInputIsOneLineAndExitCode2) {
