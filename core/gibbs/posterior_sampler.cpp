@@ -83,8 +83,7 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
   if (d.stationary) return "";
   return fmt::format(
       "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {:.0f} "
-      "effective "
-      "samples (10), {} voxels differ between chains (at most {}); more sweeps may help",
+      "effective samples (10), {} voxels differ between chains (at most {}); more sweeps may help",
       d.sweeps, d.r_hat, d.trend, d.effective_samples, d.disagreeing_voxels, d.informed_voxels / 10000);
 }
 
