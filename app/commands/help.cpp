@@ -50,10 +50,10 @@ void print_topic(const std::string& topic, const CLI::App& program) {
     known.push_back(command->get_name());
   }
   if (const std::string page = settings_page(topic); !page.empty()) return print_markdown(page);
-  if (topic.find('.') != topic.npos) {
-    Configuration configuration;
-    for (const Setting& setting : settings(configuration)) known.push_back(setting.key);
-  }
+  const bool is_key = topic.find('.') != topic.npos;
+  Configuration configuration;
+  for (const Setting& setting : settings(configuration))
+    known.push_back(is_key ? setting.key : setting.key.substr(0, setting.key.find('.')));
   throw std::runtime_error(
       fmt::format("there is no topic '{}'; did you mean '{}'? See nextview help", topic, nearest(topic, known)));
 }

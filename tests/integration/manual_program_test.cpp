@@ -96,6 +96,7 @@ TEST(Manual, SaysWhatASettingIs) {
   const Result wrong = nextview("help planner.cost");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'planner.cost_weight'?"));
+  EXPECT_THAT(nextview("help sensr").err, HasSubstr("did you mean 'sensor'?"));
 }
 
 TEST(Manual, TheShellIsToldWhatAnOptionTakes) {
