@@ -14,6 +14,7 @@
 #include "core/config/configuration.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/setting/section_of.hpp"
 #include "core/setting/setting.hpp"
 #include "ui/demo/demo_window.hpp"
 #include "ui/manual/manual.hpp"
@@ -52,8 +53,10 @@ void print_topic(const std::string& topic, const CLI::App& program) {
   if (const std::string page = settings_page(topic); !page.empty()) return print_markdown(page);
   const bool is_key = topic.find('.') != topic.npos;
   Configuration configuration;
-  for (const Setting& setting : settings(configuration))
-    known.push_back(is_key ? setting.key : setting.key.substr(0, setting.key.find('.')));
+  for (const Setting& setting : settings(configuration)) {
+    const std::string section = section_of(setting.key);
+    known.push_back(is_key || section.empty() ? setting.key : section);
+  }
   throw std::runtime_error(
       fmt::format("there is no topic '{}'; did you mean '{}'? See nextview help", topic, nearest(topic, known)));
 }

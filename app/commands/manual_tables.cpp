@@ -8,6 +8,7 @@
 #include "app/commands/declared_options.hpp"
 #include "app/commands/protocol_example.hpp"
 #include "core/config/configuration.hpp"
+#include "core/setting/section_of.hpp"
 #include "ui/demo/demo_window.hpp"
 
 namespace nextview {
@@ -31,19 +32,13 @@ std::string values_of(const Setting& setting) {
   return setting.bounds ? setting.bounds->text(setting.unit) : setting.unit;
 }
 
-/// Of a key: "sensor" of sensor.width; empty for a key without one.
-std::string group_of(const std::string& key) {
-  const std::size_t dot = key.find('.');
-  return dot == key.npos ? "" : key.substr(0, dot);
-}
-
 /// A table a group of keys: "sensor.", "map.", …; those without a group first. Of all keys, or of those that are asked
 /// for by key or group.
 std::string settings_tables(const std::string& only = "") {
   Configuration configuration;
   std::string tables, group = "-";
   for (const Setting& setting : settings(configuration)) {
-    const std::string its = group_of(setting.key);
+    const std::string its = section_of(setting.key);
     if (!only.empty() && only != setting.key && only != its) continue;
     if (its != group) {
       group = its;
@@ -66,7 +61,7 @@ std::string settings_row(const CLI::App& command) {
     const CLI::Option* option = command.get_option_no_throw("--" + setting.key);
     if (!option || !is_setting(*option)) continue;  // of posterior the seed is its own
     ++taken;
-    const std::string group = group_of(setting.key);
+    const std::string group = section_of(setting.key);
     groups.push_back(group.empty() ? setting.key : group + ".KEY");
   }
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());

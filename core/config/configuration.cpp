@@ -18,6 +18,7 @@
 #include "core/planner/gain_policies.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/setting/rounded.hpp"
+#include "core/setting/section_of.hpp"
 
 namespace nextview {
 namespace {
@@ -253,8 +254,7 @@ std::string to_toml(const Configuration& configuration) {
   Configuration copy = configuration;
   std::string text, section;
   for (const Setting& s : settings(copy)) {
-    const auto dot = s.key.find('.');
-    const std::string room = dot == std::string::npos ? "" : s.key.substr(0, dot);
+    const std::string room = section_of(s.key);
     if (room != section) text += fmt::format("\n[{}]\n", room);
     section = room;
     std::ostringstream value;
@@ -262,8 +262,7 @@ std::string to_toml(const Configuration& configuration) {
       value << toml::value<std::string>(s.text());
     else
       value << s.text();
-    text += fmt::format("{} = {}  # {}\n", s.key.substr(dot == std::string::npos ? 0 : dot + 1), value.str(),
-                        s.explanation());
+    text += fmt::format("{} = {}  # {}\n", s.key.substr(s.key.find('.') + 1), value.str(), s.explanation());
   }
   return text;
 }

@@ -11,6 +11,7 @@
 
 #include "core/file/read_file.hpp"
 #include "core/setting/numbers.hpp"
+#include "core/setting/section_of.hpp"
 
 namespace nextview {
 namespace {
@@ -224,12 +225,11 @@ std::string to_toml(const DatasetDescription& description) {
   std::string text = "# Recorded data, as Nextview reads them.\n", section;
   for (const Setting& setting : settings(copy)) {
     if (!says_something(description, setting.key)) continue;
-    const auto dot = setting.key.find('.');
-    const std::string room = dot == std::string::npos ? "" : setting.key.substr(0, dot);
+    const std::string room = section_of(setting.key);
     if (room != section) text += fmt::format("\n[{}]\n", room);
     section = room;
-    text += fmt::format("{} = {}  # {}\n", setting.key.substr(dot == std::string::npos ? 0 : dot + 1),
-                        value_of(setting), setting.explanation());
+    text += fmt::format("{} = {}  # {}\n", setting.key.substr(setting.key.find('.') + 1), value_of(setting),
+                        setting.explanation());
   }
   return text;
 }

@@ -26,10 +26,10 @@ void complete_block(StudyBlock& block) {
   };
   std::vector<std::string> labels;
   for (const std::string& object : block.objects) labels.push_back(object_label(object));
-  require(twice(labels).empty(),
-          fmt::format("two objects are called '{}': what is told of them by name would be one's", twice(labels)));
-  require(twice(block.methods).empty(),
-          fmt::format("'{}' stands twice in '{}': it would count twice", twice(block.methods), methods));
+  const std::string label = twice(labels), method = twice(block.methods);
+  require(label.empty(),
+          fmt::format("two objects are called '{}': what is told of them by name would be one's", label));
+  require(method.empty(), fmt::format("'{}' stands twice in '{}': it would count twice", method, methods));
   require(!block.methods.empty(), fmt::format("a block needs '{}'", methods));
   require(block.reference.empty() || has(block.reference),
           fmt::format("the reference, '{}', is none of the block's {}", block.reference, methods));
