@@ -144,7 +144,8 @@ int run(const ExportArguments& a) {
     draw_curves(*session, a);
     written = {a.file};
   } else {
-    for (const fs::path& file : export_file(*session, a.kind(), a.path(), surface_of(a), progress, stop.token()))
+    for (const fs::path& file :
+         export_file(*session, a.kind(), a.path(), surface_of(a), nullptr, progress, stop.token()))
       written.push_back(file.string());
     progress.clear();
   }

@@ -61,6 +61,14 @@ std::vector<std::size_t> best_first(const std::vector<double>& values) {
 /// For people: the best views of each gain.
 void print_ranking(const SceneScores& scores) {
   constexpr std::size_t shown = 5;
+  const auto has_value = [](const ViewScore& view) {
+    return std::ranges::any_of(view.gains, [](double gain) { return std::isfinite(gain); });
+  };
+  if (std::ranges::none_of(scores.views, has_value)) {
+    fmt::print("{}; none is left to rank: they were taken, or cannot be reached\n",
+               counted(scores.views.size(), "candidate view"));
+    return;
+  }
   fmt::print("{}; the best by each gain:\n\n", counted(scores.views.size(), "candidate view"));
   for (std::size_t g = 0; g < scores.gains.size(); ++g) {
     std::vector<double> values;

@@ -74,10 +74,11 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
   return scan_surfaces(input_of(session), progress, std::move(stop));
 }
 
-ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress,
-                         const std::stop_token& stop) {
+ScanSurface scan_surface(const Session& session, SurfaceSource source, const MapOfViews* wanted,
+                         const Progress& progress, const std::stop_token& stop) {
   ReconstructionInput input = input_of(session);
   input.true_mesh = nullptr;
+  if (wanted) input.voxels = wanted->map.voxels(), input.prior = wanted->prior;
   return scan_surface(input, source, progress, stop);
 }
 

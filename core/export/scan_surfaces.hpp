@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,15 @@ std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& p
 std::vector<ScanSurface> scan_surfaces(const RefinementJob& job, const Refinement& refinement,
                                        const Progress& progress = {}, std::stop_token stop = {});
 
-/// One of the two of a session, without comparing it with the truth. @throws Stopped
-ScanSurface scan_surface(const Session& session, SurfaceSource source, const Progress& progress = {},
-                         const std::stop_token& stop = {});
+/// A map of a session's views, conventional or Gibbs.
+struct MapOfViews {
+  OccupancyMap map;
+  std::optional<double> prior = {};  ///< of a Gibbs map: of a voxel being occupied
+};
+/// One of the two of a session, without comparing it with the truth. `wanted`: takes the place of the map that views
+/// are planned on. @throws Stopped
+ScanSurface scan_surface(const Session& session, SurfaceSource source, const MapOfViews* wanted = nullptr,
+                         const Progress& progress = {}, const std::stop_token& stop = {});
 
 /// Writes of each surface that is not empty NAME.ply (the whole; metres, coloured by uncertainty), NAME.stl (what was
 /// seen of it; millimetres) and, if something was not, NAME_unseen.stl (the rest, which closes it); and surfaces.json:

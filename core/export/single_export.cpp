@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "core/config/input_files.hpp"
-#include "core/export/scan_surfaces.hpp"
 #include "core/export/scan_tables.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/same_file.hpp"
@@ -55,8 +54,8 @@ fs::path with_unseen(const fs::path& file) {
 }
 
 std::vector<fs::path> export_surface(const Session& session, const fs::path& file, const SurfaceExport& how,
-                                     const Progress& progress, const std::stop_token& stop) {
-  const ScanSurface found = scan_surface(session, how.source, progress, stop);
+                                     const MapOfViews* wanted, const Progress& progress, const std::stop_token& stop) {
+  const ScanSurface found = scan_surface(session, how.source, wanted, progress, stop);
   const Surface seen = seen_surface(found.surface);
   if (seen.empty())
     throw std::invalid_argument(
@@ -107,11 +106,12 @@ void require_exportable(ExportKind kind, const fs::path& file, const Configurati
 }
 
 std::vector<fs::path> export_file(const Session& session, ExportKind kind, const fs::path& file,
-                                  const SurfaceExport& surface, const Progress& progress, const std::stop_token& stop) {
+                                  const SurfaceExport& surface, const MapOfViews* wanted, const Progress& progress,
+                                  const std::stop_token& stop) {
   if (session.records().empty())
     throw std::invalid_argument(fmt::format("{}: is not written: no view was taken yet", file.string()));
   const std::string ending = file.extension().string();
-  if (kind == ExportKind::surface) return export_surface(session, file, surface, progress, stop);
+  if (kind == ExportKind::surface) return export_surface(session, file, surface, wanted, progress, stop);
   if (progress) progress(0.0, fmt::format("writing {}", file.string()));
   throw_if_stopped(stop);
   switch (kind) {
@@ -119,7 +119,7 @@ std::vector<fs::path> export_file(const Session& session, ExportKind kind, const
       ending == ".pcd" ? write_pcd(all_points(session), file) : write_ply(all_points(session), file);
       break;
     case ExportKind::map:
-      write_octree(session.map(), file);
+      write_octree(wanted ? wanted->map : session.map(), file);
       break;
     case ExportKind::views:
       write_file(file, views_text(session, ending));

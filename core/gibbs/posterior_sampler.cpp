@@ -97,7 +97,7 @@ bool draws_as_fitted(const PosteriorSamplerConfig& config) {
 
 void read_out(GibbsPosterior& posterior, const RayLists& lists, const PosteriorSamplerConfig& config) {
   if (config.read_out == ReadOut::fitted && draws_as_fitted(config)) {
-    read_out(posterior, ray_counts(lists), fitted_read_out());
+    read_out(posterior, read_out_rays(lists), fitted_read_out());
   } else {
     posterior.touch = posterior.centre = posterior.occupied;
   }

@@ -43,7 +43,7 @@ struct PosteriorSamplerConfig {
   /// Fitted to levels that are drawn as by default: with another model, attenuations or prior, the sampler
   /// Algorithm 1, or if not all voxels are updated, it is `levels`.
   ReadOut read_out = ReadOut::fitted;
-  double ray_spacing = 0.6;  ///< rays this near each other at the region's centre are merged [voxel edges]; 0: none
+  double ray_spacing = 0.7;  ///< rays this near each other at the region's centre are merged [voxel edges]; 0: none
   std::uint64_t seed = 1;
   /// Keeps GibbsPosterior::traces. For people who look into a run: no setting of files, and no result depends on it.
   bool keep_traces = false;

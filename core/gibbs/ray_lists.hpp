@@ -49,6 +49,7 @@ class RayLists {
   static void require_holdable(const VoxelGrid& grid);
 
   const VoxelGrid& grid() const { return grid_; }
+  const ForwardSensorModel& model() const { return model_; }
   std::size_t rays() const { return measurements_.rays.size(); }
   std::size_t incidence_count() const { return front_begin_.back() + near_.size(); }
   std::size_t bytes() const;
@@ -78,6 +79,8 @@ class RayLists {
   /// What is left when nothing on the ray is occupied. beam, attenuation: by how much 'beyond range' is then likelier
   /// than otherwise, less 1; 0 for hits. paper, cone: log p(z | nothing).
   float open_value(std::uint32_t ray) const { return open_value_[ray]; }
+  const RangeMeasurement& measurement(std::uint32_t ray) const { return measurements_.rays[ray]; }
+  Vector3 direction(std::uint32_t ray) const { return measurements_.direction(measurements_.rays[ray]); }
   std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }  ///< measured rays that it stands for
   /// What its log-likelihood is multiplied by: its weight, as far as the rays are independent witnesses.
   double evidence(std::uint32_t ray) const { return weight_[ray] * model_.independence; }

@@ -15,7 +15,7 @@ double kept_log_odds(double p) { return log_odds(std::clamp(p, 1e-4, 1.0 - 1e-4)
 
 }  // namespace
 
-std::vector<RayCount> ray_counts(const RayLists& lists) {
+ReadOutRays read_out_rays(const RayLists& lists) {
   std::vector<RayCount> counts(lists.grid().voxel_count());
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t v) {
     const auto voxel = static_cast<std::uint32_t>(v);
@@ -33,36 +33,45 @@ std::vector<RayCount> ray_counts(const RayLists& lists) {
     }
     if (count.near > 0.0f) count.behind /= count.near;
   });
-  return counts;
+  return {std::move(counts), RayEnds(lists)};
 }
 
-ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays)
-    : grid_(posterior.grid), upper_(posterior.upper), rays_(rays), words_(posterior.occupied.size()) {
-  tbb::parallel_for(std::size_t{0}, words_.size(), [&](std::size_t v) {
-    Word& word = words_[v];
-    if (posterior.informed[v]) {
-      word.occupied = posterior.occupied[v];
-      word.upper = posterior.upper[v];
-      word.log_odds = static_cast<float>(kept_log_odds(posterior.occupied[v]));
-    } else {
-      word.uninformed = 1.0f;
-    }
-    const float crossed = rays[v].crossed();
-    word.uncrossed = crossed == 0.0f ? 1.0f : 0.0f;
-    word.ended = rays[v].ended / (crossed + 0.1f);
-    word.log_ended = std::log1p(rays[v].ended);
-    word.log_crossed = std::log1p(crossed);
-    word.passed = crossed > 0.0f && rays[v].near == 0.0f ? 1.0f : 0.0f;
-    word.near = rays[v].near > 0.0f ? 1.0f : 0.0f;
-    word.behind = rays[v].behind;
-  });
+ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers)
+    : posterior_(posterior), rays_(rays) {
+  const Eigen::Vector3i& size = posterior.grid.size;
+  const std::size_t layer = std::size_t(size.x()) * size.y();
+  first_word_ = layer * std::size_t(std::max(0, layers.first - 1));
+  words_.resize(layer * std::size_t(std::min(size.z(), layers.last + 1)) - first_word_);
+  for (std::size_t k = 0; k < words_.size(); ++k) words_[k] = word_of(static_cast<std::uint32_t>(first_word_ + k));
+}
+
+ReadOutFeatures::Word ReadOutFeatures::word_of(std::uint32_t voxel) const {
+  Word word = Word::Zero();
+  if (posterior_.informed[voxel]) {
+    word[occupied] = posterior_.occupied[voxel];
+    word[upper] = posterior_.upper[voxel];
+    word[log_odds_occupied] = static_cast<float>(kept_log_odds(posterior_.occupied[voxel]));
+  } else {
+    word[uninformed] = 1.0f;
+  }
+  const RayCount& rays = rays_.counts[voxel];
+  const float crossed = rays.crossed();
+  word[uncrossed] = crossed == 0.0f ? 1.0f : 0.0f;
+  word[ended] = rays.ended / (crossed + 0.1f);
+  word[log_ended] = std::log1p(rays.ended);
+  word[log_crossed] = std::log1p(crossed);
+  word[passed] = crossed > 0.0f && rays.near == 0.0f ? 1.0f : 0.0f;
+  word[near] = rays.near > 0.0f ? 1.0f : 0.0f;
+  word[behind] = rays.behind;
+  return word;
 }
 
 ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
-  const Eigen::Vector3i centre = grid_.cell(voxel);
+  const VoxelGrid& grid = posterior_.grid;
+  const Eigen::Vector3i centre = grid.cell(voxel);
   static const Word beyond = [] {
-    Word word;
-    word.passed = 1.0f;
+    Word word = Word::Zero();
+    word[passed] = 1.0f;
     return word;
   }();
   Around around;
@@ -72,7 +81,7 @@ ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
         const int steps = std::abs(x) + std::abs(y) + std::abs(z);
         const Eigen::Vector3i cell = centre + Eigen::Vector3i(x, y, z);
         if (steps == 0) continue;
-        const Word& word = grid_.contains(cell) ? words_[grid_.index(cell)] : beyond;
+        const Word& word = grid.contains(cell) ? said_by(grid.index(cell)) : beyond;
         around.all += word;
         if (steps == 1) around.faces += word;
       }
@@ -80,36 +89,54 @@ ReadOutFeatures::Around ReadOutFeatures::around(std::uint32_t voxel) const {
 }
 
 ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
-  const RayCount& rays = rays_[voxel];
-  const Word& own = words_[voxel];
+  const RayCount& rays = rays_.counts[voxel];
+  const SurfacePatch patch = rays_.ends.patch(voxel);
+  const SurfacePatch wide = rays_.ends.wide_patch(voxel);
+  const float wide_sharp = 1.0f / (wide.roughness + 0.1f);
+  const float inside = patch.half - std::abs(patch.distance), sharp = 1.0f / (patch.roughness + 0.1f);
+  const Word& own = said_by(voxel);
   const Around a = around(voxel);
   return {1.0f,
-          own.log_odds,
-          static_cast<float>(kept_log_odds(upper_[voxel])),
-          a.faces.uninformed,
-          a.all.uninformed,
-          a.faces.occupied,
-          a.all.occupied,
-          a.faces.upper,
-          a.all.upper,
-          a.faces.log_odds,
-          own.log_crossed,
+          own[log_odds_occupied],
+          static_cast<float>(kept_log_odds(posterior_.upper[voxel])),
+          a.faces[uninformed],
+          a.all[uninformed],
+          a.faces[occupied],
+          a.all[occupied],
+          a.faces[upper],
+          a.all[upper],
+          a.faces[log_odds_occupied],
+          own[log_crossed],
           std::log((rays.ended + 0.05f) / (rays.passed + 0.05f)),
-          a.faces.uncrossed,
-          a.all.uncrossed,
-          a.faces.ended,
-          a.all.ended,
-          a.all.log_crossed,
-          own.log_ended,
-          a.all.log_ended,
-          a.faces.log_ended,
-          own.near,
-          own.behind,
+          a.faces[uncrossed],
+          a.all[uncrossed],
+          a.faces[ended],
+          a.all[ended],
+          a.all[log_crossed],
+          own[log_ended],
+          a.all[log_ended],
+          a.faces[log_ended],
+          own[near],
+          own[behind],
           rays.behind * std::log1p(rays.near),
-          a.faces.passed,
-          a.all.passed,
-          a.faces.behind / (a.faces.near + 0.5f),
-          a.all.behind / (a.all.near + 0.5f)};
+          a.faces[passed],
+          a.all[passed],
+          a.faces[behind] / (a.faces[near] + 0.5f),
+          a.all[behind] / (a.all[near] + 0.5f),
+          std::log1p(patch.ends),
+          patch.distance,
+          patch.distance * sharp,
+          inside,
+          inside * sharp,
+          patch.roughness,
+          patch.incidence,
+          patch.from_behind,
+          patch.distance_from_behind,
+          wide.distance,
+          wide.distance * wide_sharp,
+          wide.half - std::abs(wide.distance),
+          wide.roughness,
+          wide.incidence};
 }
 
 float ReadOutNetwork::log_odds(const ReadOutFeatures::Vector& features) const {
@@ -122,20 +149,26 @@ float ReadOutNetwork::log_odds(const ReadOutFeatures::Vector& features) const {
   return std::accumulate(bent.begin(), bent.end(), straight);
 }
 
-void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const ReadOutWeights& weights) {
-  const ReadOutFeatures features(posterior, rays);
+void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights) {
+  constexpr int thickness = 8;  // layers at a time, so that what is made ready for them takes little memory
   posterior.touch.assign(posterior.occupied.size(), 0.5f);
   posterior.centre = posterior.touch;
-  tbb::parallel_for(std::size_t{0}, posterior.occupied.size(), [&](std::size_t v) {
-    if (!posterior.informed[v]) return;
-    const ReadOutFeatures::Vector x = features.of(static_cast<std::uint32_t>(v));
-    // Where rays only passed, what nobody looked at around it is no evidence of a surface.
-    const float most = ReadOutFeatures::a_ray_ended_near(x) ? 1.0f : posterior.occupied[v];
-    const auto answer = [&](const ReadOutNetwork& network) {
-      return std::min(most, static_cast<float>(probability(network.log_odds(x))));
-    };
-    posterior.touch[v] = answer(weights.touch);
-    posterior.centre[v] = answer(weights.centre);
+  const Eigen::Vector3i& size = posterior.grid.size;
+  tbb::parallel_for(0, (size.z() + thickness - 1) / thickness, [&](int block) {
+    const ReadOutFeatures::Layers layers{block * thickness, std::min(size.z(), (block + 1) * thickness)};
+    const ReadOutFeatures features(posterior, rays, layers);
+    const auto voxels_before = [&](int z) { return posterior.grid.index({0, 0, z}); };
+    for (std::uint32_t v = voxels_before(layers.first); v < voxels_before(layers.last); ++v) {
+      if (!posterior.informed[v]) continue;
+      const ReadOutFeatures::Vector x = features.of(v);
+      // Where rays only passed, what nobody looked at around it is no evidence of a surface.
+      const float most = ReadOutFeatures::a_ray_ended_near(x) ? 1.0f : posterior.occupied[v];
+      const auto answer = [&](const ReadOutNetwork& network) {
+        return std::min(most, static_cast<float>(probability(network.log_odds(x))));
+      };
+      posterior.touch[v] = answer(weights.touch);
+      posterior.centre[v] = answer(weights.centre);
+    }
   });
 }
 

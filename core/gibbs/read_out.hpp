@@ -1,16 +1,18 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/gibbs/ray_lists.hpp"
+#include "core/gibbs/surface_patch.hpp"
 
 /// From what the sampler draws to what people ask. Its levels say how many rays a voxel stops. Whether the surface
 /// touches the voxel, and whether the voxel's centre is inside, are other questions: a voxel that the surface cuts by a
 /// corner stops hardly a ray, and rays end just beside a surface by noise. What the levels of a voxel and of those
-/// around it say of both was learned from made-up parts, whose surface is known.
+/// around it, and the planes through where rays end, say of both was learned from made-up parts, whose surface is
+/// known.
 namespace nextview {
 
 /// The measured rays of a voxel; merged rays count as many as they stand for.
@@ -23,17 +25,29 @@ struct RayCount {
 
   static constexpr float reach = 0.8f;  ///< [voxel edges]
 };
-/// One a voxel of the lists' grid.
-std::vector<RayCount> ray_counts(const RayLists& lists);
+/// What the measured rays say, whatever the sampler makes of them.
+struct ReadOutRays {
+  std::vector<RayCount> counts;  ///< one a voxel of the lists' grid
+  RayEnds ends;
+};
+ReadOutRays read_out_rays(const RayLists& lists);
 
-/// What the read-out looks at: the posterior and the rays of a voxel, and those of the voxels around it.
+/// What the read-out looks at: the posterior and the rays of a voxel, those of the voxels around it, and the planes
+/// through where rays end there (SurfacePatch).
 class ReadOutFeatures {
  public:
-  static constexpr std::size_t count = 27;
+  static constexpr std::size_t count = 41;
   using Vector = std::array<float, count>;
 
-  /// Of GibbsPosterior::occupied, ::upper and ::informed.
-  ReadOutFeatures(const GibbsPosterior& posterior, std::span<const RayCount> rays);
+  /// Layers of voxels along z.
+  struct Layers {
+    int first, last;  ///< the second is not among them
+  };
+  /// Of GibbsPosterior::occupied, ::upper and ::informed, which must outlive it as the rays must. `layers`: of() is
+  /// asked for no others; it holds what it needs of them and of the two beside.
+  ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers);
+  ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays)
+      : ReadOutFeatures(posterior, rays, {0, posterior.grid.size.z()}) {}
   /// Voxels beyond the grid are taken for free ones that rays pass.
   Vector of(std::uint32_t voxel) const;
   /// From here on features are of the rays alone, whatever the sampler makes of them; the first is 1.
@@ -45,48 +59,40 @@ class ReadOutFeatures {
 
  private:
   /// What a voxel says to those around it. Ready made, as each has 26 that ask.
-  struct Word {
-    float uninformed = 0.0f;                     ///< 1: it is
-    float occupied = 0.0f, upper = 0.0f;         ///< 0 if not informed
-    float log_odds = 0.0f;                       ///< of being occupied; 0 if not informed
-    float uncrossed = 0.0f;                      ///< 1: no measured ray crosses it
-    float passed = 0.0f;                         ///< 1: rays do, and none ends near
-    float ended = 0.0f;                          ///< share of its rays that end in it
-    float log_ended = 0.0f, log_crossed = 0.0f;  ///< log(1 + rays)
-    float near = 0.0f;                           ///< 1: any ends near it
-    float behind = 0.0f;                         ///< RayCount's
-
-    Word& operator+=(const Word& other) {
-      uninformed += other.uninformed;
-      occupied += other.occupied;
-      upper += other.upper;
-      log_odds += other.log_odds;
-      uncrossed += other.uncrossed;
-      passed += other.passed;
-      ended += other.ended;
-      log_ended += other.log_ended;
-      log_crossed += other.log_crossed;
-      near += other.near;
-      behind += other.behind;
-      return *this;
-    }
+  enum Said {
+    uninformed,         ///< 1: it is
+    occupied,           ///< 0 if not informed; so is the next, and their log-odds
+    upper,              ///< the uppermost level
+    log_odds_occupied,  ///< of being occupied
+    uncrossed,          ///< 1: no measured ray crosses it
+    passed,             ///< 1: rays do, and none ends near
+    ended,              ///< share of its rays that end in it
+    log_ended,          ///< log(1 + rays that do)
+    log_crossed,        ///< log(1 + rays that cross it)
+    near,               ///< 1: any ends near it
+    behind,             ///< RayCount's
+    unused,             ///< registers hold four
+    said
   };
+  using Word = Eigen::Array<float, said, 1>;
   /// Sums over the voxels that share a face with one, and over all 26.
   struct Around {
-    Word faces, all;
+    Word faces = Word::Zero(), all = Word::Zero();
   };
+  Word word_of(std::uint32_t voxel) const;
   Around around(std::uint32_t voxel) const;
+  const Word& said_by(std::uint32_t voxel) const { return words_[voxel - first_word_]; }
 
-  VoxelGrid grid_;
-  std::span<const float> upper_;    ///< of the posterior, which must outlive it
-  std::span<const RayCount> rays_;  ///< likewise
+  const GibbsPosterior& posterior_;
+  const ReadOutRays& rays_;
+  std::size_t first_word_;  ///< the voxel that it is of
   std::vector<Word> words_;
 };
 
 /// One of the questions' answer: log-odds = linear . x + sum over the units of out s(in . x), s(a) = a / (1 + |a|). A
 /// logistic regression, bent where features have a say only together.
 struct ReadOutNetwork {
-  static constexpr std::size_t units = 16;
+  static constexpr std::size_t units = 32;
   using OfUnits = std::array<float, units>;
 
   ReadOutFeatures::Vector linear{};
@@ -102,6 +108,6 @@ struct ReadOutWeights {
 const ReadOutWeights& fitted_read_out();
 
 /// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. The same bytes on any number of threads.
-void read_out(GibbsPosterior& posterior, std::span<const RayCount> rays, const ReadOutWeights& weights);
+void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights);
 
 }  // namespace nextview

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -16,7 +17,16 @@ namespace nextview {
 namespace {
 
 constexpr std::uint64_t fitting_seed = 19;
-constexpr std::string_view part_prefix = "part ", detailed_prefix = "detailed part ";
+/// Kinds of made-up parts, and how many of each.
+struct Kind {
+  std::string_view prefix;
+  int count;
+};
+constexpr Kind plain{"part ", 12}, detailed{"detailed part ", 12};
+/// As meshes come from elsewhere: with a hole, through which cameras see the inside; of solids that run through each
+/// other, so that by the even-odd rule what both fill is outside.
+constexpr Kind torn{"torn part ", 4}, overlapping{"overlapping parts ", 4};
+constexpr std::array kinds = {plain, detailed, torn, overlapping};
 
 /// Turned about all three axes, and moved off the grid by a share of a voxel.
 Eigen::Affine3d off_the_grid() {
@@ -25,13 +35,35 @@ Eigen::Affine3d off_the_grid() {
 }
 
 bool is_made_up(const std::string& object) {
-  return object.starts_with(part_prefix) || object.starts_with(detailed_prefix);
+  return std::ranges::any_of(kinds, [&](const Kind& kind) { return object.starts_with(kind.prefix); });
+}
+
+/// Without the triangles within reach of one of its vertices.
+TriangleMesh with_hole(TriangleMesh mesh, std::uint32_t number) {
+  const float reach = 0.06f * float(number);  // [m]
+  const Eigen::Vector3f centre = mesh.vertices[std::size_t{number} * 7919 % mesh.vertices.size()];
+  std::erase_if(mesh.triangles, [&](const auto& triangle) {
+    return std::ranges::all_of(triangle, [&](auto v) { return (mesh.vertices[v] - centre).norm() < reach; });
+  });
+  return mesh;
+}
+
+/// Both in one mesh, the second smaller and beside the first one's middle.
+TriangleMesh both(TriangleMesh mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector3f& v : other.vertices)
+    mesh.vertices.emplace_back(0.6f * v + Eigen::Vector3f(0.1f, 0.05f, 0));
+  for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return mesh;
 }
 
 TriangleMesh made_up(const std::string& object) {
-  const auto number = [&](std::string_view prefix) { return std::uint32_t(std::stoul(object.substr(prefix.size()))); };
-  return object.starts_with(part_prefix) ? training_part(number(part_prefix), fitting_seed)
-                                         : detailed_training_part(number(detailed_prefix), fitting_seed);
+  const auto number = static_cast<std::uint32_t>(std::stoul(object.substr(object.rfind(' '))));
+  if (object.starts_with(detailed.prefix)) return detailed_training_part(number, fitting_seed);
+  constexpr std::uint32_t others = 100;  // parts that no case is of by itself
+  const TriangleMesh part = training_part(number + (object.starts_with(plain.prefix) ? 0 : others), fitting_seed);
+  if (object.starts_with(torn.prefix)) return with_hole(part, number);
+  return object.starts_with(overlapping.prefix) ? both(part, training_part(number + 2 * others, fitting_seed)) : part;
 }
 
 PlacedMesh mesh_of(const std::string& object) {
@@ -84,11 +116,10 @@ EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const E
 }
 
 std::vector<FittingPart> fitting_parts() {
-  constexpr int count = 12;  // of each kind
   std::vector<FittingPart> parts;
-  for (const std::string_view kind : {part_prefix, detailed_prefix})
-    for (int i = 1; i <= count; ++i)
-      parts.push_back({fmt::format("{}{}", kind, i), i % 2 ? EvidencePose::turned : EvidencePose::as_placed});
+  for (const Kind& kind : kinds)
+    for (int i = 1; i <= kind.count; ++i)
+      parts.push_back({fmt::format("{}{}", kind.prefix, i), i % 2 ? EvidencePose::turned : EvidencePose::as_placed});
   return parts;
 }
 

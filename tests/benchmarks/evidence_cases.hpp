@@ -46,8 +46,8 @@ struct EvidenceCase {
   RefinementTruth truth;
 };
 
-/// `object`: "part <number>" or "detailed part <number>", a made-up part (training_parts.hpp); else what `object.file`
-/// takes. Views lie on a Fibonacci sphere of 0.9 m. @throws std::runtime_error if there is no such object
+/// `object`: "part <number>" or another made-up one (fitting_parts); else what `object.file` takes. Views lie on a
+/// Fibonacci sphere of 0.9 m. @throws std::runtime_error if there is no such object
 EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const EvidenceSensor& sensor, int views);
 
 /// Made-up parts: everything that is fitted is fitted to these.

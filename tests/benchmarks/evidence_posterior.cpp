@@ -17,11 +17,11 @@ PosteriorSamplerConfig sampler_of(const EvidenceCase& c) {
   return config;
 }
 
-std::vector<RayCount> rays_of(const EvidenceCase& c) {
+ReadOutRays rays_of(const EvidenceCase& c) {
   const PosteriorSamplerConfig config = sampler_of(c);
   ForwardSensorModel model;  // the lists' extent is that of its sigma, whatever the rays are worth
   model.sigma = config.model.sigma;
-  return ray_counts(RayLists(c.grid, merge_rays(measurements_of(c.scans), c.grid, config.ray_spacing), model));
+  return read_out_rays(RayLists(c.grid, merge_rays(measurements_of(c.scans), c.grid, config.ray_spacing), model));
 }
 
 }  // namespace nextview

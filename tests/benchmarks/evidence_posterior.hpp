@@ -11,6 +11,6 @@ PosteriorSamplerConfig sampler_of(const EvidenceCase& c);
 /// The conventional map's probabilities, which the chains start from.
 std::vector<float> octomap_of(const EvidenceCase& c);
 /// The rays that the sampler sees, by voxel.
-std::vector<RayCount> rays_of(const EvidenceCase& c);
+ReadOutRays rays_of(const EvidenceCase& c);
 
 }  // namespace nextview

@@ -143,6 +143,7 @@ class Comparison {
       config.model.sigma = camera_.range_noise;
       config.model.angular_sigma = 0.5 * ray_pitch(camera_);
       config.read_out = ReadOut::levels;  // what models are worth; posterior_comparison has what is read out of them
+      config.ray_spacing = 0.6;           // as all tables of the levels were made
       variant.change(config);
       const auto start = std::chrono::steady_clock::now();
       const GibbsPosterior posterior = sample_posterior(grid_, measurements, config, conventional);

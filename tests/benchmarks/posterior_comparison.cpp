@@ -68,6 +68,7 @@ class Comparison {
     PosteriorSamplerConfig config = sampler_of(case_);
     config.model.independence = independence;
     config.read_out = read_out_as;
+    if (read_out_as == ReadOut::levels) config.ray_spacing = 0.6;  // as it was then
     double seconds = 0.0;
     GibbsPosterior posterior = [&] {
       const Stopwatch watch(seconds);

@@ -21,7 +21,7 @@ namespace {
 /// What the read-out sees of a case.
 struct Evidence {
   GibbsPosterior posterior;
-  std::vector<RayCount> rays;
+  ReadOutRays rays;
 };
 
 Evidence evidence_of(const EvidenceCase& c) {
@@ -37,6 +37,20 @@ std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
   return mask;
 }
 
+/// Whether voxels' centres are inside; a half where a face goes right through one: on which side that is, rounding
+/// alone tells, and of another part it tells otherwise.
+std::vector<float> centres_inside(const EvidenceCase& c) {
+  constexpr float nudge = 1e-5f;  // [m]
+  std::vector<float> inside(c.grid.voxel_count());
+  for (const float way : {-nudge, nudge}) {
+    TriangleMesh moved = *c.truth.mesh;
+    for (Eigen::Vector3f& vertex : moved.vertices) vertex.array() += way;
+    const GroundTruth truth = ground_truth(moved, c.grid);
+    for (std::size_t v = 0; v < inside.size(); ++v) inside[v] += 0.5f * float(truth.centre[v]);
+  }
+  return inside;
+}
+
 /// Those near the surface, which scores are of, and a few of all others that were looked at, so that a voxel in the
 /// open is right too. No more than tell something of a case.
 std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& evidence) {
@@ -46,6 +60,7 @@ std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& 
   const ReadOutFeatures features(evidence.posterior, evidence.rays);
   const std::vector<std::uint8_t> scored = scored_voxels(c);
   const GroundTruth& truth = c.truth.voxels;
+  const std::vector<float> inside = centres_inside(c);
   const std::size_t every = 1 + std::size_t(std::ranges::count(scored, 1)) / most;
   std::array<ReadOutSamples, 2> samples;
   samples[1].weight = weight_elsewhere;
@@ -56,7 +71,7 @@ std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& 
     ReadOutSamples& to = samples[scored[v] ? 0 : 1];
     to.features.push_back(features.of(v));
     to.touch.push_back(truth.touch[v]);
-    to.centre.push_back(truth.centre[v]);
+    to.centre.push_back(inside[v]);
   }
   return samples;
 }
@@ -93,14 +108,15 @@ std::string text_of(const ReadOutNetwork& network) {
 
 /// Of what it was fitted to, near the surface; the mean over the cases.
 double log_loss(const ReadOutNetwork& network, const std::vector<ReadOutSamples>& cases,
-                std::vector<std::uint8_t> ReadOutSamples::*truth) {
+                std::vector<float> ReadOutSamples::*truth) {
   double sum = 0.0, weights = 0.0;
   for (const ReadOutSamples& samples : cases) {
     if (samples.weight < 1.0) continue;
     double loss = 0.0;
     for (std::size_t i = 0; i < samples.features.size(); ++i) {
       const double p = probability(network.log_odds(samples.features[i]));
-      loss -= std::log(std::max(1e-9, (samples.*truth)[i] ? p : 1.0 - p));
+      const double occupied = (samples.*truth)[i];
+      loss -= occupied * std::log(std::max(1e-9, p)) + (1.0 - occupied) * std::log(std::max(1e-9, 1.0 - p));
     }
     sum += loss / double(samples.features.size()), weights += 1.0;
   }

@@ -35,7 +35,7 @@ struct TrainingSet {
   Eigen::VectorXf truth, weights;  ///< those have a mean of 1
   Row mean, scale;
 
-  TrainingSet(std::span<const ReadOutSamples> cases, std::vector<std::uint8_t> ReadOutSamples::*truth_of,
+  TrainingSet(std::span<const ReadOutSamples> cases, std::vector<float> ReadOutSamples::*truth_of,
               const std::array<bool, features>& used) {
     Eigen::Index count = 0;
     for (const ReadOutSamples& samples : cases) count += Eigen::Index(samples.features.size());
@@ -44,7 +44,7 @@ struct TrainingSet {
     for (const ReadOutSamples& samples : cases)
       for (std::size_t k = 0; k < samples.features.size(); ++k, ++i) {
         inputs.row(i) = Eigen::Map<const Row>(samples.features[k].data());
-        truth[i] = float((samples.*truth_of)[k]);
+        truth[i] = (samples.*truth_of)[k];
         weights[i] = float(samples.weight / double(samples.features.size()));
       }
     weights *= float(count) / weights.sum();
@@ -96,7 +96,7 @@ ReadOutNetwork as_they_are(Parameters& p, const TrainingSet& set) {
 
 }  // namespace
 
-ReadOutNetwork fit_read_out(std::span<const ReadOutSamples> cases, std::vector<std::uint8_t> ReadOutSamples::*truth,
+ReadOutNetwork fit_read_out(std::span<const ReadOutSamples> cases, std::vector<float> ReadOutSamples::*truth,
                             const std::array<bool, ReadOutFeatures::count>& used) {
   const TrainingSet set(cases, truth, used);
   std::mt19937 random(1);

@@ -40,6 +40,36 @@ TEST_F(WindowExport, FilesAreThoseOfTheWholeScan) {
   EXPECT_EQ(fs::file_size(file("s.stl")), fs::file_size(folder_ / "whole" / "surface_cloud.stl"));
 }
 
+TEST_F(WindowExport, TheMapIsTheOneThatIsShown) {
+  User user(small_scan());
+  user.run("step\nstep\nexport-map " + file("before.ot") + "\nrefine 2 20\nvoxel-map conventional\nexport-map " +
+           file("conventional.ot") + "\nexport-surface " + file("conventional.ply") + " map\nvoxel-map gibbs\n");
+  user.run("export-map " + file("shown.ot") + "\nexport-map " + file("named.ot") + " conventional\nexport-surface " +
+           file("gibbs.ply") + " map\nexport " + file("whole") + "\n");
+  EXPECT_EQ(read_file(file("conventional.ot")) == read_file(file("before.ot")), true);
+  EXPECT_EQ(read_file(file("named.ot")) == read_file(file("before.ot")), true);
+  EXPECT_EQ(read_file(file("shown.ot")) == read_file(folder_ / "whole" / "posterior.ot"), true);
+  EXPECT_EQ(read_file(file("gibbs.ply")) == read_file(file("conventional.ply")), false);
+}
+
+// Views are planned on the Gibbs map; the conventional one is written all the same if it is shown.
+TEST_F(WindowExport, TheSurfaceIsThatOfTheMapThatIsShownAlsoWhereViewsArePlannedOnTheOther) {
+  Configuration configuration = small_scan();
+  configuration.planner.gain = "gibbs";
+  User user(configuration);
+  user.run("step\nstep\nvoxel-map conventional\nexport-surface " + file("conventional.ply") +
+           " map\nvoxel-map gibbs\nexport-surface " + file("gibbs.ply") + " map\n");
+  EXPECT_EQ(read_file(file("gibbs.ply")) == read_file(file("conventional.ply")), false);
+}
+
+TEST_F(WindowExport, WithoutAGibbsMapThereIsNoneToExport) {
+  User user(small_scan());
+  user.run("step\nexport-map " + file("none.ot") + " gibbs\n");
+  EXPECT_FALSE(fs::exists(file("none.ot")));
+  user.run("voxel-map gibbs\nexport-map " + file("shown.ot") + "\n");
+  EXPECT_TRUE(fs::exists(file("shown.ot"))) << "the conventional one is shown as long as there is no other";
+}
+
 TEST_F(WindowExport, TheScenesPictureHasItsSizeAndLeavesTheWindowAsItWas) {
   User user(small_scan());
   user.run("step\nsave-picture " + file("before.png") + "\npalette\n");

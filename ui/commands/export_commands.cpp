@@ -35,10 +35,16 @@ ArgumentOf<std::optional<Background>> background() {
   return argument::optional(argument::choice<Background>("background", "what is behind it", {"opaque", "transparent"}));
 }
 
-/// On the session's worker.
-void write(CommandTarget& t, ExportKind kind, const std::string& file, const SurfaceExport& surface = {}) {
+/// On the session's worker. `map`: which, where it is one or a surface of it; else the one that is shown.
+void write(CommandTarget& t, ExportKind kind, const std::string& file, const SurfaceExport& surface = {},
+           std::optional<MapChoice> map = {}) {
   require_ending(export_entry(kind), file);
-  t.worker.post(request::ExportOne{kind, file, surface});
+  const bool of_a_map =
+      kind == ExportKind::map || (kind == ExportKind::surface && surface.source == SurfaceSource::map);
+  if (map == MapChoice::gibbs && !t.session.gibbs)
+    throw std::invalid_argument("there is no Gibbs map to write: refine first (G)");
+  const bool of_gibbs = of_a_map && map.value_or(t.window.layers.map) == MapChoice::gibbs;
+  t.worker.post(request::ExportOne{kind, file, surface, of_gibbs ? t.session.gibbs : nullptr});
 }
 
 /// Another request would end it before its last frame.
@@ -66,12 +72,17 @@ CommandOf<std::string> written(ExportKind kind, std::string text) {
 }  // namespace
 
 const CommandOf<std::string> command::export_cloud = written(ExportKind::cloud, "Export the cloud…");
-const CommandOf<std::string> command::export_map = written(ExportKind::map, "Export the map…");
 const CommandOf<std::string> command::export_views = written(ExportKind::views, "Export the views…");
+
+const CommandOf<std::string, std::optional<MapChoice>> command::export_map{
+    declaration(ExportKind::map, "Export the map…"), where_to(ExportKind::map),
+    argument::optional(
+        argument::choice<MapChoice>("map", "which; else the one that is shown", {"conventional", "gibbs"})),
+    [](CommandTarget& t, const std::string& file, const auto& map) { write(t, ExportKind::map, file, {}, map); }};
 
 const CommandOf<std::string, std::optional<SurfaceSource>, std::optional<SurfacePart>> command::export_surface{
     declaration(ExportKind::surface, "Export a surface…"), where_to(ExportKind::surface),
-    argument::optional(argument::choice<SurfaceSource>("of", "what it is made of", {"map", "cloud"})),
+    argument::optional(argument::choice<SurfaceSource>("of", "the map that is shown, or the cloud", {"map", "cloud"})),
     argument::optional(argument::choice<SurfacePart>(
         "part", "what was seen, or also what closes it, into NAME_unseen beside it", {"seen", "all"})),
     [](CommandTarget& t, const std::string& file, const auto& of, const auto& part) {

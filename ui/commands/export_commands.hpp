@@ -1,6 +1,7 @@
 #pragma once
 #include "core/export/export_kind.hpp"
 #include "ui/commands/command.hpp"
+#include "ui/workbench/layer_choice.hpp"
 
 namespace nextview {
 
@@ -11,7 +12,8 @@ enum class Background { opaque, transparent };
 namespace command {
 
 // One thing of the scan, where to: a file whose ending says the format (export_entries()).
-extern const CommandOf<std::string> export_cloud, export_map, export_views;
+extern const CommandOf<std::string> export_cloud, export_views;
+extern const CommandOf<std::string, std::optional<MapChoice>> export_map;  ///< else the one that is shown
 extern const CommandOf<std::string, std::optional<SurfaceSource>, std::optional<SurfacePart>> export_surface;
 extern const CommandOf<std::string, std::optional<std::string>, std::optional<Background>> export_curves,
     export_picture;  ///< size, as "1920x1080"

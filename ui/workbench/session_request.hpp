@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,6 +13,8 @@
 #include "core/session/untitled_sessions.hpp"
 
 namespace nextview {
+
+struct GibbsMap;
 
 /// What is asked of the session worker.
 namespace request {
@@ -106,6 +109,8 @@ struct ExportOne {
   ExportKind kind;
   std::filesystem::path file;
   SurfaceExport surface = {};
+  /// The Gibbs map that is written, or whose surface is; null: the conventional map.
+  std::shared_ptr<const GibbsMap> gibbs = {};
 };
 /// Forgets the curves of earlier runs.
 struct ForgetRuns {};

@@ -75,7 +75,7 @@ class SessionRunner {
   /// Writes what `nextview scan` writes, and the Gibbs map that is shown. Returns a line for people on each surface.
   std::vector<std::string> write(const std::filesystem::path& folder, const JobControl& control);
   /// Writes one thing of it that needs no drawing. Returns the files.
-  std::vector<std::filesystem::path> write_one(const request::ExportOne& wanted, const JobControl& control) const;
+  std::vector<std::filesystem::path> write_one(const request::ExportOne& wanted, const JobControl& control);
   /// What opening a session or an object put off, so that it is shown at once: what the candidates can see, then what
   /// earlier views had, one view at a time. False if nothing is left to be done. @throws Stopped; OutOfMemory
   bool catch_up(const std::stop_token& stop);

@@ -48,11 +48,19 @@ std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const J
 }
 
 std::vector<std::filesystem::path> SessionRunner::write_one(const request::ExportOne& wanted,
-                                                            const JobControl& control) const {
+                                                            const JobControl& control) {
   if (!session_) throw std::invalid_argument("there is no view to write yet");
   const SessionFolder* const own = kept_->folder();
   require_exportable(wanted.kind, wanted.file, session_->configuration(), own ? own->path() : std::filesystem::path());
-  return export_file(*session_, wanted.kind, wanted.file, wanted.surface, control.progress, control.stop);
+  MapOfViews map{session_->map()};
+  if (wanted.gibbs)
+    map = {to_occupancy_map(*wanted.gibbs->posterior, session_->map().model()), wanted.gibbs->config.prior};
+  auto files = export_file(*session_, wanted.kind, wanted.file, wanted.surface, &map, control.progress, control.stop);
+  if (wanted.gibbs && wanted.kind == ExportKind::map && wanted.file.extension() == ".ot") {
+    written_gibbs_ = wanted.gibbs;
+    publish(*snapshot_);
+  }
+  return files;
 }
 
 }  // namespace nextview

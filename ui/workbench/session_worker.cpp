@@ -1,10 +1,13 @@
 #include "ui/workbench/session_worker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
 
+#include "core/file/counted.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/seconds_left.hpp"
 #include "core/progress/stopped.hpp"
@@ -246,7 +249,10 @@ void SessionWorker::execute(const SessionRequest& request) {
                  },
                  [&](const request::ExportOne& r) {
                    for (const auto& file : runner_.write_one(r, job_control()))
-                     log_.add(LogEntry::Level::success, "Written to " + file.string());
+                     log_.add(LogEntry::Level::success, (r.gibbs ? fmt::format("The Gibbs map of {}: written to ",
+                                                                               counted(r.gibbs->views, "view"))
+                                                                 : "Written to ") +
+                                                            file.string());
                  },
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },

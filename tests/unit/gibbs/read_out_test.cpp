@@ -53,7 +53,7 @@ TEST(ReadOut, CountsRaysUpToWhereTheyEnd) {
     ForwardSensorModel model;
     model.kind = kind;
     model.sigma = problem.sigma;
-    const auto counts = ray_counts(RayLists(problem.grid, problem.measurements, model));
+    const auto counts = read_out_rays(RayLists(problem.grid, problem.measurements, model)).counts;
     const auto expected = plain_counts(problem);
     double passed = 0.0, ended = 0.0, difference = 0.0;
     for (std::size_t v = 0; v < counts.size(); ++v) {
@@ -75,7 +75,7 @@ TEST(ReadOut, MeasuresHowFarRaysEndBehindACentre) {
   measurements.rays.push_back({{2.5f, 0.05f, 0.05f}, 0, 5, true});
   ForwardSensorModel model;
   model.sigma = 0.05;
-  const auto counts = ray_counts(RayLists(grid, measurements, model));
+  const auto counts = read_out_rays(RayLists(grid, measurements, model)).counts;
   const double end = (0.54 + 3 * 0.56) / 4;
   for (const int v : {4, 5, 6}) {
     EXPECT_EQ(counts[v].near, 4.0f) << v;
@@ -98,7 +98,7 @@ TEST(ReadOut, ARayThatEndsOnAFaceEndsInTheVoxelThatItWouldGoOnInto) {
       ForwardSensorModel model;
       model.kind = kind;
       model.sigma = 0.05;
-      const auto counts = ray_counts(RayLists(grid, measurements, model));
+      const auto counts = read_out_rays(RayLists(grid, measurements, model)).counts;
       for (int v = 0; v < 8; ++v) {
         EXPECT_EQ(counts[v].ended, v == (upwards ? 4 : 3) ? 1.0f : 0.0f) << v << upwards;
         EXPECT_EQ(counts[v].passed, (upwards ? v < 4 : v > 3) ? 1.0f : 0.0f) << v << upwards;
@@ -109,14 +109,15 @@ TEST(ReadOut, ARayThatEndsOnAFaceEndsInTheVoxelThatItWouldGoOnInto) {
 /// A posterior written by hand over 3 x 3 x 3 voxels.
 struct ByHand {
   GibbsPosterior posterior;
-  std::vector<RayCount> rays;
+  ReadOutRays rays;  ///< without a place that they end at, if they do
 
   ByHand() {
     posterior.grid = {0.1, {0, 0, 0}, {3, 3, 3}};
+    rays.ends = RayEnds(RayLists(posterior.grid, {}, {}));
     posterior.occupied.assign(27, 0.1f);
     posterior.upper.assign(27, 0.05f);
     posterior.informed.assign(27, 1);
-    rays.assign(27, {9.0f, 0.0f});
+    rays.counts.assign(27, {9.0f, 0.0f});
   }
 };
 
@@ -124,10 +125,10 @@ TEST(ReadOut, LooksAtAVoxelAndThoseAroundIt) {
   ByHand by_hand;
   by_hand.posterior.occupied[13] = 0.8f;
   by_hand.posterior.upper[13] = 0.6f;
-  by_hand.rays[13] = {3.0f, 7.0f, 9.0f, -0.8f};
+  by_hand.rays.counts[13] = {3.0f, 7.0f, 9.0f, -0.8f};
   by_hand.posterior.informed[12] = 0;                                   // beside it
   by_hand.posterior.occupied[12] = by_hand.posterior.upper[12] = 0.5f;  // as what is not informed reads
-  by_hand.posterior.informed[0] = 0, by_hand.rays[0] = {};              // at a corner
+  by_hand.posterior.informed[0] = 0, by_hand.rays.counts[0] = {};       // at a corner
   const auto x = ReadOutFeatures(by_hand.posterior, by_hand.rays).of(13);
   const auto near = [&](int k, double expected) { EXPECT_NEAR(x[k], expected, 1e-5) << "feature " << k; };
   near(0, 1.0), near(1, std::log(4.0)), near(2, std::log(1.5));
@@ -145,7 +146,7 @@ TEST(ReadOut, LooksAtAVoxelAndThoseAroundIt) {
 TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
   for (const int beside : {4, 1, 0}) {  // through a face, an edge, a corner
     ByHand by_hand;
-    by_hand.rays[beside] = {1.0f, 3.0f, 2.0f, 0.3f};
+    by_hand.rays.counts[beside] = {1.0f, 3.0f, 2.0f, 0.3f};
     const auto x = ReadOutFeatures(by_hand.posterior, by_hand.rays).of(13);
     const bool face = beside == 4;
     const auto near = [&](int k, double expected) { EXPECT_NEAR(x[k], expected, 1e-5) << "feature " << k; };
@@ -154,6 +155,42 @@ TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
     near(23, face ? 5.0 : 6.0), near(24, 25.0);
     near(25, face ? 0.3 / 1.5 : 0.0), near(26, 0.3 / 1.5);
   }
+}
+
+TEST(ReadOut, SomeLayersHaveTheFeaturesThatTheyHaveAmongAll) {
+  const Problem problem = room();
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config_for(problem));
+  ForwardSensorModel model;
+  model.sigma = problem.sigma;
+  const ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, model));
+  const ReadOutFeatures all(posterior, rays);
+  const int layers = problem.grid.size.z();
+  for (int z = 0; z < layers; ++z) {
+    const ReadOutFeatures some(posterior, rays, {z, z + 1});
+    for (std::uint32_t v = problem.grid.index({0, 0, z}); v < problem.grid.index({0, 0, z + 1}); ++v)
+      EXPECT_EQ(some.of(v), all.of(v)) << v;
+  }
+}
+
+TEST(ReadOut, LooksAtThePlanesThroughWhereRaysEnd) {
+  const Problem problem = room();
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config_for(problem));
+  ForwardSensorModel model;
+  model.sigma = problem.sigma;
+  const ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, model));
+  const ReadOutFeatures features(posterior, rays);
+  int planes = 0;
+  for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
+    const SurfacePatch near = rays.ends.patch(v), wide = rays.ends.wide_patch(v);
+    const auto x = features.of(v);
+    EXPECT_EQ(x[28], near.distance);
+    EXPECT_EQ(x[30], near.half - std::abs(near.distance));
+    EXPECT_EQ(x[34], near.from_behind);
+    EXPECT_EQ(x[36], wide.distance);
+    EXPECT_EQ(x[39], wide.roughness);
+    planes += near.ends > 0.0f;
+  }
+  EXPECT_GT(planes, 50);
 }
 
 TEST(ReadOut, VoxelsBeyondTheGridArePassedAndNeitherUnknownNorHidden) {
@@ -171,7 +208,7 @@ TEST(ReadOut, VoxelsBeyondTheGridArePassedAndNeitherUnknownNorHidden) {
 TEST(ReadOut, IsTheLogisticOfWhatTheNetworkSays) {
   ByHand by_hand;
   by_hand.posterior.informed[5] = 0;
-  for (RayCount& rays : by_hand.rays) rays = {8.0f, 1.0f, 1.0f, 0.0f};
+  for (RayCount& rays : by_hand.rays.counts) rays = {8.0f, 1.0f, 1.0f, 0.0f};
   ReadOutWeights weights{};
   weights.touch.linear[0] = -0.4f, weights.touch.linear[1] = 0.5f;
   weights.centre.linear[10] = -1.0f;
@@ -194,7 +231,7 @@ TEST(ReadOut, WhereRaysOnlyPassedItSaysNoMoreThanTheLevels) {
   read_out(by_hand.posterior, by_hand.rays, sure);
   EXPECT_EQ(by_hand.posterior.touch[13], 0.1f);
   EXPECT_EQ(by_hand.posterior.centre[13], 0.1f);
-  by_hand.rays[12].ended = 1.0f;
+  by_hand.rays.counts[12].ended = 1.0f;
   read_out(by_hand.posterior, by_hand.rays, sure);
   EXPECT_GT(by_hand.posterior.touch[13], 0.9f) << "a ray ended beside it";
   EXPECT_EQ(by_hand.posterior.touch[14], 0.1f) << "two voxels from where it ended";
@@ -207,7 +244,7 @@ TEST(ReadOut, OfThePosteriorIsThatOfItsRaysAndLevels) {
   const auto touch = posterior.touch, centre = posterior.centre;
   EXPECT_NE(touch, posterior.occupied);
   EXPECT_NE(touch, centre);
-  read_out(posterior, ray_counts(RayLists(problem.grid, problem.measurements, config.model)), fitted_read_out());
+  read_out(posterior, read_out_rays(RayLists(problem.grid, problem.measurements, config.model)), fitted_read_out());
   EXPECT_EQ(posterior.touch, touch);
   EXPECT_EQ(posterior.centre, centre);
   const auto voxels = posterior.voxels({}), centres = posterior.centre_voxels({});
