@@ -32,8 +32,9 @@ class Schedule {
     may_end_ = std::min(burn_in + first, config_.sweeps);
     sweep(burn_in, false);
     // Where a start is still felt, or seems to be, the next mean is of as many sweeps, those after it of twice as many.
-    for (int window = first, means = 1; !ends_in_mean_of(window); ++means)
-      if (means > 1) window *= 2;
+    if (ends_in_mean_of(first)) return;
+    for (int window = first; !ends_in_mean_of(window); window *= 2) {
+    }
   }
 
  private:

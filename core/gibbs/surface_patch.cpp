@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 namespace nextview {
 namespace {
@@ -42,29 +41,31 @@ void RayEnds::Sums::add(const Sums& other, const Eigen::Vector3f& way, float sha
 RayEnds::RayEnds(const RayLists& lists) : grid_(lists.grid()), ended_(grid_.size) {
   const double per_edge = 1.0 / grid_.resolution;
   variance_ = static_cast<float>(std::pow(lists.model().sigma * per_edge, 2));
-  const auto cell_of = [&](std::uint32_t ray) -> std::optional<Eigen::Vector3i> {
+  struct Ending {
+    std::uint32_t ray;
+    Eigen::Vector3i cell;
+  };
+  std::vector<Ending> endings;
+  for (std::uint32_t ray = 0; ray < lists.rays(); ++ray) {
     const RangeMeasurement& m = lists.measurement(ray);
     const Eigen::Vector3i cell = grid_.cell_at(m.end.cast<double>());
-    return m.beyond_range || !grid_.contains(cell) ? std::nullopt : std::optional(cell);
-  };
-  for (std::uint32_t ray = 0; ray < lists.rays(); ++ray)
-    if (const auto cell = cell_of(ray)) ended_.set(*cell);
+    if (m.beyond_range || !grid_.contains(cell)) continue;
+    endings.push_back({ray, cell});
+    ended_.set(cell);
+  }
   ended_before_ = ended_.counts_before();
   around_ = ended_;
   for (int voxels = 0; voxels < wide_reach; ++voxels) around_.grow({});
   begin_.resize(ended_before_.back());
-  for (std::uint32_t ray = 0; ray < lists.rays(); ++ray)
-    if (const auto cell = cell_of(ray)) ++begin_[ended_.rank(*cell, ended_before_)];
-  ends_.resize(std::accumulate(begin_.begin(), begin_.end(), std::size_t{0}));
+  for (const Ending& ending : endings) ++begin_[ended_.rank(ending.cell, ended_before_)];
   std::exclusive_scan(begin_.begin(), begin_.end(), begin_.begin(), 0u);
   end_ = begin_;
   sums_.resize(begin_.size());
-  for (std::uint32_t ray = 0; ray < lists.rays(); ++ray) {
-    const auto cell = cell_of(ray);
-    if (!cell) continue;
-    const std::size_t place = ended_.rank(*cell, ended_before_);
+  ends_.resize(endings.size());
+  for (const auto& [ray, cell] : endings) {
+    const std::size_t place = ended_.rank(cell, ended_before_);
     const RangeMeasurement& m = lists.measurement(ray);
-    const Vector3 at = (m.end.cast<double>() - grid_.centre(grid_.index(*cell))) * per_edge;
+    const Vector3 at = (m.end.cast<double>() - grid_.centre(grid_.index(cell))) * per_edge;
     const End& end = ends_[end_[place]++] = {at.cast<float>(), lists.direction(ray).cast<float>(), float(m.weight)};
     sums_[place].add(end, end.at, 1.0f, variance_);
   }

@@ -157,31 +157,30 @@ TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
   }
 }
 
+/// A room with its posterior, and its rays as the read-out sees them.
+struct RefinedRoom {
+  Problem problem = room();
+  GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config_for(problem));
+  ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, config_for(problem).model));
+};
+
 TEST(ReadOut, SomeLayersHaveTheFeaturesThatTheyHaveAmongAll) {
-  const Problem problem = room();
-  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config_for(problem));
-  ForwardSensorModel model;
-  model.sigma = problem.sigma;
-  const ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, model));
-  const ReadOutFeatures all(posterior, rays);
-  const int layers = problem.grid.size.z();
+  const RefinedRoom room;
+  const ReadOutFeatures all(room.posterior, room.rays);
+  const int layers = room.problem.grid.size.z();
   for (int z = 0; z < layers; ++z) {
-    const ReadOutFeatures some(posterior, rays, {z, z + 1});
-    for (std::uint32_t v = problem.grid.index({0, 0, z}); v < problem.grid.index({0, 0, z + 1}); ++v)
+    const ReadOutFeatures some(room.posterior, room.rays, {z, z + 1});
+    for (std::uint32_t v = room.problem.grid.index({0, 0, z}); v < room.problem.grid.index({0, 0, z + 1}); ++v)
       EXPECT_EQ(some.of(v), all.of(v)) << v;
   }
 }
 
 TEST(ReadOut, LooksAtThePlanesThroughWhereRaysEnd) {
-  const Problem problem = room();
-  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config_for(problem));
-  ForwardSensorModel model;
-  model.sigma = problem.sigma;
-  const ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, model));
-  const ReadOutFeatures features(posterior, rays);
+  const RefinedRoom room;
+  const ReadOutFeatures features(room.posterior, room.rays);
   int planes = 0;
-  for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
-    const SurfacePatch near = rays.ends.patch(v), wide = rays.ends.wide_patch(v);
+  for (std::uint32_t v = 0; v < room.problem.grid.voxel_count(); ++v) {
+    const SurfacePatch near = room.rays.ends.patch(v), wide = room.rays.ends.wide_patch(v);
     const auto x = features.of(v);
     EXPECT_EQ(x[28], near.distance);
     EXPECT_EQ(x[30], near.half - std::abs(near.distance));

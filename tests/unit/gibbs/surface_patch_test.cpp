@@ -49,33 +49,21 @@ SurfacePatch patch_of(const RangeMeasurements& measurements, double sigma = 0.01
   return ends_of(measurements, sigma).patch(middle);
 }
 
-TEST(SurfacePatch, IsThePlaneThatRaysEndedOn) {
+TEST(SurfacePatch, IsThePlaneThatRaysEndedOnNearAsWide) {
   for (const Vector3& normal : {Vector3(0, 0, 1), Vector3(1, 2, 3), Vector3(-1, 1, 0.2)})
     for (const double distance : {-0.4, 0.0, 0.3}) {
       const Vector3 n = normal.normalized(), ray = n + 0.5 * n.unitOrthogonal();
       RangeMeasurements measurements{5.0, {}, {}};
       add(measurements, {n, distance * n, ray});
-      const SurfacePatch patch = patch_of(measurements);
-      EXPECT_NEAR(patch.distance, distance, 0.02) << n.transpose();
-      EXPECT_NEAR(patch.half, 0.5 * n.cwiseAbs().sum(), 0.01);
-      EXPECT_LT(patch.roughness, 0.05f);
-      EXPECT_NEAR(patch.incidence, n.dot(ray.normalized()), 0.05);
-      EXPECT_EQ(patch.from_behind, 0.0f);
-      EXPECT_GT(patch.ends, 20.0f);
-    }
-}
-
-TEST(SurfacePatch, AWideOneIsTheSamePlane) {
-  for (const Vector3& normal : {Vector3(0, 0, 1), Vector3(1, 2, 3), Vector3(-1, 1, 0.2)})
-    for (const double distance : {-0.4, 0.0, 0.3}) {
-      const Vector3 n = normal.normalized(), ray = n + 0.5 * n.unitOrthogonal();
-      RangeMeasurements measurements{5.0, {}, {}};
-      add(measurements, {n, distance * n, ray});
-      const SurfacePatch patch = ends_of(measurements).wide_patch(middle);
-      EXPECT_NEAR(patch.distance, distance, 0.02) << n.transpose();
-      EXPECT_NEAR(patch.half, 0.5 * n.cwiseAbs().sum(), 0.01);
-      EXPECT_LT(patch.roughness, 0.05f);
-      EXPECT_NEAR(patch.incidence, n.dot(ray.normalized()), 0.05);
+      const RayEnds ends = ends_of(measurements);
+      for (const SurfacePatch& patch : {ends.patch(middle), ends.wide_patch(middle)}) {
+        EXPECT_NEAR(patch.distance, distance, 0.02) << n.transpose();
+        EXPECT_NEAR(patch.half, 0.5 * n.cwiseAbs().sum(), 0.01);
+        EXPECT_LT(patch.roughness, 0.05f);
+        EXPECT_NEAR(patch.incidence, n.dot(ray.normalized()), 0.05);
+        EXPECT_EQ(patch.from_behind, 0.0f);
+        EXPECT_GT(patch.ends, 20.0f);
+      }
     }
 }
 
