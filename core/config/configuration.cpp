@@ -110,12 +110,13 @@ class TomlReader {
     throw failure(line, error.what());
   }
 
-  /// A value as a setting takes it. Whole numbers do for numbers; what stands in quotes is a text and nothing else.
+  /// A value as a setting takes it. Whole numbers do for numbers; in quotes stand texts, and numbers with their unit.
   std::string value_text(const Setting& setting, const toml::node& node) const {
     const bool takes_text =
         std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
+    const bool takes_unit = std::holds_alternative<double*>(setting.value) && !setting.unit.empty();
     const auto line = node.source().begin.line;
-    if (takes_text != node.is_string())
+    if (takes_text != node.is_string() && !(takes_unit && node.is_string()))
       throw failure(line, takes_text ? fmt::format("{} takes a text in quotes, as a single value", setting.key)
                                      : fmt::format("{} takes {}, without quotes", setting.key, bare_value(setting)));
     if (const auto* text = node.as_string()) return text->get();

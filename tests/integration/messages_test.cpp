@@ -45,8 +45,7 @@ TEST_F(Messages, ARangeErrorInAFileNamesFileLineAndKey) {
   EXPECT_EQ(with("[cloud]\noutlier_neighbours = 0\n"),
             line(file + ":2: cloud.outlier_neighbours must be from 1 to 1000, not 0"));
   EXPECT_EQ(with("[termination]\nviews = 0\n"), line(file + ":2: termination.views must be from 1 to 10000, not 0"));
-  EXPECT_EQ(with("[map]\nresolution = \"2 mm\"\n"),
-            line(file + ":2: map.resolution takes a number [m], without quotes"));
+  EXPECT_EQ(with("[map]\nhit = \"0.8\"\n"), line(file + ":2: map.hit takes a number, without quotes"));
   EXPECT_EQ(with("[views]\ncount = -1\n"), line(file + ":2: views.count must be from 1 to 10000, not -1"));
   EXPECT_EQ(with("[gibbs]\neta_hit = 0\n"), line(file + ":2: gibbs.eta_hit must be over 0 and at most 1000, not 0"));
   EXPECT_EQ(with("[planner]\nray_rows = 0\n"), line(file + ":2: planner.ray_rows must be from 1 to 2000, not 0"));

@@ -1,5 +1,6 @@
 #include "ui/charts/planner_chart.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 
@@ -41,6 +42,20 @@ TEST(Figures, CoverageByPlanner) {
 
 TEST(PlannerChart, DrawsPoliciesThatItDoesNotKnowAndAnyNumberOfObjects) {
   EXPECT_EQ(draw_planner_chart({{"a", "mine", {10, 60}}, {"b", "mine", {20, 70}}}, 800, 600).width, 800);
+}
+
+TEST(PlannerChart, GivesPoliciesThatItDoesNotKnowColoursOfTheirOwn) {
+  const auto shows = [](const Image& image, const Colour& colour) {
+    const auto channel = [&](int c) { return static_cast<int>(std::lround(255.0 * colour[std::size_t(c)])); };
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+      if (image.rgba[i] == channel(0) && image.rgba[i + 1] == channel(1) && image.rgba[i + 2] == channel(2))
+        return true;
+    return false;
+  };
+  const std::vector<PlannerCourse> courses{{"a", "default", {10, 60}}, {"a", "mine", {20, 70}}, {"a", "other", {5, 9}}};
+  const Image both = draw_planner_chart(courses, 800, 600);
+  for (const std::size_t series : {0u, 1u, 2u}) EXPECT_TRUE(shows(both, theme::series[series])) << series;
+  EXPECT_FALSE(shows(both, theme::series[3]));
 }
 
 }  // namespace

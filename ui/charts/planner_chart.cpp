@@ -25,12 +25,12 @@ struct Style {
   bool each_object;  ///< it is drawn for each of them
 };
 
-const std::vector<Style>& styles() {
+const std::vector<Style>& known_styles() {
   static const std::vector<Style> all = {
       {"default", "expected new surface (default)", theme::series[0], true},
       {"oracle", "greedy oracle, knows the mesh", theme::ink, true},
       {"set-cover", "least set cover, knows the mesh", mix(theme::ink, theme::paper, 0.55), false},
-      {"random", "random views", theme::series[4], true},
+      {"random", "random views (mean of seeds)", theme::series[4], true},
       {"paper", "the paper's plan", theme::series[1], true},
       {"surface-edge-density", "surface edge density", theme::series[2], false},
       {"proximity-count", "proximity count", theme::series[3], false},
@@ -40,9 +40,21 @@ const std::vector<Style>& styles() {
   return all;
 }
 
-Style style_of(const std::string& policy) {
-  const auto found = std::ranges::find(styles(), policy, &Style::policy);
-  return found == styles().end() ? Style{policy, policy, theme::muted, false} : *found;
+/// Of the policies that there are, in the order above; others follow, in colours that are left.
+std::vector<Style> styles_of(const std::vector<PlannerCourse>& courses) {
+  std::vector<Style> styles;
+  for (const Style& style : known_styles())
+    if (std::ranges::count(courses, style.policy, &PlannerCourse::policy) > 0) styles.push_back(style);
+  std::vector<Colour> left;
+  for (const double pale : {0.0, 0.5})
+    for (const Colour& colour : theme::series)
+      if (const Colour one = mix(colour, theme::paper, pale); std::ranges::count(styles, one, &Style::colour) == 0)
+        left.push_back(one);
+  std::size_t others = 0;
+  for (const PlannerCourse& course : courses)
+    if (std::ranges::count(styles, course.policy, &Style::policy) == 0)
+      styles.push_back({course.policy, course.policy, left[others++ % left.size()], true});
+  return styles;
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -93,13 +105,21 @@ std::vector<PlannerCourse> courses_of(const std::vector<PlannerCourse>& courses,
   return some;
 }
 
-Curve curve_of(const PlannerCourse& course) {
+Curve curve_of(const PlannerCourse& course, const Style& style) {
   Curve curve;
-  curve.colour = style_of(course.policy).colour;
+  curve.colour = style.colour;
   curve.y = course.coverage;
   curve.x.resize(curve.y.size());
   std::iota(curve.x.begin(), curve.x.end(), 1.0);
   return curve;
+}
+
+/// What is drawn of each object.
+std::string each_object_text(const std::vector<Style>& styles) {
+  std::string names;
+  for (const Style& style : styles)
+    if (style.each_object) names += (names.empty() ? "" : ", ") + style.name;
+  return fmt::format("Of each object, in the colours of the mean: {}.", names);
 }
 
 CurvePlot empty_plot(const std::vector<PlannerCourse>& courses, const std::string& title) {
@@ -117,26 +137,27 @@ CurvePlot empty_plot(const std::vector<PlannerCourse>& courses, const std::strin
   return plot;
 }
 
-CurvePlot mean_plot(std::vector<PlannerCourse> courses, std::size_t objects) {
+CurvePlot mean_plot(std::vector<PlannerCourse> courses, const std::vector<Style>& styles, std::size_t objects) {
   CurvePlot plot = empty_plot(courses, fmt::format("Mean of {} objects", objects));
   plot.names_width = 268;
   std::ranges::stable_sort(courses, std::greater(), [](const PlannerCourse& c) { return mean(c); });
   for (const PlannerCourse& course : courses) {
-    Curve curve = curve_of(course);
-    curve.name = style_of(course.policy).name;
+    const Style& style = *std::ranges::find(styles, course.policy, &Style::policy);
+    Curve curve = curve_of(course, style);
+    curve.name = style.name;
     curve.details = {fmt::format("{:.1f} % on average", mean(course))};
     plot.curves.push_back(std::move(curve));
   }
   return plot;
 }
 
-CurvePlot object_plot(const std::vector<PlannerCourse>& courses, double y_low) {
+CurvePlot object_plot(const std::vector<PlannerCourse>& courses, const std::vector<Style>& styles, double y_low) {
   CurvePlot plot = empty_plot(courses, courses.front().object);
   std::ranges::replace(plot.title, '_', ' ');
   plot.y_low = y_low;
-  for (const Style& style : styles()) {
+  for (const Style& style : styles) {
     const auto course = std::ranges::find(courses, style.policy, &PlannerCourse::policy);
-    if (style.each_object && course != courses.end()) plot.curves.push_back(curve_of(*course));
+    if (style.each_object && course != courses.end()) plot.curves.push_back(curve_of(*course, style));
   }
   std::ranges::reverse(plot.curves);  // the default is drawn above the others
   return plot;
@@ -173,23 +194,23 @@ Image draw_planner_chart(const std::vector<PlannerCourse>& courses, int width, i
   for (const PlannerCourse& course : courses)
     if (std::ranges::find(objects, course.object) == objects.end()) objects.push_back(course.object);
   const double y_low = empty_plot(courses, "").y_low;
+  const std::vector<Style> styles = styles_of(courses);
   return draw_page(width, height, [&](vtkContext2D& context) {
     Painter painter(context);
     const double top = height - paint_title(painter, width, height, "Coverage of the visible surface against views", "",
-                                            "Of each object: the default, the greedy oracle, random views (mean of "
-                                            "several seeds) and the paper's plan, in the colours of the mean.");
+                                            each_object_text(styles));
     constexpr int columns = 6;
     constexpr double object_height = 236;
     const int rows = (int(objects.size()) + columns - 1) / columns;
     const double bottom = page_margin + rows * (object_height + page_margin);
     paint_curve_plot(context, {page_margin, bottom, width - 2 * page_margin, top - bottom},
-                     mean_plot(means_of(courses), objects.size()));
+                     mean_plot(means_of(courses), styles, objects.size()));
     const double object_width = (width - (columns + 1) * page_margin) / columns;
     for (int i = 0; i < int(objects.size()); ++i)
       paint_curve_plot(context,
                        {page_margin + i % columns * (object_width + page_margin),
                         bottom - (i / columns + 1) * (object_height + page_margin), object_width, object_height},
-                       object_plot(courses_of(courses, objects[std::size_t(i)]), y_low));
+                       object_plot(courses_of(courses, objects[std::size_t(i)]), styles, y_low));
   });
 }
 

@@ -108,15 +108,16 @@ void draw_trace(const PanelContext& context, const std::vector<std::vector<std::
   }
 }
 
+std::string level_name(const FullConditional& conditional, std::size_t level) {
+  return level == 0 ? "free" : conditional.probability.size() == 2 ? "occupied" : fmt::format("level {}", level);
+}
+
 /// Probability of each level, as bars.
 void draw_conditional(const PanelContext& context, const FullConditional& conditional) {
   const Style& style = context.style;
   ImGui::PushFont(style.small);
   for (std::size_t q = 0; q < conditional.probability.size(); ++q) {
-    const std::string name = q == 0                                ? "free"
-                             : conditional.probability.size() == 2 ? "occupied"
-                                                                   : fmt::format("level {}", q);
-    ImGui::TextDisabled("%s", name.c_str());
+    ImGui::TextDisabled("%s", level_name(conditional, q).c_str());
     const float p = float(conditional.probability[q]);
     ImGui::SameLine(style.px(84));
     ImGui::TextUnformatted(fmt::format("{:.4f}", p).c_str());
@@ -126,7 +127,9 @@ void draw_conditional(const PanelContext& context, const FullConditional& condit
   ImGui::PopFont();
   double speaks_for = 0, against = 0;
   for (const RayEvidence& ray : conditional.rays) (ray.log_ratio > 0 ? speaks_for : against) += ray.log_ratio;
-  small_text(style, fmt::format("Of log odds {:+.2f}: prior {:+.2f}, rays for it {:+.2f}, against it {:+.2f}.",
+  small_text(style, fmt::format("log odds of {} against free: {:+.2f}, of these prior {:+.2f}, rays for it {:+.2f}, "
+                                "against it {:+.2f}",
+                                level_name(conditional, std::size_t(conditional.level)),
                                 conditional.log_prior_odds + speaks_for + against, conditional.log_prior_odds,
                                 speaks_for, against));
 }

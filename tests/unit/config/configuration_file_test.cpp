@@ -91,7 +91,6 @@ TEST_F(ConfigurationFile, WrongTypesNameTheKeyAndTheLine) {
                                                         {"sensor.width = [640]", "sensor.width"},
                                                         {"sensor.width = 99999999999", "sensor.width"},
                                                         {"map.resolution = 'fine'", "map.resolution"},
-                                                        {"map.resolution = '0.01'", "map.resolution"},
                                                         {"map.resolution = true", "map.resolution"},
                                                         {"map.resolution = 2020-01-01", "map.resolution"},
                                                         {"evaluation.enabled = 1", "evaluation.enabled"},
@@ -111,6 +110,13 @@ TEST_F(ConfigurationFile, WrongTypesNameTheKeyAndTheLine) {
 TEST_F(ConfigurationFile, WholeNumbersDoForNumbers) {
   EXPECT_EQ(read("map.resolution = 1\n").map.resolution, 1.0);
   EXPECT_EQ(read("map.resolution = 1e-2\n").map.resolution, 0.01);
+}
+
+TEST_F(ConfigurationFile, ANumberMayHaveItsUnitInQuotes) {
+  EXPECT_EQ(read("map.resolution = '5 mm'\n").map.resolution, 0.005);
+  EXPECT_EQ(read("map.resolution = '0.01'\n").map.resolution, 0.01);
+  EXPECT_EQ(read("sensor.field_of_view = '45 deg'\n").sensor.field_of_view, 45.0);
+  EXPECT_NE(reason("map.resolution = '5 parsec'\n").find("parsec"), std::string::npos);
 }
 
 TEST_F(ConfigurationFile, BrokenTomlNamesTheLine) {

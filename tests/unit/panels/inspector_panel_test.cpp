@@ -159,12 +159,12 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   std::string text = panel();
   EXPECT_THAT(text, HasSubstr("Gibbs p 0.250, unknown, 0.44 nats"));
   EXPECT_THAT(text, HasSubstr("The Gibbs map is of the first 1 views."));
-  EXPECT_THAT(text, HasSubstr("3 rays have a say free 0.8750 occupied 0.1250 Of log odds -2.25: prior -2.00, rays for "
-                              "it +1.25, against it -1.50."));
+  EXPECT_THAT(text, HasSubstr("3 rays have a say free 0.8750 occupied 0.1250 log odds of occupied against free: -2.25, "
+                              "of these prior -2.00, rays for it +1.25, against it -1.50"));
   f.probability = {0.5, 0.25, 0.25};
   desk_.inspection.voxel->conditional = f;
   text = panel();
-  EXPECT_THAT(text, HasSubstr("free 0.5000 level 1 0.2500 level 2 0.2500"));
+  EXPECT_THAT(text, HasSubstr("free 0.5000 level 1 0.2500 level 2 0.2500 log odds of level 1 against free"));
   voxels[voxel_].measured = false;
   gibbs.voxels = LaidOutVoxels(voxels);
   scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
