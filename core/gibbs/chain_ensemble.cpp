@@ -14,7 +14,7 @@ constexpr double largest_r_hat = 1.05;
 constexpr double largest_trend = 2.576;   ///< |z| at p = 0.01
 constexpr double max_disagreeing = 1e-4;  ///< of the informed voxels
 /// Of the log-posterior; of few sweeps a share of as many values is enough.
-constexpr double fewest_samples = 10.0, least_sample_share = 0.25;
+constexpr double fewest_samples = 10.0, least_sample_share = 0.5;
 
 /// Binary divergence D_KL(p || q) [nats], both kept off 0 and 1.
 double divergence(double p, double q) {

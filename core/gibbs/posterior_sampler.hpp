@@ -38,7 +38,7 @@ struct PosteriorSamplerConfig {
   int plaquettes = 0;            ///< passes of 2 x 2 plaquettes per sweep
   int chains = 2;                ///< independent of each other
   int sweeps = 400;              ///< at most, a chain
-  int burn_in = 4;               ///< sweeps before the first attempt at a mean
+  int burn_in = 2;               ///< sweeps before the first attempt at a mean
   bool until_stationary = true;  ///< stop once stationary; otherwise all sweeps, burn-in left out, are the mean
   /// Fitted to levels that are drawn as by default: with another model, attenuations or prior, the sampler
   /// Algorithm 1, or if not all voxels are updated, it is `levels`.

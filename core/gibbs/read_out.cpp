@@ -7,11 +7,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/gibbs/weighted_logs.hpp"
+
 namespace nextview {
 namespace {
 
 /// Log-odds of a posterior mean, kept within what some hundred sweeps can tell.
-double kept_log_odds(double p) { return log_odds(std::clamp(p, 1e-4, 1.0 - 1e-4)); }
+float kept_log_odds(float p) {
+  p = std::clamp(p, 1e-4f, 1.0f - 1e-4f);
+  return WeightedLogs::log(p / (1.0f - p));
+}
 
 }  // namespace
 
@@ -50,7 +55,7 @@ ReadOutFeatures::Word ReadOutFeatures::word_of(std::uint32_t voxel) const {
   if (posterior_.informed[voxel]) {
     word[occupied] = posterior_.occupied[voxel];
     word[upper] = posterior_.upper[voxel];
-    word[log_odds_occupied] = static_cast<float>(kept_log_odds(posterior_.occupied[voxel]));
+    word[log_odds_occupied] = kept_log_odds(posterior_.occupied[voxel]);
   } else {
     word[uninformed] = 1.0f;
   }
@@ -98,7 +103,7 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
   const Around a = around(voxel);
   return {1.0f,
           own[log_odds_occupied],
-          static_cast<float>(kept_log_odds(posterior_.upper[voxel])),
+          kept_log_odds(posterior_.upper[voxel]),
           a.faces[uninformed],
           a.all[uninformed],
           a.faces[occupied],
@@ -143,7 +148,8 @@ float ReadOutNetwork::log_odds(const ReadOutFeatures::Vector& features) const {
   using Units = Eigen::Array<float, units, 1>;
   const auto of = [](const OfUnits& values) { return Eigen::Map<const Units>(values.data()); };
   Units sums = Units::Zero();
-  for (std::size_t k = 0; k < features.size(); ++k) sums += features[k] * of(in[k]);
+  for (std::size_t k = 0; k < features.size(); ++k)
+    if (features[k] != 0.0f) sums += features[k] * of(in[k]);  // in the open, where most voxels are, few are not
   const Units bent = of(out) * sums / (1.0f + sums.abs());
   const float straight = std::inner_product(features.begin(), features.end(), linear.begin(), 0.0f);
   return std::accumulate(bent.begin(), bent.end(), straight);
