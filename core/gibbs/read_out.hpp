@@ -104,7 +104,7 @@ struct ReadOutNetwork {
 struct ReadOutWeights {
   ReadOutNetwork touch, centre;
 };
-/// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit; nothing else was looked at.
+/// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit read-outs; nothing else was looked at.
 const ReadOutWeights& fitted_read_out();
 
 /// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. The same bytes on any number of threads.

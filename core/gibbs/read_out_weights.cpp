@@ -2,7 +2,7 @@
 
 namespace nextview {
 
-// As `posterior_comparison --fit` prints them.
+// As `posterior_comparison --fit read-outs` prints them.
 const ReadOutWeights& fitted_read_out() {
   static const ReadOutWeights weights{
       {{-0.2638,   0.16274,   0.0049448, 0.33487,  -0.11758,  0.29703,  -0.016407, 0.61078,    -0.12295,

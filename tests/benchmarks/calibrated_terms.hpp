@@ -4,8 +4,8 @@
 
 namespace nextview {
 
-/// Terms of the conventional map, fitted by `posterior_comparison --fit` to the same parts as the read-out. To the
-/// Gibbs map: as the read-out has it that the program was built with.
+/// Terms of the conventional map, fitted by `posterior_comparison --fit terms` to the same parts as the read-out. To
+/// the Gibbs map: as the read-out has it that the program was built with.
 struct CalibratedTerms {
   std::string_view sensor;     ///< EvidenceSensor::name
   std::string_view fitted_to;  ///< either truth, or the Gibbs map's probabilities of touch

@@ -2,7 +2,8 @@
 // as CSV, then the means over the objects; the manual's table comes from it (gibbs).
 //   build/release/posterior_comparison                                all held-out objects
 //   build/release/posterior_comparison --object bunny --views 4       some of it
-//   build/release/posterior_comparison --fit                          fits what is fitted, to made-up parts
+//   build/release/posterior_comparison --fit read-outs                fits these to made-up parts; then the next
+//   build/release/posterior_comparison --fit terms                    ... the conventional map's
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,7 +28,7 @@ struct Options {
   std::vector<int> views = {4, 20};
   std::vector<std::string> sensors = {"small", "default"};
   std::vector<EvidencePose> poses = {EvidencePose::as_placed, EvidencePose::turned};
-  bool fit = false;
+  std::string fit;
   bool before = true;
 };
 
@@ -177,10 +178,16 @@ int main(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, nextview::EvidencePose>{
           {"placed", nextview::EvidencePose::as_placed}, {"turned", nextview::EvidencePose::turned}}));
   program.add_flag("--before,!--no-before", options.before, "the Gibbs map of 0.4.0 too, which takes half of the time");
-  program.add_flag("--fit", options.fit, "fit the read-outs and the conventional map's terms instead");
+  program.add_option("--fit", options.fit, "fit the read-outs, or the conventional map's terms, instead")
+      ->check(CLI::IsMember({"read-outs", "terms"}));
   CLI11_PARSE(program, argc, argv);
   try {
-    options.fit ? nextview::fit_posterior(options.views) : nextview::compare(options);
+    if (options.fit == "terms")
+      nextview::fit_terms(options.views);
+    else if (options.fit == "read-outs")
+      nextview::fit_read_outs(options.views);
+    else
+      nextview::compare(options);
   } catch (const std::exception& error) {
     fmt::print(stderr, "posterior_comparison: {}\n", error.what());
     return 2;

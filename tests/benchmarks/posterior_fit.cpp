@@ -134,27 +134,37 @@ void print_weights(const char* name, const std::vector<ReadOutSamples>& cases, b
   fmt::print("const ReadOutWeights {}\n{{{},\n{}}};\n", name, text_of(touch), text_of(centre));
 }
 
+/// Calls `visit` with the made-up parts as a sensor sees them.
+template <class Visit>
+void for_each_case(const EvidenceSensor& sensor, std::span<const int> numbers_of_views, Visit visit) {
+  for (const FittingPart& part : fitting_parts())
+    for (const int views : numbers_of_views) {
+      visit(evidence_case(part.object, part.pose, sensor, views));
+      fmt::print(stderr, "{}, {}, {} views\n", part.object, sensor.name, views);
+    }
+}
+
 }  // namespace
 
-void fit_posterior(std::span<const int> numbers_of_views) {
-  std::vector<ReadOutSamples> cases;
+void fit_terms(std::span<const int> numbers_of_views) {
   for (const EvidenceSensor& sensor : fitting_sensors) {
-    TermHistories terms;
-    for (const FittingPart& part : fitting_parts())
-      for (const int views : numbers_of_views) {
-        const EvidenceCase c = evidence_case(part.object, part.pose, sensor, views);
-        const Evidence evidence = evidence_of(c);
-        for (ReadOutSamples& samples : samples_of(c, evidence)) cases.push_back(std::move(samples));
-        if (sensor.compared) terms.add(c, evidence.posterior);
-        fmt::print(stderr, "{}, {}, {} views\n", part.object, sensor.name, views);
-      }
     if (!sensor.compared) continue;
+    TermHistories terms;
+    for_each_case(sensor, numbers_of_views, [&](const EvidenceCase& c) { terms.add(c, evidence_of(c).posterior); });
     fmt::print("{}\n", sensor.name);
     print_terms("touch", terms.touch);
     print_terms("centre", terms.centre);
     print_terms("posterior", terms.posterior);
     std::fflush(stdout);
   }
+}
+
+void fit_read_outs(std::span<const int> numbers_of_views) {
+  std::vector<ReadOutSamples> cases;
+  for (const EvidenceSensor& sensor : fitting_sensors)
+    for_each_case(sensor, numbers_of_views, [&](const EvidenceCase& c) {
+      for (ReadOutSamples& samples : samples_of(c, evidence_of(c))) cases.push_back(std::move(samples));
+    });
   print_weights("read_out", cases, false);
   print_weights("read_out_of_rays_alone", cases, true);
 }

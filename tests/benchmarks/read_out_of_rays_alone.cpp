@@ -2,7 +2,7 @@
 
 namespace nextview {
 
-// As `posterior_comparison --fit` prints them.
+// As `posterior_comparison --fit read-outs` prints them.
 const ReadOutWeights& read_out_of_rays_alone() {
   static const ReadOutWeights weights{
       {{0.61295,   0,         0,         0,         0,          0,          0,        0,         0,

@@ -53,7 +53,7 @@ def in_window(options, folder, lines, killed_after=None, **variables):
 
 def whole_session(options, folder):
     """The session that a window has kept, gone on with to its end."""
-    kept = [entry for entry in (folder / "state/nextview").iterdir() if (entry / "journal").exists()]
+    kept = [journal.parent for journal in (folder / "state/nextview").glob("*/journal")]
     if len(kept) != 1:
         return None, f"{len(kept)} sessions were kept"
     done = run(options.program, "scan", "--resume", kept[0], "--no-pictures")

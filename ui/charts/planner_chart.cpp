@@ -118,7 +118,7 @@ Curve curve_of(const PlannerCourse& course, const Style& style) {
 std::string each_object_text(const std::vector<Style>& styles) {
   std::string names;
   for (const Style& style : styles)
-    if (style.each_object) names += (names.empty() ? "" : ", ") + style.name;
+    if (style.each_object) names += (names.empty() ? "" : "; ") + style.name;
   return fmt::format("Of each object, in the colours of the mean: {}.", names);
 }
 
