@@ -84,6 +84,7 @@ TEST(PanelPictures, CurvesOfSeveralRuns) {
   user.run("play\n");
   user.run("set planner.gain random\nreset\n");
   user.run("play\ncurves coverage gain\ncloud-colour distance\ntoggle-octree\n");
+  user.run("wait until done\nwait 10\n");  // notices go
   expect_screenshot("panel_curves", user.look(), bound());
 }
 

@@ -101,22 +101,34 @@ void draw_grid(const Style& style, const ChartContent& content, const Axes& axes
                content.x_label.c_str());
 }
 
-void draw_one_series(const Style& style, const ChartSeries& series, const Axes& axes, ImU32 colour) {
+/// Whether a series that is drawn later has a point where this one's i-th is.
+bool is_covered(const Style& style, const ChartContent& content, std::size_t series, std::size_t i, const Axes& axes) {
+  const ChartSeries& own = content.series[series];
+  return std::any_of(content.series.begin() + std::ptrdiff_t(series) + 1, content.series.end(), [&](const auto& later) {
+    return !later.earlier && i < later.x.size() && later.x[i] == own.x[i] &&
+           std::abs(axes.y(later.y[i]) - axes.y(own.y[i])) < style.px(1.5f);
+  });
+}
+
+void draw_one_series(const Style& style, const ChartContent& content, std::size_t s, const Axes& axes, ImU32 colour) {
+  const ChartSeries& series = content.series[s];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     const ImVec2 point(axes.x(series.x[i]), axes.y(series.y[i]));
     if (i > 0)
       list.AddLine({axes.x(series.x[i - 1]), axes.y(series.y[i - 1])}, point, colour,
                    style.px(series.earlier ? 1.2f : 1.8f));
-    if (!series.earlier && series.x.size() <= max_dots) list.AddCircleFilled(point, style.px(2.6f), colour);
+    if (series.earlier || series.x.size() > max_dots) continue;
+    // Beneath another's dot it shows as a ring: of two curves that are one, neither is lost.
+    list.AddCircleFilled(point, style.px(is_covered(style, content, s, i, axes) ? 4.6f : 2.6f), colour);
   }
 }
 
 void draw_series(const Style& style, const ChartContent& content, const Axes& axes) {
-  for (const ChartSeries& series : content.series)
-    if (series.earlier) draw_one_series(style, series, axes, earlier_colour());
   for (std::size_t s = 0; s < content.series.size(); ++s)
-    if (!content.series[s].earlier) draw_one_series(style, content.series[s], axes, series_colour(s));
+    if (content.series[s].earlier) draw_one_series(style, content, s, axes, earlier_colour());
+  for (std::size_t s = 0; s < content.series.size(); ++s)
+    if (!content.series[s].earlier) draw_one_series(style, content, s, axes, series_colour(s));
 }
 
 void draw_values_at(const Style& style, const ChartContent& content, const Axes& axes, ImVec2 pointer) {
