@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/gibbs/weighted_logs.hpp"
 
@@ -142,17 +141,6 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           wide.half - std::abs(wide.distance),
           wide.roughness,
           wide.incidence};
-}
-
-float ReadOutNetwork::log_odds(const ReadOutFeatures::Vector& features) const {
-  using Units = Eigen::Array<float, units, 1>;
-  const auto of = [](const OfUnits& values) { return Eigen::Map<const Units>(values.data()); };
-  Units sums = Units::Zero();
-  for (std::size_t k = 0; k < features.size(); ++k)
-    if (features[k] != 0.0f) sums += features[k] * of(in[k]);  // in the open, where most voxels are, few are not
-  const Units bent = of(out) * sums / (1.0f + sums.abs());
-  const float straight = std::inner_product(features.begin(), features.end(), linear.begin(), 0.0f);
-  return std::accumulate(bent.begin(), bent.end(), straight);
 }
 
 void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights) {
