@@ -14,7 +14,7 @@
 namespace nextview {
 namespace {
 
-constexpr int first_window = 10;  ///< sweeps of the first mean that is tried
+constexpr int first_window = 10;  ///< sweeps of the first mean that is tried; the usual chain is white noise by then
 constexpr int few_sweeps = 4;     ///< that R-hat needs for its halves
 constexpr int sweeps_between_reports = 4;
 
