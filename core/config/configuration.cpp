@@ -116,7 +116,7 @@ class TomlReader {
         std::holds_alternative<std::string*>(setting.value) || std::holds_alternative<Setting::Choice>(setting.value);
     const bool takes_unit = std::holds_alternative<double*>(setting.value) && !setting.unit.empty();
     const auto line = node.source().begin.line;
-    if (takes_text != node.is_string() && !(takes_unit && node.is_string()))
+    if (node.is_string() ? !takes_text && !takes_unit : takes_text)
       throw failure(line, takes_text ? fmt::format("{} takes a text in quotes, as a single value", setting.key)
                                      : fmt::format("{} takes {}, without quotes", setting.key, bare_value(setting)));
     if (const auto* text = node.as_string()) return text->get();

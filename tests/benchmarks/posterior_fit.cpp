@@ -24,8 +24,8 @@ struct Evidence {
   ReadOutRays rays;
 };
 
-Evidence evidence_of(const EvidenceCase& c) {
-  return {sample_posterior(c.grid, measurements_of(c.scans), sampler_of(c), octomap_of(c)), rays_of(c)};
+GibbsPosterior posterior_of(const EvidenceCase& c) {
+  return sample_posterior(c.grid, measurements_of(c.scans), sampler_of(c), octomap_of(c));
 }
 
 /// The voxels that scores near the surface are of.
@@ -150,7 +150,7 @@ void fit_terms(std::span<const int> numbers_of_views) {
   for (const EvidenceSensor& sensor : fitting_sensors) {
     if (!sensor.compared) continue;
     TermHistories terms;
-    for_each_case(sensor, numbers_of_views, [&](const EvidenceCase& c) { terms.add(c, evidence_of(c).posterior); });
+    for_each_case(sensor, numbers_of_views, [&](const EvidenceCase& c) { terms.add(c, posterior_of(c)); });
     fmt::print("{}\n", sensor.name);
     print_terms("touch", terms.touch);
     print_terms("centre", terms.centre);
@@ -163,7 +163,7 @@ void fit_read_outs(std::span<const int> numbers_of_views) {
   std::vector<ReadOutSamples> cases;
   for (const EvidenceSensor& sensor : fitting_sensors)
     for_each_case(sensor, numbers_of_views, [&](const EvidenceCase& c) {
-      for (ReadOutSamples& samples : samples_of(c, evidence_of(c))) cases.push_back(std::move(samples));
+      for (ReadOutSamples& samples : samples_of(c, {posterior_of(c), rays_of(c)})) cases.push_back(std::move(samples));
     });
   print_weights("read_out", cases, false);
   print_weights("read_out_of_rays_alone", cases, true);

@@ -110,8 +110,9 @@ bool is_covered(const Style& style, const ChartContent& content, std::size_t ser
   });
 }
 
-void draw_one_series(const Style& style, const ChartContent& content, std::size_t s, const Axes& axes, ImU32 colour) {
+void draw_one_series(const Style& style, const ChartContent& content, std::size_t s, const Axes& axes) {
   const ChartSeries& series = content.series[s];
+  const ImU32 colour = series.earlier ? earlier_colour() : series_colour(s);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     const ImVec2 point(axes.x(series.x[i]), axes.y(series.y[i]));
@@ -125,10 +126,9 @@ void draw_one_series(const Style& style, const ChartContent& content, std::size_
 }
 
 void draw_series(const Style& style, const ChartContent& content, const Axes& axes) {
-  for (std::size_t s = 0; s < content.series.size(); ++s)
-    if (content.series[s].earlier) draw_one_series(style, content, s, axes, earlier_colour());
-  for (std::size_t s = 0; s < content.series.size(); ++s)
-    if (!content.series[s].earlier) draw_one_series(style, content, s, axes, series_colour(s));
+  for (const bool earlier : {true, false})
+    for (std::size_t s = 0; s < content.series.size(); ++s)
+      if (content.series[s].earlier == earlier) draw_one_series(style, content, s, axes);
 }
 
 void draw_values_at(const Style& style, const ChartContent& content, const Axes& axes, ImVec2 pointer) {
