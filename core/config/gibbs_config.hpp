@@ -14,7 +14,7 @@ struct GibbsConfig {
   double independence = 0.0;
   double angular_sigma = 0.0;  ///< of azimuth and altitude (model cone) [rad]; 0: half the angular pitch of the rays
   std::string attenuations = "0.05, 0.2";  ///< of the levels (model attenuation) [1 / voxel edge]
-  int view_sweeps = 8;  ///< sweeps after each view of a scan, from the last view's maps on; 0: until stationary
+  int view_sweeps = 5;  ///< sweeps after each view of a scan, from the last view's maps on; 0: until stationary
 
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;

@@ -58,11 +58,11 @@ void ChainEnsemble::begin_mean(int sweeps) {
   reach_samples_ = static_cast<int>(std::clamp<std::size_t>(affordable, 2, std::clamp(sweeps / 10, 2, 1000)));
   diagnostics_.burn_in = diagnostics_.sweeps;
   diagnostics_.divergence.clear();
-  for (int c = 0; c < config_.chains; ++c) {
+  tbb::parallel_for(0, config_.chains, [&](int c) {
     sums_[c] = {std::vector<double>(voxels), std::vector<double>(voxels), std::vector<float>(voxels)};
     traces_[c].assign(traced_.size(), {});
     levels_[c].clear();
-  }
+  });
 }
 
 void ChainEnsemble::sweep(int count, bool into_mean) {

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 
+#include "core/gibbs/independence.hpp"
+#include "core/progress/stopwatch.hpp"
+
 namespace nextview {
 
 GibbsState::GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes)
     : config_(config),
       classes_(classes),
       measurements_(std::make_shared<const RangeMeasurements>()),
+      refined_(measurements_),
+      latest_lists_(std::make_shared<LatestLists>()),
       posterior_(std::make_shared<const GibbsPosterior>(GibbsPosterior{grid, {}, {}, {}, {}, {}, {}})),
       voxels_(grid.size) {
   config_.validate();
@@ -23,19 +28,48 @@ void GibbsState::add(const Scan& scan) {
   measurements_ = std::move(all);
 }
 
+/// The lists of all rays: the latest with what was added since, if they are of the rays that this posterior knows.
+std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model) const {
+  std::unique_ptr<RayLists> lists;
+  {
+    const std::scoped_lock lock(latest_lists_->mutex);
+    if (latest_lists_->measurements == refined_) lists = std::move(latest_lists_->lists);
+    latest_lists_->measurements = nullptr;
+    latest_lists_->lists = nullptr;
+  }
+  if (!lists) return std::make_unique<RayLists>(posterior_->grid, *measurements_, model);
+  if (measurements_ != refined_) lists->append(measurements_->after(*refined_));
+  lists->set_independence(model.independence);
+  return lists;
+}
+
 void GibbsState::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
                         std::stop_token stop) {
   PosteriorSamplerConfig config = config_;
-  config.ray_spacing = 0.0;             // they are merged
   config.seed += refinements_++ << 32;  // other numbers than the last time
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
   config.burn_in = std::min(config.burn_in, config.sweeps / 2);
-  auto posterior = std::make_shared<GibbsPosterior>(
-      sample_posterior(posterior_->grid, *measurements_, config, conventional, posterior_->states, progress, stop));
+  if (progress) progress(0.0, listing_rays, {});
+  double build_seconds = 0.0;
+  std::unique_ptr<RayLists> lists = [&] {
+    const Stopwatch watch(build_seconds);
+    return take_lists(with_independence(config.model, *measurements_, posterior_->grid));
+  }();
+  const bool grows = sweeps > 0 && !refined_->rays.empty() && refined_ != measurements_ &&
+                     config.updated == UpdatedVoxels::occupied_and_free;
+  const WarmStart warm{posterior_->states, grows ? posterior_.get() : nullptr,
+                       lists->first_ray_of(static_cast<std::uint32_t>(refined_->origins.size()))};
+  auto posterior =
+      std::make_shared<GibbsPosterior>(sample_posterior(*lists, config, conventional, warm, progress, stop));
   posterior->diagnostics.measured_rays = measured_rays_;
+  posterior->diagnostics.build_seconds = build_seconds;
   voxels_ = VoxelBricks(posterior->grid.size, posterior->voxels(classes_));
   posterior_ = std::move(posterior);
+  refined_ = measurements_;
+  const std::scoped_lock lock(latest_lists_->mutex);
+  latest_lists_->measurements = refined_;
+  latest_lists_->lists = std::move(lists);
 }
 
 std::size_t GibbsState::bytes(const GibbsState* other) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <mutex>
 #include <stop_token>
 
 #include "core/gibbs/posterior_sampler.hpp"
@@ -16,7 +17,8 @@ class GibbsState {
   /// Adds a view's rays, merged at once: only what the voxels can tell apart is kept. All views have the maximum range
   /// of the first.
   void add(const Scan& scan);
-  /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps; `conventional` is where the first
+  /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps: if views were added since the
+  /// last refinement, so many sweeps are of what they may change (WarmStart::kept). `conventional` is where the first
   /// refinement may start. After a requested stop it holds the posterior as far as it was sampled, which says so, and
   /// can be refined on.
   void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
@@ -35,11 +37,21 @@ class GibbsState {
   void keep_traces(bool keep) { config_.keep_traces = keep; }
 
  private:
+  /// Of a scan's latest refinement: the next one adds its view's rays. One for all copies, as it takes much memory.
+  struct LatestLists {
+    std::mutex mutex;
+    std::shared_ptr<const RangeMeasurements> measurements;  ///< that they are of
+    std::unique_ptr<RayLists> lists;
+  };
+  std::unique_ptr<RayLists> take_lists(const ForwardSensorModel& model) const;
+
   PosteriorSamplerConfig config_;
   InverseSensorModel classes_;
   std::size_t measured_rays_ = 0;
   std::uint64_t refinements_ = 0;
   std::shared_ptr<const RangeMeasurements> measurements_;
+  std::shared_ptr<const RangeMeasurements> refined_;  ///< those that the posterior knows
+  std::shared_ptr<LatestLists> latest_lists_;
   std::shared_ptr<const GibbsPosterior> posterior_;
   VoxelBricks voxels_;
 };

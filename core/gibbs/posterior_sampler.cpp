@@ -1,6 +1,7 @@
 #include "core/gibbs/posterior_sampler.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -83,6 +84,8 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
   if (stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
   if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
+  if (d.sweeps - d.burn_in < first_window)
+    return fmt::format("{} sweeps are too few to tell whether the chains are stationary", d.sweeps);
   return fmt::format(
       "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {:.0f} "
       "effective samples (10), {} voxels differ between chains (at most {}); more sweeps may help",
@@ -97,62 +100,69 @@ bool draws_as_fitted(const PosteriorSamplerConfig& config) {
          config.updated == UpdatedVoxels::occupied_and_free;
 }
 
-void read_out(GibbsPosterior& posterior, const RayLists& lists, const PosteriorSamplerConfig& config) {
+void read_out(GibbsPosterior& posterior, const RayLists& lists, const Sites& sites,
+              const PosteriorSamplerConfig& config) {
   if (config.read_out == ReadOut::fitted && draws_as_fitted(config)) {
-    read_out(posterior, read_out_rays(lists), fitted_read_out());
+    read_out(posterior, read_out_rays(lists), fitted_read_out(), &sites);
   } else {
     posterior.touch = posterior.centre = posterior.occupied;
   }
 }
 
-/// The rays by voxel, and the voxels that are updated.
-struct ListedRays {
-  RayLists lists;
-  Sites sites;
-};
-
-/// Merges and lists them; the model learns how independent they are.
-ListedRays list_rays(const VoxelGrid& grid, const RangeMeasurements& measurements, PosteriorSamplerConfig& config,
-                     std::span<const float> start_map, SamplerDiagnostics& d) {
-  const Stopwatch watch(d.build_seconds);
-  const RangeMeasurements merged = merge_rays(measurements, grid, config.ray_spacing);
-  config.model = with_independence(config.model, merged, grid);
-  RayLists lists(grid, merged, config.model);
-  Sites sites = find_sites(lists, config, start_map);
-  d.measured_rays = measurements.rays.size();
-  d.merged_rays = lists.rays();
-  d.observed_voxels = sites.count();
-  d.incidences = lists.incidence_count();
-  d.list_bytes = lists.bytes();
-  return {std::move(lists), std::move(sites)};
-}
-
-void sample(GibbsPosterior& posterior, const ListedRays& rays, const PosteriorSamplerConfig& config,
-            std::span<const float> start_map, std::span<const std::vector<std::uint8_t>> warm,
-            const SamplerProgress& progress, std::stop_token stop) {
+void sample(GibbsPosterior& posterior, const RayLists& lists, const Sites& sites, const PosteriorSamplerConfig& config,
+            std::span<const float> start_map, const WarmStart& warm, const SamplerProgress& progress,
+            std::stop_token stop) {
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch watch(d.sample_seconds);
-  ChainEnsemble chains(rays.lists, config, rays.sites, d);
-  for (int c = 0; c < config.chains; ++c) {
-    auto levels = std::size_t(c) < warm.size() ? warm[c] : start_levels(rays.lists, config, start_map, c);
+  ChainEnsemble chains(lists, config, sites, d);
+  tbb::parallel_for(0, config.chains, [&](int c) {
+    auto levels = std::size_t(c) < warm.states.size() ? warm.states[c] : start_levels(lists, config, start_map, c);
     // What is never updated stays free: it would stand in the rays' way for ever.
-    for (std::size_t v = 0; v < levels.size(); ++v)
-      if (rays.sites.kind[v] == Sites::none) levels[v] = 0;
+    for (std::size_t v = 0; v < levels.size() && !warm.kept; ++v)
+      if (sites.kind[v] == Sites::none) levels[v] = 0;
     chains.start(c, std::move(levels));
-  }
-  Schedule(chains, config, d, progress, stop).run(!warm.empty());
-  for (std::size_t v = 0; v < posterior.occupied.size(); ++v) {
+  });
+  Schedule(chains, config, d, progress, stop).run(!warm.states.empty());
+  tbb::parallel_for(std::size_t{0}, posterior.occupied.size(), [&](std::size_t v) {
+    const bool updated = sites.kind[v] != Sites::none;  // otherwise it keeps what it has
+    if (!updated && warm.kept) return;
     posterior.informed[v] = chains.informed(v);
-    if (!posterior.informed[v]) continue;
-    const bool updated = rays.sites.kind[v] != Sites::none;  // otherwise it keeps what it has
+    if (!posterior.informed[v]) {
+      posterior.occupied[v] = posterior.upper[v] = 0.5f;
+      return;
+    }
     posterior.occupied[v] = updated             ? chains.mean(v, &PosteriorSums::occupied)
                             : start_map.empty() ? 0.0f
                                                 : start_map[v];
     posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
-  }
-  read_out(posterior, rays.lists, config);
+  });
+  read_out(posterior, lists, sites, config);
   for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
   if (config.keep_traces) posterior.traces = chains.take_level_traces();
+}
+
+void require_fitting(std::span<const float> start_map, const WarmStart& warm, std::size_t voxels,
+                     const PosteriorSamplerConfig& config) {
+  if (!start_map.empty() && start_map.size() != voxels)
+    throw std::invalid_argument("gibbs: the start map is of another grid");
+  for (const auto& state : warm.states)
+    if (state.size() != voxels || *std::max_element(state.begin(), state.end()) >= config.model.levels())
+      throw std::invalid_argument("gibbs: a warm start is of another grid or model");
+  if (!warm.kept) return;
+  if (warm.kept->touch.size() != voxels || warm.states.size() != std::size_t(config.chains))
+    throw std::invalid_argument("gibbs: the posterior that is kept is of another grid, or of other chains");
+  if (config.updated != UpdatedVoxels::occupied_and_free)
+    throw std::invalid_argument("gibbs: a posterior is kept only where all voxels are updated");
+}
+
+/// What is known before the first sweep.
+GibbsPosterior start_of(const VoxelGrid& grid, const WarmStart& warm) {
+  if (warm.kept) {
+    const GibbsPosterior& kept = *warm.kept;
+    return {grid, kept.occupied, kept.upper, kept.informed, {}, {}, {}, kept.touch, kept.centre};
+  }
+  const std::vector<float> unknown(grid.voxel_count(), 0.5f);
+  return {grid, unknown, unknown, std::vector<std::uint8_t>(unknown.size(), 0), {}, {}, {}};
 }
 
 }  // namespace
@@ -185,46 +195,57 @@ void PosteriorSamplerConfig::validate() const {
 
 std::vector<Voxel> GibbsPosterior::voxels_of(std::span<const float> p, const InverseSensorModel& classes) const {
   std::vector<Voxel> voxels(p.size());
-  for (std::size_t v = 0; v < voxels.size(); ++v) {
+  tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t v) {
     voxels[v].probability = p[v];
     voxels[v].entropy = static_cast<float>(entropy(p[v]));
     voxels[v].voxel_class = classes.classify(p[v]);
     voxels[v].measured = informed[v];
-  }
+  });
   return voxels;
 }
 
-GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
-                                const PosteriorSamplerConfig& configured, std::span<const float> start_map,
-                                std::span<const std::vector<std::uint8_t>> warm, const SamplerProgress& progress,
-                                std::stop_token stop) {
-  configured.validate();
+GibbsPosterior sample_posterior(const RayLists& lists, const PosteriorSamplerConfig& configured,
+                                std::span<const float> start_map, const WarmStart& warm,
+                                const SamplerProgress& progress, std::stop_token stop) {
   PosteriorSamplerConfig config = configured;
-  measurements.validate();
-  RayLists::require_holdable(grid);
-  const std::size_t voxels = grid.voxel_count();
-  for (const auto& state : warm)
-    if (state.size() != voxels || *std::max_element(state.begin(), state.end()) >= config.model.levels())
-      throw std::invalid_argument("gibbs: a warm start is of another grid or model");
-  if (!start_map.empty() && start_map.size() != voxels)
-    throw std::invalid_argument("gibbs: the start map is of another grid");
-  GibbsPosterior posterior{grid,
-                           std::vector<float>(voxels, 0.5f),
-                           std::vector<float>(voxels, 0.5f),
-                           std::vector<std::uint8_t>(voxels, 0),
-                           {},
-                           {},
-                           {}};
-  SamplerDiagnostics& d = posterior.diagnostics;
-  if (progress) progress(0.0, "listing the rays of each voxel", d);
-  const ListedRays rays = list_rays(grid, measurements, config, start_map, d);
+  config.model = lists.model();
+  config.validate();
+  const std::size_t voxels = lists.grid().voxel_count();
+  require_fitting(start_map, warm, voxels, config);
   constexpr std::uint64_t bytes_per_voxel = 32;  // of a chain's map, state and sums
   require_memory(bytes_per_voxel * voxels * std::uint64_t(config.chains),
                  fmt::format("gibbs: {} chains of {} voxels", config.chains, voxels),
                  "use fewer chains (gibbs.chains) or a coarser map");
-  sample(posterior, rays, config, start_map, warm, progress, stop);
-  if (stop.stop_requested()) d.stationary = false;  // asked early, it would say so by chance
+  GibbsPosterior posterior = start_of(lists.grid(), warm);
+  const Sites sites = find_sites(lists, config, start_map, warm.kept ? warm.first_new_ray : 0);
+  SamplerDiagnostics& d = posterior.diagnostics;
+  d.merged_rays = lists.rays();
+  d.observed_voxels = sites.count();
+  d.incidences = lists.incidence_count();
+  d.list_bytes = lists.bytes();
+  sample(posterior, lists, sites, config, start_map, warm, progress, stop);
+  // Asked early, it would say so by chance.
+  if (stop.stop_requested() || d.sweeps - d.burn_in < first_window) d.stationary = false;
   d.warning = warning(d, stop.stop_requested());
+  return posterior;
+}
+
+GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
+                                const PosteriorSamplerConfig& config, std::span<const float> start_map,
+                                const WarmStart& warm, const SamplerProgress& progress, std::stop_token stop) {
+  config.validate();
+  measurements.validate();
+  RayLists::require_holdable(grid);
+  if (progress) progress(0.0, listing_rays, {});
+  double build_seconds = 0.0;
+  const RayLists lists = [&] {
+    const Stopwatch watch(build_seconds);
+    const RangeMeasurements merged = merge_rays(measurements, grid, config.ray_spacing);
+    return RayLists(grid, merged, with_independence(config.model, merged, grid));
+  }();
+  GibbsPosterior posterior = sample_posterior(lists, config, start_map, warm, progress, stop);
+  posterior.diagnostics.measured_rays = measurements.rays.size();
+  posterior.diagnostics.build_seconds = build_seconds;
   return posterior;
 }
 

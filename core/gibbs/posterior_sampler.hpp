@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/gibbs/forward_sensor_model.hpp"
+#include "core/gibbs/ray_lists.hpp"
 #include "core/gibbs/sampler_diagnostics.hpp"
 #include "core/map/occupancy.hpp"
 
@@ -87,19 +87,39 @@ struct GibbsPosterior {
   std::vector<Voxel> voxels_of(std::span<const float> p, const InverseSensorModel& classes) const;
 };
 
+/// Where a run goes on from: its chains start with the maps of an earlier one, and leave out half as many sweeps.
+struct WarmStart {
+  std::span<const std::vector<std::uint8_t>> states = {};  ///< GibbsPosterior::states
+  /// If given, the posterior of the rays before `first_new_ray` of the lists. Voxels that only those pass, and no ray
+  /// ends near, keep what it says of them, and their levels: they are free, and rays elsewhere change little about
+  /// that.
+  const GibbsPosterior* kept = nullptr;
+  std::uint32_t first_new_ray = 0;
+};
+
 /// Is given every few sweeps how far a run has come, which never goes back, and how it goes: `so_far` has the traces up
 /// to now, what is worked out from them as of the last mean that was tried. It is valid during the call. Called from
 /// the thread that samples.
 using SamplerProgress = std::function<void(double fraction, std::string_view what, const SamplerDiagnostics& so_far)>;
 
-/// Draws from p(m | z). `start_map`: probabilities that StartMap::octree starts from (occupied where p >= 0.5), and
-/// that UpdatedVoxels::occupied updates; empty: all free. `warm`: states of an earlier posterior, which take the place
-/// of the start and of half of the burn-in. The same bytes on any number of threads; a requested stop ends the sweeps
-/// early and the diagnostics say so.
-/// @throws std::invalid_argument for a configuration out of bounds, or rays that would not fit into memory.
+/// What SamplerProgress is told before the first sweep.
+inline constexpr std::string_view listing_rays = "listing the rays of each voxel";
+
+/// Draws from p(m | z), z being the rays of lists. `start_map`: probabilities that StartMap::octree starts from
+/// (occupied where p >= 0.5), and that UpdatedVoxels::occupied updates; empty: all free. The same bytes on any number
+/// of threads; a requested stop ends the sweeps early and the diagnostics say so. The sensor model is that of the
+/// lists, PosteriorSamplerConfig::ray_spacing has no say.
+/// @throws std::invalid_argument for a configuration out of bounds, or a start that is of another grid or model, or
+/// keeps voxels though not all are updated.
+GibbsPosterior sample_posterior(const RayLists& lists, const PosteriorSamplerConfig& config,
+                                std::span<const float> start_map = {}, const WarmStart& warm = {},
+                                const SamplerProgress& progress = {}, std::stop_token stop = {});
+
+/// The same of measurements: merges them by PosteriorSamplerConfig::ray_spacing and lists them first.
+/// @throws std::invalid_argument also for rays that would not fit into memory.
 GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& measurements,
                                 const PosteriorSamplerConfig& config, std::span<const float> start_map = {},
-                                std::span<const std::vector<std::uint8_t>> warm = {},
-                                const SamplerProgress& progress = {}, std::stop_token stop = {});
+                                const WarmStart& warm = {}, const SamplerProgress& progress = {},
+                                std::stop_token stop = {});
 
 }  // namespace nextview

@@ -164,6 +164,15 @@ void RangeMeasurements::append(const RangeMeasurements& other) {
   }
 }
 
+RangeMeasurements RangeMeasurements::after(const RangeMeasurements& earlier) const {
+  const auto first_origin = static_cast<std::uint32_t>(earlier.origins.size());
+  RangeMeasurements later{max_range,
+                          {origins.begin() + first_origin, origins.end()},
+                          {rays.begin() + static_cast<std::ptrdiff_t>(earlier.rays.size()), rays.end()}};
+  for (RangeMeasurement& ray : later.rays) ray.origin -= first_origin;
+  return later;
+}
+
 RangeMeasurements merge_rays(const RangeMeasurements& measurements, double spacing, double spread) {
   return merge_each_origin(measurements, std::vector<double>(measurements.origins.size(), spacing), spread);
 }

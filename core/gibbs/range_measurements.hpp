@@ -28,6 +28,9 @@ struct RangeMeasurements {
   /// Adds the rays of other measurements of the same maximum range.
   void append(const RangeMeasurements& other);
 
+  /// What was appended to earlier ones. @pre these begin with those
+  RangeMeasurements after(const RangeMeasurements& earlier) const;
+
   /// @throws std::invalid_argument if something is not finite, farther than 1e6 m, or has no origin.
   void validate() const;
 

@@ -1,6 +1,8 @@
 #include "core/gibbs/ray_lists.hpp"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
@@ -53,17 +55,26 @@ void RayLists::require_holdable(const VoxelGrid& grid) {
 double RayLists::chord(std::uint32_t code) { return code * longest_chord / (chord_codes - 1); }
 
 RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model)
-    : grid_(grid), measurements_(measurements), model_(model) {
+    : grid_(grid), measurements_{measurements.max_range, {}, {}}, model_(model) {
   model_.validate();
   require_holdable(grid_);
-  take_rays();
-  incidences_begin_.assign(rays() + 1, 0);
-  std::vector<Block> blocks(grid_.voxel_count() > (1u << 24) ? 1 : 4);
+  incidences_begin_.assign(1, 0);
+  front_begin_.assign(grid_.voxel_count() + 1, 0);
+  near_begin_ = front_begin_;
+  append(measurements);
+}
+
+void RayLists::append(const RangeMeasurements& measurements) {
+  const std::size_t first = take_rays(measurements), added = rays() - first;
+  incidences_begin_.resize(rays() + 1);
+  constexpr std::size_t many = 100'000;  // fewer are counted before more threads have cleared their counts
+  std::vector<Block> blocks(grid_.voxel_count() > (1u << 24) ? 1 : added < many ? 2 : 4);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    blocks[b].first_ray = static_cast<std::uint32_t>(rays() * b / blocks.size());
-    blocks[b].last_ray = static_cast<std::uint32_t>(rays() * (b + 1) / blocks.size());
+    blocks[b].first_ray = static_cast<std::uint32_t>(first + added * b / blocks.size());
+    blocks[b].last_ray = static_cast<std::uint32_t>(first + added * (b + 1) / blocks.size());
   }
   tbb::parallel_for_each(blocks, [this](Block& block) { count(block); });
+  for (std::size_t ray = first; ray < rays(); ++ray) incidences_begin_[ray + 1] += incidences_begin_[ray];
   lay_out(blocks);
   tbb::parallel_for_each(blocks, [this](Block& block) { fill(block); });
 }
@@ -73,22 +84,27 @@ std::size_t RayLists::bytes() const {
          rays() * (sizeof(RangeMeasurement) + 4 + 4 + 4) + grid_.voxel_count() * 8;
 }
 
-void RayLists::take_rays() {
+/// Returns how many there were.
+std::size_t RayLists::take_rays(const RangeMeasurements& measurements) {
+  const std::size_t before = rays();
+  measurements_.append(measurements);
   auto& rays = measurements_.rays;
-  std::erase_if(rays, [&](const RangeMeasurement& ray) {
+  const auto stays_outside = [&](const RangeMeasurement& ray) {
     bool enters = false;
     walk_ray(grid_, measurements_.origins[ray.origin], measurements_.direction(ray),
              list_end(measurements_, ray, model_), [&](int, int, int) { return !(enters = true); });
     return !enters;
-  });
+  };
+  rays.erase(std::remove_if(rays.begin() + std::ptrdiff_t(before), rays.end(), stays_outside), rays.end());
   if (rays.size() > max_rays)
     throw std::invalid_argument(
         fmt::format("gibbs: {} rays are more than the {} it can hold; merge them with a larger gibbs.ray_spacing",
                     rays.size(), max_rays));
-  for (const RangeMeasurement& ray : rays) {
+  for (const RangeMeasurement& ray : std::span(rays).subspan(before)) {
     weight_.push_back(ray.weight);
     open_value_.push_back(open_value_of(ray));
   }
+  return before;
 }
 
 /// Calls on_front(voxel, chord code) and on_near(segment) along a ray.
@@ -128,19 +144,21 @@ void RayLists::count(Block& block) {
   }
 }
 
+/// Makes room behind what each voxel has, and tells the blocks where theirs goes.
 void RayLists::lay_out(std::vector<Block>& blocks) {
   std::size_t front = 0, near = 0;
   const std::size_t voxels = grid_.voxel_count();
-  front_begin_.resize(voxels + 1);
-  near_begin_.resize(voxels + 1);
+  std::vector<std::uint32_t> front_begin(voxels + 1), near_begin(voxels + 1);
   const auto place = [](std::size_t& next, std::uint32_t& count) {
     const std::uint32_t begin = static_cast<std::uint32_t>(next);
     next += count;
     count = begin;
   };
-  for (std::size_t v = 0; v < voxels; ++v) {
-    front_begin_[v] = static_cast<std::uint32_t>(front);
-    near_begin_[v] = static_cast<std::uint32_t>(near);
+  for (std::uint32_t v = 0; v < voxels; ++v) {
+    front_begin[v] = static_cast<std::uint32_t>(front);
+    near_begin[v] = static_cast<std::uint32_t>(near);
+    front += this->front(v).size();
+    near += this->near(v).size();
     for (Block& block : blocks) {
       place(front, block.front[v]);
       place(near, block.near[v]);
@@ -154,12 +172,22 @@ void RayLists::lay_out(std::vector<Block>& blocks) {
         rays(), static_cast<double>(bytes) / (1 << 30), max_bytes >> 30));
   require_memory(bytes, fmt::format("gibbs: the lists of {} rays", rays()),
                  "merge rays with a larger gibbs.ray_spacing, or use a coarser map");
-  front_begin_[voxels] = static_cast<std::uint32_t>(front);
-  near_begin_[voxels] = static_cast<std::uint32_t>(near);
-  front_.resize(front + entries_beyond);
-  std::fill_n(front_.end() - entries_beyond, entries_beyond, FrontEntry{});
-  near_.resize(near);
-  for (std::size_t ray = 0; ray < rays(); ++ray) incidences_begin_[ray + 1] += incidences_begin_[ray];
+  front_begin[voxels] = static_cast<std::uint32_t>(front);
+  near_begin[voxels] = static_cast<std::uint32_t>(near);
+  Entries<FrontEntry> fronts(front + entries_beyond);
+  std::fill_n(fronts.end() - entries_beyond, entries_beyond, FrontEntry{});
+  Entries<NearEntry> nears(near);
+  if (!incidences_.empty() || !front_.empty())
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(voxels)), [&](const auto& some) {
+      for (std::uint32_t v = some.begin(); v < some.end(); ++v) {
+        std::ranges::copy(this->front(v), fronts.begin() + front_begin[v]);
+        std::ranges::copy(this->near(v), nears.begin() + near_begin[v]);
+      }
+    });
+  front_begin_ = std::move(front_begin);
+  near_begin_ = std::move(near_begin);
+  front_ = std::move(fronts);
+  near_ = std::move(nears);
   incidences_.resize(near);
 }
 
@@ -178,6 +206,12 @@ void RayLists::fill(Block& block) {
           ++incidence;
         });
   }
+}
+
+std::uint32_t RayLists::first_ray_of(std::uint32_t origin) const {
+  const auto& rays = measurements_.rays;
+  return static_cast<std::uint32_t>(std::ranges::lower_bound(rays, origin, {}, &RangeMeasurement::origin) -
+                                    rays.begin());
 }
 
 RayLists::RangeFrom RayLists::range_from(std::uint32_t voxel, std::uint32_t ray) const {

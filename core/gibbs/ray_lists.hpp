@@ -44,6 +44,10 @@ class RayLists {
   /// The lists hold the rays that enter the grid, in their order: neighbours in an image stay neighbours in memory.
   /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists).
   RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model);
+  /// Adds rays of more origins and the same maximum range: as if all had been listed together. Takes the memory of both
+  /// lists for a moment.
+  /// @throws std::invalid_argument as the constructor; the lists may not be used any more then.
+  void append(const RangeMeasurements& measurements);
 
   /// @throws std::invalid_argument if the grid has too many voxels, or is too long.
   static void require_holdable(const VoxelGrid& grid);
@@ -79,11 +83,15 @@ class RayLists {
   /// What is left when nothing on the ray is occupied. beam, attenuation: by how much 'beyond range' is then likelier
   /// than otherwise, less 1; 0 for hits. paper, cone: log p(z | nothing).
   float open_value(std::uint32_t ray) const { return open_value_[ray]; }
+  /// The first ray of an origin or of those after it. @pre the rays came origin by origin
+  std::uint32_t first_ray_of(std::uint32_t origin) const;
   const RangeMeasurement& measurement(std::uint32_t ray) const { return measurements_.rays[ray]; }
   Vector3 direction(std::uint32_t ray) const { return measurements_.direction(measurements_.rays[ray]); }
   std::uint32_t weight(std::uint32_t ray) const { return weight_[ray]; }  ///< measured rays that it stands for
   /// What its log-likelihood is multiplied by: its weight, as far as the rays are independent witnesses.
   double evidence(std::uint32_t ray) const { return weight_[ray] * model_.independence; }
+  /// It depends on all rays; no list depends on it.
+  void set_independence(double independence) { model_.independence = independence; }
   /// Where a ray's range lies from a voxel that it crosses, along the ray [voxel edges].
   struct RangeFrom {
     float centre;  ///< behind it; less than 0: in front
@@ -101,12 +109,14 @@ class RayLists {
  private:
   struct Block;
   template <class Entry>
+  using Entries = std::vector<Entry, HugePages<Entry>>;
+  template <class Entry>
   static void prefetch(std::span<const Entry> entries) {
     for (std::size_t k = 0; k < entries.size(); k += 64 / sizeof(Entry)) __builtin_prefetch(&entries[k]);
   }
   template <class Front, class Near>
   void walk(std::uint32_t ray, Front on_front, Near on_near) const;
-  void take_rays();
+  std::size_t take_rays(const RangeMeasurements& measurements);
   void count(Block& block);
   void lay_out(std::vector<Block>& blocks);
   void fill(Block& block);
@@ -122,8 +132,8 @@ class RayLists {
   std::vector<std::uint32_t> incidences_begin_;
   std::vector<Incidence> incidences_;
   std::vector<std::uint32_t> front_begin_, near_begin_;
-  std::vector<FrontEntry, HugePages<FrontEntry>> front_;
-  std::vector<NearEntry, HugePages<NearEntry>> near_;
+  Entries<FrontEntry> front_;
+  Entries<NearEntry> near_;
 };
 
 }  // namespace nextview

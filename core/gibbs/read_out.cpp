@@ -143,16 +143,18 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           wide.incidence};
 }
 
-void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights) {
+void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights, const Sites* sites) {
   constexpr int thickness = 8;  // layers at a time, so that what is made ready for them takes little memory
-  posterior.touch.assign(posterior.occupied.size(), 0.5f);
-  posterior.centre = posterior.touch;
+  posterior.touch.resize(posterior.occupied.size(), 0.5f);
+  posterior.centre.resize(posterior.occupied.size(), 0.5f);
   const Eigen::Vector3i& size = posterior.grid.size;
   tbb::parallel_for(0, (size.z() + thickness - 1) / thickness, [&](int block) {
     const ReadOutFeatures::Layers layers{block * thickness, std::min(size.z(), (block + 1) * thickness)};
     const ReadOutFeatures features(posterior, rays, layers);
     const auto voxels_before = [&](int z) { return posterior.grid.index({0, 0, z}); };
     for (std::uint32_t v = voxels_before(layers.first); v < voxels_before(layers.last); ++v) {
+      if (sites && sites->kind[v] == Sites::none) continue;
+      posterior.touch[v] = posterior.centre[v] = 0.5f;
       if (!posterior.informed[v]) continue;
       const ReadOutFeatures::Vector x = features.of(v);
       // Where rays only passed, what nobody looked at around it is no evidence of a surface.

@@ -6,6 +6,7 @@
 
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/gibbs/ray_lists.hpp"
+#include "core/gibbs/sites.hpp"
 #include "core/gibbs/surface_patch.hpp"
 
 /// From what the sampler draws to what people ask. Its levels say how many rays a voxel stops. Whether the surface
@@ -107,7 +108,9 @@ struct ReadOutWeights {
 /// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit read-outs; nothing else was looked at.
 const ReadOutWeights& fitted_read_out();
 
-/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. The same bytes on any number of threads.
-void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights);
+/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. `sites`: of those voxels only. The same bytes
+/// on any number of threads.
+void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights,
+              const Sites* sites = nullptr);
 
 }  // namespace nextview

@@ -23,12 +23,14 @@ void for_each_in_bricks(const VoxelGrid& grid, Visit visit) {
 
 }  // namespace
 
-Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map) {
+Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map,
+                 std::uint32_t first_ray) {
   Sites sites;
   sites.kind.assign(lists.grid().voxel_count(), Sites::none);
   for_each_in_bricks(lists.grid(), [&](std::uint32_t v) {
     if (!lists.observed(v)) return;
     if (config.updated == UpdatedVoxels::occupied && (start_map.empty() || start_map[v] < 0.5f)) return;
+    if (!lists.is_near(v) && lists.front(v).back().ray() < first_ray) return;  // the last is the latest
     sites.kind[v] = lists.is_near(v) ? Sites::near : Sites::front;
     (lists.is_near(v) ? sites.near_voxels : sites.front_voxels).push_back(v);
   });

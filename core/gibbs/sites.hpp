@@ -16,8 +16,10 @@ struct Sites {
   std::size_t count() const { return near_voxels.size() + front_voxels.size(); }
 };
 
-/// All that rays observe; with UpdatedVoxels::occupied those of them where the start map has p >= 0.5.
-Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map);
+/// All that rays observe; with UpdatedVoxels::occupied those of them where the start map has p >= 0.5. Of voxels that
+/// no range is near only those that a ray from `first_ray` on passes.
+Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map,
+                 std::uint32_t first_ray = 0);
 
 /// The map that a chain starts from (PosteriorSamplerConfig::start): voxels that no ray observes are free.
 std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSamplerConfig& config,

@@ -83,7 +83,7 @@ TEST_F(Refine, WarnsWhenItIsNotStationaryAndOfWhatAFinishedScanHasItself) {
       nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") +
                " --gibbs.model paper --gibbs.sweeps 8 --gibbs.burn_in 0 --gibbs.start occupied --voxel 0.5");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("not stationary after 8 sweeps"));
+  EXPECT_THAT(run.out, HasSubstr("8 sweeps are too few to tell"));
   EXPECT_THAT(run.err, HasSubstr("--voxel is for range scans"));
 }
 

@@ -60,7 +60,7 @@ TEST(Chains, FromOneWarmMapDifferAfterASweep) {
   const Problem problem = room();
   const PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
   const std::vector<std::vector<std::uint8_t>> warm(4, std::vector<std::uint8_t>(problem.grid.voxel_count(), 1));
-  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, {}, warm);
+  const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, {}, {warm});
   EXPECT_TRUE(all_differ(posterior.states));
 }
 

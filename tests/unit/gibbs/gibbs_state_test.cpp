@@ -91,6 +91,36 @@ TEST(GibbsState, ACopySharesWhatIsLargeAndGoesItsOwnWay) {
   EXPECT_EQ(posterior->occupied, occupied) << "who holds it keeps it as it was";
 }
 
+// The lists of rays are handed on from one refinement to the next: whoever comes second makes them anew.
+TEST(GibbsState, WhoseTurnItIsChangesNothing) {
+  const Configuration c = gibbs_scan();
+  Session session(small_scan());
+  for (int view = 0; view < 3; ++view) session.step();
+  GibbsState first(session.map().grid(), posterior_sampler_config(c), c.map.model);
+  first.add(*session.scans()[0]);
+  first.refine({}, 8, {}, {});
+  GibbsState second = first, third = first;
+  for (GibbsState* state : {&first, &second}) {
+    state->add(*session.scans()[1]);
+    state->refine({}, 8, {}, {});
+    state->add(*session.scans()[2]);
+    state->refine({}, 8, {}, {});
+    expect_consistent(*state);
+  }
+  EXPECT_EQ(first.posterior().touch, second.posterior().touch);
+  EXPECT_EQ(first.posterior().states, second.posterior().states);
+  third.add(*session.scans()[2]);
+  third.refine({}, 8, {}, {});
+  EXPECT_EQ(
+      third.posterior().diagnostics.measured_rays + session.scans()[1]->hits.size() + session.scans()[1]->misses.size(),
+      first.posterior().diagnostics.measured_rays);
+  // Refined again without another view: of all voxels, with other numbers.
+  const auto observed = first.posterior().diagnostics.observed_voxels;
+  first.refine({}, 8, {}, {});
+  EXPECT_GT(first.posterior().diagnostics.observed_voxels, observed);
+  EXPECT_NE(first.posterior().touch, second.posterior().touch);
+}
+
 TEST(GibbsState, AScanWithoutAMaximumRangeIsRefusedAndSaysWhy) {
   GibbsState refinement = two_views();
   GibbsState empty(refinement.posterior().grid, refinement.config(), {});

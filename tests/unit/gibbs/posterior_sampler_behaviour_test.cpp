@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/gibbs/independence.hpp"
 #include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/sites.hpp"
 #include "tests/unit/gibbs/marginal_comparison.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
@@ -85,7 +87,7 @@ TEST(PosteriorSampler, everyStartLeadsToTheSamePosterior) {
       EXPECT_LT(difference(cold, sample_posterior(problem.grid, problem.measurements, config, start_map)), 0.02)
           << name(kind);
     }
-    const GibbsPosterior warm = sample_posterior(problem.grid, problem.measurements, config, {}, cold.states);
+    const GibbsPosterior warm = sample_posterior(problem.grid, problem.measurements, config, {}, {cold.states});
     EXPECT_LT(difference(cold, warm), 0.02) << name(kind);
   }
 }
@@ -96,7 +98,7 @@ TEST(PosteriorSampler, aWarmStartTakesThePlaceOfTheStartAndOfHalfTheBurnIn) {
   config.sweeps = 60, config.burn_in = 30;
   const GibbsPosterior cold = sample_posterior(problem.grid, problem.measurements, config);
   ASSERT_EQ(cold.states.size(), 2u);
-  const GibbsPosterior warm = sample_posterior(problem.grid, problem.measurements, config, {}, cold.states);
+  const GibbsPosterior warm = sample_posterior(problem.grid, problem.measurements, config, {}, {cold.states});
   ASSERT_FALSE(warm.diagnostics.log_posterior.empty());
   EXPECT_EQ(cold.diagnostics.burn_in, 30);
   EXPECT_EQ(warm.diagnostics.burn_in, 15);
@@ -104,6 +106,57 @@ TEST(PosteriorSampler, aWarmStartTakesThePlaceOfTheStartAndOfHalfTheBurnIn) {
   const std::vector<double>& before = cold.diagnostics.log_posterior[0];
   const double settled = before.back(), first = warm.diagnostics.log_posterior[0].front();
   EXPECT_LT(std::abs(first - settled), 0.3 * std::abs(before.front() - settled) + 30.0);
+}
+
+TEST(PosteriorSampler, KeepsWhatNoLaterRayPassesAndNoRayEndsNear) {
+  Problem problem = random_problems::make({"large room", {12, 11, 10}, 3, 60, 0.2}, 7);
+  std::ranges::stable_sort(problem.measurements.rays, {}, &RangeMeasurement::origin);
+  for (const ForwardModel kind : every_model) {
+    PosteriorSamplerConfig config = config_for(problem, kind);
+    config.sweeps = 40, config.until_stationary = false;
+    const GibbsPosterior earlier = sample_posterior(problem.grid, problem.measurements, config);
+    const RayLists lists(problem.grid, problem.measurements,
+                         with_independence(config.model, problem.measurements, problem.grid));
+    config.seed = 99;
+    const GibbsPosterior all = sample_posterior(lists, config, {}, {earlier.states});
+    const GibbsPosterior kept_none = sample_posterior(lists, config, {}, {earlier.states, &earlier, 0});
+    EXPECT_EQ(kept_none.occupied, all.occupied) << name(kind) << ": all are passed by a ray from the first on";
+    EXPECT_EQ(kept_none.touch, all.touch);
+    EXPECT_EQ(kept_none.informed, all.informed);
+    EXPECT_EQ(kept_none.states, all.states);
+
+    const std::uint32_t first = lists.first_ray_of(2);
+    const GibbsPosterior kept = sample_posterior(lists, config, {}, {earlier.states, &earlier, first});
+    const Sites sites = find_sites(lists, config, {}, first);
+    std::size_t changed = 0, stayed = 0;
+    for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
+      if (sites.kind[v] != Sites::none) {
+        changed += kept.occupied[v] != earlier.occupied[v];
+        continue;
+      }
+      stayed += lists.observed(v);
+      EXPECT_EQ(kept.occupied[v], earlier.occupied[v]) << v;
+      EXPECT_EQ(kept.upper[v], earlier.upper[v]) << v;
+      EXPECT_EQ(kept.informed[v], earlier.informed[v]) << v;
+      EXPECT_EQ(kept.touch[v], earlier.touch[v]) << v;
+      EXPECT_EQ(kept.centre[v], earlier.centre[v]) << v;
+      for (std::size_t c = 0; c < kept.states.size(); ++c) EXPECT_EQ(kept.states[c][v], earlier.states[c][v]) << v;
+    }
+    EXPECT_GT(changed, 30u) << name(kind);
+    EXPECT_EQ(stayed > 0, !lists.model().is_first_hit()) << "in first-hit models all voxels are near";
+  }
+}
+
+TEST(PosteriorSampler, OfFewSweepsNothingIsSaid) {
+  const Problem problem = room();
+  PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
+  config.burn_in = 1, config.until_stationary = false;
+  for (const int in_mean : {4, 9, 10}) {
+    config.sweeps = config.burn_in + in_mean;
+    const SamplerDiagnostics d = sample_posterior(problem.grid, problem.measurements, config).diagnostics;
+    EXPECT_EQ(d.warning.find("too few to tell") != std::string::npos, in_mean < 10) << d.warning;
+    EXPECT_TRUE(in_mean >= 10 || !d.stationary) << in_mean;
+  }
 }
 
 TEST(PosteriorSampler, updatingOccupiedVoxelsLeavesFreeOnesAlone) {
@@ -126,7 +179,7 @@ TEST(PosteriorSampler, updatingOccupiedVoxelsLeavesFreeOnesAlone) {
     }
     config.start = StartMap::octree;
     const std::vector warm(2, std::vector<std::uint8_t>(start_map.size(), 1));  // of a map that knew less
-    expect_free_ones_free(sample_posterior(problem.grid, problem.measurements, config, start_map, warm));
+    expect_free_ones_free(sample_posterior(problem.grid, problem.measurements, config, start_map, {warm}));
     const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, start_map);
     expect_free_ones_free(posterior);
     for (std::size_t voxel = 0; voxel < start_map.size(); ++voxel)

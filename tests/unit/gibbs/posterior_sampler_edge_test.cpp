@@ -188,13 +188,25 @@ TEST(PosteriorSamplerEdges, startsThatDoNotFitAreRefused) {
   const std::vector<float> short_map(3, 0.5f);
   EXPECT_THROW(sample_posterior(corridor, measurements, config, short_map), std::invalid_argument);
   const std::vector<std::vector<std::uint8_t>> short_states(2, std::vector<std::uint8_t>(3, 0));
-  EXPECT_THROW(sample_posterior(corridor, measurements, config, {}, short_states), std::invalid_argument);
+  EXPECT_THROW(sample_posterior(corridor, measurements, config, {}, {short_states}), std::invalid_argument);
+}
+
+TEST(PosteriorSamplerEdges, aPosteriorThatCannotBeKeptIsRefused) {
+  PosteriorSamplerConfig config = quick(ForwardModel::beam);
+  const RangeMeasurements measurements = rays({0.35f});
+  const GibbsPosterior earlier = sample_posterior(corridor, measurements, config);
+  EXPECT_NO_THROW(sample_posterior(corridor, measurements, config, {}, {earlier.states, &earlier}));
+  const GibbsPosterior none;
+  EXPECT_THROW(sample_posterior(corridor, measurements, config, {}, {earlier.states, &none}), std::invalid_argument);
+  EXPECT_THROW(sample_posterior(corridor, measurements, config, {}, {{}, &earlier}), std::invalid_argument);
+  config.updated = UpdatedVoxels::occupied;
+  EXPECT_THROW(sample_posterior(corridor, measurements, config, {}, {earlier.states, &earlier}), std::invalid_argument);
 }
 
 TEST(PosteriorSamplerEdges, aWarmStartWithLevelsThatTheModelLacksIsRefused) {
   const PosteriorSamplerConfig config = quick(ForwardModel::beam);
   const std::vector<std::vector<std::uint8_t>> unknown_level(2, std::vector<std::uint8_t>(8, 9));
-  EXPECT_THROW(sample_posterior(corridor, rays({0.35f}), config, {}, unknown_level), std::invalid_argument);
+  EXPECT_THROW(sample_posterior(corridor, rays({0.35f}), config, {}, {unknown_level}), std::invalid_argument);
 }
 
 TEST(PosteriorSamplerEdges, aMapThatIsNotANumberIsNoStart) {

@@ -39,6 +39,24 @@ RangeMeasurements dense_rays() {
   return measurements;
 }
 
+TEST(RangeMeasurements, afterIsWhatWasAppended) {
+  const RangeMeasurements earlier = dense_rays();
+  RangeMeasurements later = dense_rays();
+  later.rays.resize(100);
+  RangeMeasurements both = earlier;
+  both.append(later);
+  const RangeMeasurements after = both.after(earlier);
+  EXPECT_EQ(after.max_range, later.max_range);
+  EXPECT_EQ(after.origins, later.origins);
+  ASSERT_EQ(after.rays.size(), later.rays.size());
+  for (std::size_t k = 0; k < later.rays.size(); ++k) {
+    EXPECT_EQ(after.rays[k].origin, later.rays[k].origin);
+    EXPECT_EQ(after.rays[k].end, later.rays[k].end);
+    EXPECT_EQ(after.rays[k].weight, later.rays[k].weight);
+  }
+  EXPECT_TRUE(both.after(both).rays.empty());
+}
+
 TEST(RangeMeasurements, addTakesReturnsAndPassesOfEachScan) {
   RangeMeasurements measurements;
   measurements.add({{0, 0, 0}, {{0, 0, 1}, {0.5, 0, 0}}, {{0, 1.5f, 0}}});

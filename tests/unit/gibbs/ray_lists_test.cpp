@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
+#include <span>
 
 #include "core/gibbs/sites.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
@@ -158,6 +160,58 @@ TEST(RayLists, ChordsGoUpToTheDiagonal) {
   EXPECT_NEAR(RayLists::chord(RayLists::chord_codes - 1), std::sqrt(3.0), 1e-12);
 }
 
+/// Those of some origins, first come those of the first.
+RangeMeasurements of_origins(const RangeMeasurements& all, std::uint32_t first, std::uint32_t last) {
+  RangeMeasurements some{all.max_range, {all.origins.begin() + first, all.origins.begin() + last}, {}};
+  for (std::uint32_t origin = first; origin < last; ++origin)
+    for (RangeMeasurement ray : all.rays)
+      if (ray.origin == origin) {
+        ray.origin -= first;
+        some.rays.push_back(ray);
+      }
+  return some;
+}
+
+void expect_same(const RayLists& a, const RayLists& b) {
+  ASSERT_EQ(a.rays(), b.rays());
+  EXPECT_EQ(a.incidence_count(), b.incidence_count());
+  EXPECT_EQ(a.bytes(), b.bytes());
+  const auto bytes = [](const auto& entries) { return std::as_bytes(entries); };
+  for (std::uint32_t v = 0; v < a.grid().voxel_count(); ++v) {
+    ASSERT_TRUE(std::ranges::equal(bytes(a.front(v)), bytes(b.front(v)))) << v;
+    ASSERT_TRUE(std::ranges::equal(bytes(a.near(v)), bytes(b.near(v)))) << v;
+  }
+  for (std::uint32_t ray = 0; ray < a.rays(); ++ray) {
+    ASSERT_EQ(a.incidences_begin(ray), b.incidences_begin(ray));
+    ASSERT_TRUE(std::ranges::equal(bytes(a.incidences(ray)), bytes(b.incidences(ray)))) << ray;
+    EXPECT_EQ(a.weight(ray), b.weight(ray));
+    EXPECT_EQ(a.evidence(ray), b.evidence(ray));
+    EXPECT_EQ(a.open_value(ray), b.open_value(ray));
+    EXPECT_EQ(a.direction(ray), b.direction(ray));
+  }
+}
+
+TEST(RayLists, GrowViewByViewToWhatTheyAreOfAllViews) {
+  const Problem problem = room();
+  for (const ForwardModel kind :
+       {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation}) {
+    const ForwardSensorModel model = model_for(problem, kind);
+    RayLists grown(problem.grid, of_origins(problem.measurements, 0, 0), model);
+    EXPECT_EQ(grown.rays(), 0u);
+    for (std::uint32_t origin = 0; origin < 4; ++origin) {
+      EXPECT_EQ(grown.first_ray_of(origin), grown.rays());
+      grown.append(of_origins(problem.measurements, origin, origin + 1));
+      const RayLists at_once(problem.grid, of_origins(problem.measurements, 0, origin + 1), model);
+      expect_same(grown, at_once);
+    }
+    EXPECT_GT(grown.first_ray_of(1), 50u);
+    grown.set_independence(0.25);
+    ForwardSensorModel less = model;
+    less.independence = 0.25;
+    expect_same(grown, RayLists(problem.grid, of_origins(problem.measurements, 0, 4), less));
+  }
+}
+
 TEST(Sites, AreWhatRaysObserve) {
   const Problem problem = room();
   const RayLists lists = lists_for(problem, ForwardModel::beam);
@@ -186,6 +240,23 @@ TEST(Sites, AreWhatRaysObserve) {
   PosteriorSamplerConfig occupied_only;
   occupied_only.updated = UpdatedVoxels::occupied;
   EXPECT_EQ(find_sites(lists, occupied_only, {}).count(), 0u) << "nothing is occupied yet";
+}
+
+TEST(Sites, AreNearARangeOrPassedByALaterRay) {
+  const Problem problem = random_problems::make({"large room", {12, 11, 10}, 3, 60, 0.2}, 7);
+  const RangeMeasurements by_origin = of_origins(problem.measurements, 0, 3);
+  const RayLists lists(problem.grid, by_origin, model_for(problem, ForwardModel::beam));
+  const std::uint32_t first = lists.first_ray_of(2);
+  ASSERT_TRUE(first > 0 && first < lists.rays());
+  const Sites sites = find_sites(lists, {}, {}, first);
+  std::size_t left_out = 0;
+  for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
+    const bool passed = std::ranges::any_of(
+        lists.front(v), [&](const RayLists::FrontEntry& entry) { return lists.measurement(entry.ray()).origin == 2; });
+    EXPECT_EQ(sites.kind[v] != Sites::none, lists.is_near(v) || passed) << v;
+    left_out += lists.observed(v) && sites.kind[v] == Sites::none;
+  }
+  EXPECT_GT(left_out, 50u);
 }
 
 TEST(Sites, StartAsTheyAreTold) {

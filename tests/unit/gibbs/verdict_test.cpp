@@ -115,7 +115,7 @@ struct Ambiguous {
       warm[0][nearer[p]] = 1;
       warm[1][(p < disagreeing ? farther : nearer)[p]] = 1;
     }
-    return sample_posterior(grid, measurements, config, {}, warm).diagnostics;
+    return sample_posterior(grid, measurements, config, {}, {warm}).diagnostics;
   }
 };
 
