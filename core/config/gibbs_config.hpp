@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/posterior_sampler_config.hpp"
 #include "core/sensor/depth_camera.hpp"
 
 namespace nextview {

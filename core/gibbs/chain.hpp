@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/posterior_sampler_config.hpp"
 #include "core/gibbs/ray_lists.hpp"
 #include "core/gibbs/sites.hpp"
 

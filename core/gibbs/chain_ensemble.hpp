@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/gibbs/chain.hpp"
+#include "core/gibbs/gibbs_posterior.hpp"
 
 namespace nextview {
 

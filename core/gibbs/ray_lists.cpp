@@ -1,7 +1,6 @@
 #include "core/gibbs/ray_lists.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 
@@ -10,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "core/gibbs/optical_depth.hpp"
 #include "core/map/traversal.hpp"
@@ -59,8 +59,7 @@ RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements,
   model_.validate();
   require_holdable(grid_);
   incidences_begin_.assign(1, 0);
-  front_begin_.assign(grid_.voxel_count() + 1, 0);
-  near_begin_ = front_begin_;
+  front_.begin = near_.begin = std::vector<std::uint32_t>(grid_.voxel_count() + 1);
   append(measurements);
 }
 
@@ -80,7 +79,7 @@ void RayLists::append(const RangeMeasurements& measurements) {
 }
 
 std::size_t RayLists::bytes() const {
-  return front_begin_.back() * sizeof(FrontEntry) + near_.size() * incidence_bytes +
+  return front_.size() * sizeof(FrontEntry) + near_.size() * incidence_bytes +
          rays() * (sizeof(RangeMeasurement) + 4 + 4 + 4) + grid_.voxel_count() * 8;
 }
 
@@ -144,51 +143,55 @@ void RayLists::count(Block& block) {
   }
 }
 
-/// Makes room behind what each voxel has, and tells the blocks where theirs goes.
-void RayLists::lay_out(std::vector<Block>& blocks) {
-  std::size_t front = 0, near = 0;
-  const std::size_t voxels = grid_.voxel_count();
-  std::vector<std::uint32_t> front_begin(voxels + 1), near_begin(voxels + 1);
-  const auto place = [](std::size_t& next, std::uint32_t& count) {
-    const std::uint32_t begin = static_cast<std::uint32_t>(next);
-    next += count;
-    count = begin;
-  };
+/// Where the entries of a voxel begin, and how many there are in all.
+struct RayLists::Places {
+  std::vector<std::uint32_t> begin;
+  std::size_t total = 0;
+};
+
+/// Leaves room behind what each voxel has for what the blocks counted, and tells them where theirs goes.
+template <class Entry>
+RayLists::Places RayLists::place(const ByVoxel<Entry>& lists, std::vector<Block>& blocks,
+                                 std::vector<std::uint32_t> Block::*counts) {
+  const std::size_t voxels = lists.begin.size() - 1;
+  Places places{std::vector<std::uint32_t>(voxels + 1)};
   for (std::uint32_t v = 0; v < voxels; ++v) {
-    front_begin[v] = static_cast<std::uint32_t>(front);
-    near_begin[v] = static_cast<std::uint32_t>(near);
-    front += this->front(v).size();
-    near += this->near(v).size();
+    places.begin[v] = static_cast<std::uint32_t>(places.total);
+    places.total += lists.of(v).size();
     for (Block& block : blocks) {
-      place(front, block.front[v]);
-      place(near, block.near[v]);
+      std::uint32_t& count = (block.*counts)[v];
+      places.total += std::exchange(count, static_cast<std::uint32_t>(places.total));
     }
   }
+  places.begin[voxels] = static_cast<std::uint32_t>(places.total);
+  return places;
+}
+
+void RayLists::require_memory_for(std::size_t front, std::size_t near) const {
   const std::size_t bytes = front * sizeof(FrontEntry) + near * incidence_bytes;
+  constexpr const char* advice = "merge rays with a larger gibbs.ray_spacing, or use a coarser map";
   if (bytes > max_bytes || std::max(front, near) >= 0xffffffffu)
-    throw std::invalid_argument(fmt::format(
-        "gibbs: the lists of {} rays would take {:.1f} GiB, more than the {} GiB allowed; merge rays with a larger "
-        "gibbs.ray_spacing, or use a coarser map",
-        rays(), static_cast<double>(bytes) / (1 << 30), max_bytes >> 30));
-  require_memory(bytes, fmt::format("gibbs: the lists of {} rays", rays()),
-                 "merge rays with a larger gibbs.ray_spacing, or use a coarser map");
-  front_begin[voxels] = static_cast<std::uint32_t>(front);
-  near_begin[voxels] = static_cast<std::uint32_t>(near);
-  Entries<FrontEntry> fronts(front + entries_beyond);
-  std::fill_n(fronts.end() - entries_beyond, entries_beyond, FrontEntry{});
-  Entries<NearEntry> nears(near);
-  if (!incidences_.empty() || !front_.empty())
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(voxels)), [&](const auto& some) {
-      for (std::uint32_t v = some.begin(); v < some.end(); ++v) {
-        std::ranges::copy(this->front(v), fronts.begin() + front_begin[v]);
-        std::ranges::copy(this->near(v), nears.begin() + near_begin[v]);
-      }
-    });
-  front_begin_ = std::move(front_begin);
-  near_begin_ = std::move(near_begin);
-  front_ = std::move(fronts);
-  near_ = std::move(nears);
-  incidences_.resize(near);
+    throw std::invalid_argument(
+        fmt::format("gibbs: the lists of {} rays would take {:.1f} GiB, more than the {} GiB allowed; {}", rays(),
+                    static_cast<double>(bytes) / (1 << 30), max_bytes >> 30, advice));
+  require_memory(bytes, fmt::format("gibbs: the lists of {} rays", rays()), advice);
+}
+
+void RayLists::lay_out(std::vector<Block>& blocks) {
+  Places front = place(front_, blocks, &Block::front), near = place(near_, blocks, &Block::near);
+  require_memory_for(front.total, near.total);
+  const auto move_to = [](auto& lists, Places& places, std::size_t beyond) {
+    decltype(lists.entries) moved(places.total + beyond);
+    std::fill_n(moved.end() - std::ptrdiff_t(beyond), beyond, typename decltype(moved)::value_type{});
+    if (lists.size() > 0)
+      tbb::parallel_for(std::size_t{0}, places.begin.size() - 1, [&](std::size_t v) {
+        std::ranges::copy(lists.of(static_cast<std::uint32_t>(v)), moved.begin() + places.begin[v]);
+      });
+    lists = {std::move(places.begin), std::move(moved)};
+  };
+  move_to(front_, front, entries_beyond);
+  move_to(near_, near, 0);
+  incidences_.resize(near.total);
 }
 
 void RayLists::fill(Block& block) {
@@ -196,9 +199,11 @@ void RayLists::fill(Block& block) {
     std::uint32_t incidence = incidences_begin_[ray];
     walk(
         ray,
-        [&](std::uint32_t voxel, std::uint32_t code) { front_[block.front[voxel]++] = FrontEntry{ray << 10 | code}; },
+        [&](std::uint32_t voxel, std::uint32_t code) {
+          front_.entries[block.front[voxel]++] = FrontEntry{ray << 10 | code};
+        },
         [&](const VoxelSegment& segment) {
-          near_[block.near[segment.voxel]++] = {ray, incidence};
+          near_.entries[block.near[segment.voxel]++] = {ray, incidence};
           const std::uint32_t chord = chord_code((segment.exit - segment.enter) / grid_.resolution);
           incidences_[incidence] = {segment.voxel, static_cast<std::uint16_t>(chord),
                                     place_of(measurements_.rays[ray], segment),

@@ -55,24 +55,18 @@ class RayLists {
   const VoxelGrid& grid() const { return grid_; }
   const ForwardSensorModel& model() const { return model_; }
   std::size_t rays() const { return measurements_.rays.size(); }
-  std::size_t incidence_count() const { return front_begin_.back() + near_.size(); }
+  std::size_t incidence_count() const { return front_.size() + near_.size(); }
   std::size_t bytes() const;
 
   /// Entries that may be read along with the last one, whatever they are.
   static constexpr std::size_t entries_beyond = 15;
-  std::span<const FrontEntry> front(std::uint32_t voxel) const {
-    return {front_.data() + front_begin_[voxel], front_.data() + front_begin_[voxel + 1]};
-  }
-  std::span<const NearEntry> near(std::uint32_t voxel) const {
-    return {near_.data() + near_begin_[voxel], near_.data() + near_begin_[voxel + 1]};
-  }
+  std::span<const FrontEntry> front(std::uint32_t voxel) const { return front_.of(voxel); }
+  std::span<const NearEntry> near(std::uint32_t voxel) const { return near_.of(voxel); }
   /// Ask the memory for what front() and near() will show of a voxel.
   void prefetch_front(std::uint32_t voxel) const { prefetch(front(voxel)); }
   void prefetch_near(std::uint32_t voxel) const { prefetch(near(voxel)); }
-  bool observed(std::uint32_t voxel) const {
-    return front_begin_[voxel] < front_begin_[voxel + 1] || near_begin_[voxel] < near_begin_[voxel + 1];
-  }
-  bool is_near(std::uint32_t voxel) const { return near_begin_[voxel] < near_begin_[voxel + 1]; }
+  bool observed(std::uint32_t voxel) const { return !front(voxel).empty() || is_near(voxel); }
+  bool is_near(std::uint32_t voxel) const { return !near(voxel).empty(); }
 
   std::uint32_t incidences_begin(std::uint32_t ray) const { return incidences_begin_[ray]; }
   std::uint32_t incidences_end(std::uint32_t ray) const { return incidences_begin_[ray + 1]; }
@@ -108,8 +102,18 @@ class RayLists {
 
  private:
   struct Block;
+  /// Entries of the voxels, one voxel's after the other's.
   template <class Entry>
-  using Entries = std::vector<Entry, HugePages<Entry>>;
+  struct ByVoxel {
+    std::vector<std::uint32_t> begin;
+    std::vector<Entry, HugePages<Entry>> entries;
+
+    std::span<const Entry> of(std::uint32_t voxel) const {
+      return {entries.data() + begin[voxel], entries.data() + begin[voxel + 1]};
+    }
+    std::size_t size() const { return begin.back(); }
+  };
+  struct Places;
   template <class Entry>
   static void prefetch(std::span<const Entry> entries) {
     for (std::size_t k = 0; k < entries.size(); k += 64 / sizeof(Entry)) __builtin_prefetch(&entries[k]);
@@ -118,7 +122,11 @@ class RayLists {
   void walk(std::uint32_t ray, Front on_front, Near on_near) const;
   std::size_t take_rays(const RangeMeasurements& measurements);
   void count(Block& block);
+  template <class Entry>
+  static Places place(const ByVoxel<Entry>& lists, std::vector<Block>& blocks,
+                      std::vector<std::uint32_t> Block::*counts);
   void lay_out(std::vector<Block>& blocks);
+  void require_memory_for(std::size_t front, std::size_t near) const;
   void fill(Block& block);
   Place place_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
   float open_value_of(const RangeMeasurement& ray) const;
@@ -131,9 +139,8 @@ class RayLists {
   std::vector<float> open_value_;
   std::vector<std::uint32_t> incidences_begin_;
   std::vector<Incidence> incidences_;
-  std::vector<std::uint32_t> front_begin_, near_begin_;
-  Entries<FrontEntry> front_;
-  Entries<NearEntry> near_;
+  ByVoxel<FrontEntry> front_;
+  ByVoxel<NearEntry> near_;
 };
 
 }  // namespace nextview

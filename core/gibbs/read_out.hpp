@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/gibbs_posterior.hpp"
 #include "core/gibbs/ray_lists.hpp"
 #include "core/gibbs/sites.hpp"
 #include "core/gibbs/surface_patch.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/posterior_sampler_config.hpp"
 #include "core/gibbs/ray_lists.hpp"
 
 namespace nextview {

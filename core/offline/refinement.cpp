@@ -1,6 +1,7 @@
 #include "core/offline/refinement.hpp"
 
 #include "core/gain/view_score.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
 #include "core/planner/rank_correlation.hpp"
 
 namespace nextview {

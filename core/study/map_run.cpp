@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/evaluation/baseline_maps.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
 #include "core/offline/refinement.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"

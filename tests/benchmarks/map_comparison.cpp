@@ -11,6 +11,7 @@
 
 #include "core/evaluation/baseline_maps.hpp"
 #include "core/evaluation/visited_voxels.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"

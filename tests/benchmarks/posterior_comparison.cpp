@@ -14,6 +14,7 @@
 
 #include "core/evaluation/baseline_maps.hpp"
 #include "core/evaluation/openings.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
 #include "core/progress/stopwatch.hpp"
 #include "tests/benchmarks/calibrated_terms.hpp"
 #include "tests/benchmarks/evidence_posterior.hpp"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/calibration/sensor_model_calibration.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
 #include "tests/benchmarks/evidence_posterior.hpp"
 #include "tests/benchmarks/read_out_fit.hpp"
 

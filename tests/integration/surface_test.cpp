@@ -157,7 +157,7 @@ TEST_F(Surfaces, WithoutEvaluationNothingIsHeldAgainstTheTruth) {
 }
 
 TEST_F(Surfaces, AScanPlannedOnTheGibbsMapShowsThatMapOnAnyNumberOfThreads) {
-  const std::string scan = " scan box --views 3 --gain gibbs --no-pictures" + quick;
+  const std::string scan = " scan box --views 2 --gain gibbs --no-pictures" + quick;
   run("--threads 1" + scan, "one");
   run("--threads 2" + scan, "two");
   EXPECT_THAT(surface_names("one"),

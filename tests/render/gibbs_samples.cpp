@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/config/gibbs_config.hpp"
+#include "core/gibbs/posterior_sampler.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/map/traversal.hpp"
 #include "core/mesh/mesh_file.hpp"

@@ -9,7 +9,7 @@
 #include "core/cloud/point_cloud.hpp"
 #include "core/config/configuration.hpp"
 #include "core/gain/view_score.hpp"
-#include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/gibbs_posterior.hpp"
 #include "core/map/ground_truth.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/session/camera_bookmarks.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/gibbs/posterior_sampler.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
