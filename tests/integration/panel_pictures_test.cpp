@@ -68,7 +68,7 @@ TEST(PanelPictures, ASectionThroughTheSurface) {
   c.termination.surface_left = 0.0;
   User user(c);
   user.run("play\npanel layers\ntoggle-surface\ntoggle-views\nsection-axis x\nsecond-view octree\nframe\n");
-  user.run("wait until done\nwait 10\n");  // notices go
+  user.run("wait until done\nwait 13\n");  // notices go, warnings last
   expect_screenshot("panel_section", user.look(), bound());
   user.run("dark\n");
   expect_screenshot("window_dark", user.look(), bound());
@@ -84,7 +84,7 @@ TEST(PanelPictures, CurvesOfSeveralRuns) {
   user.run("play\n");
   user.run("set planner.gain random\nreset\n");
   user.run("play\ncurves coverage gain\ncloud-colour distance\ntoggle-octree\n");
-  user.run("wait until done\nwait 10\n");  // notices go
+  user.run("wait until done\nwait 13\n");  // notices go, warnings last
   expect_screenshot("panel_curves", user.look(), bound());
 }
 
