@@ -3,9 +3,15 @@
 #include <algorithm>
 
 #include "core/gibbs/independence.hpp"
+#include "core/memory/available_memory.hpp"
 #include "core/progress/stopwatch.hpp"
 
 namespace nextview {
+namespace {
+
+constexpr std::size_t most_kept = std::size_t{1} << 30;  ///< lists larger than this are made anew each time [bytes]
+
+}  // namespace
 
 GibbsState::GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes)
     : config_(config),
@@ -37,6 +43,8 @@ std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model
     latest_lists_->measurements = nullptr;
     latest_lists_->lists = nullptr;
   }
+  // To grow they are there twice for a moment.
+  if (lists && available_memory() < 2 * lists->bytes()) lists = nullptr;
   if (!lists) return std::make_unique<RayLists>(posterior_->grid, *measurements_, model);
   if (measurements_ != refined_) lists->append(measurements_->after(*refined_));
   lists->set_independence(model.independence);
@@ -67,6 +75,7 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   voxels_ = VoxelBricks(posterior->grid.size, posterior->voxels(classes_));
   posterior_ = std::move(posterior);
   refined_ = measurements_;
+  if (lists->bytes() > most_kept) return;
   const std::scoped_lock lock(latest_lists_->mutex);
   latest_lists_->measurements = refined_;
   latest_lists_->lists = std::move(lists);

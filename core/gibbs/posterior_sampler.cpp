@@ -15,8 +15,9 @@
 namespace nextview {
 namespace {
 
-constexpr int first_window = 10;  ///< sweeps of the first mean that is tried; the usual chain is white noise by then
-constexpr int few_sweeps = 4;     ///< that R-hat needs for its halves
+/// Sweeps of the first mean that is tried; the usual chain is white noise by then.
+constexpr int first_window = SamplerDiagnostics::fewest_telling_sweeps;
+constexpr int few_sweeps = 4;  ///< that R-hat needs for its halves
 constexpr int sweeps_between_reports = 4;
 
 /// Sweeps until stopped, stationary, or all sweeps are made.
@@ -84,7 +85,7 @@ std::string warning(const SamplerDiagnostics& d, bool stopped) {
   if (stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
   if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
-  if (d.sweeps - d.burn_in < first_window)
+  if (d.too_short_to_tell())
     return fmt::format("{} sweeps are too few to tell whether the chains are stationary", d.sweeps);
   return fmt::format(
       "not stationary after {} sweeps: R-hat {:.3f} (wanted: under 1.05), trend |z| {:.1f} (under 2.58), {:.0f} "
@@ -188,7 +189,7 @@ GibbsPosterior sample_posterior(const RayLists& lists, const PosteriorSamplerCon
   d.list_bytes = lists.bytes();
   sample(posterior, lists, sites, config, start_map, warm, progress, stop);
   // Asked early, it would say so by chance.
-  if (stop.stop_requested() || d.sweeps - d.burn_in < first_window) d.stationary = false;
+  if (stop.stop_requested() || d.too_short_to_tell()) d.stationary = false;
   d.warning = warning(d, stop.stop_requested());
   return posterior;
 }

@@ -42,6 +42,9 @@ struct SamplerDiagnostics {
   double voxel_r_hat = 0.0;              ///< 95th percentile over a sample of undecided voxels
   double voxel_effective_samples = 0.0;  ///< 5th percentile over the same voxels
   std::size_t disagreeing_voxels = 0;    ///< informed ones whose mean differs by over 0.5 between two chains
+  /// Of fewer sweeps in the mean neither R-hat nor the trend says anything.
+  static constexpr int fewest_telling_sweeps = 10;
+  bool too_short_to_tell() const { return sweeps - burn_in < fewest_telling_sweeps; }
   bool stationary = false;
   std::string warning;  ///< for people; empty if there is nothing to warn of
 

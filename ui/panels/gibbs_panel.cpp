@@ -44,20 +44,26 @@ void draw_traces(const PanelContext& context, const SamplerDiagnostics& d) {
 
 void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d) {
   const Colour good = theme::series[2];
-  small_text(context.style,
-             d.stationary ? fmt::format("Stationary after {} sweeps of {} chains.", d.sweeps, d.log_posterior.size())
-                          : d.warning,
-             d.stationary ? good : theme::chosen);
+  const bool tells = !d.too_short_to_tell();
+  if (d.stationary)
+    small_text(context.style, fmt::format("Stationary after {} sweeps of {} chains.", d.sweeps, d.log_posterior.size()),
+               good);
+  else if (tells)
+    small_text(context.style, d.warning, theme::chosen);
+  else
+    small_text(context.style, d.warning + ". Refine the map makes as many as that takes.", theme::soft_ink);
   if (!ImGui::BeginTable("stationarity", 2)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(124));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   ImGui::PushFont(context.style.small);
-  table_row("R-hat", fmt::format("{:.3f} (under 1.05)", d.r_hat),
-            "Split R-hat of the log-posterior: 1 if the chains agree");
-  table_row("trend |z|", fmt::format("{:.1f} (under 2.58)", d.trend), "Geweke's statistic of the log-posterior");
+  if (tells) {
+    table_row("R-hat", fmt::format("{:.3f} (under 1.05)", d.r_hat),
+              "Split R-hat of the log-posterior: 1 if the chains agree");
+    table_row("trend |z|", fmt::format("{:.1f} (under 2.58)", d.trend), "Geweke's statistic of the log-posterior");
+    table_row("effective samples", fmt::format("{:.0f}", d.effective_samples), "Of the log-posterior");
+  }
   table_row("voxels that differ", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels),
             "Informed voxels whose mean differs by over 0.5 between two chains");
-  table_row("effective samples", fmt::format("{:.0f}", d.effective_samples), "Of the log-posterior");
   table_row("merged rays", fmt::format("{} of {}", d.merged_rays, d.measured_rays));
   if (!context.window.presentation.demo) table_row("time", fmt::format("{:.1f} s", d.build_seconds + d.sample_seconds));
   ImGui::PopFont();

@@ -32,7 +32,7 @@ class GibbsPanelTest : public testing::Test {
     GibbsPosterior posterior;
     SamplerDiagnostics& d = posterior.diagnostics;
     d.stationary = true;
-    d.sweeps = 3;
+    d.sweeps = 12;
     d.r_hat = 1.0125;
     d.trend = 1.75;
     d.disagreeing_voxels = 7;
@@ -83,9 +83,9 @@ TEST_F(GibbsPanelTest, RefinesWithTheChainsAndSweepsThatItShows) {
 
 TEST_F(GibbsPanelTest, EachDiagnosticStandsAtItsName) {
   const std::string text = panel(made_map());
-  EXPECT_THAT(text, HasSubstr("Stationary after 3 sweeps of 2 chains."));
-  EXPECT_THAT(text, HasSubstr("R-hat 1.012 (under 1.05) trend |z| 1.8 (under 2.58) voxels that differ 7 of 5000 "
-                              "effective samples 222 merged rays 400 of 1000 time 2.5 s"));
+  EXPECT_THAT(text, HasSubstr("Stationary after 12 sweeps of 2 chains."));
+  EXPECT_THAT(text, HasSubstr("R-hat 1.012 (under 1.05) trend |z| 1.8 (under 2.58) effective samples 222 "
+                              "voxels that differ 7 of 5000 merged rays 400 of 1000 time 2.5 s"));
   EXPECT_THAT(text, Not(HasSubstr("refine again")));
 }
 
@@ -103,16 +103,29 @@ TEST_F(GibbsPanelTest, ChainsThatAreNotStationarySaySoInRed) {
   GibbsMap map = made_map();
   GibbsPosterior posterior = made_posterior();
   posterior.diagnostics.stationary = false;
-  posterior.diagnostics.warning = "not stationary after 3 sweeps";
+  posterior.diagnostics.warning = "not stationary after 12 sweeps";
   map.posterior = std::make_shared<const GibbsPosterior>(posterior);
   const std::string text = panel(map);
-  EXPECT_THAT(text, HasSubstr("not stationary after 3 sweeps"));
+  EXPECT_THAT(text, HasSubstr("not stationary after 12 sweeps"));
   EXPECT_THAT(text, Not(HasSubstr("Stationary after")));
   const auto all = seen_texts();
   EXPECT_EQ(find_text(all, "not stationary")->colour, to_imgui_u32(theme::chosen));
   panel(made_map());
   const auto good = seen_texts();
   EXPECT_EQ(find_text(good, "Stationary after")->colour, to_imgui_u32(theme::series[2]));
+}
+
+TEST_F(GibbsPanelTest, OfTooFewSweepsItSaysWhatToDoAndNoNumbers) {
+  GibbsMap map = made_map();
+  GibbsPosterior posterior = made_posterior();
+  posterior.diagnostics.stationary = false;
+  posterior.diagnostics.sweeps = 5;
+  posterior.diagnostics.warning = "5 sweeps are too few to tell";
+  map.posterior = std::make_shared<const GibbsPosterior>(posterior);
+  const std::string text = panel(map);
+  EXPECT_THAT(text, HasSubstr("5 sweeps are too few to tell. Refine the map"));
+  EXPECT_THAT(text, Not(HasSubstr("R-hat")));
+  EXPECT_THAT(text, HasSubstr("voxels that differ 7 of 5000"));
 }
 
 TEST_F(GibbsPanelTest, SaysWhatRefiningChangedAndOfWhichViewsItIs) {
@@ -143,7 +156,7 @@ TEST_F(GibbsPanelTest, ThePlotsHaveTheValuesOfTheChainsAndOfTheHistograms) {
   desk_.progress.sampler = std::make_shared<const SamplerDiagnostics>(made_posterior().diagnostics);
   desk_.move(1, 1);
   desk_.frames();
-  EXPECT_THAT(read("Gibbs"), HasSubstr("3 sweeps so far"));
+  EXPECT_THAT(read("Gibbs"), HasSubstr("12 sweeps so far"));
   hover_below("Log-posterior");
   EXPECT_EQ(read_tooltip(), "sweep 3 chain 1: -1 knats chain 2: 0 knats");
 }
