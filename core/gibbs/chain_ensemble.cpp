@@ -33,9 +33,10 @@ double quantile(std::vector<double>& values, double share, double otherwise) {
 }  // namespace
 
 ChainEnsemble::ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites,
-                             SamplerDiagnostics& diagnostics)
+                             std::size_t informed_elsewhere, SamplerDiagnostics& diagnostics)
     : config_(config),
       sites_(sites),
+      informed_elsewhere_(informed_elsewhere),
       diagnostics_(diagnostics),
       sums_(config.chains),
       traces_(config.chains),
@@ -182,7 +183,8 @@ void ChainEnsemble::diagnose_voxels() {
 }
 
 void ChainEnsemble::count_voxels() {
-  diagnostics_.informed_voxels = diagnostics_.disagreeing_voxels = 0;
+  diagnostics_.informed_voxels = informed_elsewhere_;
+  diagnostics_.disagreeing_voxels = 0;
   for (std::uint32_t v = 0; v < sites_.kind.size(); ++v) {
     if (sites_.kind[v] == Sites::none || !informed(v)) continue;
     ++diagnostics_.informed_voxels;

@@ -10,9 +10,9 @@ namespace nextview {
 /// The chains of one run, what they add up for the mean, and their traces.
 class ChainEnsemble {
  public:
-  /// All arguments must outlive it.
+  /// `informed_elsewhere`: how many voxels are informed beside the sites. All other arguments must outlive it.
   ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites,
-                SamplerDiagnostics& diagnostics);
+                std::size_t informed_elsewhere, SamplerDiagnostics& diagnostics);
 
   void start(int chain, std::vector<std::uint8_t> levels) { chains_[chain]->start(std::move(levels)); }
   std::span<const std::uint8_t> map(int chain) const { return chains_[chain]->map(); }
@@ -43,6 +43,7 @@ class ChainEnsemble {
 
   const PosteriorSamplerConfig& config_;
   const Sites& sites_;
+  const std::size_t informed_elsewhere_;
   SamplerDiagnostics& diagnostics_;
   std::vector<std::unique_ptr<Chain>> chains_;
   std::vector<PosteriorSums> sums_;

@@ -29,6 +29,7 @@ void GibbsState::add(const Scan& scan) {
   if (all->origins.empty()) all->max_range = measurements_of(std::span(&scan, 1)).max_range;  // refuses one without
   RangeMeasurements view{all->max_range, {}, {}};
   view.add(scan);
+  view.validate();
   all->append(merge_rays(view, posterior_->grid, config_.ray_spacing));
   measured_rays_ += view.rays.size();
   measurements_ = std::move(all);
@@ -43,10 +44,12 @@ std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model
     latest_lists_->measurements = nullptr;
     latest_lists_->lists = nullptr;
   }
-  // To grow they are there twice for a moment.
-  if (lists && available_memory() < 2 * lists->bytes()) lists = nullptr;
+  try {
+    if (lists && measurements_ != refined_) lists->append(measurements_->after(*refined_));
+  } catch (const OutOfMemory&) {  // to grow they are there twice for a moment
+    lists = nullptr;
+  }
   if (!lists) return std::make_unique<RayLists>(posterior_->grid, *measurements_, model);
-  if (measurements_ != refined_) lists->append(measurements_->after(*refined_));
   lists->set_independence(model.independence);
   return lists;
 }
@@ -58,6 +61,7 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
   config.burn_in = std::min(config.burn_in, config.sweeps / 2);
+  RayLists::require_holdable(posterior_->grid);
   if (progress) progress(0.0, listing_rays, {});
   double build_seconds = 0.0;
   std::unique_ptr<RayLists> lists = [&] {
@@ -75,15 +79,25 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   voxels_ = VoxelBricks(posterior->grid.size, posterior->voxels(classes_));
   posterior_ = std::move(posterior);
   refined_ = measurements_;
-  if (lists->bytes() > most_kept) return;
+  if (sweeps == 0 || stop.stop_requested() || lists->bytes() > most_kept) return;
   const std::scoped_lock lock(latest_lists_->mutex);
   latest_lists_->measurements = refined_;
   latest_lists_->lists = std::move(lists);
 }
 
+void GibbsState::forget_lists() const {
+  const std::scoped_lock lock(latest_lists_->mutex);
+  latest_lists_->measurements = nullptr;
+  latest_lists_->lists = nullptr;
+}
+
 std::size_t GibbsState::bytes(const GibbsState* other) const {
   std::size_t bytes = other ? voxels_.bytes_beside(other->voxels_) : voxels_.bytes();
   if (!other || measurements_ != other->measurements_) bytes += measurements_->rays.size() * sizeof(RangeMeasurement);
+  if (!other || latest_lists_ != other->latest_lists_) {
+    const std::scoped_lock lock(latest_lists_->mutex);
+    if (latest_lists_->lists) bytes += latest_lists_->lists->bytes();
+  }
   if (other && posterior_ == other->posterior_) return bytes;
   const GibbsPosterior& p = *posterior_;
   bytes += p.occupied.size() * (sizeof p.occupied[0] + sizeof p.upper[0] + sizeof p.informed[0]) +

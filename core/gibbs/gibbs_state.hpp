@@ -9,7 +9,8 @@
 namespace nextview {
 
 /// The Gibbs map of a scan that is under way: it grows view by view, and each refinement starts from the last one's
-/// maps. A value: a copy shares what is large, which never changes once it is made.
+/// maps. A value: a copy shares what is large, which never changes once it is made; but for the lists of rays, which
+/// are whoever's that refines first.
 class GibbsState {
  public:
   GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& config, const InverseSensorModel& classes);
@@ -31,6 +32,8 @@ class GibbsState {
   const RangeMeasurements& measurements() const { return *measurements_; }
   std::shared_ptr<const RangeMeasurements> shared_measurements() const { return measurements_; }
   const PosteriorSamplerConfig& config() const { return config_; }
+  /// Frees the lists of rays that are kept for the next view: the next refinement lists all of them.
+  void forget_lists() const;
   /// What its maps take that another of the same scan, if given, does not share [bytes].
   std::size_t bytes(const GibbsState* other = nullptr) const;
   /// Whether the posteriors of refinements to come keep their traces.

@@ -17,7 +17,7 @@ namespace {
 
 /// Sweeps of the first mean that is tried; the usual chain is white noise by then.
 constexpr int first_window = SamplerDiagnostics::fewest_telling_sweeps;
-constexpr int few_sweeps = 4;  ///< that R-hat needs for its halves
+constexpr int sweeps_of_r_hat = 4;  ///< that R-hat needs for its halves
 constexpr int sweeps_between_reports = 4;
 
 /// Sweeps until stopped, stationary, or all sweeps are made.
@@ -29,7 +29,7 @@ class Schedule {
 
   void run(bool warm) {
     const int burn_in =
-        std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - few_sweeps));
+        std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - sweeps_of_r_hat));
     const int first = config_.until_stationary ? first_window : config_.sweeps;
     may_end_ = std::min(burn_in + first, config_.sweeps);
     sweep(burn_in, false);
@@ -46,21 +46,21 @@ class Schedule {
   bool ends_in_mean_of(int window) {
     chains_.begin_mean(std::min(window, config_.sweeps - diagnostics_.sweeps));
     for (int next = window;; next = window / 4) {
-      const int count = std::max(few_sweeps, std::min(next, config_.sweeps - diagnostics_.sweeps));
+      const int count = std::max(sweeps_of_r_hat, std::min(next, config_.sweeps - diagnostics_.sweeps));
       may_end_ = diagnostics_.sweeps + count;
       sweep(count, true);
       chains_.diagnose();
       report();
       const int taken = diagnostics_.sweeps - diagnostics_.burn_in, left = config_.sweeps - diagnostics_.sweeps;
       if (diagnostics_.stationary && config_.until_stationary) return true;
-      if (stop_.stop_requested() || left < few_sweeps) return true;
+      if (stop_.stop_requested() || left < sweeps_of_r_hat) return true;
       if (left >= taken && (chains_.trends() || taken >= 2 * window)) return false;
     }
   }
 
   void sweep(int count, bool into_mean) {
     for (int done = 0; done < count; done += sweeps_between_reports) {
-      if (stop_.stop_requested() && (!into_mean || done >= few_sweeps)) return;
+      if (stop_.stop_requested() && (!into_mean || done >= sweeps_of_r_hat)) return;
       report();
       chains_.sweep(std::min(sweeps_between_reports, count - done), into_mean);
     }
@@ -81,8 +81,8 @@ class Schedule {
   int may_end_ = 1;    ///< after so many sweeps it is asked whether they are enough
 };
 
-std::string warning(const SamplerDiagnostics& d, bool stopped) {
-  if (stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
+std::string warning(const SamplerDiagnostics& d) {
+  if (d.stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
   if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
   if (d.too_short_to_tell())
@@ -101,10 +101,10 @@ bool draws_as_fitted(const PosteriorSamplerConfig& config) {
          config.updated == UpdatedVoxels::occupied_and_free;
 }
 
-void read_out(GibbsPosterior& posterior, const RayLists& lists, const Sites& sites,
+void read_out(GibbsPosterior& posterior, const RayLists& lists, const Sites* sites,
               const PosteriorSamplerConfig& config) {
   if (config.read_out == ReadOut::fitted && draws_as_fitted(config)) {
-    read_out(posterior, read_out_rays(lists), fitted_read_out(), &sites);
+    read_out(posterior, read_out_rays(lists), fitted_read_out(), sites);
   } else {
     posterior.touch = posterior.centre = posterior.occupied;
   }
@@ -115,7 +115,10 @@ void sample(GibbsPosterior& posterior, const RayLists& lists, const Sites& sites
             std::stop_token stop) {
   SamplerDiagnostics& d = posterior.diagnostics;
   const Stopwatch watch(d.sample_seconds);
-  ChainEnsemble chains(lists, config, sites, d);
+  std::size_t kept = 0;
+  for (std::size_t v = 0; warm.kept && v < sites.kind.size(); ++v)
+    kept += sites.kind[v] == Sites::none && warm.kept->informed[v];
+  ChainEnsemble chains(lists, config, sites, kept, d);
   tbb::parallel_for(0, config.chains, [&](int c) {
     auto levels = std::size_t(c) < warm.states.size() ? warm.states[c] : start_levels(lists, config, start_map, c);
     // What is never updated stays free: it would stand in the rays' way for ever.
@@ -137,7 +140,7 @@ void sample(GibbsPosterior& posterior, const RayLists& lists, const Sites& sites
                                                 : start_map[v];
     posterior.upper[v] = updated ? chains.mean(v, &PosteriorSums::upper) : posterior.occupied[v];
   });
-  read_out(posterior, lists, sites, config);
+  read_out(posterior, lists, warm.kept ? &sites : nullptr, config);
   for (int c = 0; c < config.chains; ++c) posterior.states.emplace_back(chains.map(c).begin(), chains.map(c).end());
   if (config.keep_traces) posterior.traces = chains.take_level_traces();
 }
@@ -150,7 +153,10 @@ void require_fitting(std::span<const float> start_map, const WarmStart& warm, st
     if (state.size() != voxels || *std::max_element(state.begin(), state.end()) >= config.model.levels())
       throw std::invalid_argument("gibbs: a warm start is of another grid or model");
   if (!warm.kept) return;
-  if (warm.kept->touch.size() != voxels || warm.states.size() != std::size_t(config.chains))
+  const GibbsPosterior& kept = *warm.kept;
+  const auto fits = [&](const auto& values) { return values.size() == voxels; };
+  if (!fits(kept.occupied) || !fits(kept.upper) || !fits(kept.informed) || !fits(kept.touch) || !fits(kept.centre) ||
+      warm.states.size() != std::size_t(config.chains))
     throw std::invalid_argument("gibbs: the posterior that is kept is of another grid, or of other chains");
   if (config.updated != UpdatedVoxels::occupied_and_free)
     throw std::invalid_argument("gibbs: a posterior is kept only where all voxels are updated");
@@ -188,9 +194,9 @@ GibbsPosterior sample_posterior(const RayLists& lists, const PosteriorSamplerCon
   d.incidences = lists.incidence_count();
   d.list_bytes = lists.bytes();
   sample(posterior, lists, sites, config, start_map, warm, progress, stop);
-  // Asked early, it would say so by chance.
-  if (stop.stop_requested() || d.too_short_to_tell()) d.stationary = false;
-  d.warning = warning(d, stop.stop_requested());
+  d.stopped = stop.stop_requested();
+  if (d.stopped || d.few_sweeps()) d.stationary = false;  // asked early, it would say so by chance
+  d.warning = warning(d);
   return posterior;
 }
 
@@ -200,6 +206,7 @@ GibbsPosterior sample_posterior(const VoxelGrid& grid, const RangeMeasurements& 
   config.validate();
   measurements.validate();
   RayLists::require_holdable(grid);
+  require_fitting(start_map, warm, grid.voxel_count(), config);
   if (progress) progress(0.0, listing_rays, {});
   double build_seconds = 0.0;
   const RayLists lists = [&] {

@@ -16,8 +16,8 @@ namespace nextview {
 struct WarmStart {
   std::span<const std::vector<std::uint8_t>> states = {};  ///< GibbsPosterior::states
   /// If given, the posterior of the rays before `first_new_ray` of the lists. Voxels that only those pass, and no ray
-  /// ends near, keep what it says of them, and their levels: they are free, and rays elsewhere change little about
-  /// that.
+  /// ends near, keep what it says of them, and their levels stay as they were drawn: an approximation, as other rays
+  /// change little of what is known of them.
   const GibbsPosterior* kept = nullptr;
   std::uint32_t first_new_ray = 0;
 };

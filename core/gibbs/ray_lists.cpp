@@ -32,8 +32,8 @@ std::uint32_t chord_code(double chord) {
 
 }  // namespace
 
-/// A part of the rays, counted and filled in by one thread. The parts depend on the grid alone, so that the lists do
-/// not depend on the number of threads.
+/// A part of the rays, counted and filled in by one thread. Entries come out by ray,
+/// whatever the parts.
 struct RayLists::Block {
   std::uint32_t first_ray = 0, last_ray = 0;
   std::vector<std::uint32_t> front, near;  ///< per voxel: how many entries; later: where the next one goes
@@ -86,6 +86,8 @@ std::size_t RayLists::bytes() const {
 /// Returns how many there were.
 std::size_t RayLists::take_rays(const RangeMeasurements& measurements) {
   const std::size_t before = rays();
+  for (auto* of_rays : {&weight_, &incidences_begin_}) of_rays->reserve(before + measurements.rays.size() + 1);
+  open_value_.reserve(before + measurements.rays.size());
   measurements_.append(measurements);
   auto& rays = measurements_.rays;
   const auto stays_outside = [&](const RangeMeasurement& ray) {
@@ -191,6 +193,7 @@ void RayLists::lay_out(std::vector<Block>& blocks) {
   };
   move_to(front_, front, entries_beyond);
   move_to(near_, near, 0);
+  incidences_.reserve(near.total);  // no more than that
   incidences_.resize(near.total);
 }
 

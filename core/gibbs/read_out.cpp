@@ -17,6 +17,15 @@ float kept_log_odds(float p) {
   return WeightedLogs::log(p / (1.0f - p));
 }
 
+/// Sites, and the voxels up to two away from where a ray may have ended: as far as planes through such places reach.
+BitRows around_sites(const VoxelGrid& grid, const Sites& sites) {
+  BitRows around(grid.size);
+  for (const std::uint32_t v : sites.near_voxels) around.set(grid.cell(v));
+  for (int voxels = 0; voxels < 2; ++voxels) around.grow({});
+  for (const std::uint32_t v : sites.front_voxels) around.set(grid.cell(v));
+  return around;
+}
+
 }  // namespace
 
 ReadOutRays read_out_rays(const RayLists& lists) {
@@ -148,12 +157,13 @@ void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutW
   posterior.touch.resize(posterior.occupied.size(), 0.5f);
   posterior.centre.resize(posterior.occupied.size(), 0.5f);
   const Eigen::Vector3i& size = posterior.grid.size;
+  const BitRows asked = sites ? around_sites(posterior.grid, *sites) : BitRows(size).complement();
   tbb::parallel_for(0, (size.z() + thickness - 1) / thickness, [&](int block) {
     const ReadOutFeatures::Layers layers{block * thickness, std::min(size.z(), (block + 1) * thickness)};
     const ReadOutFeatures features(posterior, rays, layers);
     const auto voxels_before = [&](int z) { return posterior.grid.index({0, 0, z}); };
     for (std::uint32_t v = voxels_before(layers.first); v < voxels_before(layers.last); ++v) {
-      if (sites && sites->kind[v] == Sites::none) continue;
+      if (!asked.at(posterior.grid.cell(v))) continue;
       posterior.touch[v] = posterior.centre[v] = 0.5f;
       if (!posterior.informed[v]) continue;
       const ReadOutFeatures::Vector x = features.of(v);

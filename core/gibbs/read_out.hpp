@@ -108,8 +108,8 @@ struct ReadOutWeights {
 /// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit read-outs; nothing else was looked at.
 const ReadOutWeights& fitted_read_out();
 
-/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. `sites`: of those voxels only. The same bytes
-/// on any number of threads.
+/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. `sites`: of those voxels, and of what is up to
+/// two away from where a ray may have ended; the others stay as they are. The same bytes on any number of threads.
 void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights,
               const Sites* sites = nullptr);
 

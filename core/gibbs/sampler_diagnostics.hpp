@@ -23,7 +23,7 @@ double geweke_z(std::span<const double> chain);
 /// How a run of the sampler went.
 struct SamplerDiagnostics {
   std::size_t measured_rays = 0, merged_rays = 0;  ///< before and after merging
-  std::size_t observed_voxels = 0;                 ///< some ray may depend on them
+  std::size_t observed_voxels = 0;                 ///< that are sampled: some ray may depend on them
   std::size_t informed_voxels = 0;
   std::size_t incidences = 0;  ///< pairs of ray and voxel
   std::size_t list_bytes = 0, chain_bytes = 0;
@@ -44,7 +44,10 @@ struct SamplerDiagnostics {
   std::size_t disagreeing_voxels = 0;    ///< informed ones whose mean differs by over 0.5 between two chains
   /// Of fewer sweeps in the mean neither R-hat nor the trend says anything.
   static constexpr int fewest_telling_sweeps = 10;
-  bool too_short_to_tell() const { return sweeps - burn_in < fewest_telling_sweeps; }
+  bool few_sweeps() const { return sweeps - burn_in < fewest_telling_sweeps; }
+  bool stopped = false;  ///< before its sweeps were made
+  /// Whether more sweeps are all that is wanting.
+  bool too_short_to_tell() const { return few_sweeps() && !stopped && merged_rays > 0; }
   bool stationary = false;
   std::string warning;  ///< for people; empty if there is nothing to warn of
 

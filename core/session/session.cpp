@@ -160,6 +160,7 @@ bool Session::step(const Progress& progress, std::stop_token stop, const Accept&
   }
   taken_.reset();
   adopt(*std::move(after));
+  if (!finished().empty() && state_.known.posterior) state_.known.posterior->forget_lists();
   if (progress) progress(1.0, "done");
   return true;
 }

@@ -79,12 +79,15 @@ TEST_F(Refine, EveryModelAndThePaperRun) {
 }
 
 TEST_F(Refine, WarnsWhenItIsNotStationaryAndOfWhatAFinishedScanHasItself) {
-  const Result run =
-      nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") +
-               " --gibbs.model paper --gibbs.sweeps 8 --gibbs.burn_in 0 --gibbs.start occupied --voxel 0.5");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("8 sweeps are too few to tell"));
-  EXPECT_THAT(run.err, HasSubstr("--voxel is for range scans"));
+  for (const auto& [sweeps, said] :
+       {std::pair{"8", "8 sweeps are too few to tell"}, std::pair{"12", "not stationary after 12 sweeps: R-hat"}}) {
+    const Result run =
+        nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") + sweeps +
+                 " --gibbs.model paper --gibbs.burn_in 0 --gibbs.start occupied --voxel 0.5 --gibbs.sweeps " + sweeps);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr(said));
+    EXPECT_THAT(run.err, HasSubstr("--voxel is for range scans"));
+  }
 }
 
 TEST_F(Refine, BadInputIsOneLineAndExitCode2) {

@@ -44,19 +44,18 @@ void draw_traces(const PanelContext& context, const SamplerDiagnostics& d) {
 
 void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d) {
   const Colour good = theme::series[2];
-  const bool tells = !d.too_short_to_tell();
   if (d.stationary)
     small_text(context.style, fmt::format("Stationary after {} sweeps of {} chains.", d.sweeps, d.log_posterior.size()),
                good);
-  else if (tells)
-    small_text(context.style, d.warning, theme::chosen);
+  else if (d.too_short_to_tell())
+    small_text(context.style, d.warning + ". Refine the map to know.");
   else
-    small_text(context.style, d.warning + ". Refine the map makes as many as that takes.", theme::soft_ink);
+    small_text(context.style, d.warning, theme::chosen);
   if (!ImGui::BeginTable("stationarity", 2)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.style.px(124));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
   ImGui::PushFont(context.style.small);
-  if (tells) {
+  if (!d.few_sweeps()) {
     table_row("R-hat", fmt::format("{:.3f} (under 1.05)", d.r_hat),
               "Split R-hat of the log-posterior: 1 if the chains agree");
     table_row("trend |z|", fmt::format("{:.1f} (under 2.58)", d.trend), "Geweke's statistic of the log-posterior");

@@ -100,6 +100,12 @@ TEST(GibbsState, WhoseTurnItIsChangesNothing) {
   first.add(*session.scans()[0]);
   first.refine({}, 8, {}, {});
   GibbsState second = first, third = first;
+  GibbsState alone(session.map().grid(), posterior_sampler_config(c), c.map.model);
+  for (const int view : {0, 2}) {
+    alone.add(*session.scans()[std::size_t(view)]);
+    alone.refine({}, 8, {}, {});
+    alone.forget_lists();
+  }
   for (GibbsState* state : {&first, &second}) {
     state->add(*session.scans()[1]);
     state->refine({}, 8, {}, {});
@@ -111,14 +117,36 @@ TEST(GibbsState, WhoseTurnItIsChangesNothing) {
   EXPECT_EQ(first.posterior().states, second.posterior().states);
   third.add(*session.scans()[2]);
   third.refine({}, 8, {}, {});
-  EXPECT_EQ(
-      third.posterior().diagnostics.measured_rays + session.scans()[1]->hits.size() + session.scans()[1]->misses.size(),
-      first.posterior().diagnostics.measured_rays);
+  EXPECT_EQ(third.posterior().touch, alone.posterior().touch) << "the lists that are kept are of other views";
+  EXPECT_EQ(third.posterior().states, alone.posterior().states);
   // Refined again without another view: of all voxels, with other numbers.
   const auto observed = first.posterior().diagnostics.observed_voxels;
   first.refine({}, 8, {}, {});
   EXPECT_GT(first.posterior().diagnostics.observed_voxels, observed);
   EXPECT_NE(first.posterior().touch, second.posterior().touch);
+}
+
+TEST(GibbsState, ListsAreKeptForTheNextViewAndCounted) {
+  GibbsState refinement = two_views();
+  refinement.refine({}, 8, {}, {});
+  const std::size_t with = refinement.bytes(), lists = refinement.posterior().diagnostics.list_bytes;
+  const GibbsState copy = refinement;
+  EXPECT_EQ(copy.bytes(&refinement), 0u) << "they are one for all copies";
+  copy.forget_lists();
+  EXPECT_EQ(refinement.bytes(), with - lists);
+  refinement.refine({}, 0, {}, {});
+  EXPECT_LT(refinement.bytes(), with) << "after a refinement until it is stationary none need follow";
+}
+
+TEST(GibbsState, RaysFromNowhereAreRefused) {
+  GibbsState refinement = two_views();
+  const auto before = refinement.shared_measurements();
+  Scan far;
+  far.max_range = 1.5;
+  far.origin = {1e9, 0.0, 0.0};
+  far.hits = {{0.0f, 0.0f, 1.0f}};
+  EXPECT_THROW(refinement.add(far), std::invalid_argument);
+  EXPECT_EQ(refinement.shared_measurements(), before);
 }
 
 TEST(GibbsState, AScanWithoutAMaximumRangeIsRefusedAndSaysWhy) {

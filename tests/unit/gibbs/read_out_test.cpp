@@ -255,6 +255,32 @@ TEST(ReadOut, OfThePosteriorIsThatOfItsRaysAndLevels) {
   }
 }
 
+TEST(ReadOut, OfSomeSitesIsThatOfAllAroundThem) {
+  const Problem problem = random_problems::make({"large room", {14, 13, 12}, 3, 30, 0.1}, 7);
+  const PosteriorSamplerConfig config = config_for(problem);
+  const GibbsPosterior all = sample_posterior(problem.grid, problem.measurements, config);
+  const RayLists lists(problem.grid, problem.measurements, config.model);
+  Sites sites = find_sites(lists, config, {});
+  for (const std::size_t v : {std::size_t(200), std::size_t(900)}) sites.kind[v] = Sites::front;
+  sites.near_voxels.resize(3), sites.front_voxels = {200, 900};
+  GibbsPosterior some = all;
+  std::ranges::fill(some.touch, 2.0f);
+  std::ranges::fill(some.centre, 2.0f);
+  read_out(some, read_out_rays(lists), fitted_read_out(), &sites);
+  std::size_t asked = 0;
+  for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
+    const auto steps_from = [&](std::uint32_t site) {
+      return (problem.grid.cell(v) - problem.grid.cell(site)).cwiseAbs().maxCoeff();
+    };
+    const bool is_asked = v == 200 || v == 900 ||
+                          std::ranges::any_of(sites.near_voxels, [&](std::uint32_t n) { return steps_from(n) <= 2; });
+    asked += is_asked;
+    EXPECT_EQ(some.touch[v], is_asked ? all.touch[v] : 2.0f) << v;
+    EXPECT_EQ(some.centre[v], is_asked ? all.centre[v] : 2.0f) << v;
+  }
+  EXPECT_LT(asked, problem.grid.voxel_count() / 2);
+}
+
 TEST(ReadOut, IsTheSameBytesOnAnyNumberOfThreads) {
   const Problem problem = room();
   PosteriorSamplerConfig config = config_for(problem);

@@ -126,6 +126,16 @@ TEST_F(GibbsPanelTest, OfTooFewSweepsItSaysWhatToDoAndNoNumbers) {
   EXPECT_THAT(text, HasSubstr("5 sweeps are too few to tell. Refine the map"));
   EXPECT_THAT(text, Not(HasSubstr("R-hat")));
   EXPECT_THAT(text, HasSubstr("voxels that differ 7 of 5000"));
+  posterior.diagnostics.stopped = true;
+  posterior.diagnostics.warning = "stopped after 5 sweeps";
+  map.posterior = std::make_shared<const GibbsPosterior>(posterior);
+  EXPECT_THAT(panel(map), AllOf(HasSubstr("stopped after 5 sweeps"), Not(HasSubstr("to know"))));
+  posterior.diagnostics.stopped = false;
+  posterior.diagnostics.merged_rays = 0;
+  posterior.diagnostics.warning = "no ray enters the region";
+  map.posterior = std::make_shared<const GibbsPosterior>(posterior);
+  EXPECT_THAT(panel(map), AllOf(HasSubstr("no ray enters the region"), Not(HasSubstr("to know"))));
+  EXPECT_EQ(find_text(seen_texts(), "no ray enters")->colour, to_imgui_u32(theme::chosen));
 }
 
 TEST_F(GibbsPanelTest, SaysWhatRefiningChangedAndOfWhichViewsItIs) {
