@@ -80,7 +80,7 @@ TEST_F(Refine, EveryModelAndThePaperRun) {
 
 TEST_F(Refine, WarnsWhenItIsNotStationaryAndOfWhatAFinishedScanHasItself) {
   for (const auto& [sweeps, said] :
-       {std::pair{"8", "8 sweeps are too few to tell"}, std::pair{"12", "not stationary after 12 sweeps: R-hat"}}) {
+       {std::pair{"8", "8 sweeps are too few to tell"}, std::pair{"10", "not stationary after 10 sweeps: R-hat"}}) {
     const Result run =
         nextview("refine " + scan() + " --no-pictures --no-surfaces --out " + out("short") + sweeps +
                  " --gibbs.model paper --gibbs.burn_in 0 --gibbs.start occupied --voxel 0.5 --gibbs.sweeps " + sweeps);
