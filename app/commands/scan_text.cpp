@@ -89,8 +89,10 @@ void print_head(const Session& session) {
 
 void print_step(const Session& session, const StepRecord& r) {
   const StageSeconds& s = r.seconds;
-  fmt::print("{:>4} {:>5} {:>10.5g} {:>8} {:>8} {:>9} {:>9} {:>9.1f} {:>9} {:>8.2f}\n", r.step,
-             r.view < 0 ? "start" : fmt::format("{}", r.view), r.gain, short_text(r.motion.distance), r.hits,
+  std::string gain = fmt::format("{:.5g}", r.gain);
+  if (!r.gain_unit.empty() && r.gain_unit != session.planner().unit()) gain += " " + r.gain_unit;
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9.1f} {:>9} {:>8.2f}\n", r.step,
+             r.view < 0 ? "start" : fmt::format("{}", r.view), gain, short_text(r.motion.distance), r.hits,
              short_text(r.new_surface), coverage_text(session, r), r.entropy / 1e3,
              session.known_object() ? fmt::format("{:.3f}", r.quality_near_surface.log_loss) : "-",
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);

@@ -15,14 +15,16 @@ namespace {
 
 std::string scores_csv(const Session& session) {
   const bool refined = session.refinement() != nullptr;
-  std::string csv = fmt::format("step,view,available,gain[{}],cost[m],utility,seconds[s]{}\n", session.planner().unit(),
-                                refined ? ",gain_on_conventional_map[nats]" : "");
+  const GainColumn gain(session);
+  std::string csv = fmt::format("step,view,available,{},cost[m],utility,seconds[s]{}{}\n", gain.name(),
+                                refined ? ",gain_on_conventional_map[nats]" : "", gain.unit_name());
   for (const StepRecord& r : session.records())
     for (std::size_t v = 0; v < r.candidates.size(); ++v) {
       const Candidate& c = r.candidates[v];
       csv += fmt::format("{},{},{},{},{},{},{}", r.step, v, int(c.available), c.gain, c.cost, c.utility, c.seconds);
       const bool compared = r.refinement && !r.refinement->conventional_gains.empty();
-      csv += !refined ? "\n" : compared ? fmt::format(",{}\n", r.refinement->conventional_gains[v]) : ",\n";
+      if (refined) csv += compared ? fmt::format(",{}", r.refinement->conventional_gains[v]) : ",";
+      csv += gain.unit(r.ranking.gain_unit) + "\n";
     }
   return csv;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/file/json_text.hpp"
 
 namespace nextview {
@@ -20,23 +22,30 @@ Eigen::Quaterniond rotation_of(const StepRecord& record) { return Eigen::Quatern
 
 }  // namespace
 
+GainColumn::GainColumn(const Session& session) : unit_(session.planner().unit()) {
+  const auto is_other = [&](const std::string& unit) { return !unit.empty() && unit != unit_; };
+  mixed_ = std::ranges::any_of(
+      session.records(), [&](const StepRecord& r) { return is_other(r.gain_unit) || is_other(r.ranking.gain_unit); });
+}
+
 std::string steps_csv(const Session& session) {
-  const std::string unit = session.planner().unit();
+  const GainColumn gain(session);
   const auto d_reg = session.configuration().evaluation.d_reg;
   std::string csv = fmt::format(
-      "step,view,overridden,gain[{}],utility,realised_gain[nats],distance[m],rotation[rad],path[m],hits,points,"
+      "step,view,overridden,{},utility,realised_gain[nats],distance[m],rotation[rad],path[m],hits,points,"
       "misses,new_voxels,"
       "entropy[bits],total_entropy[bits],coverage@{:g}mm,coverage_visible@{:g}mm,coverage@0.5mm,d_kl[nats],log_loss["
       "nats],brier,"
-      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}{}{}\n",
-      unit, 1e3 * d_reg, 1e3 * d_reg,
+      "log_loss_near_surface[nats],brier_near_surface,next_view,degenerate,new_surface[cm²],surface_left{}{}{}{}\n",
+      gain.name(), 1e3 * d_reg, 1e3 * d_reg,
       session.setup().any_pose.empty() ? "" : fmt::format(",coverage_any_pose@{:g}mm", 1e3 * d_reg),
       session.recording() ? fmt::format(",coverage_recorded@{:g}mm", 1e3 * d_reg) : "",
-      is_registered(session) ? ",registration_shift[m],registration_rotation[rad],registration_overlap" : "");
+      is_registered(session) ? ",registration_shift[m],registration_rotation[rad],registration_overlap" : "",
+      gain.unit_name());
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}{}\n",
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}{}{}\n",
                        r.step, r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
                        r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
                        r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
@@ -45,7 +54,7 @@ std::string steps_csv(const Session& session) {
                        r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "",
                        r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "",
                        r.coverage_recorded ? fmt::format(",{}", *r.coverage_recorded) : "",
-                       is_registered(session) ? registration_text(r) : "");
+                       is_registered(session) ? registration_text(r) : "", gain.unit(r.gain_unit));
   }
   return csv;
 }

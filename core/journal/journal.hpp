@@ -23,6 +23,7 @@ struct JournalStep {
   std::optional<std::size_t> candidate = {};  ///< that it was chosen as; none: the start view, or a custom view
   bool is_custom = false, overridden = false;
   double gain = 0.0, utility = 0.0;        ///< that were expected of it
+  std::string gain_unit = {};              ///< empty in journals of before 0.5.0, too
   Pose reached = Pose::Identity();         ///< as the robot knew it
   Pose believed = Pose::Identity();        ///< of the capture, as it came
   Pose T_world_camera = Pose::Identity();  ///< of the capture, corrected where registration did

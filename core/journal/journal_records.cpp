@@ -101,6 +101,7 @@ JournalStep step_of(const Json& json) {
   json.at("custom").get_to(step.is_custom);
   json.at("overridden").get_to(step.overridden);
   step.gain = number_of(json.at("gain"));
+  if (json.contains("gain_unit")) json["gain_unit"].get_to(step.gain_unit);
   step.utility = number_of(json.at("utility"));
   step.reached = pose_of(json.at("reached"));
   step.believed = pose_of(json.at("believed"));
@@ -153,6 +154,7 @@ std::string step_record(const JournalStep& step) {
   json["custom"] = step.is_custom;
   json["overridden"] = step.overridden;
   json["gain"] = to_json(step.gain);
+  json["gain_unit"] = step.gain_unit;
   json["utility"] = to_json(step.utility);
   json["reached"] = to_json(step.reached);
   json["believed"] = to_json(step.believed);

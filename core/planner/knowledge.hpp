@@ -17,7 +17,7 @@ namespace nextview {
 struct TakenView {
   View wanted;
   Pose T_world_camera = Pose::Identity();  ///< the one that was reached
-  double gain = 0.0;                       ///< that was expected of it, in the planner's unit; 0 if nothing was
+  double expected_new_surface = 0.0;       ///< [cm^2]; 0 if nothing was expected, or a planner had another unit
   double new_surface = 0.0;                ///< that it showed [cm^2]
 };
 

@@ -48,8 +48,8 @@ double promise_kept(std::span<const TakenView> taken) {
   constexpr double least = 0.02, most = 5.0;
   double kept = 1.0, found = 0.0, expected = 0.0;
   for (const TakenView& view : taken) {
-    if (!(view.gain > 0.0)) continue;
-    const double as_modelled = view.gain / kept;
+    if (!(view.expected_new_surface > 0.0)) continue;
+    const double as_modelled = view.expected_new_surface / kept;
     if (expected == 0.0) found = expected = as_modelled;  // as if one view before had kept its promise
     found = memory * found + view.new_surface;
     expected = memory * expected + as_modelled;

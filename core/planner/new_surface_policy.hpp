@@ -21,7 +21,8 @@ class NewSurfacePolicy : public Policy {
  public:
   explicit NewSurfacePolicy(const NewSurfaceModel& model, bool on_posterior = false)
       : model_(model), on_posterior_(on_posterior) {}
-  std::string unit() const override { return "cm²"; }
+  static constexpr const char* surface_unit = "cm²";
+  std::string unit() const override { return surface_unit; }
   PolicyNeeds needs() const override { return {true, on_posterior_, false}; }
   Valuation values(const PlanningState& state, std::span<const std::size_t> available,
                    std::stop_token stop) const override;

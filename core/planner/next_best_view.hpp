@@ -31,9 +31,10 @@ struct Utility {
 /// A ranking and whether it says anything.
 struct Ranking {
   std::optional<std::size_t>
-      best;                ///< Eq. 14; nothing if no candidate is available. Ties go to the first in list order
-  std::string degenerate;  ///< why the gains do not tell the candidates apart; empty if they do
-  std::string reason;      ///< of the choice, in one sentence for people; empty without a best
+      best;                    ///< Eq. 14; nothing if no candidate is available. Ties go to the first in list order
+  std::string degenerate;      ///< why the gains do not tell the candidates apart; empty if they do
+  std::string reason;          ///< of the choice, in one sentence for people; empty without a best
+  std::string gain_unit = {};  ///< of the candidates' gains: the planner's
 };
 
 /// The available candidate of largest utility but `best`; nothing if there is none.

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 NextView choice_of(const JournalStep& step) {
-  return {step.wanted, step.candidate, step.is_custom, step.overridden, step.gain, step.utility};
+  return {step.wanted, step.candidate, step.is_custom, step.overridden, step.gain, step.utility, step.gain_unit};
 }
 
 Acquired acquired_of(const JournalStep& step, Capture capture) {

@@ -1,6 +1,7 @@
 #include "core/session/scan_loop.hpp"
 
 #include "core/evaluation/entropy.hpp"
+#include "core/planner/new_surface_policy.hpp"
 #include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/progress/stopwatch.hpp"
@@ -85,6 +86,7 @@ StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
     if (next.candidate) record.view = static_cast<int>(*next.candidate);
     record.overridden = next.overridden;
     record.gain = next.gain;
+    record.gain_unit = next.gain_unit;
     record.utility = next.utility;
   }
   record.T_world_camera = acquired.capture.T_world_camera;
@@ -158,7 +160,9 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
     Stopwatch watch(record.seconds.insert);
     record.new_surface = see_surface(setup, after.known, *scan, record);
   }
-  after.known.taken.push_back({acquired.wanted, record.T_world_camera, record.gain, record.new_surface});
+  after.known.taken.push_back({acquired.wanted, record.T_world_camera,
+                               record.gain_unit == NewSurfacePolicy::surface_unit ? record.gain : 0.0,
+                               record.new_surface});
   compare_maps(state.known, after.known, record);
   report(progress, stop, 0.6, "comparing with the object");
   evaluate(setup, after, *scan, record, stop);

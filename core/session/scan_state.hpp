@@ -40,6 +40,7 @@ struct NextView {
   bool is_custom = false;                     ///< it is the operator's own
   bool overridden = false;                    ///< the operator chose it instead of the proposal
   double gain = 0.0, utility = 0.0;           ///< that are expected of it
+  std::string gain_unit = {};                 ///< the planner's that expects it
 };
 
 /// How far a scan has come: all that evolves, as a value. A copy costs a few pointers and shares what it has in common

@@ -167,6 +167,8 @@ bool Session::step(const Progress& progress, std::stop_token stop, const Accept&
 
 bool Session::step_again(const NextView& choice, Acquired acquired, const Progress& progress, std::stop_token stop) {
   state_.next = choice;
+  if (choice.gain_unit.empty() && (choice.candidate || choice.is_custom))
+    state_.next.gain_unit = setup_.planner->unit();
   state_.finished.clear();
   robot_->restored(acquired.reached);
   taken_ = std::move(acquired);

@@ -100,7 +100,7 @@ void Session::override_next_view(std::size_t candidate) {
   require_first_step();
   const StepRecord& last = records_.back();
   const Candidate& c = last.candidates[candidate];
-  state_.next = {view, candidate, false, last.ranking.best != candidate, c.gain, c.utility};
+  state_.next = {view, candidate, false, last.ranking.best != candidate, c.gain, c.utility, last.ranking.gain_unit};
 }
 
 void Session::override_next_view(const Pose& T_world_camera) {
@@ -114,7 +114,7 @@ void Session::override_next_view(const Pose& T_world_camera) {
   require_first_step();
   const Pose pose = make_pose(T_world_camera.translation(), Eigen::Quaterniond(T_world_camera.linear()));
   const auto expected = explain(pose);
-  state_.next = {{pose}, std::nullopt, true, true, expected ? expected->value : 0.0, 0.0};
+  state_.next = {{pose}, std::nullopt, true, true, expected ? expected->value : 0.0, 0.0, setup_.planner->unit()};
 }
 
 void Session::take_proposal() {

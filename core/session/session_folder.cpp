@@ -32,6 +32,7 @@ JournalStep step_of(const NextView& choice, const Acquired& acquired) {
   step.is_custom = choice.is_custom;
   step.overridden = choice.overridden;
   step.gain = choice.gain;
+  step.gain_unit = choice.gain_unit;
   step.utility = choice.utility;
   step.reached = acquired.reached;
   step.believed = acquired.believed;

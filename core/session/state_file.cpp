@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "nextview state 2\n";
+constexpr std::string_view magic = "nextview state 3\n";
 constexpr std::uintmax_t largest = std::uintmax_t{4} << 30;  // [bytes]
 
 // What a value is made of, in one order for writing and reading; `Archive` is a ByteWriter or a ByteReader.
@@ -67,14 +67,14 @@ template <class Archive, class Record>
 void each_record(Archive& archive, Record& r) {
   archive(r.step, r.view, r.overridden);
   each(archive, r.T_world_camera);
-  archive(r.motion.distance, r.motion.rotation, r.motion.seconds, r.gain, r.utility, r.new_surface, r.surface_left,
-          r.realised_gain, r.hits, r.misses, r.points, r.new_voxels, r.entropy, r.total_entropy, r.coverage_recorded,
-          r.coverage, r.coverage_visible, r.coverage_any_pose, r.coverage_paper);
+  archive(r.motion.distance, r.motion.rotation, r.motion.seconds, r.gain, r.gain_unit, r.utility, r.new_surface,
+          r.surface_left, r.realised_gain, r.hits, r.misses, r.points, r.new_voxels, r.entropy, r.total_entropy,
+          r.coverage_recorded, r.coverage, r.coverage_visible, r.coverage_any_pose, r.coverage_paper);
   each_quality(archive, r.quality);
   each_quality(archive, r.quality_near_surface);
   each_optional(archive, r.registration, [&](auto& registration) { each_registration(archive, registration); });
   each_candidate(archive, r.candidates);
-  archive(r.ranking.best, r.ranking.degenerate, r.ranking.reason);
+  archive(r.ranking.best, r.ranking.degenerate, r.ranking.reason, r.ranking.gain_unit);
 }
 
 template <class Archive, class ViewValue>
@@ -86,14 +86,14 @@ void each_view(Archive& archive, ViewValue& view) {
 template <class Archive, class Next>
 void each_next(Archive& archive, Next& next) {
   each_view(archive, next.view);
-  archive(next.candidate, next.is_custom, next.overridden, next.gain, next.utility);
+  archive(next.candidate, next.is_custom, next.overridden, next.gain, next.utility, next.gain_unit);
 }
 
 template <class Archive, class Taken>
 void each_taken(Archive& archive, Taken& taken) {
   each_view(archive, taken.wanted);
   each(archive, taken.T_world_camera);
-  archive(taken.gain, taken.new_surface);
+  archive(taken.expected_new_surface, taken.new_surface);
 }
 
 /// What the file holds for: another one is no use.

@@ -36,6 +36,7 @@ struct StepRecord {
   MotionCost motion;  ///< of getting here
   double gain = 0.0;  ///< predicted for this view when it was chosen, in the gain's unit; 0 for the start view, and for
                       ///< a custom view where the gain is not one of single views
+  std::string gain_unit;     ///< of the planner that chose it, or ranked it; it may have been another than now
   double utility = 0.0;      ///< 0 for a view that is no candidate: it is a share of all candidates
   double new_surface = 0.0;  ///< that it showed, by its points alone, whatever the truth is [cm^2]
   /// After this view: share of the surface that is expected to be left for the candidates; none: not predicted.

@@ -118,6 +118,7 @@ ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Prog
     Plan plan = setup.planner->plan(input.setup, state.known, state.candidates, candidates, stop);
     record->candidates = std::move(plan.candidates);
     record->ranking = std::move(plan.ranking);
+    record->ranking.gain_unit = setup.planner->unit();
     record->surface_left = plan.surface_left;
     if (record->refinement) compare_with_conventional(setup, state, input, candidates, *record, stop);
   }
@@ -132,7 +133,7 @@ NextView proposal(const ScanSetup& setup, const ScanState& state) {
   const auto best = record.ranking.best;
   if (!best) return {setup.start};
   const Candidate& c = record.candidates[*best];
-  return {state.candidates[*best], best, false, false, c.gain, c.utility};
+  return {state.candidates[*best], best, false, false, c.gain, c.utility, record.ranking.gain_unit};
 }
 
 std::string termination(const TerminationConfig& config, const ScanState& state) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 
@@ -13,7 +14,7 @@ namespace {
 struct Value {
   const char* name;
   std::function<double(const StepRecord&)> of;
-  bool is_of_choice = false;  ///< the start view, which nobody chose, has none
+  std::function<bool(const StepRecord&)> is_there = [](const StepRecord&) { return true; };
 };
 
 void add_series(ChartContent& content, const ScanCourse& course, const std::vector<Value>& values,
@@ -25,7 +26,7 @@ void add_series(ChartContent& content, const ScanCourse& course, const std::vect
       series.y.push_back(*at_start);
     }
     for (const StepRecord& r : course.records) {
-      if (value.is_of_choice && r.view < 0) continue;
+      if (!value.is_there(r)) continue;
       series.x.push_back(r.step);
       series.y.push_back(value.of(r));
     }
@@ -37,10 +38,18 @@ void add_series(ChartContent& content, const ScanCourse& course, const std::vect
 
 ChartContent entropy_chart(const ScanCourse& course) {
   ChartContent content{"Entropy of the map [Mbit]", "view", "", "entropy", "Mbit", {}, {}, true};
-  add_series(content, course,
-             {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }},
-              {"total, ΣH(p)", [](const StepRecord& r) { return r.total_entropy / 1e6; }}},
-             double(course.voxels) / 1e6);
+  const auto total = [](const StepRecord& r) { return r.total_entropy / 1e6; };
+  const auto refined = [](const StepRecord& r) { return r.refinement.has_value(); };
+  const auto conventional = [&](const StepRecord& r) { return !refined(r); };
+  std::vector<Value> values = {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }}};
+  // Of two maps, where the gain was changed to or from one that needs the Gibbs map, it is two curves.
+  if (std::ranges::any_of(course.records, refined) && std::ranges::any_of(course.records, conventional)) {
+    values.push_back({"total, ΣH(p)", total, conventional});
+    values.push_back({"total, Gibbs map", total, refined});
+  } else {
+    values.push_back({"total, ΣH(p)", total});
+  }
+  add_series(content, course, values, double(course.voxels) / 1e6);
   return content;
 }
 
@@ -80,18 +89,20 @@ ChartContent divergence_chart(const ScanCourse& course) {
 
 /// What a planner expects of a view can be seen in one unit only if that is the surface's; else beside Eq. 12.
 ChartContent gain_chart(const ScanCourse& course) {
+  // The start view, which nobody chose, has none, nor have those of a planner with another unit.
+  const auto is_there = [&](const StepRecord& r) { return r.view >= 0 && r.gain_unit == course.gain_unit; };
   if (course.gain_unit == "cm²") {
     ChartContent surface{"New surface of a view [cm²]", "view", "", "new surface", "cm²", {}, {}, true};
     add_series(surface, course,
                {{"seen", [](const StepRecord& r) { return r.new_surface; }},
-                {"expected", [](const StepRecord& r) { return r.gain; }, true}});
+                {"expected", [](const StepRecord& r) { return r.gain; }, is_there}});
     return surface;
   }
   const std::string unit = course.gain_unit.empty() ? "" : fmt::format(" [{}]", course.gain_unit);
   ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
   add_series(content, course,
              {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
-              {"predicted", [](const StepRecord& r) { return r.gain; }, true}});
+              {"predicted", [](const StepRecord& r) { return r.gain; }, is_there}});
   return content;
 }
 

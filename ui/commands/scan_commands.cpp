@@ -88,10 +88,13 @@ const CommandOf<> command::go_on{
     {"continue",
      "Scan",
      "Continue beyond the limits",
-     "Lets a finished scan go on from where it is until no candidate is left: lifts what ends it (termination.*).",
+     "Lets a finished scan go on from where it is: lifts what ends it (termination.*), and takes the next view.",
      {},
      continue_why_not},
-    [](CommandTarget& t) { t.worker.post(request::SetTermination{TerminationConfig::unlimited()}); }};
+    [](CommandTarget& t) {
+      t.worker.post(request::SetTermination{TerminationConfig::unlimited()});
+      t.worker.post(request::Step{});
+    }};
 
 const CommandOf<> command::pause{
     {"pause",

@@ -6,6 +6,7 @@
 #include <regex>
 #include <stdexcept>
 
+#include "core/config/configuration.hpp"
 #include "core/file/installation.hpp"
 #include "core/file/read_file.hpp"
 #include "core/setting/setting.hpp"
@@ -23,7 +24,11 @@ std::string title_of(const std::string& text) {
 
 }  // namespace
 
-std::filesystem::path manual_folder() { return shared_folder("assets") / "manual"; }
+/// Assets of one's own need not bring a manual.
+std::filesystem::path manual_folder() {
+  const std::filesystem::path named = assets_folder() / "manual";
+  return is_there(named) ? named : shared_folder("assets") / "manual";
+}
 
 std::vector<std::string> manual_topics() {
   const std::string contents = read_file(manual_folder() / "README.md", longest_page);

@@ -35,6 +35,7 @@ int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 void FileDialog::write(std::string text) {
   written_ = std::move(text);
   replaced_.clear();
+  missing_.clear();
 }
 
 /// Tab completes, and folders are looked into as they are written. The field has its own copy of what is written while
@@ -60,7 +61,12 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   const fs::path last = to_read_ ? last_read_ : last_written_;
   browser_.go_to(last.empty() ? fs::current_path() : last);
   const auto& suggested = command.arguments().front().choices;
-  if (!to_read_ && suggested) write(suggested(context.snapshot).front());
+  if (to_read_ || !suggested) return;
+  const std::string name = suggested(context.snapshot).front();
+  write(name);
+  // No session is written over: the next name that is free.
+  for (int number = 2; names_folder(command) && has_journal(browser_.meant(written_)); ++number)
+    write(fmt::format("{}-{}", name, number));
 }
 
 void FileDialog::look_into(const fs::path& folder) {
@@ -84,6 +90,10 @@ void FileDialog::accept(const PanelContext& context, const Command& command, con
   }
   if (!to_read_ && !is_folder && is_there(file) && replaced_ != file.string()) {
     replaced_ = file.string();
+    return;
+  }
+  if (to_read_ && !is_there(file)) {  // what was written stays, to be mended
+    missing_ = file.string();
     return;
   }
   if (to_read_) {
@@ -211,6 +221,11 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
   const Style& style = context.style;
   if (!replaced_.empty())
     small_text(style, fmt::format("{} is there already.", fs::path(replaced_).filename().string()), theme::chosen);
+  if (!missing_.empty())
+    small_text(
+        style,
+        fmt::format("{}: there is no such file, nor an object of this name.", fs::path(missing_).filename().string()),
+        theme::chosen);
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::IsAnyItemActive() && open_popups() == 0) ImGui::SetKeyboardFocusHere();  // letters always go there
   const std::string hint =
@@ -224,6 +239,7 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
                                this)) {
     chosen_ = 0;
     replaced_.clear();
+    missing_.clear();
   }
   const char* const does = !replaced_.empty() ? "Replace it" : to_read_ ? "Open" : "Write";
   if (icon_button(style, Icon::none, does, true)) accept_written(context, command);
@@ -258,7 +274,7 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   heading(style, title.c_str());
   draw_path();
   const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) +
-                     (replaced_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
+                     (replaced_.empty() && missing_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
   const float height = std::max(ImGui::GetContentRegionAvail().y - rest, style.px(40));
   ImGui::BeginChild("places", {std::min(style.px(150), 0.3f * size.x), height});
   draw_places(context, command);

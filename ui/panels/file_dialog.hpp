@@ -36,6 +36,7 @@ class FileDialog {
   FileBrowser browser_;
   std::vector<std::filesystem::path> recent_;
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
+  std::string missing_;             ///< what was to be read, and is not there
   std::size_t chosen_ = 0;          ///< among those that match
   bool to_read_ = true, scroll_ = false;
   bool entered_ = false;                            ///< the folder that was written, and nothing was done since

@@ -114,8 +114,12 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
     ImGui::TextUnformatted(name);
     ImGui::SameLine(style.px(96));
     ImGui::SetNextItemWidth(style.px(110));
-    ImGui::InputInt(id, &value, 1, 100);
-    value = std::clamp(value, int(argument.low), int(argument.high));
+    double typed = value;
+    if (ImGui::InputDouble(id, &typed, 1, 100, "%.0f")) {
+      value = static_cast<int>(std::clamp(typed, argument.low, argument.high));
+      out_of_bounds_ =
+          typed == value ? "" : fmt::format("{} are whole, from {:.0f} to {:.0f}.", name, argument.low, argument.high);
+    }
     tooltip(argument.help);
   };
   const auto& refine = command::refine;
@@ -130,6 +134,7 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
   const bool paused = context.progress.paused;
   command_button(context, paused ? command::resume_refinement : command::pause_refinement,
                  paused ? Icon::play : Icon::pause, paused ? "Resume" : "Pause", false, width);
+  if (!out_of_bounds_.empty()) small_text(style, out_of_bounds_, theme::chosen);
 }
 
 void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {

@@ -12,6 +12,7 @@ class GibbsPanel : public PanelContent {
  private:
   void draw_controls(const PanelContext& context);
 
+  std::string out_of_bounds_;    ///< why a number became another; empty: none did
   int chains_ = 0, sweeps_ = 0;  ///< of the next run; 0: as the settings say
 };
 

@@ -134,7 +134,7 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
 }
 
 void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
-  const std::string unit = context.snapshot.gain_unit;
+  const std::string& unit = r.gain_unit.empty() ? context.snapshot.gain_unit : r.gain_unit;
   const std::string from = r.view < 0 ? (r.overridden ? "your custom view" : "the start view")
                                       : fmt::format("candidate {}{}", r.view, r.overridden ? ", your choice" : "");
   table_row("taken from", from);

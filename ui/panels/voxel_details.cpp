@@ -148,6 +148,11 @@ void draw_gibbs(const PanelContext& context, const VoxelInspection& voxel) {
     draw_trace(context, voxel.trace, s.gibbs->config.model.levels());
   }
   if (voxel.conditional) {
+    if ((*s.gibbs->voxels)[voxel.voxel].probability != s.gibbs->posterior->occupied[voxel.voxel])
+      small_text(
+          context.style,
+          "Its p is that the surface touches it, read out from the levels and rays around it, too. Its own level "
+          "says how many rays it stops:");
     small_text(context.style,
                fmt::format("full conditional, given the rest of the last map of chain 1; {} rays have a say",
                            voxel.conditional->rays.size()));

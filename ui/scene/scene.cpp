@@ -177,6 +177,15 @@ void Scene::annotate() {
     if (legends)
       overlay_->item->legends.insert(overlay_->item->legends.end(), layer->legends().begin(), layer->legends().end());
   }
+  if (overlay_->item->backed) drop_legends_without_room();
+}
+
+/// In a low window: those of candidates first, of voxels last.
+void Scene::drop_legends_without_room() {
+  constexpr double foot = 56.0;  // [px] for axes and scale bar
+  const double room = renderer_->GetSize()[1] / overlay_->item->scale - foot;
+  std::vector<Legend>& legends = overlay_->item->legends;
+  while (!legends.empty() && overlay_->item->legends_height() > room) legends.erase(legends.begin());
 }
 
 std::vector<Vector3> Scene::outline() const {

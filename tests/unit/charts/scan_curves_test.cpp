@@ -31,6 +31,11 @@ class ScanCurves : public testing::Test {
     for (const ChartSeries& series : chart.series) names.push_back(series.name);
     return names;
   }
+  /// All views are chosen by a planner of this unit.
+  void plan_in(const std::string& unit) {
+    course_.gain_unit = unit;
+    for (StepRecord& r : records_) r.gain_unit = unit;
+  }
   std::vector<std::string> titles() const {
     std::vector<std::string> titles;
     for (const ChartContent& chart : scan_charts(course_)) titles.push_back(chart.title);
@@ -78,8 +83,31 @@ TEST_F(ScanCurves, ARecordingsViewsAreComparedWithOtherOrders) {
   EXPECT_EQ(chart.y_high, 100.0);
 }
 
+TEST_F(ScanCurves, TheEntropyOfTwoMapsIsTwoCurves) {
+  records_[1].refinement.emplace();
+  const ChartContent chart = entropy_chart(course_);
+  EXPECT_THAT(names(chart), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)", "total, Gibbs map"));
+  EXPECT_THAT(chart.series.at(1).x, ElementsAre(0, 1));
+  EXPECT_THAT(chart.series.at(2).x, ElementsAre(0, 2));
+  EXPECT_THAT(chart.series.at(2).y, ElementsAre(4, 6));
+  records_[0].refinement.emplace();
+  EXPECT_THAT(names(entropy_chart(course_)), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)"));
+}
+
+TEST_F(ScanCurves, WhatWasExpectedInAnotherUnitIsNotDrawn) {
+  plan_in("cm²");
+  records_[0].gain_unit = "nats";
+  const ChartContent surface = gain_chart(course_);
+  EXPECT_THAT(surface.series.at(0).x, ElementsAre(1, 2));
+  EXPECT_THAT(surface.series.at(1).x, ElementsAre(2));
+  course_.gain_unit = "nats";
+  const ChartContent nats = gain_chart(course_);
+  EXPECT_THAT(nats.series.at(1).x, ElementsAre(1));
+  EXPECT_THAT(nats.series.at(1).y, ElementsAre(11));
+}
+
 TEST_F(ScanCurves, NewSurfaceIsComparedWithWhatWasExpected) {
-  course_.gain_unit = "cm²";
+  plan_in("cm²");
   const ChartContent chart = gain_chart(course_);
   EXPECT_THAT(names(chart), ElementsAre("seen", "expected"));
   EXPECT_THAT(chart.series.at(0).x, ElementsAre(1, 2)) << "before the first view there is none";
@@ -89,7 +117,7 @@ TEST_F(ScanCurves, NewSurfaceIsComparedWithWhatWasExpected) {
 }
 
 TEST_F(ScanCurves, NobodyExpectedAnythingOfTheStartView) {
-  course_.gain_unit = "cm²";
+  plan_in("cm²");
   auto records = std::vector<StepRecord>(course_.records.begin(), course_.records.end());
   records.front().view = -1;
   course_.records = records;
@@ -99,14 +127,14 @@ TEST_F(ScanCurves, NobodyExpectedAnythingOfTheStartView) {
 }
 
 TEST_F(ScanCurves, AGainOfAnotherUnitStandsBesideTheEntropyThatWasLost) {
-  course_.gain_unit = "voxels";
+  plan_in("voxels");
   const ChartContent chart = gain_chart(course_);
   EXPECT_EQ(chart.title, "Gain predicted [voxels] and realised [nats]");
   EXPECT_THAT(names(chart), ElementsAre("realised (Eq. 12)", "predicted"));
   EXPECT_THAT(chart.series.at(0).y, ElementsAre(17, 18));
   EXPECT_THAT(chart.series.at(1).y, ElementsAre(11, 12));
   EXPECT_EQ(chart.y_unit, "") << "they have two";
-  course_.gain_unit.clear();
+  plan_in("");
   EXPECT_EQ(gain_chart(course_).title, "Gain predicted and realised [nats]");
 }
 

@@ -122,6 +122,27 @@ TEST_F(ScanFiles, ScoresHaveEachCandidateOfEachStep) {
   }
 }
 
+/// Files with the gain changed to one of another unit in the middle of the scan.
+TEST_F(ScanFiles, EachRowSaysTheUnitOfItsGainWhereTheyDiffer) {
+  session = std::make_unique<Session>(small_scan());
+  session->step();
+  session->step();
+  PlanningConfig entropy = session->planning();
+  entropy.planner.gain = "average-entropy";
+  session->set_planning(entropy);
+  session->step();
+  OutputFolder out = begun(folder_);
+  write_scan(*session, out);
+  const CsvTable steps = table("steps.csv"), scores = table("scores.csv");
+  EXPECT_EQ(steps.text(0, "gain_unit"), "");
+  EXPECT_EQ(steps.text(1, "gain_unit"), "cm²");
+  EXPECT_EQ(steps.text(2, "gain_unit"), "nats");
+  EXPECT_EQ(steps.number(1, "gain"), record(1).gain);
+  EXPECT_EQ(scores.text(0, "gain_unit"), "cm²");
+  EXPECT_EQ(scores.text(10, "gain_unit"), "nats") << "ranked anew";
+  EXPECT_EQ(scores.number(10, "gain"), record(1).candidates[0].gain);
+}
+
 TEST_F(ScanFiles, ViewsAreThePosesThatWereTaken) {
   scan(housing());
   const CsvTable views = table("views.csv");

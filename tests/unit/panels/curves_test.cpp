@@ -56,6 +56,7 @@ TEST(Curves, EachShowsItsColumnInItsUnit) {
 TEST(Curves, NewSurfaceIsExpectedAndSeenInOneUnit) {
   const auto s = made_scan();
   s->gain_unit = "cm²";
+  for (StepRecord& r : s->records) r.gain_unit = s->gain_unit;
   const ChartContent gain = curve_content(*s, CurveKind::gain);
   EXPECT_THAT(names(gain), ElementsAre("seen", "expected"));
   EXPECT_THAT(last(gain), ElementsAre(214, 12.5));

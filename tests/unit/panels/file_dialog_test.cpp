@@ -88,12 +88,20 @@ TEST_F(FileDialogTest, WhatCannotBeOpenedComesLast) {
   EXPECT_EQ(done(), "open " + quoted(path("parts/about the bracket.pdf"))) << "which says why not";
 }
 
-TEST_F(FileDialogTest, APathThatIsNotThereOpensNothingElse) {
+TEST_F(FileDialogTest, APathThatIsNotThereOpensNothingAndCanBeMended) {
   begin("open");
   desk_.write("gone/brac");
   desk_.frames();
   desk_.type(Key::enter);
-  EXPECT_EQ(done(), "open " + quoted(path("parts/gone/brac"))) << "which says that it is not there";
+  EXPECT_EQ(done(), "");
+  EXPECT_TRUE(is_open());
+  EXPECT_THAT(read("File"), testing::HasSubstr("brac: there is no such file"));
+  desk_.type_with(key('A'), true);
+  desk_.write(path("parts/brac"));
+  desk_.frames();
+  EXPECT_THAT(read("File"), testing::Not(testing::HasSubstr("there is no such file"))) << "another is being written";
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/bracket.stl")));
   begin("open");
   EXPECT_THAT(read("File"), testing::HasSubstr("bracket.stl")) << "the folder is seen before Enter";
 }
@@ -131,6 +139,27 @@ TEST_F(FileDialogTest, AnEndingThatIsLeftOutIsAddedBeforeItAsks) {
   EXPECT_THAT(read("File"), testing::HasSubstr("mine.nextview is there already."));
   desk_.type(Key::enter);
   EXPECT_EQ(done(), "record " + quoted(path("parts/mine.nextview")));
+}
+
+TEST_F(FileDialogTest, AnExportIsProposedANameThatNoSessionHas) {
+  begin("export");
+  desk_.type_with(key('A'), true);
+  desk_.write(path("parts/my_scan"));
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "export " + quoted(path("parts/my_scan")));
+  for (const char* next : {"my_scan-2", "my_scan-3"}) {
+    std::filesystem::create_directories(folder_ / "parts/my_scan");
+    std::ofstream(folder_ / "parts/my_scan/journal") << "{}";
+    if (next == std::string("my_scan-3")) {
+      std::filesystem::create_directories(folder_ / "parts/my_scan-2");
+      std::ofstream(folder_ / "parts/my_scan-2/journal") << "{}";
+    }
+    desk_.window.file_for = "export";
+    desk_.frames();
+    desk_.type(Key::enter);
+    EXPECT_EQ(done(), "export " + quoted(path("parts") + "/" + next));
+  }
 }
 
 TEST_F(FileDialogTest, AnObjectThatComesWithTheProgramIsOpenedByItsName) {

@@ -148,7 +148,9 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   gibbs.views = 1;
   std::vector<Voxel> voxels = *scan_->voxels;
   voxels[voxel_] = {0.25f, 0.4375f, VoxelClass::unknown, true, 0};
-  gibbs.posterior = std::make_shared<const GibbsPosterior>();
+  GibbsPosterior posterior;
+  posterior.occupied.assign(voxels.size(), 0.125f);
+  gibbs.posterior = std::make_shared<const GibbsPosterior>(posterior);
   gibbs.voxels = LaidOutVoxels(voxels);
   scan_->gibbs = std::make_shared<const GibbsMap>(gibbs);
   FullConditional f;
@@ -159,6 +161,7 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   std::string text = panel();
   EXPECT_THAT(text, HasSubstr("Gibbs p 0.250, unknown, 0.44 nats"));
   EXPECT_THAT(text, HasSubstr("The Gibbs map is of the first 1 views."));
+  EXPECT_THAT(text, HasSubstr("Its p is that the surface touches it")) << "0.25 is no level's";
   EXPECT_THAT(text, HasSubstr("3 rays have a say free 0.8750 occupied 0.1250 log odds of occupied against free: -2.25, "
                               "of these prior -2.00, rays for it +1.25, against it -1.50"));
   f.probability = {0.5, 0.25, 0.25};

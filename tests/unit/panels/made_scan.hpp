@@ -14,7 +14,7 @@ inline std::shared_ptr<SessionSnapshot> made_scan() {
   r.view = 5;
   s->state.known.taken.at(1).wanted = s->state.candidates.at(5);
   r.overridden = false;
-  r.gain = 12.5;
+  r.gain = 12.5, r.gain_unit = "nats";
   r.utility = 0.375;
   r.realised_gain = 321;
   r.new_surface = 214;

@@ -4,6 +4,7 @@
 #include "core/evaluation/entropy.hpp"
 #include "core/gain/new_surface.hpp"
 #include "core/gain/view_score.hpp"
+#include "core/planner/new_surface_policy.hpp"
 #include "core/planner/open_border.hpp"
 #include "core/session/session.hpp"
 #include "tests/unit/session/small_scan.hpp"
@@ -97,6 +98,30 @@ TEST(GibbsSession, NewSurfaceIsExpectedOfThePosterior) {
     differ += areas[v] != conventional[v];
   }
   EXPECT_GT(differ, views.size() / 2);
+}
+
+// What the Gibbs gain expects of a view is in nats: it is no promise of so many cm².
+TEST(GibbsSession, AViewOfAnotherGainPromisedNoNewSurface) {
+  Session session(small_scan());
+  session.step();
+  session.step();
+  const PlanningConfig by_surface = session.planning();
+  PlanningConfig by_entropy = by_surface;
+  by_entropy.planner.gain = "gibbs";
+  session.set_planning(by_entropy);
+  session.step();
+  EXPECT_EQ(session.records().back().gain_unit, "nats");
+  EXPECT_GT(session.records().back().gain, 100.0);
+  const std::vector<TakenView>& taken = session.state().known.taken;
+  EXPECT_EQ(taken[0].expected_new_surface, 0.0) << "the start view";
+  EXPECT_EQ(taken[1].expected_new_surface, session.records()[1].gain);
+  EXPECT_EQ(taken[2].expected_new_surface, 0.0);
+  const double kept = promise_kept(std::span(taken).first(2));
+  EXPECT_EQ(promise_kept(taken), kept);
+  session.set_planning(by_surface);
+  session.step();
+  EXPECT_EQ(session.records().back().gain_unit, "cm²");
+  EXPECT_GT(session.state().known.taken[3].expected_new_surface, 0.0);
 }
 
 TEST(GibbsSession, EntropyAddsUpFromStepToStep) {
