@@ -95,6 +95,8 @@ TEST_F(ViewPanel, ATakenViewsNumbersAreThoseOfItsRecord) {
   scan_->records[1].overridden = false;
   EXPECT_THAT(panel(), HasSubstr("taken from the start view predicted none new surface 214 cm² realised 321 nats"));
   scan_->gain_unit = "cm²";  // then both are surface
+  EXPECT_THAT(panel(), HasSubstr("new surface 214 cm² realised 321 nats")) << "it was chosen by a gain in nats";
+  scan_->records[1].gain_unit = "";
   EXPECT_THAT(panel(), HasSubstr("predicted none realised 214 cm² entropy lost 321 nats"));
 }
 
