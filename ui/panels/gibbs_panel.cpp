@@ -120,7 +120,7 @@ void GibbsPanel::draw_controls(const PanelContext& context) {
       out_of_bounds_ =
           typed == value ? "" : fmt::format("{} are whole, from {:.0f} to {:.0f}.", name, argument.low, argument.high);
     }
-    tooltip(argument.help);
+    tooltip(argument.help + "; of the next run alone: it changes no setting, and keeps the scan");
   };
   const auto& refine = command::refine;
   number("##chains", "Chains", chains_, refine.arguments()[0]);

@@ -23,7 +23,7 @@ void draw_row(const PanelContext& context, const ScoreExplanation::Voxel& voxel,
   const Vector3 centre = centre_of(voxel, s.grid.resolution);
   const bool in_grid = s.grid.contains(s.grid.cell_at(centre));
   const int decimals = s.grid.resolution < 2e-3 ? 1 : 0;
-  if (ImGui::Selectable(fmt::format("{:.{}f}##{}", 1e3 * distance, decimals, index).c_str(), false,
+  if (ImGui::Selectable(fmt::format("{:.{}f}##{}", 1e3 * std::max(distance, 0.0), decimals, index).c_str(), false,
                         ImGuiSelectableFlags_SpanAllColumns) &&
       in_grid)
     context.post(command::inspect_voxel(centre.x(), centre.y(), centre.z()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/file/counted.hpp"
 #include "core/setting/area_text.hpp"
@@ -20,8 +21,11 @@ constexpr float label_width = 158, start_width = 20, picture_width = 60, picture
 
 /// What a view came to, in a few characters.
 std::string brief(const SessionSnapshot& s, const StepRecord& record) {
-  if (record.coverage_recorded) return fmt::format("{:.0f} %", 100 * *record.coverage_recorded);
-  return s.is_evaluated() ? fmt::format("{:.0f} %", 100 * record.coverage_visible) : area_text(record.new_surface);
+  const auto percent = [](double share) {  // 99.6 % is not all of it
+    return fmt::format("{:.0f} %", share < 1 ? std::min(std::round(100 * share), 99.0) : 100.0);
+  };
+  if (record.coverage_recorded) return percent(*record.coverage_recorded);
+  return s.is_evaluated() ? percent(record.coverage_visible) : area_text(record.new_surface);
 }
 
 std::string details(const SessionSnapshot& s, std::size_t view, const TimelineStep& step) {
