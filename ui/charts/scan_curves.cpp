@@ -21,7 +21,7 @@ void add_series(ChartContent& content, const ScanCourse& course, const std::vect
                 std::optional<double> at_start = {}) {
   for (const Value& value : values) {
     ChartSeries series{value.name, {}, {}};
-    if (at_start) {
+    if (at_start && (course.records.empty() || value.is_there(course.records.front()))) {
       series.x.push_back(0);
       series.y.push_back(*at_start);
     }
