@@ -96,6 +96,8 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     if (is<request::Step>(request)) {
       log_branch(before, s, log_);
       log_view(s, log_);
+    } else {
+      log_.add(Level::note, fmt::format("At view {} again", s.records.size()));
     }
   } else if (is<request::SetTermination>(request)) {
     if (s.finished != before.finished)

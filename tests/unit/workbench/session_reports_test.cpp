@@ -38,6 +38,11 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   worker_.post(request::Undo{});
   wait_until_idle();
   expect_last(Level::note, "Back at view 1");
+  worker_.post(request::Redo{});
+  wait_until_idle();
+  expect_last(Level::note, "At view 2 again");
+  worker_.post(request::Undo{});
+  wait_until_idle();
   worker_.post(request::TakeView{other});
   step();
   expect_last(Level::note, fmt::format("View 2 from candidate {} (your choice)", other) + measured());
