@@ -182,8 +182,8 @@ GibbsPosterior sample_posterior(const RayLists& lists, const PosteriorSamplerCon
   config.validate();
   const std::size_t voxels = lists.grid().voxel_count();
   require_fitting(start_map, warm, voxels, config);
-  constexpr std::uint64_t bytes_per_voxel = 32;  // of a chain's map, state and sums
-  require_memory(bytes_per_voxel * voxels * std::uint64_t(config.chains),
+  constexpr std::uint64_t of_chain = 32, of_posterior = 35;  // [bytes a voxel] map, state and sums; means and read-outs
+  require_memory(voxels * (of_chain * std::uint64_t(config.chains) + of_posterior),
                  fmt::format("gibbs: {} chains of {} voxels", config.chains, voxels),
                  "use fewer chains (gibbs.chains) or a coarser map");
   GibbsPosterior posterior = start_of(lists.grid(), warm);
