@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "core/gibbs/sites.hpp"
 #include "core/gibbs/weighted_logs.hpp"
 
 namespace nextview {
@@ -17,21 +19,13 @@ float kept_log_odds(float p) {
   return WeightedLogs::log(p / (1.0f - p));
 }
 
-/// Sites, and the voxels up to two away from where a ray may have ended: as far as planes through such places reach.
-BitRows around_sites(const VoxelGrid& grid, const Sites& sites) {
-  BitRows around(grid.size);
-  for (const std::uint32_t v : sites.near_voxels) around.set(grid.cell(v));
-  for (int voxels = 0; voxels < 2; ++voxels) around.grow({});
-  for (const std::uint32_t v : sites.front_voxels) around.set(grid.cell(v));
-  return around;
-}
-
 }  // namespace
 
-ReadOutRays read_out_rays(const RayLists& lists) {
+ReadOutRays read_out_rays(const RayLists& lists, const BitRows* asked) {
   std::vector<RayCount> counts(lists.grid().voxel_count());
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t v) {
     const auto voxel = static_cast<std::uint32_t>(v);
+    if (asked && !asked->at(lists.grid().cell(voxel))) return;
     RayCount& count = counts[v];
     for (const RayLists::FrontEntry entry : lists.front(voxel)) count.passed += float(lists.weight(entry.ray()));
     for (const RayLists::NearEntry entry : lists.near(voxel)) {
@@ -49,13 +43,17 @@ ReadOutRays read_out_rays(const RayLists& lists) {
   return {std::move(counts), RayEnds(lists)};
 }
 
-ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers)
+ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers,
+                                 const BitRows* heard)
     : posterior_(posterior), rays_(rays) {
   const Eigen::Vector3i& size = posterior.grid.size;
   const std::size_t layer = std::size_t(size.x()) * size.y();
   first_word_ = layer * std::size_t(std::max(0, layers.first - 1));
   words_.resize(layer * std::size_t(std::min(size.z(), layers.last + 1)) - first_word_);
-  for (std::size_t k = 0; k < words_.size(); ++k) words_[k] = word_of(static_cast<std::uint32_t>(first_word_ + k));
+  for (std::size_t k = 0; k < words_.size(); ++k) {
+    const auto voxel = static_cast<std::uint32_t>(first_word_ + k);
+    if (!heard || heard->at(posterior.grid.cell(voxel))) words_[k] = word_of(voxel);
+  }
 }
 
 ReadOutFeatures::Word ReadOutFeatures::word_of(std::uint32_t voxel) const {
@@ -152,18 +150,19 @@ ReadOutFeatures::Vector ReadOutFeatures::of(std::uint32_t voxel) const {
           wide.incidence};
 }
 
-void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights, const Sites* sites) {
+void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights, const BitRows* asked) {
   constexpr int thickness = 8;  // layers at a time, so that what is made ready for them takes little memory
   posterior.touch.resize(posterior.occupied.size(), 0.5f);
   posterior.centre.resize(posterior.occupied.size(), 0.5f);
   const Eigen::Vector3i& size = posterior.grid.size;
-  const BitRows asked = sites ? around_sites(posterior.grid, *sites) : BitRows(size).complement();
+  std::optional<BitRows> heard;
+  if (asked) heard = with_neighbours(*asked);
   tbb::parallel_for(0, (size.z() + thickness - 1) / thickness, [&](int block) {
     const ReadOutFeatures::Layers layers{block * thickness, std::min(size.z(), (block + 1) * thickness)};
-    const ReadOutFeatures features(posterior, rays, layers);
+    const ReadOutFeatures features(posterior, rays, layers, heard ? &*heard : nullptr);
     const auto voxels_before = [&](int z) { return posterior.grid.index({0, 0, z}); };
     for (std::uint32_t v = voxels_before(layers.first); v < voxels_before(layers.last); ++v) {
-      if (!asked.at(posterior.grid.cell(v))) continue;
+      if (asked && !asked->at(posterior.grid.cell(v))) continue;
       posterior.touch[v] = posterior.centre[v] = 0.5f;
       if (!posterior.informed[v]) continue;
       const ReadOutFeatures::Vector x = features.of(v);

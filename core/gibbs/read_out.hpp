@@ -6,7 +6,6 @@
 
 #include "core/gibbs/gibbs_posterior.hpp"
 #include "core/gibbs/ray_lists.hpp"
-#include "core/gibbs/sites.hpp"
 #include "core/gibbs/surface_patch.hpp"
 
 /// From what the sampler draws to what people ask. Its levels say how many rays a voxel stops. Whether the surface
@@ -31,7 +30,8 @@ struct ReadOutRays {
   std::vector<RayCount> counts;  ///< one a voxel of the lists' grid
   RayEnds ends;
 };
-ReadOutRays read_out_rays(const RayLists& lists);
+/// `asked`: counts of those voxels alone, the others are 0.
+ReadOutRays read_out_rays(const RayLists& lists, const BitRows* asked = nullptr);
 
 /// What the read-out looks at: the posterior and the rays of a voxel, those of the voxels around it, and the planes
 /// through where rays end there (SurfacePatch).
@@ -46,7 +46,9 @@ class ReadOutFeatures {
   };
   /// Of GibbsPosterior::occupied, ::upper and ::informed, which must outlive it as the rays must. `layers`: of() is
   /// asked for no others; it holds what it needs of them and of the two beside.
-  ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers);
+  /// `heard`: those of which no other neighbours are asked for, if given.
+  ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers,
+                  const BitRows* heard = nullptr);
   ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays)
       : ReadOutFeatures(posterior, rays, {0, posterior.grid.size.z()}) {}
   /// Voxels beyond the grid are taken for free ones that rays pass.
@@ -108,9 +110,9 @@ struct ReadOutWeights {
 /// Fitted to made-up parts by tests/benchmarks/posterior_comparison --fit read-outs; nothing else was looked at.
 const ReadOutWeights& fitted_read_out();
 
-/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. `sites`: of those voxels, and of what is up to
-/// two away from where a ray may have ended; the others stay as they are. The same bytes on any number of threads.
+/// Fills in GibbsPosterior::touch and ::centre: 0.5 where not informed. `asked`: of those voxels alone, of which `rays`
+/// need their neighbours' counts, too; the others stay as they are. The same bytes on any number of threads.
 void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutWeights& weights,
-              const Sites* sites = nullptr);
+              const BitRows* asked = nullptr);
 
 }  // namespace nextview

@@ -1,5 +1,7 @@
 #include "core/gibbs/sites.hpp"
 
+#include <utility>
+
 #include "core/random/counter_random.hpp"
 
 namespace nextview {
@@ -35,6 +37,19 @@ Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, st
     (lists.is_near(v) ? sites.near_voxels : sites.front_voxels).push_back(v);
   });
   return sites;
+}
+
+BitRows voxels_read_out(const VoxelGrid& grid, const Sites& sites) {
+  BitRows around(grid.size);
+  for (const std::uint32_t v : sites.near_voxels) around.set(grid.cell(v));
+  around = with_neighbours(with_neighbours(std::move(around)));
+  for (const std::uint32_t v : sites.front_voxels) around.set(grid.cell(v));
+  return around;
+}
+
+BitRows with_neighbours(BitRows voxels) {
+  voxels.grow({});
+  return voxels;
 }
 
 std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSamplerConfig& config,

@@ -3,6 +3,7 @@
 
 #include "core/gibbs/posterior_sampler_config.hpp"
 #include "core/gibbs/ray_lists.hpp"
+#include "core/map/bit_rows.hpp"
 
 namespace nextview {
 
@@ -20,6 +21,12 @@ struct Sites {
 /// no range is near only those that a ray from `first_ray` on passes.
 Sites find_sites(const RayLists& lists, const PosteriorSamplerConfig& config, std::span<const float> start_map,
                  std::uint32_t first_ray = 0);
+
+/// Of which the read-out changes with those sites' levels and rays: they, and the voxels up to two away from where a
+/// ray may have ended, as far as planes through such places reach.
+BitRows voxels_read_out(const VoxelGrid& grid, const Sites& sites);
+/// Those, and the 26 around each.
+BitRows with_neighbours(BitRows voxels);
 
 /// The map that a chain starts from (PosteriorSamplerConfig::start): voxels that no ray observes are free.
 std::vector<std::uint8_t> start_levels(const RayLists& lists, const PosteriorSamplerConfig& config,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/gibbs/posterior_sampler.hpp"
+#include "core/gibbs/sites.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
@@ -266,7 +267,8 @@ TEST(ReadOut, OfSomeSitesIsThatOfAllAroundThem) {
   GibbsPosterior some = all;
   std::ranges::fill(some.touch, 2.0f);
   std::ranges::fill(some.centre, 2.0f);
-  read_out(some, read_out_rays(lists), fitted_read_out(), &sites);
+  const BitRows wanted = voxels_read_out(problem.grid, sites), heard = with_neighbours(wanted);
+  read_out(some, read_out_rays(lists, &heard), fitted_read_out(), &wanted);
   std::size_t asked = 0;
   for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
     const auto steps_from = [&](std::uint32_t site) {
