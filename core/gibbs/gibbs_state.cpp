@@ -40,9 +40,8 @@ std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model
   std::unique_ptr<RayLists> lists;
   {
     const std::scoped_lock lock(latest_lists_->mutex);
-    if (latest_lists_->measurements == refined_) lists = std::move(latest_lists_->lists);
-    latest_lists_->measurements = nullptr;
-    latest_lists_->lists = nullptr;
+    lists = std::move(latest_lists_->lists);
+    if (latest_lists_->measurements != refined_) lists = nullptr;
   }
   try {
     if (lists && measurements_ != refined_) lists->append(measurements_->after(*refined_));
@@ -61,7 +60,6 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
   config.burn_in = std::min(config.burn_in, config.sweeps / 2);
-  RayLists::require_holdable(posterior_->grid);
   if (progress) progress(0.0, listing_rays, {});
   double build_seconds = 0.0;
   std::unique_ptr<RayLists> lists = [&] {
@@ -87,7 +85,6 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
 
 void GibbsState::forget_lists() const {
   const std::scoped_lock lock(latest_lists_->mutex);
-  latest_lists_->measurements = nullptr;
   latest_lists_->lists = nullptr;
 }
 

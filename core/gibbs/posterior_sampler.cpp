@@ -105,8 +105,8 @@ void read_out(GibbsPosterior& posterior, const RayLists& lists, const Sites* sit
               const PosteriorSamplerConfig& config) {
   if (config.read_out == ReadOut::fitted && draws_as_fitted(config)) {
     if (!sites) return read_out(posterior, read_out_rays(lists), fitted_read_out());
-    const BitRows asked = voxels_read_out(lists.grid(), *sites), heard = with_neighbours(asked);
-    read_out(posterior, read_out_rays(lists, &heard), fitted_read_out(), &asked);
+    const BitRows asked = voxels_read_out(lists.grid(), *sites);
+    read_out(posterior, read_out_rays(lists, with_neighbours(asked)), fitted_read_out(), &asked);
   } else {
     posterior.touch = posterior.centre = posterior.occupied;
   }

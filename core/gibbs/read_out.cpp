@@ -5,9 +5,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
-#include "core/gibbs/sites.hpp"
 #include "core/gibbs/weighted_logs.hpp"
 
 namespace nextview {
@@ -21,11 +20,11 @@ float kept_log_odds(float p) {
 
 }  // namespace
 
-ReadOutRays read_out_rays(const RayLists& lists, const BitRows* asked) {
+ReadOutRays read_out_rays(const RayLists& lists, std::optional<BitRows> counted) {
   std::vector<RayCount> counts(lists.grid().voxel_count());
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t v) {
     const auto voxel = static_cast<std::uint32_t>(v);
-    if (asked && !asked->at(lists.grid().cell(voxel))) return;
+    if (counted && !counted->at(lists.grid().cell(voxel))) return;
     RayCount& count = counts[v];
     for (const RayLists::FrontEntry entry : lists.front(voxel)) count.passed += float(lists.weight(entry.ray()));
     for (const RayLists::NearEntry entry : lists.near(voxel)) {
@@ -40,11 +39,10 @@ ReadOutRays read_out_rays(const RayLists& lists, const BitRows* asked) {
     }
     if (count.near > 0.0f) count.behind /= count.near;
   });
-  return {std::move(counts), RayEnds(lists)};
+  return {std::move(counts), RayEnds(lists), std::move(counted)};
 }
 
-ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers,
-                                 const BitRows* heard)
+ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers)
     : posterior_(posterior), rays_(rays) {
   const Eigen::Vector3i& size = posterior.grid.size;
   const std::size_t layer = std::size_t(size.x()) * size.y();
@@ -52,7 +50,7 @@ ReadOutFeatures::ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutR
   words_.resize(layer * std::size_t(std::min(size.z(), layers.last + 1)) - first_word_);
   for (std::size_t k = 0; k < words_.size(); ++k) {
     const auto voxel = static_cast<std::uint32_t>(first_word_ + k);
-    if (!heard || heard->at(posterior.grid.cell(voxel))) words_[k] = word_of(voxel);
+    if (!rays.counted || rays.counted->at(posterior.grid.cell(voxel))) words_[k] = word_of(voxel);
   }
 }
 
@@ -155,11 +153,9 @@ void read_out(GibbsPosterior& posterior, const ReadOutRays& rays, const ReadOutW
   posterior.touch.resize(posterior.occupied.size(), 0.5f);
   posterior.centre.resize(posterior.occupied.size(), 0.5f);
   const Eigen::Vector3i& size = posterior.grid.size;
-  std::optional<BitRows> heard;
-  if (asked) heard = with_neighbours(*asked);
   tbb::parallel_for(0, (size.z() + thickness - 1) / thickness, [&](int block) {
     const ReadOutFeatures::Layers layers{block * thickness, std::min(size.z(), (block + 1) * thickness)};
-    const ReadOutFeatures features(posterior, rays, layers, heard ? &*heard : nullptr);
+    const ReadOutFeatures features(posterior, rays, layers);
     const auto voxels_before = [&](int z) { return posterior.grid.index({0, 0, z}); };
     for (std::uint32_t v = voxels_before(layers.first); v < voxels_before(layers.last); ++v) {
       if (asked && !asked->at(posterior.grid.cell(v))) continue;

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/gibbs/gibbs_posterior.hpp"
@@ -29,9 +30,9 @@ struct RayCount {
 struct ReadOutRays {
   std::vector<RayCount> counts;  ///< one a voxel of the lists' grid
   RayEnds ends;
+  std::optional<BitRows> counted = {};  ///< the voxels that counts are of, those of others are 0; none: of all
 };
-/// `asked`: counts of those voxels alone, the others are 0.
-ReadOutRays read_out_rays(const RayLists& lists, const BitRows* asked = nullptr);
+ReadOutRays read_out_rays(const RayLists& lists, std::optional<BitRows> counted = {});
 
 /// What the read-out looks at: the posterior and the rays of a voxel, those of the voxels around it, and the planes
 /// through where rays end there (SurfacePatch).
@@ -45,10 +46,8 @@ class ReadOutFeatures {
     int first, last;  ///< the second is not among them
   };
   /// Of GibbsPosterior::occupied, ::upper and ::informed, which must outlive it as the rays must. `layers`: of() is
-  /// asked for no others; it holds what it needs of them and of the two beside.
-  /// `heard`: those of which no other neighbours are asked for, if given.
-  ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers,
-                  const BitRows* heard = nullptr);
+  /// asked for no others; it holds what it needs of them and of the two beside, as far as rays are counted there.
+  ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays, const Layers& layers);
   ReadOutFeatures(const GibbsPosterior& posterior, const ReadOutRays& rays)
       : ReadOutFeatures(posterior, rays, {0, posterior.grid.size.z()}) {}
   /// Voxels beyond the grid are taken for free ones that rays pass.

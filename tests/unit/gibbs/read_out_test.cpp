@@ -267,8 +267,8 @@ TEST(ReadOut, OfSomeSitesIsThatOfAllAroundThem) {
   GibbsPosterior some = all;
   std::ranges::fill(some.touch, 2.0f);
   std::ranges::fill(some.centre, 2.0f);
-  const BitRows wanted = voxels_read_out(problem.grid, sites), heard = with_neighbours(wanted);
-  read_out(some, read_out_rays(lists, &heard), fitted_read_out(), &wanted);
+  const BitRows wanted = voxels_read_out(problem.grid, sites);
+  read_out(some, read_out_rays(lists, with_neighbours(wanted)), fitted_read_out(), &wanted);
   std::size_t asked = 0;
   for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {
     const auto steps_from = [&](std::uint32_t site) {
