@@ -1,9 +1,8 @@
 #include "core/map/brick_kinds.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
-
-#include "core/map/bit_mask.hpp"
 
 namespace nextview {
 namespace {
@@ -24,12 +23,13 @@ float least_log_odds(double probability) {
   return from;
 }
 
+/// `flags` are 0 or 1.
 void pack(const std::array<std::uint8_t, VoxelBricks::brick_voxels>& flags, BrickKinds::Rows& rows) {
-  for (std::size_t row = 0; row < rows.size(); row += BrickKinds::edge) {
-    const std::uint64_t layer =
-        packed(&flags[row * BrickKinds::edge], std::size_t{BrickKinds::edge} * BrickKinds::edge);
-    for (std::size_t y = 0; y < BrickKinds::edge; ++y)
-      rows[row + y] = static_cast<std::uint8_t>(layer >> (BrickKinds::edge * y));
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    std::uint64_t eight;
+    std::memcpy(&eight, &flags[row * sizeof eight], sizeof eight);
+    constexpr std::uint64_t gather = 0x0102040810204080;  // the product has them side by side at its top
+    rows[row] = static_cast<std::uint8_t>(eight * gather >> 56);
   }
 }
 

@@ -10,7 +10,7 @@ namespace nextview {
 inline constexpr std::int32_t infinitely_far = 1 << 28;
 
 /// The squared distance from the centre of each voxel of `from` to that of the nearest of `to` [voxels^2], exactly
-/// (Meijster et al. 2000), in their order, x fastest. The same on any number of threads.
+/// (Saito and Toriwaki 1994), in their order, x fastest. The same on any number of threads.
 /// @throws std::invalid_argument if they are not of the same size.
 std::vector<std::int32_t> squared_distances(const BitRows& from, const BitRows& to);
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/unit/map/instruction_sets.hpp"
 #include "tests/unit/map/made_rows.hpp"
 
 namespace nextview {
@@ -30,7 +31,10 @@ void expect_brute_force(const BitRows& from, const BitRows& to) {
 const Vector3i sizes[] = {{1, 1, 1},   {7, 1, 1}, {1, 9, 1}, {1, 1, 5},  {13, 11, 1}, {1, 7, 17}, {9, 1, 5},  {8, 3, 2},
                           {11, 13, 7}, {3, 5, 9}, {2, 2, 2}, {29, 3, 2}, {64, 3, 2},  {65, 2, 3}, {131, 3, 2}};
 
-TEST(DistanceTransform, IsWhatComparingAllVoxelsFinds) {
+class DistanceTransformOn : public OnInstructionSet {};
+INSTANTIATE_TEST_SUITE_P(InstructionSets, DistanceTransformOn, instruction_sets(), instruction_set_name);
+
+TEST_P(DistanceTransformOn, IsWhatComparingAllVoxelsFinds) {
   std::mt19937 random(1);
   for (const Vector3i& size : sizes)
     for (const double to : {0.003, 0.02, 0.3, 0.9})
