@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/unit/map/instruction_sets.hpp"
+
 namespace nextview {
 namespace {
 
@@ -86,7 +88,10 @@ std::vector<Eigen::Vector3f> border_by_brute_force(const ScannedSurface& surface
   return border;
 }
 
-TEST(SurfaceBorder, AgreesWithComparingAllPoints) {
+class SurfaceBorderOn : public OnInstructionSet {};
+INSTANTIATE_TEST_SUITE_P(InstructionSets, SurfaceBorderOn, instruction_sets(), instruction_set_name);
+
+TEST_P(SurfaceBorderOn, AgreesWithComparingAllPoints) {
   PointCloud points = part_of_sphere(-0.2f);
   std::mt19937 generator(4);
   std::normal_distribution<float> noise(0.0f, 0.0015f);
