@@ -110,12 +110,18 @@ class Parts {
   std::size_t count() const { return std::size_t(parts_.prod()); }
   /// In which a voxel lies, by its place with margin.
   std::size_t of(std::uint32_t place) const {
-    const std::uint32_t x = place % row_ - 1, y = place % layer_ / row_ - 1, z = place / layer_ - 1;
-    return (std::size_t(z >> 3) * std::size_t(parts_.y()) + (y >> 3)) * std::size_t(parts_.x()) + (x >> 3);
+    const std::uint32_t z = whole(place * per_layer_), in_layer = place - z * layer_;
+    const std::uint32_t y = whole(in_layer * per_row_), x = in_layer - y * row_;
+    return (part_of(z) * std::size_t(parts_.y()) + part_of(y)) * std::size_t(parts_.x()) + part_of(x);
   }
 
  private:
+  /// Rounded down; a quotient that is whole may have come out a little less. Divisions of integers take longer.
+  static std::uint32_t whole(double quotient) { return static_cast<std::uint32_t>(quotient + 1e-8); }
+  static std::size_t part_of(std::uint32_t with_margin) { return (with_margin - 1) / 8; }
+
   std::uint32_t row_, layer_;
+  double per_row_ = 1.0 / row_, per_layer_ = 1.0 / layer_;
   Eigen::Vector3i parts_;  ///< along each axis
 };
 

@@ -122,8 +122,6 @@ void SurfaceEvidence::measure_border(const OpenBorder& border) {
       if (blocks_.contains(block)) going_on_[blocks_.index(block)] += length;
     }
   }
-  for (float& of_block : going_on_)
-    if (of_block > 0.0f) of_block = std::log1p(4.0f * of_block);
 }
 
 float SurfaceEvidence::log_share(std::size_t squared_distance) const {
@@ -179,14 +177,20 @@ CoarseNormal SurfaceEvidence::normal(const Eigen::Vector3i& block) const {
 }
 
 SurfaceEvidence::Measured SurfaceEvidence::measured(const Eigen::Vector3i& cell) const {
+  static const auto logarithms = [] {  // ln(1 + neighbours)
+    std::array<float, 27> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::log1p(float(i));
+    return all;
+  }();
   const Eigen::Vector3i in_whole = cell + offset_;
   const int unmeasured = unmeasured_.neighbours(cell), occupied = occupied_.neighbours(cell);
+  const float going_on = going_on_[blocks_.index(block_of(cell))];
   return {1.0f,
           log_odds_of(voxels_.at(in_whole.x(), in_whole.y(), in_whole.z()).probability),
-          std::log1p(float(unmeasured)),
+          logarithms[std::size_t(unmeasured)],
           occupied > 0 ? 1.0f : 0.0f,
           float(occupied),
-          going_on_[blocks_.index(block_of(cell))]};
+          going_on > 0.0f ? std::log1p(4.0f * going_on) : 0.0f};
 }
 
 }  // namespace nextview

@@ -82,7 +82,7 @@ class SurfaceEvidence {
   std::vector<std::uint32_t> blocks_before_;         ///< BitRows::counts_before of unmeasured_blocks_
   std::vector<std::int32_t> to_occupied_, to_free_;  ///< of those, squared [blocks^2]
   VoxelGrid blocks_;
-  std::vector<float> going_on_;    ///< by block: Measured's last
+  std::vector<float> going_on_;    ///< by block: the `length` of Measured's last
   std::vector<float> log_shares_;  ///< by squared distance
 };
 

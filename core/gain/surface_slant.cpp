@@ -7,7 +7,6 @@
 namespace nextview {
 namespace {
 
-/// Of each two opposite ones the one that comes last, x before y before z; the axes first.
 std::vector<Vector3> all_directions() {
   std::vector<Vector3> directions = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
   for (int x = 0; x <= 2; ++x)
@@ -16,11 +15,6 @@ std::vector<Vector3> all_directions() {
         if (std::gcd(x, std::gcd(y, z)) == 1 && x * x + y * y + z * z > 1)
           directions.push_back(Vector3(x, y, z).normalized());
   return directions;
-}
-
-const std::vector<Vector3>& directions() {
-  static const std::vector<Vector3> all = all_directions();
-  return all;
 }
 
 constexpr int ways = 2 * CoarseNormal::farthest + 1;  // along each axis
@@ -32,7 +26,7 @@ std::size_t place_of(const Eigen::Vector3i& way) {
 
 using NearestOfWays = std::array<std::uint8_t, std::size_t{ways} * ways * ways>;
 
-NearestOfWays nearest_of_all_ways() {
+NearestOfWays nearest_of_all_ways(const std::vector<Vector3>& directions) {
   NearestOfWays nearest{};
   for (int z = 0; z < ways; ++z)
     for (int y = 0; y < ways; ++y)
@@ -40,8 +34,8 @@ NearestOfWays nearest_of_all_ways() {
         const Eigen::Vector3i way = Eigen::Vector3i(x, y, z).array() - CoarseNormal::farthest;
         constexpr double rounding = 1e-9;
         double most = 0.0;
-        for (std::size_t d = 0; d < directions().size(); ++d) {
-          const double along = std::abs(directions()[d].dot(way.cast<double>()));
+        for (std::size_t d = 0; d < directions.size(); ++d) {
+          const double along = std::abs(directions[d].dot(way.cast<double>()));
           if (along <= most + rounding) continue;
           most = along;
           nearest[place_of(way)] = static_cast<std::uint8_t>(d);
@@ -52,13 +46,13 @@ NearestOfWays nearest_of_all_ways() {
 
 }  // namespace
 
+const std::vector<Vector3> CoarseNormal::directions = all_directions();
+
 CoarseNormal CoarseNormal::along(const Eigen::Vector3i& way) {
-  static const NearestOfWays nearest = nearest_of_all_ways();
+  static const NearestOfWays nearest = nearest_of_all_ways(directions);
   CoarseNormal normal;
   normal.number_ = nearest[place_of(way)];
   return normal;
 }
-
-const Vector3& CoarseNormal::direction() const { return directions()[number_]; }
 
 }  // namespace nextview

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "core/map/voxel_grid.hpp"
 
@@ -14,7 +15,7 @@ class CoarseNormal {
   /// The nearest to a way that is not zero; where several are, always the same. @pre no component beyond `farthest`
   static CoarseNormal along(const Eigen::Vector3i& way);
 
-  const Vector3& direction() const;  ///< unit
+  const Vector3& direction() const { return directions[number_]; }  ///< unit
   /// Of the angle to a direction of unit length.
   double squared_cosine(const Vector3& direction_of_ray) const {
     const double cosine = direction().dot(direction_of_ray);
@@ -22,6 +23,9 @@ class CoarseNormal {
   }
 
  private:
+  /// Of each two opposite ones the one that comes last, x before y before z; the axes first.
+  static const std::vector<Vector3> directions;
+
   std::uint8_t number_;  // without a value at first, so that large arrays need not be written twice
 };
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "core/progress/stopped.hpp"
@@ -151,32 +152,60 @@ BitRows BitRows::halved() const {
   return half;
 }
 
-template <class Visit>
-void BitRows::for_each_three(const Eigen::Vector3i& cell, Visit visit) const {
+std::uint32_t BitRows::around(const Eigen::Vector3i& cell) const {
   const std::size_t w = std::size_t(cell.x()) / 64;
   const int bit = cell.x() % 64;
-  for (int z = std::max(cell.z() - 1, 0); z <= std::min(cell.z() + 1, size_.z() - 1); ++z)
-    for (int y = std::max(cell.y() - 1, 0); y <= std::min(cell.y() + 1, size_.y() - 1); ++y) {
-      const std::span<const std::uint64_t> words = row(y, z);
-      std::uint64_t three = bit > 0 ? words[w] >> (bit - 1) : words[w] << 1 | (w > 0 ? words[w - 1] >> 63 : 0);
-      if (bit == 63 && w + 1 < words.size()) three |= words[w + 1] << 2;
-      visit(static_cast<unsigned>(three & 7), y - cell.y(), z - cell.z());
-    }
+  const auto is_inside = [&](int axis) { return cell[axis] > 0 && cell[axis] + 1 < size_[axis]; };
+  std::uint32_t flags = 0;
+  if (bit > 0 && bit < 63 && is_inside(1) && is_inside(2)) {  // nearly always
+    const std::uint64_t* const first = &words_[begin(cell.y() - 1, cell.z() - 1) + w];
+    const std::size_t layer = std::size_t(size_.y()) * row_words_;
+    for (std::size_t n = 0; n < 9; ++n)
+      flags |= static_cast<std::uint32_t>(first[n / 3 * layer + n % 3 * row_words_] >> (bit - 1) & 7) << (3 * n);
+    return flags;
+  }
+  for (int n = 0; n < 9; ++n) {
+    const int y = cell.y() + n % 3 - 1, z = cell.z() + n / 3 - 1;
+    if (y < 0 || z < 0 || y >= size_.y() || z >= size_.z()) continue;
+    const std::span<const std::uint64_t> words = row(y, z);
+    std::uint64_t three = bit > 0 ? words[w] >> (bit - 1) : words[w] << 1 | (w > 0 ? words[w - 1] >> 63 : 0);
+    if (bit == 63 && w + 1 < words.size()) three |= words[w + 1] << 2;
+    flags |= static_cast<std::uint32_t>(three & 7) << (3 * n);
+  }
+  return flags;
 }
 
+namespace {
+
+/// Of 3 x 3 flags in a layer: how many are set, and the sum of their ways from the middle.
+struct Nine {
+  std::int8_t count = 0, x = 0, y = 0;
+};
+constexpr auto nines = [] {  // not all processors have an instruction that counts
+  std::array<Nine, 512> all;
+  for (int flags = 0; flags < 512; ++flags)
+    for (int n = 0; n < 9; ++n)
+      if (flags >> n & 1) {
+        Nine& nine = all[std::size_t(flags)];
+        ++nine.count, nine.x += n % 3 - 1, nine.y += n / 3 - 1;
+      }
+  return all;
+}();
+/// Of BitRows::around, from the lowest layer on.
+const Nine& layer_of(std::uint32_t around, int layer) { return nines[around >> (9 * layer) & 511]; }
+
+}  // namespace
+
 int BitRows::neighbours(const Eigen::Vector3i& cell) const {
-  unsigned all = 0;
-  for_each_three(cell, [&](unsigned three, int, int) { all = all << 3 | three; });
-  return std::popcount(all) - at(cell);
+  const std::uint32_t all = around(cell);
+  return layer_of(all, 0).count + layer_of(all, 1).count + layer_of(all, 2).count -
+         int(all >> 13 & 1);  // without itself
 }
 
 Eigen::Vector3i BitRows::ways_to_neighbours(const Eigen::Vector3i& cell) const {
-  constexpr int counts[] = {0, 1, 1, 2, 1, 2, 2, 3};  // of three flags: not all processors have an instruction for it
-  Eigen::Vector3i sum = Eigen::Vector3i::Zero();
-  for_each_three(cell, [&](unsigned three, int y, int z) {
-    sum += Eigen::Vector3i(int(three >> 2) - int(three & 1), counts[three] * y, counts[three] * z);
-  });
-  return sum;
+  const std::uint32_t all = around(cell);
+  const Nine &below = layer_of(all, 0), &beside = layer_of(all, 1), &above = layer_of(all, 2);
+  return {below.x + beside.x + above.x, below.y + beside.y + above.y, above.count - below.count};
 }
 
 std::vector<std::uint32_t> BitRows::counts_before() const {

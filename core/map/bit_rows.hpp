@@ -64,10 +64,8 @@ class BitRows {
   BitMask mask() const;  ///< x fastest, then y, then z
 
  private:
-  /// Calls `visit(flags, y, z)` for the rows around a cell and its own, of which `y` and `z` say how far off they are:
-  /// its flags at x - 1, x and x + 1, the lowest first. Beyond the box there are none.
-  template <class Visit>
-  void for_each_three(const Eigen::Vector3i& cell, Visit visit) const;
+  /// A voxel's flag and its neighbours', x fastest, then y, then z, the lowest first; beyond the box there are none.
+  std::uint32_t around(const Eigen::Vector3i& cell) const;
   std::size_t begin(int y, int z) const { return (std::size_t(z) * size_.y() + y) * row_words_; }
   std::uint64_t& word_of(const Eigen::Vector3i& cell) { return words_[begin(cell.y(), cell.z()) + cell.x() / 64]; }
   void grow_along_rows();
