@@ -31,6 +31,27 @@ std::vector<int> columns_of(const ReportScan& scan, const FigurePaper& paper) {
   return views;
 }
 
+/// What the colours of rays and voxels mean, in two lines from `top` on [px].
+void draw_key(VectorDrawing& drawing, double top, const std::string& along_rays) {
+  constexpr double swatch = 12, line = 20, gap = 6;
+  const auto say = [&](double x, double y, const std::string& words) {
+    drawing.text(x, y + swatch - 1, words, theme::small_text, drawing.look().soft_ink);
+  };
+  const auto shown_as = [&](double x, const Colour& colour, const std::string& words) {
+    drawing.box(x, top, swatch, swatch, colour);
+    say(x + swatch + gap, top, words);
+  };
+  shown_as(panel_margin, theme::occupied, "occupied");
+  shown_as(panel_margin + 92, theme::unknown, "measured but unknown");
+  if (along_rays.empty()) return;  // views at random are not explained
+  constexpr int shades = 24;
+  constexpr double width = 4;
+  const ColourMap map = drawing.look().is_dark() ? ColourMap::contribution().on_dark() : ColourMap::contribution();
+  for (int i = 0; i < shades; ++i)
+    drawing.box(panel_margin + i * width, top + line, width, swatch, map.at(i / double(shades - 1)));
+  say(panel_margin + shades * width + gap, top + line, along_rays + ", none to most");
+}
+
 }  // namespace
 
 VectorDrawing scene_and_octree_figure(std::span<ReportScan> scans, const FigurePaper& paper) {
@@ -75,11 +96,11 @@ VectorDrawing candidate_views_figure(std::span<ReportScan> scans, const FigurePa
 }
 
 VectorDrawing strategy_figure(std::span<ReportScan> scans, const FigurePaper& paper) {
-  constexpr double width = 168, height = 140, label = 92;
+  constexpr double width = 168, height = 140, label = 92, narrowest = 440;  // that has room for the title and the key
   ReportScan& scan = scans.front();
   const std::vector<int> columns = columns_of(scan, paper);
-  VectorDrawing drawing(panel_margin + label + double(columns.size()) * (width + panel_gap),
-                        panel_top + 3 * (height + panel_gap) + 4, paper.look);
+  const double panels = panel_margin + label + double(columns.size()) * (width + panel_gap);
+  VectorDrawing drawing(std::max(panels, narrowest), panel_top + 3 * (height + panel_gap) + 48, paper.look);
   draw_title(drawing, fmt::format("{}: {} view by view", scan.name, scan.session->configuration().planner.gain));
   SceneLayers layers[3] = {no_layers, no_layers, no_layers};
   layers[0].object = layers[0].rays = layers[0].views = true;
@@ -89,8 +110,10 @@ VectorDrawing strategy_figure(std::span<ReportScan> scans, const FigurePaper& pa
   for (int row = 0; row < 3; ++row)
     drawing.text(panel_margin, panel_top + row * (height + panel_gap) + 0.5 * height, names[row], theme::small_text,
                  paper.look.ink);
+  std::string along_rays;
   for (std::size_t column = 0; column < columns.size(); ++column) {
     StepPicture picture = picture_after(scan, std::size_t(columns[column]));
+    if (!picture.rays.empty()) along_rays = picture.ray_values.name;
     picture.point_size = 1.5;
     for (int row = 0; row < 3; ++row) {
       const DrawingArea area{panel_margin + label + double(column) * (width + panel_gap),
@@ -102,6 +125,7 @@ VectorDrawing strategy_figure(std::span<ReportScan> scans, const FigurePaper& pa
                      TextAlign::centre);
     }
   }
+  draw_key(drawing, panel_top + 3 * (height + panel_gap), along_rays);
   return drawing;
 }
 
