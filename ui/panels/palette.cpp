@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "core/file/lower_case.hpp"
@@ -33,13 +34,28 @@ std::size_t values_before_last(const std::string& text) {
   return count - 1 - (text.back() == ' ' ? 0 : 1);
 }
 
-/// At the end of the text, where the user goes on.
-int to_end(ImGuiInputTextCallbackData* data) {
-  if (*static_cast<bool*>(data->UserData)) {
-    data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
-    *static_cast<bool*>(data->UserData) = false;
-  }
-  return 0;
+/// Those of an argument's values that hold what was typed, first those that begin with it.
+std::vector<std::string> values_with(const Argument& argument, const SessionSnapshot& snapshot,
+                                     const std::string& begun) {
+  if (!argument.choices) return {};
+  std::vector<std::string> values = argument.choices(snapshot);
+  std::erase_if(values, [&](const std::string& value) { return value.find(begun) == value.npos; });
+  std::ranges::stable_partition(values, [&](const std::string& value) { return value.starts_with(begun); });
+  return values;
+}
+
+/// Those that may stand where a text ends, which begins with a command's name.
+std::vector<std::string> values_at_end(const std::string& text, const Command& command,
+                                       const SessionSnapshot& snapshot) {
+  const std::size_t at = values_before_last(text);
+  if (at >= command.arguments().size()) return {};
+  return values_with(command.arguments()[at], snapshot, last_word(text));
+}
+
+/// The text with such a value at its end, and a space where more is to come.
+std::string with_value(const std::string& text, const Command& command, const std::string& value) {
+  const bool is_last = values_before_last(text) + 1 >= command.arguments().size();
+  return text.substr(0, text.rfind(' ') + 1) + value + (is_last ? "" : " ");
 }
 
 }  // namespace
@@ -70,8 +86,24 @@ std::vector<const Command*> matching_commands(std::string_view text) {
 void Palette::put(std::string text) {
   text_ = std::move(text);
   put_ = true;
+  forget_choice();
+}
+
+void Palette::forget_choice() {
   chosen_ = 0;
+  is_chosen_ = false;
   error_.clear();
+}
+
+/// Moves the choice along a list by the arrow keys. Whether it moved.
+bool Palette::choose_by_keys(std::size_t count) {
+  const bool down = ImGui::IsKeyPressed(static_cast<int>(Key::down)),
+             up = ImGui::IsKeyPressed(static_cast<int>(Key::up));
+  if (down) ++chosen_;
+  if (up && chosen_ > 0) --chosen_;
+  chosen_ = std::min(chosen_, std::max<std::size_t>(count, 1) - 1);
+  is_chosen_ |= down || up;
+  return down || up;
 }
 
 /// Does what the text says; what is missing or wrong is said instead.
@@ -90,9 +122,7 @@ void Palette::run(const PanelContext& context) {
 
 void Palette::draw_commands(const PanelContext& context) {
   const auto found = matching_commands(text_);
-  if (ImGui::IsKeyPressed(static_cast<int>(Key::down))) ++chosen_;
-  if (ImGui::IsKeyPressed(static_cast<int>(Key::up)) && chosen_ > 0) --chosen_;
-  chosen_ = std::min(chosen_, std::max<std::size_t>(found.size(), 1) - 1);
+  const bool moved = choose_by_keys(found.size());
   const bool enter = ImGui::IsKeyPressed(static_cast<int>(Key::enter), false);
   const Style& style = context.style;
   ImGui::BeginChild("found", {0, std::min(style.px(300), room_)});
@@ -103,9 +133,7 @@ void Palette::draw_commands(const PanelContext& context) {
     const bool pressed = ImGui::Selectable(fmt::format("{}##{}", command.text, command.name).c_str(), i == chosen_);
     ImGui::PopStyleColor();
     tooltip(help_of(context, command));
-    if (i == chosen_ &&
-        (ImGui::IsKeyPressed(static_cast<int>(Key::down)) || ImGui::IsKeyPressed(static_cast<int>(Key::up))))
-      ImGui::SetScrollHereY();
+    if (i == chosen_ && moved) ImGui::SetScrollHereY();
     const float name_at = std::max(style.px(300), ImGui::CalcTextSize(command.text.c_str()).x + style.px(16));
     ImGui::PushFont(style.small);
     const std::string keys = command.keys();
@@ -130,21 +158,37 @@ void Palette::draw_values(const PanelContext& context, const Command& command) {
   small_text(style, command.usage());
   small_text(style, command.help);
   const std::size_t at = values_before_last(text_);
-  const std::string begun = last_word(text_);
+  const std::vector<std::string> values = values_at_end(text_, command, context.snapshot);
+  const bool moved = choose_by_keys(values.size()), enter = ImGui::IsKeyPressed(static_cast<int>(Key::enter), false);
+  std::optional<std::string> taken;
+  if (enter && is_chosen_ && !values.empty()) taken = values[chosen_];
   ImGui::BeginChild("values", {0, std::min(style.px(240), room_)});
   if (at < command.arguments().size()) {
     const Argument& argument = command.arguments()[at];
-    ImGui::TextUnformatted(fmt::format("{}: {}", argument.name, argument.help).c_str());
-    if (argument.choices) {
-      for (const std::string& value : argument.choices(context.snapshot)) {
-        if (!begun.empty() && value.find(begun) == value.npos) continue;
-        if (ImGui::Selectable(value.c_str()))
-          put(text_.substr(0, text_.rfind(' ') + 1) + value + (at + 1 < command.arguments().size() ? " " : ""));
-      }
+    const char* keys = values.empty() ? "" : " (Tab completes)";
+    ImGui::TextUnformatted(fmt::format("{}: {}{}", argument.name, argument.help, keys).c_str());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (ImGui::Selectable(values[i].c_str(), i == chosen_)) taken = values[i];
+      if (i == chosen_ && moved) ImGui::SetScrollHereY();
     }
   }
   ImGui::EndChild();
-  if (ImGui::IsKeyPressed(static_cast<int>(Key::enter), false)) run(context);
+  if (taken)
+    put(with_value(text_, command, *taken));
+  else if (enter)
+    run(context);
+}
+
+/// What Tab makes of a text: its last word becomes the value that is chosen in the list, or all of it the command.
+std::string Palette::completed(const std::string& text, const PanelContext& context) const {
+  if (const Command* command = named_by(text)) {
+    const std::vector<std::string> values = values_at_end(text, *command, context.snapshot);
+    return values.empty() ? text : with_value(text, *command, values[std::min(chosen_, values.size() - 1)]);
+  }
+  const std::vector<const Command*> found = matching_commands(text);
+  if (found.empty()) return text;
+  const Command& command = *found[std::min(chosen_, found.size() - 1)];
+  return command.needs_no_value() ? command.name : command.name + " ";
 }
 
 void Palette::draw(const PanelContext& context, const Rectangle& scene) {
@@ -170,11 +214,26 @@ void Palette::draw(const PanelContext& context, const Rectangle& scene) {
   if (opened) ImGui::SetWindowFocus();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (opened || put_) ImGui::SetKeyboardFocusHere();
+  struct Typing {
+    Palette& palette;
+    const PanelContext& context;
+  } typing{*this, context};
+  const auto on_typing = [](ImGuiInputTextCallbackData* data) {
+    const auto& [palette, context] = *static_cast<Typing*>(data->UserData);
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
+      const std::string text = palette.completed({data->Buf, std::size_t(data->BufTextLen)}, context);
+      data->DeleteChars(0, data->BufTextLen);
+      data->InsertChars(0, text.c_str());
+    } else if (palette.put_) {  // at the end, where the user goes on
+      data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+      palette.put_ = false;
+    }
+    return 0;
+  };
   if (ImGui::InputTextWithHint("##palette", "A command, or a line of a script", &text_,
-                               ImGuiInputTextFlags_CallbackAlways, to_end, &put_)) {
-    chosen_ = 0;
-    error_.clear();
-  }
+                               ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_CallbackCompletion, on_typing,
+                               &typing))
+    forget_choice();
   if (!error_.empty()) small_text(style, error_, theme::chosen);
   if (const Command* command = named_by(text_)) {
     draw_values(context, *command);

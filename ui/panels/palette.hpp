@@ -19,12 +19,16 @@ class Palette {
   void draw_values(const PanelContext& context, const Command& command);
   void run(const PanelContext& context);
   void put(std::string text);
+  void forget_choice();
+  bool choose_by_keys(std::size_t count);
+  std::string completed(const std::string& text, const PanelContext& context) const;
 
   bool open_ = false;
   bool put_ = false;  ///< the text was changed by us: the cursor goes to its end
   std::string text_, error_;
-  std::size_t chosen_ = 0;
-  float room_ = 0;  ///< for the list [px of height]
+  std::size_t chosen_ = 0;  ///< in the list
+  bool is_chosen_ = false;  ///< by the arrow keys: Enter takes it
+  float room_ = 0;          ///< for the list [px of height]
 };
 
 }  // namespace nextview

@@ -1,0 +1,70 @@
+// The palette by keyboard alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/panels/desk.hpp"
+
+namespace nextview {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<std::string> texts(const std::vector<CommandCall>& calls) {
+  std::vector<std::string> texts;
+  for (const CommandCall& call : calls) texts.push_back(call.text());
+  return texts;
+}
+
+/// The palette with a text in it.
+struct OpenPalette : Desk {
+  explicit OpenPalette(const std::string& text) {
+    open_all_ways(*this);
+    window.palette_open = true;
+    window.palette_text = text;
+    frames();
+  }
+};
+
+TEST(Palette, TabCompletesTheValueThatBeginsWithWhatWasTyped) {
+  OpenPalette desk("set planner.gai");
+  desk.type(Key::tab);
+  EXPECT_THAT(desk.frames(), IsEmpty());
+  desk.write("random");
+  desk.frames();
+  desk.type(Key::enter);
+  EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "set planner.gain random"));
+}
+
+TEST(Palette, TabCompletesTheCommand) {
+  OpenPalette desk("reset-setti");
+  desk.type(Key::down);  // past reset-setting
+  desk.frames();
+  desk.type(Key::tab);
+  EXPECT_THAT(desk.frames(), IsEmpty());
+  desk.type(Key::enter);
+  EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "reset-settings"));
+}
+
+TEST(Palette, EnterTakesTheValueThatArrowsChose) {
+  OpenPalette desk("panel ");
+  desk.type(Key::down);
+  desk.frames();
+  desk.type(Key::up);
+  desk.frames();
+  desk.type(Key::enter);
+  EXPECT_THAT(desk.frames(), IsEmpty()) << "the text has it now";
+  desk.type(Key::enter);
+  const std::vector<std::string> done = texts(desk.frames());
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_THAT(done.back(), ::testing::StartsWith("panel "));
+}
+
+TEST(Palette, EnterRunsWhatWasTypedWhileNoValueIsChosen) {
+  OpenPalette desk("set seed 7");
+  desk.type(Key::enter);
+  EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "set seed 7"));
+}
+
+}  // namespace
+}  // namespace nextview
