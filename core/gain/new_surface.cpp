@@ -34,7 +34,7 @@ void follow(const NewSurfaceField& field, const Vector3& origin, const Vector3& 
 
 NewSurfaceField::NewSurfaceField(const SurfaceEvidence& evidence, const NewSurfaceModel& model)
     : grid_(evidence.grid()), chances_(places_with_margin(grid_)), normals_(chances_.size()) {
-  fill_margin(grid_, chances_, ChanceField::outside);
+  fill_margin_layers(grid_, chances_, ChanceField::outside);
   tbb::parallel_for(0, evidence.unmeasured_blocks().size().z(),
                     [&](int block_z) { fill_layer_of_blocks(evidence, model, block_z); });
 }
@@ -56,6 +56,7 @@ void NewSurfaceField::fill_layer_of_blocks(const SurfaceEvidence& evidence, cons
       for (int y = edge * block_y; y < std::min(edge * (block_y + 1), grid_.size.y()); ++y) {
         const std::size_t first = place_with_margin(grid_, 0, y, z);
         std::fill_n(&chances_[first], grid_.size.x(), 0.0f);
+        fill_margin_of_row(grid_, y, z, chances_, ChanceField::outside);
         evidence.all_that_may_hold_surface().for_each_in_row(y, z, [&](int x) {
           Block& block = row[std::size_t(x / edge)];
           if (!block.normal) block.normal = evidence.normal({x / edge, block_y, block_z});

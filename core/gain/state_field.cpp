@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 
 #include "core/map/grid_margin.hpp"
@@ -101,11 +102,62 @@ bool same_rows(const Brick& brick, std::size_t a, std::size_t b) {
   return same(brick.numbers()) && same(brick.states());
 }
 
-/// Calls `work(bricks)` for ranges of all bricks, several at once.
-template <class Work>
-void for_ranges_of_bricks(const VoxelBricks& voxels, Work work) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), work);
-}
+/// Numbers the voxels of bricks beside each other along x.
+template <class States>
+class StatesOfBricks {
+ public:
+  using State = typename States::value_type;
+  StatesOfBricks(const VoxelGrid& grid, const VoxelBricks& voxels, Numbering& numbering, bool with_distance,
+                 States& states)
+      : grid_(grid), voxels_(voxels), state_(numbering), with_distance_(with_distance), states_(states) {}
+
+  /// Of `count` bricks from `first` on, as far as they are the same one whose voxels are all the same, or else of the
+  /// first. How many it was.
+  std::size_t number(std::size_t first, std::size_t count) {
+    const Brick* const brick = &*voxels_.bricks()[first];
+    if (brick != alike_ && !brick->is_uniform()) {
+      number_rows(first);
+      return 1;
+    }
+    alike_ = brick;  // many places share such a one
+    std::size_t same = 1;
+    while (same < count && &*voxels_.bricks()[first + same] == brick) ++same;
+    const State state = this->state(*brick, 0);
+    const Eigen::Vector3i lowest = voxels_.cell(first * VoxelBricks::brick_voxels);
+    const std::size_t length =
+        std::min(same * VoxelBricks::edge, std::size_t(grid_.size.x()) - std::size_t(lowest.x()));
+    voxels_.for_each_row(first, [&](std::size_t, const Eigen::Vector3i& cell, std::size_t) {
+      std::fill_n(&states_[place_with_margin(grid_, cell.x(), cell.y(), cell.z())], length, state);
+    });
+    return same;
+  }
+
+ private:
+  State state(const Brick& brick, std::size_t i) { return static_cast<State>(state_(brick, i, with_distance_)); }
+
+  void number_rows(std::size_t number) {
+    const Brick& brick = *voxels_.bricks()[number];
+    std::optional<std::size_t> before;  // the row that is known
+    voxels_.for_each_row(number, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+      if (!before || !same_rows(brick, first, *before))  // most are as the one before
+        for (std::size_t i = 0; i < row_.size(); ++i) row_[i] = state(brick, first + i);
+      before = first;
+      State* const to = &states_[place_with_margin(grid_, cell.x(), cell.y(), cell.z())];
+      if (count == row_.size())
+        std::memcpy(to, row_.data(), sizeof row_);  // of a size that the compiler knows
+      else
+        std::copy_n(row_.begin(), count, to);
+    });
+  }
+
+  const VoxelGrid& grid_;
+  const VoxelBricks& voxels_;
+  KnownStates state_;
+  bool with_distance_;
+  States& states_;
+  const Brick* alike_ = nullptr;  ///< the last one whose voxels are all the same
+  std::array<State, VoxelBricks::edge> row_{};
+};
 
 /// Fills `states`, one of the field's, with what the voxels are kept as. Whether there were few enough of them.
 template <class States>
@@ -113,29 +165,16 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
                    States& states) {
   using State = typename States::value_type;
   states.resize(places_with_margin(grid) + StateField::read_beyond / sizeof(State));
-  fill_margin(grid, states, State{StateField::outside});
+  constexpr State outside = StateField::outside;
+  fill_margin_layers(grid, states, outside);
   Numbering numbering(field, scoring, std::size_t{1} << (8 * sizeof(State) - 1));
-  for_ranges_of_bricks(voxels, [&](const auto& range) {
-    KnownStates state(numbering);
-    std::array<State, VoxelBricks::edge> row{};
-    const Brick* alike = nullptr;  // the last brick, if its voxels are all the same: many places share such a one
-    for (std::size_t b = range.begin(); b != range.end() && !numbering.too_many(); ++b) {
-      const Brick& brick = *voxels.bricks()[b];
-      constexpr std::size_t none = VoxelBricks::brick_voxels;
-      std::size_t before = &brick == alike ? 0 : none;  // the row of this brick that is known
-      if (before == none) alike = brick.is_uniform() ? &brick : nullptr;
-      voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
-        // Most are as the one before: where nothing is, or nothing was seen. Else all of it is numbered: where the
-        // brick stands once more, more of it may be in the grid.
-        if (before == none || !(alike || same_rows(brick, first, before)))
-          for (std::size_t i = 0; i < row.size(); ++i)
-            row[i] = static_cast<State>(state(brick, first + i, scoring.gain.needs_occlusion));
-        before = first;
-        State* const to = &states[place_with_margin(grid, cell.x(), cell.y(), cell.z())];
-        if (count == row.size())
-          std::memcpy(to, row.data(), sizeof row);  // of a size that the compiler knows
-        else
-          std::copy_n(row.begin(), count, to);
+  const auto along_x = std::max<std::size_t>(1, std::size_t(voxels.brick_edges().x()));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count() / along_x, 4), [&](const auto& range) {
+    StatesOfBricks<States> bricks(grid, voxels, numbering, scoring.gain.needs_occlusion, states);
+    for (std::size_t row = range.begin(); row != range.end(); ++row) {
+      for (std::size_t x = 0; x < along_x && !numbering.too_many();) x += bricks.number(row * along_x + x, along_x - x);
+      voxels.for_each_row(row * along_x, [&](std::size_t, const Eigen::Vector3i& cell, std::size_t) {
+        fill_margin_of_row(grid, cell.y(), cell.z(), states, outside);
       });
     }
   });
@@ -147,7 +186,7 @@ bool number_states(const VoxelGrid& grid, const VoxelBricks& voxels, const Scori
 void fill_places(const VoxelGrid& grid, const VoxelBricks& voxels, const Scoring& scoring, StateField& field) {
   field.worth.assign(places_with_margin(grid), 0.0);
   field.passes.assign(places_with_margin(grid), -2.0);
-  for_ranges_of_bricks(voxels, [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voxels.brick_count(), 64), [&](const auto& range) {
     for (std::size_t b = range.begin(); b != range.end(); ++b)
       voxels.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
         const std::size_t place = place_with_margin(grid, cell.x(), cell.y(), cell.z());

@@ -1,6 +1,6 @@
 #pragma once
-#include <cstdint>
-#include <span>
+#include <algorithm>
+#include <cstddef>
 
 #include "core/map/voxel_grid.hpp"
 
@@ -15,9 +15,24 @@ inline std::size_t places_with_margin(const VoxelGrid& grid) {
   return (std::size_t(grid.size.x()) + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);
 }
 
-/// Gives such an array's margin a value, and what there is behind it. The voxels' places stay as they are.
-void fill_margin(const VoxelGrid& grid, std::span<std::uint8_t> array, std::uint8_t value);
-void fill_margin(const VoxelGrid& grid, std::span<std::uint16_t> array, std::uint16_t value);
-void fill_margin(const VoxelGrid& grid, std::span<float> array, float value);
+/// Gives the layers of such an array's margin below and above the voxels a value, and what there is behind it. Who
+/// fills the array row by row gives the rest of the margin its value along with it (fill_margin_of_row), while it is in
+/// the cache.
+template <class Array, class Value>
+void fill_margin_layers(const VoxelGrid& grid, Array& array, Value value) {
+  const auto layer = std::ptrdiff_t((grid.size.x() + 2) * (grid.size.y() + 2));
+  std::fill_n(array.begin(), layer, value);
+  std::fill(array.begin() + std::ptrdiff_t(places_with_margin(grid)) - layer, array.end(), value);
+}
+
+/// What is beside the row of voxels at y and z: its ends, and of the first and last row of a layer the margin's row.
+template <class Array, class Value>
+void fill_margin_of_row(const VoxelGrid& grid, int y, int z, Array& array, Value value) {
+  const auto length = std::ptrdiff_t(grid.size.x()) + 2;
+  const auto row = array.begin() + std::ptrdiff_t(place_with_margin(grid, -1, y, z));
+  row[0] = row[length - 1] = value;
+  if (y == 0) std::fill_n(row - length, length, value);
+  if (y == grid.size.y() - 1) std::fill_n(row + length, length, value);
+}
 
 }  // namespace nextview
