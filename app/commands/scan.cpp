@@ -90,7 +90,7 @@ void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepP
   }
 }
 
-void write_results(const Session& session, const ScanArguments& arguments, OutputFolder& out,
+void write_results(const Session& session, const ScanArguments& arguments, OutputFolder& out, bool failed,
                    const ProgressLine& progress, const std::stop_token& stop) {
   progress(1.0, "writing the files");
   write_scan(session, out);
@@ -105,7 +105,7 @@ void write_results(const Session& session, const ScanArguments& arguments, Outpu
           "  (no surfaces: stopped before they were made; nextview export {} surface surface.ply makes one)\n",
           shell_text(out.path()));
   }
-  print_end(session);
+  print_end(session, failed);
   print_files(session, out.path(), !arguments.no_pictures, surface_files);
 }
 
@@ -125,7 +125,7 @@ int finish(Session& session, const ScanArguments& arguments, Scanner* scanner, S
     if (session.records().empty()) throw;
     failure = error.what();  // what was taken is written all the same
   }
-  write_results(session, arguments, folder.out(), progress, stop);
+  write_results(session, arguments, folder.out(), !failure.empty(), progress, stop);
   if (!failure.empty()) throw std::runtime_error(failure);
   folder.keep_state(session);
   folder.close();

@@ -108,8 +108,11 @@ void print_step(const Session& session, const StepRecord& r) {
   std::fflush(stdout);
 }
 
-void print_end(const Session& session) {
-  fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
+void print_end(const Session& session, bool failed) {
+  if (failed)
+    fmt::print("\nNot finished: see below.\n");
+  else
+    fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
   if (session.records().empty()) return;
   const StepRecord& last = session.records().back();
   if (last.surface_left && session.known_object() && !session.recording())

@@ -115,7 +115,7 @@ std::string closedness(const Surface& surface, std::span<const BoundaryLoop> ope
 }
 
 std::string summary(const ScanSurface& s) {
-  if (s.surface.empty()) return fmt::format("none of {}: {}", s.source, s.surface.why_empty);
+  if (s.surface.empty()) return fmt::format("of {}: none, {}", s.source, s.surface.why_empty);
   std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
                                  closedness(s.surface, s.openings));
   if (!s.surface_error) return text;

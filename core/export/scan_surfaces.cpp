@@ -41,12 +41,14 @@ Json to_json(const ScanSurface& s) {
   for (const BoundaryLoop& loop : std::span(s.openings).first(std::min(listed, s.openings.size())))
     openings.push_back({{"length_m", loop.length}, {"centre_m", {loop.centre.x(), loop.centre.y(), loop.centre.z()}}});
   const SeenArea area = seen_area(s.surface);
+  const bool closed = topology(s.surface.mesh).watertight();
   Json json = {{"summary", summary(s)},
                {"triangles", s.surface.mesh.triangles.size()},
                {"area_m2", s.surface.mesh.surface_area()},
                {"area_seen_m2", area.seen},
                {"area_unseen_m2", area.unseen},
-               {"watertight", topology(s.surface.mesh).watertight()},
+               {"closed", closed},
+               {"watertight", closed && !(area.unseen > 0.0)},
                {"openings", s.openings.size()},
                {"longest_openings", openings}};
   if (s.surface_error) json["surface_error"] = to_json(*s.surface_error);

@@ -42,14 +42,17 @@ std::string steps_csv(const Session& session) {
       session.recording() ? fmt::format(",coverage_recorded@{:g}mm", 1e3 * d_reg) : "",
       is_registered(session) ? ",registration_shift[m],registration_rotation[rad],registration_overlap" : "",
       gain.unit_name());
+  // Where the truth is not known, nothing is said of it: 0 would be a perfect map.
+  const auto of_truth = [&](double value) { return session.known_object() ? fmt::format("{}", value) : ""; };
   double path = 0.0;
   for (const StepRecord& r : session.records()) {
     path += r.motion.distance;
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}{}{}\n",
                        r.step, r.view, int(r.overridden), r.gain, r.utility, r.realised_gain, r.motion.distance,
                        r.motion.rotation, path, r.hits, r.points, r.misses, r.new_voxels, r.entropy, r.total_entropy,
-                       r.coverage, r.coverage_visible, r.coverage_paper, r.quality.divergence, r.quality.log_loss,
-                       r.quality.brier, r.quality_near_surface.log_loss, r.quality_near_surface.brier,
+                       of_truth(r.coverage), of_truth(r.coverage_visible), of_truth(r.coverage_paper),
+                       of_truth(r.quality.divergence), of_truth(r.quality.log_loss), of_truth(r.quality.brier),
+                       of_truth(r.quality_near_surface.log_loss), of_truth(r.quality_near_surface.brier),
                        r.ranking.best ? fmt::format("{}", *r.ranking.best) : "", int(!r.ranking.degenerate.empty()),
                        r.new_surface, r.surface_left ? fmt::format("{}", *r.surface_left) : "",
                        r.coverage_any_pose ? fmt::format(",{}", *r.coverage_any_pose) : "",

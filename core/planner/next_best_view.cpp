@@ -17,7 +17,7 @@ std::string degeneracy_reason(const std::vector<double>& gains) {
   if (gains.size() < 2) return "";
   const double smallest = *std::min_element(gains.begin(), gains.end());
   const double largest = *std::max_element(gains.begin(), gains.end());
-  if (largest == 0.0 && smallest == 0.0) return "the gain is 0 for every candidate: it sees nothing left to learn";
+  if (largest == 0.0 && smallest == 0.0) return "the gain is 0 for every candidate: it expects nothing new of any";
   if (largest - smallest <= tolerance * std::abs(largest))
     return fmt::format("the gain is {:.6g} for every candidate: it does not tell them apart", largest);
   const auto ties =

@@ -121,7 +121,18 @@ void AllPanels::begin_among_controls(const PanelContext& context) {
   imgui.NavDisableHighlight = false;
 }
 
+/// Escape leaves what was clicked, and ImGui would show where one is then: Space would press that, and take no step.
+void AllPanels::show_no_focus_after_clicks() {
+  ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  if (pressed(Key::escape) && !focus_was_shown_) {
+    imgui.NavDisableHighlight = true;
+    imgui.IO.NavVisible = false;
+  }
+  focus_was_shown_ = imgui.IO.NavVisible;
+}
+
 void AllPanels::obey_keys(const PanelContext& context) {
+  show_no_focus_after_clicks();
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_covered = context.window.palette_open || !context.window.file_for.empty();  // a question, by these
   if (popups_ > 0) {

@@ -29,6 +29,7 @@ class AllPanels {
  private:
   void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open);
   void begin_among_controls(const PanelContext& context);
+  void show_no_focus_after_clicks();
 
   std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
@@ -37,6 +38,7 @@ class AllPanels {
   Notifications notifications_;
   std::string in_front_;  ///< the title of the panel that was brought there last, in the last frame
   int popups_ = 0;        ///< menus and lists that were open in the last frame; Escape has closed one since, maybe
+  bool focus_was_shown_ = false;  ///< in the frame before: by keys
 };
 
 }  // namespace nextview

@@ -157,11 +157,13 @@ void tooltip(const std::string& text) {
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   const float below = to.y + gap, y = below + size.y < display.y ? below : from.y - gap - size.y;
   ImGui::SetNextWindowPos({std::clamp(from.x, gap, std::max(gap, display.x - size.x - gap)), y});
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);  // of what is not available, too: it says why
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + padding.x);
   ImGui::TextUnformatted(broken.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+  ImGui::PopStyleVar();
 }
 
 bool icon_button(const Style& style, Icon icon, const char* label, bool primary, float width) {

@@ -39,6 +39,10 @@ void ScanHistory::push(HistoryEntry before, const ScanState* now, std::size_t li
   keep_within(limit, now);
 }
 
+void ScanHistory::forget_choices() {
+  while (!undo_.empty() && undo_.back().is_choice) undo_.pop_back();
+}
+
 HistoryEntry ScanHistory::undo(HistoryEntry now, std::size_t limit, const Progress& progress,
                                const std::stop_token& stop) {
   return travel(undo_, redo_, std::move(now), limit, progress, stop);
@@ -53,7 +57,7 @@ HistoryEntry ScanHistory::travel(Entries& from, Entries& to, HistoryEntry now, s
                                  const Progress& progress, const std::stop_token& stop) {
   HistoryEntry entry = from.back();
   bring_back_maps(*entry.session, *entry.tree, entry.at, entry.stand, progress, stop);
-  now.change = entry.change;
+  now.change = entry.change, now.is_choice = entry.is_choice;
   from.pop_back();
   to.push_back(std::move(now));
   keep_within(limit, entry.stand.state.get());

@@ -22,6 +22,8 @@ struct HistoryEntry {
   Branches branches;
   Stand stand;
   std::vector<CameraBookmark> cameras = {};  ///< that the session kept
+  std::optional<NextView> chosen = {};       ///< the operator's own next view; none: the planner's
+  bool is_choice = false;                    ///< it differs from what came after it in the next view alone
   std::uint64_t change = 0;                  ///< that was made from there
 };
 
@@ -44,6 +46,8 @@ class ScanHistory {
   /// Something has changed: `before` can be gone back to. What was undone is forgotten. `limit` in bytes; `now` keeps
   /// its maps.
   void push(HistoryEntry before, const ScanState* now, std::size_t limit);
+  /// Those since the last change of another kind: a view was taken, and undoing it leaves the choice to the planner.
+  void forget_choices();
   /// Goes back, or forward; `now` is where the way back then leads. The entry has its maps.
   /// @throws Stopped; then nothing has changed. @pre can_undo(), can_redo()
   HistoryEntry undo(HistoryEntry now, std::size_t limit, const Progress& progress, const std::stop_token& stop);

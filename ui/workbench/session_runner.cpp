@@ -20,7 +20,16 @@ SessionRunner::~SessionRunner() {
 }
 
 HistoryEntry SessionRunner::now() const {
-  return {session_, scanner_, kept_, tree_, tree_->at, tree_->branches, *tree_->stand(tree_->at), kept_->cameras()};
+  const NextView& next = session_->state().next;
+  return {session_,
+          scanner_,
+          kept_,
+          tree_,
+          tree_->at,
+          tree_->branches,
+          *tree_->stand(tree_->at),
+          kept_->cameras(),
+          next.overridden ? std::optional(next) : std::nullopt};
 }
 
 Stand SessionRunner::stand_of(const Session& session, std::shared_ptr<SeenSurface> seen) {
@@ -124,6 +133,8 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
     if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
     return;
   }
+  before.chosen.reset();
+  history_.forget_choices();
   seen_ = std::make_shared<SeenSurface>(*seen_);  // the stand before keeps its own
   tree_->step(kept_->last_number().value_or(tree_->last_number() + 1), stand_of(*session_, seen_));
   remember(std::move(before));
@@ -132,14 +143,20 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
 }
 
 void SessionRunner::take_view(std::size_t candidate) {
-  if (!session_) return;
-  session_->override_next_view(candidate);
-  show_next();
+  if (session_) choose([&] { session_->override_next_view(candidate); });
 }
 
 void SessionRunner::take_custom_view(const Pose& T_world_camera) {
-  if (!session_) return;
-  session_->override_next_view(T_world_camera);
+  if (session_) choose([&] { session_->override_next_view(T_world_camera); });
+}
+
+/// Another view is taken next: that can be undone.
+void SessionRunner::choose(const std::function<void()>& change) {
+  HistoryEntry before = now();
+  before.is_choice = true;
+  const View view = session_->state().next.view;
+  change();
+  if (!(session_->state().next.view == view)) remember(std::move(before));
   show_next();
 }
 
@@ -155,7 +172,18 @@ void SessionRunner::redo(const JobControl& control) {
   follow_compared(control);
 }
 
-/// Goes on from there. The next view is the planner's choice again.
+/// What cannot be reached any more stays the planner's choice.
+void SessionRunner::choose_again(const NextView& chosen) {
+  try {
+    if (chosen.candidate)
+      session_->override_next_view(*chosen.candidate);
+    else
+      session_->override_next_view(chosen.view.T_world_camera);
+  } catch (const std::invalid_argument&) {
+  }
+}
+
+/// Goes on from there. The next view is the planner's choice again, or what the operator had chosen there.
 void SessionRunner::adopt(HistoryEntry entry) {
   const bool same_session = session_ == entry.session;
   if (!same_session) {
@@ -176,6 +204,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   session_->restore(*entry.stand.state, entry.stand.planning);
   session_->set_termination(entry.stand.termination);
   session_->take_proposal();
+  if (entry.chosen) choose_again(*entry.chosen);
   kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);
   if (kept_->cameras() != entry.cameras) kept_->set_cameras(std::move(entry.cameras));
   seen_ = entry.stand.seen;

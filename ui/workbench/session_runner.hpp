@@ -88,6 +88,8 @@ class SessionRunner {
   HistoryEntry now() const;
   static Stand stand_of(const Session& session, std::shared_ptr<SeenSurface> seen);
   void remember(HistoryEntry before);
+  void choose(const std::function<void()>& change);
+  void choose_again(const NextView& chosen);
   void change_branches(const std::function<void(Branches&)>& change);
   void change_cameras(const std::function<void(std::vector<CameraBookmark>&)>& change);
   bool is_own(const std::filesystem::path& folder) const;

@@ -118,6 +118,20 @@ TEST(Front, TabBeginsInThePanelThatWasShownLastWithoutAClick) {
   }
 }
 
+/// Who clicked a row and leaves it with Escape has shown no wish to go on by keys: Space steps.
+TEST(Front, SpaceStepsAfterAClickAndEscape) {
+  Desk desk;
+  desk.snapshot = scanned(small_scan(), 2);
+  desk.frames();
+  const Rectangle right = desk.layout().right;
+  desk.click(right.x + 60, right.y + 260);  // a row of the candidates
+  desk.frames();
+  desk.type(Key::escape);
+  desk.frames();
+  desk.type(Key::space);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"step"});
+}
+
 /// Letters that were meant for something else must not act on a session that is about to be replaced.
 TEST(Front, WhileAnotherSessionIsOpenedNothingIsDoneToThisOne) {
   Desk desk;

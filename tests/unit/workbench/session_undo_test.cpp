@@ -101,6 +101,32 @@ TEST_F(SessionRunnerTest, OverridesAreUndoneAndRedone) {
   EXPECT_FALSE(now().records[3].overridden);
 }
 
+TEST_F(SessionRunnerTest, AChoiceIsTakenBackBeforeItsView) {
+  runner_.load(small_scan(), job_control());
+  steps(1);
+  const std::size_t proposal = *now().proposal(), first = proposal == 2 ? 3 : 2, second = proposal == 5 ? 6 : 5;
+  runner_.take_view(first);
+  runner_.take_view(second);
+  runner_.take_view(second);  // once more is no change
+  runner_.undo(job_control());
+  EXPECT_EQ(now().next_candidate, first);
+  runner_.undo(job_control());
+  EXPECT_EQ(now().next_candidate, proposal);
+  EXPECT_EQ(now().records.size(), 1u);
+  runner_.redo(job_control());
+  runner_.redo(job_control());
+  EXPECT_EQ(now().next_candidate, second);
+  runner_.take_custom_view(custom_view());
+  runner_.undo(job_control());
+  runner_.redo(job_control());
+  EXPECT_TRUE(now().custom_next_view);
+  steps(1);
+  runner_.undo(job_control());
+  EXPECT_EQ(now().next_candidate, proposal) << "the view and the choice, in one go";
+  runner_.undo(job_control());
+  EXPECT_EQ(now().records.size(), 0u);
+}
+
 TEST_F(SessionRunnerTest, AnOverrideThatIsNotTakenLeavesNoTrace) {
   runner_.load(small_scan(), job_control());
   steps(2);
