@@ -90,7 +90,9 @@ std::vector<Difference> differences(const SessionSnapshot& here, const SessionSn
     const auto& left = s.records.back().surface_left;
     return left ? percent(*left) : std::string("not predicted");
   });
-  add("entropy of the map",
+  add("entropy, unmeasured (Eq. 18)",
+      [](const SessionSnapshot& s) { return fmt::format("{:.3f} Mbit", s.records.back().entropy / 1e6); });
+  add("entropy, total ΣH(p)",
       [](const SessionSnapshot& s) { return fmt::format("{:.3f} Mbit", s.records.back().total_entropy / 1e6); });
   add("path", [](const SessionSnapshot& s) { return length_text(path_of(s.records)); });
   add("time of the robot", [](const SessionSnapshot& s) { return fmt::format("{:.0f} s", motion_seconds(s.records)); });

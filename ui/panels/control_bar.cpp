@@ -124,7 +124,7 @@ void draw_progress(const PanelContext& context, float left, float right, float y
 
 /// One number with its name beneath, from the right, if there is room for it right of `least`; returns where it starts.
 float draw_figure(const PanelContext& context, float least, float right, float y, const std::string& value,
-                  const char* name) {
+                  const char* name, const char* meaning) {
   const Style& style = context.style;
   ImGui::PushFont(style.semi_bold);
   const float value_width = ImGui::CalcTextSize(value.c_str()).x;
@@ -137,11 +137,13 @@ float draw_figure(const PanelContext& context, float least, float right, float y
   }
   ImGui::SetCursorPos({right - name_width, y + style.px(13)});
   ImGui::TextDisabled("%s", name);
+  tooltip(meaning);
   ImGui::PopFont();
   ImGui::PushFont(style.semi_bold);
   ImGui::SetCursorPos({right - value_width, y - style.px(6)});
   ImGui::TextUnformatted(value.c_str());
   ImGui::PopFont();
+  tooltip(meaning);
   return right - std::max(value_width, name_width) - style.px(26);
 }
 
@@ -152,14 +154,19 @@ float draw_figures(const PanelContext& context, float least, float right, float 
   if (s.is_evaluated() || s.is_recording()) {
     const double coverage = any ? s.records.back().coverage_recorded.value_or(s.records.back().coverage_visible) : 0.0;
     right = draw_figure(context, least, right, y, fmt::format("{:.1f} %", 100 * coverage),
-                        s.is_recording() ? "of all frames" : "of visible surface");
+                        s.is_recording() ? "of all frames" : "of visible surface",
+                        s.is_recording() ? "What was scanned, as a share of what all frames of the recording show."
+                                         : "What was scanned, as a share of the true surface that some candidate view "
+                                           "can see.");
   }
   const double bits = any ? s.records.back().entropy : double(s.grid.voxel_count());
-  right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy");
+  right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy",
+                      "Of the region: a bit for each voxel that nothing was measured in (Eq. 18).");
   const TerminationConfig& limits = s.configuration.termination;
   std::string taken = fmt::format("{}", s.records.size());
   if (limits.limits_views()) taken += fmt::format(" / {}", limits.views);
-  return draw_figure(context, least, right, y, taken, "views");
+  return draw_figure(context, least, right, y, taken, "views",
+                     "Views that were taken, and how many are taken at most.");
 }
 
 }  // namespace

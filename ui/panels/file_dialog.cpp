@@ -35,12 +35,16 @@ int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
 void FileDialog::write(std::string text) {
   written_ = std::move(text);
   replaced_.clear();
-  missing_.clear();
+  problem_.clear();
 }
 
 /// Tab completes, and folders are looked into as they are written. The field has its own copy of what is written while
 /// it has the keyboard.
 void FileDialog::follow(ImGuiInputTextCallbackData& field) {
+  if (field.EventFlag == ImGuiInputTextFlags_CallbackAlways) {
+    if (std::exchange(opened_, false)) field.SelectAll();
+    return;
+  }
   const std::string written(field.Buf, std::size_t(field.BufTextLen));
   const bool tab = field.EventFlag == ImGuiInputTextFlags_CallbackCompletion;
   const std::string left = browser_.enter(tab ? browser_.completed(written) : written);
@@ -55,6 +59,7 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   to_read_ = &command == &command::open;
   recent_ = recent_files(state_folder());
   chosen_ = 0;
+  opened_ = true;
   write("");
   // Where something could not be written is not proposed again.
   if (is_there(wanted_) && context.snapshot.failures == failures_) last_written_ = wanted_.parent_path();
@@ -88,12 +93,16 @@ void FileDialog::accept(const PanelContext& context, const Command& command, con
     look_into(file);
     return write("");
   }
+  if (!is_folder && names_folder(command) && is_there(file)) {
+    problem_ = fmt::format("{} is a file: a folder is wanted.", file.filename().string());
+    return;
+  }
   if (!to_read_ && !is_folder && is_there(file) && replaced_ != file.string()) {
     replaced_ = file.string();
     return;
   }
   if (to_read_ && !is_there(file)) {  // what was written stays, to be mended
-    missing_ = file.string();
+    problem_ = fmt::format("{}: there is no such file, nor an object of this name.", file.filename().string());
     return;
   }
   if (to_read_) {
@@ -215,17 +224,15 @@ void FileDialog::accept_written(const PanelContext& context, const Command& comm
     accept(context, command, with_ending(browser_.meant(written_), to_read_ || known.empty() ? "" : known.front()));
   else if (!found.empty())
     accept(context, command, browser_.folder() / browser_.entries()[found[std::min(chosen_, found.size() - 1)]].name);
+  else
+    problem_ = to_read_ ? "There is nothing here to open." : "It needs a name.";
 }
 
 void FileDialog::draw_field(const PanelContext& context, const Command& command) {
   const Style& style = context.style;
   if (!replaced_.empty())
     small_text(style, fmt::format("{} is there already.", fs::path(replaced_).filename().string()), theme::chosen);
-  if (!missing_.empty())
-    small_text(
-        style,
-        fmt::format("{}: there is no such file, nor an object of this name.", fs::path(missing_).filename().string()),
-        theme::chosen);
+  if (!problem_.empty()) small_text(style, problem_, theme::chosen);
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::IsAnyItemActive() && open_popups() == 0) ImGui::SetKeyboardFocusHere();  // letters always go there
   const std::string hint =
@@ -235,11 +242,12 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
     return 0;
   };
   if (ImGui::InputTextWithHint("##file", hint.c_str(), &written_,
-                               ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackEdit, follow,
-                               this)) {
+                               ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackEdit |
+                                   ImGuiInputTextFlags_CallbackAlways,
+                               follow, this)) {
     chosen_ = 0;
     replaced_.clear();
-    missing_.clear();
+    problem_.clear();
   }
   const char* const does = !replaced_.empty() ? "Replace it" : to_read_ ? "Open" : "Write";
   if (icon_button(style, Icon::none, does, true)) accept_written(context, command);
@@ -274,7 +282,7 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   heading(style, title.c_str());
   draw_path();
   const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) +
-                     (replaced_.empty() && missing_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
+                     (replaced_.empty() && problem_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
   const float height = std::max(ImGui::GetContentRegionAvail().y - rest, style.px(40));
   ImGui::BeginChild("places", {std::min(style.px(150), 0.3f * size.x), height});
   draw_places(context, command);

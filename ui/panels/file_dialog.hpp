@@ -36,9 +36,10 @@ class FileDialog {
   FileBrowser browser_;
   std::vector<std::filesystem::path> recent_;
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
-  std::string missing_;             ///< what was to be read, and is not there
+  std::string problem_;             ///< why what is written will not do
   std::size_t chosen_ = 0;          ///< among those that match
   bool to_read_ = true, scroll_ = false;
+  bool opened_ = false;                             ///< just now: what is proposed can be written over
   bool entered_ = false;                            ///< the folder that was written, and nothing was done since
   std::filesystem::path last_read_, last_written_;  ///< folders that were used last
   std::filesystem::path wanted_;                    ///< what was to be written last

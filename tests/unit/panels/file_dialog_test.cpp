@@ -162,6 +162,30 @@ TEST_F(FileDialogTest, AnExportIsProposedANameThatNoSessionHas) {
   }
 }
 
+TEST_F(FileDialogTest, WhatIsProposedIsWrittenOverEveryTime) {
+  std::string command;
+  for (const Key last : {Key::escape, Key::escape, Key::enter}) {
+    desk_.window.file_for = "export";
+    desk_.frames();
+    desk_.write("mine");
+    desk_.frames();
+    desk_.type(last);
+    command = done();
+  }
+  EXPECT_THAT(command, testing::EndsWith("/mine"));
+}
+
+TEST_F(FileDialogTest, AFileIsNotOfferedToBeReplacedByAFolder) {
+  begin("export");
+  desk_.write("bracket.stl");
+  desk_.frames();
+  for (int time = 0; time < 2; ++time) {
+    desk_.type(Key::enter);
+    EXPECT_EQ(done(), "");
+    EXPECT_TRUE(is_open());
+  }
+}
+
 TEST_F(FileDialogTest, AnObjectThatComesWithTheProgramIsOpenedByItsName) {
   begin("open");
   desk_.type(Key::enter);
