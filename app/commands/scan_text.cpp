@@ -103,6 +103,7 @@ void print_step(const Session& session, const StepRecord& r) {
                r.refinement->rank_correlation);
   }
   if (r.registration) fmt::print("       {}\n", registration_text(*r.registration));
+  if (r.hits == 0) fmt::print("       ! no pixel met a surface\n");
   if (!r.ranking.reason.empty()) fmt::print("       next: {}\n", r.ranking.reason);
   if (!r.ranking.degenerate.empty()) fmt::print("       ! no ranking: {}\n", r.ranking.degenerate);
   std::fflush(stdout);
