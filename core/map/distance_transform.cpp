@@ -65,8 +65,8 @@ HWY_INLINE Lanes least_along(const Lanes* line, std::size_t stride, int length, 
   Lanes result;
   for (std::size_t part = 0; part < width; part += hn::Lanes(tag)) {
     const auto at = [&](int k) HWY_ATTR { return hn::Load(tag, &line[std::size_t(k) * stride][part]); };
-    const std::uint8_t bits = static_cast<std::uint8_t>(wanted >> part);
-    const auto is_wanted = hn::LoadMaskBits(tag, &bits);
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(wanted >> part)};  // so many are read
+    const auto is_wanted = hn::LoadMaskBits(tag, bits);
     auto least = at(i);
     for (int away = 1;; ++away) {
       const auto squared = hn::Set(tag, away * away);

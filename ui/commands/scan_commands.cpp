@@ -152,7 +152,7 @@ const CommandOf<> command::undo{
     {"undo",
      "Scan",
      "Undo",
-     "Goes back to before the last view, selection, branch, or change of settings or object.",
+     "Goes back to before the last view, choice of one, selection, branch, or change of settings or object.",
      {{key('Z'), true}},
      [](const CommandState& t) {
        if (t.window.selections.can_undo(moment(t))) return std::string();
