@@ -66,7 +66,7 @@ std::string number_wanted(const std::string& unit) {
   if (unit != "m") return fmt::format("a number [{}]", unit);
   std::vector<std::string_view> names;
   for (const LengthSuffix& length : lengths) names.push_back(length.name);
-  return fmt::format("a number [m], or with {} behind it", fmt::join(names, ", "));
+  return fmt::format("a number [m], or one with a unit ({})", fmt::join(names, ", "));
 }
 
 std::string quantity_text(double length) {

@@ -130,6 +130,24 @@ TEST(SceneOverlay, InANarrowPictureLabelsLieAboveTheScaleBar) {
   EXPECT_GT(label.max().y(), height - axes_and_bar - 30) << "and no farther";
 }
 
+/// Where axes and scale bar are in its way it goes above them, not to the legend at the other side.
+TEST(SceneOverlay, ALabelStaysNearItsPlace) {
+  const auto drawn_at = [](bool axes_and_bar) {
+    const Image image = drawn(1.0,
+                              [&](SceneOverlay& overlay) {
+                                overlay.axes = overlay.scale_bar = axes_and_bar;
+                                overlay.legends.push_back({"legend", {{"one", theme::free}}, {}});
+                                overlay.labels.push_back({{Vector3(-0.4, -0.24, 0)}, "candidate 10", {1, 0, 0}, true});
+                              },
+                              {900, 500});
+    return box_of(image, 1.0, is_red);
+  };
+  const Box free = drawn_at(false), moved = drawn_at(true);
+  ASSERT_FALSE(free.isEmpty() || moved.isEmpty());
+  EXPECT_NE(free.min().y(), moved.min().y()) << "it was not in the way";
+  EXPECT_LT((free.center() - moved.center()).norm(), 120);
+}
+
 /// Perpendicular to the view, one metre away: its picture is as high as the angle says.
 TEST(SceneOverlay, TheScaleBarIsAsLongAsItSays) {
   constexpr double angle = 30.0;  // [deg], VTK's usual one

@@ -72,11 +72,14 @@ CommandOf<> toggle_surface_alone(const std::string& what, const std::string& wor
            [shown](const WindowState& w) { return w.layers.*shown; }},
           [shown](CommandTarget& t) {
             LayerChoice& layers = t.window.layers;
-            const bool now = !(layers.*shown);
+            const bool now = !(layers.*shown), none_before = !layers.missed && !layers.surface;
+            if (none_before) layers.cloud_before = layers.cloud, layers.octree_before = layers.octree;
             layers.missed = layers.surface = false;
             layers.*shown = now;
-            layers.octree = !now;
-            if (now) layers.cloud = false;
+            if (now)
+              layers.cloud = layers.octree = false;
+            else if (!layers.cloud && !layers.octree)  // what was switched on meanwhile stays
+              layers.cloud = layers.cloud_before, layers.octree = layers.octree_before;
           }};
 }
 

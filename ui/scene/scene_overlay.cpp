@@ -119,27 +119,30 @@ double overlap(const Eigen::AlignedBox2d& box, const std::vector<Eigen::AlignedB
   return area;
 }
 
-/// Where a label's box may be: beside its place if it can, else left of it, above it, beneath it, left of what is in
-/// its way, or above that, as near as it can.
+/// Where a label's box may be: beside its place if it can, else left of it, above it or beneath it, or beside what is
+/// in its way, as near as it can.
 Eigen::AlignedBox2d place_label(const Eigen::Vector2d& place, const Eigen::Vector2d& label, bool above,
                                 const Eigen::Vector2d& picture, const std::vector<Eigen::AlignedBox2d>& taken) {
   const double right = place.x() + 6, left = place.x() - label.x() - 6, middle = place.x() - label.x() / 2;
   const double usual = place.y() + (above ? 7 : -9), high = place.y() + 12, low = place.y() - label.y() - 12;
-  std::vector<Eigen::Vector2d> corners{{right, usual}, {left, usual}, {middle, high},
-                                       {middle, low},  {right, low},  {left, low}};
-  for (const Eigen::AlignedBox2d& other : taken) corners.emplace_back(other.min().x() - label.x() - 2, usual);
-  const auto beside = static_cast<std::ptrdiff_t>(corners.size());
-  for (const Eigen::AlignedBox2d& other : taken) corners.emplace_back(right, other.max().y() + 2);
-  std::sort(corners.begin() + beside, corners.end(),
-            [&](const auto& a, const auto& b) { return std::abs(a.y() - usual) < std::abs(b.y() - usual); });
-  std::optional<Eigen::AlignedBox2d> best;
-  for (const Eigen::Vector2d& corner : corners) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  const auto try_at = [&](double x, double y) {
     const Eigen::Vector2d farthest = (picture - label).cwiseMax(0) - Eigen::Vector2d(4, 1);
-    const Eigen::Vector2d inside = corner.cwiseMin(farthest).cwiseMax(Eigen::Vector2d(0, 1));
-    const Eigen::AlignedBox2d box(inside, inside + label);
-    if (!best || overlap(box, taken) < overlap(*best, taken)) best = box;
+    const Eigen::Vector2d inside = Eigen::Vector2d(x, y).cwiseMin(farthest).cwiseMax(Eigen::Vector2d(0, 1));
+    boxes.emplace_back(inside, inside + label);
+  };
+  try_at(right, usual), try_at(left, usual);
+  for (const double y : {high, low}) try_at(middle, y);
+  try_at(right, low), try_at(left, low);
+  const auto beside = static_cast<std::ptrdiff_t>(boxes.size());
+  for (const Eigen::AlignedBox2d& other : taken) {
+    try_at(other.min().x() - label.x() - 2, usual), try_at(other.max().x() + 2, usual);
+    try_at(right, other.max().y() + 2), try_at(right, other.min().y() - label.y() - 2);
   }
-  return *best;
+  std::stable_sort(boxes.begin() + beside, boxes.end(), [&](const auto& a, const auto& b) {
+    return a.squaredExteriorDistance(place) < b.squaredExteriorDistance(place);
+  });
+  return *std::ranges::min_element(boxes, {}, [&](const auto& box) { return overlap(box, taken); });
 }
 
 /// Paints it clear of what is taken, where it can, and takes its place.

@@ -22,8 +22,9 @@ struct LayerChoice {
   bool object = true, octree = true, views = true, rays = true;
   bool cloud = false;  ///< within the voxels it would be specks
   bool region = false, missed = false;
-  bool surface = false;         ///< reconstructed
-  bool all_candidates = false;  ///< not only the best ones
+  bool surface = false;                             ///< reconstructed
+  bool cloud_before = false, octree_before = true;  ///< what these two put aside, as it would hide them
+  bool all_candidates = false;                      ///< not only the best ones
   bool legends = true;
   MeshStyle object_style = MeshStyle::ghost;
   CloudColouring cloud_colouring = CloudColouring::single;

@@ -55,6 +55,19 @@ class CommandEffects : public testing::Test {
   WindowState window_;
 };
 
+TEST_F(CommandEffects, WhatASurfacePutAsideComesBackWithoutIt) {
+  LayerChoice& layers = window_.layers;
+  layers.cloud = true, layers.octree = false;
+  for (const char* line : {"toggle-missed", "toggle-surface", "toggle-surface"}) run(line);
+  EXPECT_TRUE(layers.cloud);
+  EXPECT_FALSE(layers.octree || layers.missed || layers.surface);
+  run("toggle-missed");
+  run("toggle-octree");
+  run("toggle-missed");
+  EXPECT_TRUE(layers.octree) << "it was switched on meanwhile";
+  EXPECT_FALSE(layers.cloud);
+}
+
 TEST_F(CommandEffects, EachLayerIsSwitchedByItsOwn) {
   for (int twice = 0; twice < 2; ++twice) {
     expect_effect("toggle-object", [](WindowState& w) { w.layers.object ^= true; });

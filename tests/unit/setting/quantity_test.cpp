@@ -85,7 +85,7 @@ TEST(Quantity, ASettingTakesIt) {
   EXPECT_EQ(edge, 0.005);
   EXPECT_EQ(setting.text(), "0.005");
   EXPECT_EQ(complaint(setting, "2 parsec"),
-            "map.resolution takes a number [m], or with m, cm, mm, um, µm, in behind it, not '2 parsec'");
+            "map.resolution takes a number [m], or one with a unit (m, cm, mm, um, µm, in), not '2 parsec'");
   setting.unit = "deg";
   EXPECT_EQ(complaint(setting, "5 mm"), "map.resolution takes a number [deg], not '5 mm'");
   setting.unit = "";
