@@ -20,8 +20,7 @@ void for_each_word(std::size_t size, Visit visit) {
   });
 }
 
-}  // namespace
-
+/// A bit for each of `count` bytes, at most 64, the first one's the lowest: whether it is not 0.
 std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
   constexpr std::uint64_t lowest_bits = 0x0101010101010101, gather = 0x0102040810204080;
   std::uint64_t word = 0;
@@ -35,6 +34,8 @@ std::uint64_t packed(const std::uint8_t* bytes, std::size_t count) {
   }
   return word;
 }
+
+}  // namespace
 
 void BitMask::add_word(std::size_t first, std::uint64_t word) {
   if (word == 0) return;

@@ -8,9 +8,6 @@
 
 namespace nextview {
 
-/// A bit for each of `count` bytes, at most 64, the first one's the lowest: whether it is not 0.
-std::uint64_t packed(const std::uint8_t* bytes, std::size_t count);
-
 /// A flag for each of many things, in an eighth of a byte. All false at first.
 class BitMask {
  public:
