@@ -206,7 +206,7 @@ OneStepPlanner::Choice LookAheadPlanner::choose(const PlanningState& state, std:
   std::vector<std::size_t> available;
   std::vector<Pose> poses;
   for (std::size_t v = 0; v < candidates.size(); ++v) {
-    if (!candidates[v].available) continue;
+    if (!candidates[v].available || candidates[v].overlaps != candidates[ranked].overlaps) continue;
     available.push_back(v);
     poses.push_back(state.candidates[v].T_world_camera);
   }

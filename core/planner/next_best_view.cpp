@@ -27,13 +27,17 @@ std::string degeneracy_reason(const std::vector<double>& gains) {
   return "";
 }
 
+/// Eq. 14, among those that overlap if there are any.
+bool is_better(const Candidate& a, const Candidate& b) {
+  return a.overlaps != b.overlaps ? a.overlaps : a.utility > b.utility;
+}
+
 }  // namespace
 
 std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std::size_t best) {
   std::optional<std::size_t> second;
   for (std::size_t v = 0; v < candidates.size(); ++v)
-    if (v != best && candidates[v].available && (!second || candidates[v].utility > candidates[*second].utility))
-      second = v;
+    if (v != best && candidates[v].available && (!second || is_better(candidates[v], candidates[*second]))) second = v;
   return second;
 }
 
@@ -58,7 +62,7 @@ Ranking rank(std::span<Candidate> candidates, const Utility& utility) {
       if (gain_sum != 0.0) c.utility += weights.gain * c.gain / gain_sum;  // Eq. 13
       if (cost_sum != 0.0) c.utility -= weights.cost * c.cost / cost_sum;
     }
-    if (!ranking.best || c.utility > candidates[*ranking.best].utility) ranking.best = v;  // Eq. 14
+    if (!ranking.best || is_better(c, candidates[*ranking.best])) ranking.best = v;  // Eq. 14
   }
   ranking.degenerate = degeneracy_reason(gains);
   return ranking;

@@ -14,6 +14,7 @@ struct Candidate {
   double utility = 0.0;          ///< set by rank()
   double seconds = 0.0;          ///< of going there, as the robot says
   std::string unreachable = {};  ///< why the robot cannot go there; empty if it can
+  bool overlaps = true;          ///< with what was scanned, enough to be registered; others are chosen where none does
 };
 
 struct UtilityWeights {

@@ -90,6 +90,17 @@ std::string outlook(const Valuation& valuation, const PlanningState& state) {
                             length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))));
 }
 
+/// What it changed that scans are to be registered; empty if nothing.
+std::string for_overlap(std::span<const Candidate> candidates, std::size_t best) {
+  if (!candidates[best].overlaps) return " No candidate shows enough of what was scanned to be registered with it.";
+  const auto passed_over = std::ranges::count_if(candidates, [&](const Candidate& c) {
+    return c.available && !c.overlaps && c.utility > candidates[best].utility;
+  });
+  if (passed_over == 0) return "";
+  return fmt::format(" {} better, but would show too little of what was scanned to be registered with it.",
+                     passed_over == 1 ? "One candidate is" : fmt::format("{} candidates are", passed_over));
+}
+
 }  // namespace
 
 Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
@@ -102,13 +113,15 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
   const Valuation valuation = policy_->values(state, available, stop);
   throw_if_stopped(stop);  // or the ranking would be half one
   for (std::size_t i = 0; i < available.size(); ++i) candidates[available[i]].gain = valuation.gains[i];
+  if (policy_->ignores_cost())
+    for (Candidate& candidate : candidates) candidate.overlaps = true;
   const Utility by = utility(*policy_, setup);
   Ranking ranking = rank_finely(*policy_, state, candidates, by, stop);
   if (ranking.best) {
     const Choice choice = choose(state, candidates, by, *ranking.best, stop);
     ranking.best = choice.candidate;
     ranking.reason = reason(*policy_, state, candidates, choice.candidate, by.scan_seconds.has_value());
-    ranking.reason += choice.because;
+    ranking.reason += choice.because + for_overlap(candidates, choice.candidate);
   }
   if (ranking.best && valuation.surface_left) ranking.reason += outlook(valuation, state);
   return {std::move(candidates), std::move(ranking), valuation.surface_left};

@@ -71,7 +71,7 @@ class Policy {
   /// Of its values, for people: "nats", "voxels", "m", "samples", or "" if they have none.
   virtual std::string unit() const { return ""; }
   virtual PolicyNeeds needs() const { return {}; }
-  /// Whether the way there has no say, as in a baseline, which is a policy of its own.
+  /// Whether neither the way there nor registration has a say, as in a baseline, which is a policy of its own.
   virtual bool ignores_cost() const { return false; }
   /// The value of each candidate in `available`. A requested stop leaves what is not valued yet at 0.
   virtual Valuation values(const PlanningState& state, std::span<const std::size_t> available,

@@ -19,6 +19,7 @@ std::vector<Setting> settings(RobotConfig& c) {
 void RobotConfig::validate() const { require_in_bounds(*this); }
 
 Pose pose_error(const RobotConfig& config, std::uint64_t seed, std::uint32_t step) {
+  if (step <= 1) return Pose::Identity();
   const CounterRandom random(seed, random_stream::pose_errors, step);
   const auto [x, y] = random.normal(0);
   const auto [z, turn] = random.normal(1);

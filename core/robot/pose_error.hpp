@@ -18,8 +18,9 @@ struct RobotConfig {
 };
 std::vector<Setting> settings(RobotConfig& config);
 
-/// Where the camera really is, in the frame where the robot believes it: T_believed_true. It depends on the seed and
-/// the step alone, so a scan that is taken again after going back errs as it did.
+/// Where the camera really is, in the frame where the robot believes it: T_believed_true. The first step says where the
+/// world is and does not err: what all views had in common would be no error. It depends on the seed and the step
+/// alone, so a scan that is taken again after going back errs as it did.
 Pose pose_error(const RobotConfig& config, std::uint64_t seed, std::uint32_t step);
 
 }  // namespace nextview

@@ -60,6 +60,29 @@ void remove_session(const fs::path& folder) {
   }
 }
 
+/// For people: without the time that names of untitled ones begin with.
+std::string name_of(const fs::path& state, const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  const bool has_time = folder.parent_path() == state && name.size() > time_length;
+  return has_time ? name.substr(time_length + 1) : name;
+}
+
+/// The first of these that has views, is wanted, and that no program writes.
+template <class Wanted>
+std::optional<EarlierSession> first_session(const fs::path& state, const std::vector<fs::path>& folders,
+                                            const Wanted& wanted) {
+  for (const fs::path& folder : folders) {
+    try {
+      Journal journal;
+      { const JournalWriter lock = JournalWriter::go_on(folder, journal); }
+      const std::size_t views = journal.line().size();
+      if (views > 0 && wanted(journal)) return EarlierSession{folder, name_of(state, folder), views};
+    } catch (const std::runtime_error&) {  // in use, or damaged
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 fs::path state_folder() {
@@ -75,22 +98,16 @@ fs::path untitled_folder(const fs::path& state, const std::string& name) {
   return free_folder(state / fmt::format("{} {}", time_after(sessions), plain(name)));
 }
 
-std::optional<UnfinishedSession> unfinished_session(const fs::path& state) {
+std::optional<EarlierSession> unfinished_session(const fs::path& state) {
   std::vector<fs::path> folders = untitled_sessions(state);
   std::ranges::copy_if(recent_files(state), std::back_inserter(folders), has_journal);  // those opened from elsewhere
-  for (const fs::path& folder : folders) {
-    try {
-      Journal journal;
-      { const JournalWriter lock = JournalWriter::go_on(folder, journal); }
-      const std::size_t views = journal.line().size();
-      if (journal.closed || views == 0) continue;
-      const std::string name = folder.filename().string();
-      const bool has_time = folder.parent_path() == state && name.size() > time_length;
-      return UnfinishedSession{folder, has_time ? name.substr(time_length + 1) : name, views};
-    } catch (const std::runtime_error&) {  // in use, or damaged
-    }
-  }
-  return std::nullopt;
+  return first_session(state, folders, [](const Journal& journal) { return !journal.closed; });
+}
+
+std::optional<EarlierSession> last_session(const fs::path& state) {
+  std::vector<fs::path> folders = recent_files(state);
+  std::erase_if(folders, [](const fs::path& folder) { return !has_journal(folder); });
+  return first_session(state, folders, [](const Journal&) { return true; });
 }
 
 void close_session(const fs::path& folder) {

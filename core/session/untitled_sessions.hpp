@@ -5,8 +5,8 @@
 
 namespace nextview {
 
-/// A session that nobody closed: what wrote it was ended.
-struct UnfinishedSession {
+/// A session with views that no program writes.
+struct EarlierSession {
   std::filesystem::path folder;
   std::string name;  ///< for people: "gearbox"
   std::size_t views = 0;
@@ -17,8 +17,10 @@ std::filesystem::path state_folder();
 /// A folder in there for a session of this name, by the time; it is not made. What is older than the ten newest goes,
 /// unless another program writes it.
 std::filesystem::path untitled_folder(const std::filesystem::path& state, const std::string& name);
-/// The newest session there that has views, was not closed, and that no program writes.
-std::optional<UnfinishedSession> unfinished_session(const std::filesystem::path& state);
+/// The newest session there, or of those opened from elsewhere, that nobody closed: what wrote it was ended.
+std::optional<EarlierSession> unfinished_session(const std::filesystem::path& state);
+/// The session that was opened or left last, wherever it is.
+std::optional<EarlierSession> last_session(const std::filesystem::path& state);
 /// It is not offered again. Never throws.
 void close_session(const std::filesystem::path& folder);
 

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/planner/rank_correlation.hpp"
+#include "core/planner/scan_overlap.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/progress/stopwatch.hpp"
 #include "core/session/scan_loop.hpp"
@@ -11,6 +12,10 @@
 
 namespace nextview {
 namespace {
+
+/// Times the least overlap that registration asks for: scans of three objects had from a half to all of what the map
+/// expected.
+constexpr double overlap_margin = 2.0;
 
 /// The true surface as the views so far have seen it: that of a known object, or what a recording's frames show.
 template <class Surface>
@@ -72,6 +77,15 @@ std::vector<Candidate> reachable_candidates(const ScanState& state, Robot& robot
   return candidates;
 }
 
+/// A scan with too little of what was scanned before cannot be registered, and later ones would be registered with it.
+void ask_for_overlap(const ScanSetup& setup, const ScanState& state, std::vector<Candidate>& candidates,
+                     const std::stop_token& stop) {
+  const auto rays = planning_rays(state.known, setup.configuration.planner.ray_length);
+  const std::vector<double> overlap = scan_overlap(state.known, *rays, setup.bundle, state.candidates, stop);
+  const double least = overlap_margin * setup.configuration.registration.min_overlap;
+  for (std::size_t v = 0; v < candidates.size(); ++v) candidates[v].overlaps = overlap[v] >= least;
+}
+
 /// What the same planner would have made of the conventional map.
 void compare_with_conventional(const ScanSetup& setup, const ScanState& state, const PlanningInput& input,
                                std::vector<Candidate> candidates, StepRecord& record, const std::stop_token& stop) {
@@ -113,7 +127,9 @@ ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Prog
   {
     Stopwatch watch(record->seconds.score);
     state.candidates = setup.candidates->candidates(state.known);
-    const auto candidates = reachable_candidates(state, robot);
+    auto candidates = reachable_candidates(state, robot);
+    if (setup.configuration.registration.mode == RegistrationConfig::Mode::correct)
+      ask_for_overlap(setup, state, candidates, stop);
     const PlanningInput input(setup, state);
     Plan plan = setup.planner->plan(input.setup, state.known, state.candidates, candidates, stop);
     record->candidates = std::move(plan.candidates);

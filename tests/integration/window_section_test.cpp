@@ -83,7 +83,7 @@ TEST_F(WindowSection, TheSurfaceIsPaintedByItsDistanceAndGoesAgain) {
   user_.run("step\nwait until done\n");
   EXPECT_NE(user_.look(), with) << "it is made of all views";
   user_.run("undo\nwait until done\n");
-  user_.run("toggle-surface\ntoggle-octree\ntoggle-object\n");  // which stands in for it again
+  user_.run("toggle-surface\ntoggle-object\n");  // which stands in for it again
   EXPECT_EQ(colours(user_.look(), place), colours(before, place));
 }
 

@@ -45,7 +45,8 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
       uncertain_from, slice_axis, slice_at, lock_ranges,
       // Window
-      panel, curves, forget_runs, sort, dark, text_size, panel_sizes, hide_panels, full_screen, palette, file_dialog,
+      panel, curves, forget_runs, dismiss, sort, dark, text_size, panel_sizes, hide_panels, full_screen, palette,
+      file_dialog,
       // Demo
       play_demo, record, record_stop, caption, title, highlight, orbit, fly_to, split, wait, assert_that,
       // Help

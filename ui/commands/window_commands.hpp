@@ -10,7 +10,7 @@ namespace command {
 
 extern const CommandOf<std::string> panel;            ///< its name
 extern const CommandOf<CurveKind, CurveKind> curves;  ///< of the left and of the right plot
-extern const CommandOf<> forget_runs, shortcuts, hide_panels, full_screen, guide, dark;
+extern const CommandOf<> forget_runs, dismiss, shortcuts, hide_panels, full_screen, guide, dark;
 extern const CommandOf<double, double, double> panel_sizes;  ///< left, right, lower [px]
 extern const CommandOf<TextSize> text_size;
 extern const CommandOf<CandidateColumn, SortOrder> sort;

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/session/untitled_sessions.hpp"
 #include "core/view/pose.hpp"
 #include "ui/appearance/picture_size.hpp"
 #include "ui/commands/demo_recording.hpp"
@@ -84,6 +85,7 @@ struct WindowState {
   std::string palette_text;  ///< what the palette starts with
   std::string file_for;      ///< the command that the file dialog asks a file for; empty: it is closed
   bool guide_open = true;    ///< what to do first; shown until a view is taken
+  std::optional<EarlierSession> last_session;  ///< that it offers to go on with
   bool panels_hidden = false, full_screen = false;
   bool dark = false;                  ///< light on dark paper
   bool orthographic = false;          ///< the scene is drawn without vanishing points
@@ -91,7 +93,8 @@ struct WindowState {
   PlaceSizes place_sizes;
   double text_scale = 1.0;  ///< of text and controls, beside the display's own
   bool quit = false;
-  Presentation presentation;  ///< what a demo shows
+  std::size_t dismissed_failure = 0;  ///< SessionSnapshot::failures of the message that was taken away
+  Presentation presentation;          ///< what a demo shows
 
   Pose scene_camera = Pose::Identity();      ///< where the scene is looked at from; kept by the scene, as the next
   std::optional<Vector3> pointed_at;         ///< the point of what is shown that the pointer is at [m, world]

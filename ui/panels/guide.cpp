@@ -1,7 +1,8 @@
 #include "ui/panels/guide.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include "core/file/counted.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -27,6 +28,15 @@ void draw_steps(const PanelContext& context) {
     draw_step(context, "2", "Then Space takes the first view.");
     draw_step(context, "3", "F1 shows every key, Ctrl+P every command.");
   }
+}
+
+/// Who scanned yesterday goes on where that ended.
+void draw_last_session(const PanelContext& context, const EarlierSession& last) {
+  const std::string views = counted(last.views, "view");
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(("Go on with ,   " + views).c_str()).x;
+  const std::string label = fmt::format("Go on with {}, {}", shortened(last.name, room), views);
+  if (icon_button(context.style, Icon::none, label.c_str())) context.post(command::open(last.folder.string()));
+  tooltip("The last scan: " + last.folder.string());
 }
 
 }  // namespace
@@ -56,6 +66,7 @@ void draw_guide(const PanelContext& context, const Rectangle& scene) {
     command_button(context, command::step, Icon::step, "Take the first view", true);
   else
     command_button(context, command::open, Icon::none, "Open…", true);
+  if (context.window.last_session) draw_last_session(context, *context.window.last_session);
   if (icon_button(style, Icon::none, "Hide this")) context.post(command::guide());
   ImGui::End();
   ImGui::PopStyleVar(2);

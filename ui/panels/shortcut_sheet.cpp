@@ -1,8 +1,10 @@
 #include "ui/panels/shortcut_sheet.hpp"
 
 #include <array>
+#include <cctype>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/panel_list.hpp"
@@ -40,13 +42,29 @@ void draw_heading(const Style& style, const char* text) {
   heading(style, text);
 }
 
+/// The keys that give a command a value: "A" "Frame: all", "Ctrl+1…7" "Look from a side". Numbers are told with
+/// the mouse.
+void draw_valued(const Command& command) {
+  std::vector<const Shortcut*> named;
+  const auto shortcuts = command.shortcuts();
+  for (const Shortcut& shortcut : shortcuts)
+    if (shortcut.values.size() == 1 && std::isalpha(static_cast<unsigned char>(shortcut.values.front().front())))
+      named.push_back(&shortcut);
+  const std::string text = command.text.substr(0, command.text.find("…"));
+  if (named.size() > 3) return draw_row(named.front()->text() + "…" + named.back()->text().back(), text);
+  for (const Shortcut* shortcut : named) draw_row(shortcut->text(), text + ": " + shortcut->values.front());
+}
+
 /// The keys of some menus' commands, menu by menu.
 void draw_menus(const PanelContext& context, std::initializer_list<const char*> wanted) {
   if (!ImGui::BeginTable(*wanted.begin(), 2, ImGuiTableFlags_SizingFixedFit)) return;
   for (const char* menu : wanted) {
     draw_heading(context.style, menu);
-    for (const Command& command : commands())
-      if (const std::string keys = command.keys(); command.menu == menu && !keys.empty()) draw_row(keys, command.text);
+    for (const Command& command : commands()) {
+      if (command.menu != menu || &command == &command::panel) continue;  // panels have a heading of their own
+      if (const std::string keys = command.keys(); !keys.empty()) draw_row(keys, command.text);
+      draw_valued(command);
+    }
   }
   ImGui::EndTable();
 }
@@ -78,7 +96,7 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
                    ImGuiWindowFlags_HorizontalScrollbar);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::PushFont(style.small);
-  constexpr std::array widths = {300.0f, 340.0f, 370.0f};
+  constexpr std::array widths = {300.0f, 360.0f, 370.0f};
   const int columns = window.width > style.px(1080)  ? 3
                       : window.width > style.px(720) ? 2
                                                      : 1;  // the rest goes beneath

@@ -6,6 +6,7 @@
 
 #include "core/file/counted.hpp"
 #include "core/setting/area_text.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -38,37 +39,47 @@ std::string coordinates(const Vector3& point) {
              : fmt::format("x {:.1f}  y {:.1f}  z {:.1f} mm", scale * point.x(), scale * point.y(), scale * point.z());
 }
 
+/// What failed last, until it is clicked or something else was done.
+void draw_message(const PanelContext& context, float width, float y) {
+  const Style& style = context.style;
+  const std::string& message = context.snapshot.message;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  draw_icon(Icon::warning, {corner.x + style.px(7), corner.y + ImGui::GetTextLineHeight() / 2}, style.px(14),
+            to_imgui_u32(theme::chosen));
+  ImGui::SetCursorPos({style.px(36), y});
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(theme::chosen));
+  ImGui::TextUnformatted(shortened(message, width - style.px(50)).c_str());
+  ImGui::PopStyleColor();
+  if (ImGui::IsItemClicked()) context.post(command::dismiss());
+  tooltip(message + "\nA click takes it away; the log keeps it.");
+}
+
+void draw_last_step(const PanelContext& context, float width, float y) {
+  const Style& style = context.style;
+  const SessionSnapshot& s = context.snapshot;
+  const std::string right = context.window.pointed_at ? coordinates(*context.window.pointed_at) : scanned(s);
+  const float right_x = width - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
+  std::string left = last_step(s, !context.window.presentation.demo);
+  if (const auto& recording = context.window.recording)
+    left = fmt::format("Recording {} · {}", std::filesystem::path(recording->file).filename().string(), left);
+  const bool room_for_both = style.px(14 + 24) + ImGui::CalcTextSize(left.c_str()).x < right_x;
+  ImGui::TextDisabled("%s", shortened(left, width - style.px(28)).c_str());
+  if (!room_for_both) return;
+  ImGui::SetCursorPos({right_x, y});
+  ImGui::TextDisabled("%s", right.c_str());
+}
+
 }  // namespace
 
 void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Status", rectangle, ImGuiWindowFlags_NoScrollbar);
   const Style& style = context.style;
-  const SessionSnapshot& s = context.snapshot;
   ImGui::PushFont(style.small);
   const float y = (float(rectangle.height) - ImGui::GetTextLineHeight()) / 2;
-  const std::string right = context.window.pointed_at ? coordinates(*context.window.pointed_at) : scanned(s);
-  const float right_x = float(rectangle.width) - style.px(16) - ImGui::CalcTextSize(right.c_str()).x;
   ImGui::SetCursorPos({style.px(14), y});
-  if (s.message.empty()) {
-    std::string left = last_step(s, !context.window.presentation.demo);
-    if (const auto& recording = context.window.recording)
-      left = fmt::format("Recording {} · {}", std::filesystem::path(recording->file).filename().string(), left);
-    const bool room_for_both = style.px(14 + 24) + ImGui::CalcTextSize(left.c_str()).x < right_x;
-    ImGui::TextDisabled("%s", shortened(left, float(rectangle.width) - style.px(28)).c_str());
-    if (room_for_both) {
-      ImGui::SetCursorPos({right_x, y});
-      ImGui::TextDisabled("%s", right.c_str());
-    }
-  } else {
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    draw_icon(Icon::warning, {corner.x + style.px(7), corner.y + ImGui::GetTextLineHeight() / 2}, style.px(14),
-              to_imgui_u32(theme::chosen));
-    ImGui::SetCursorPos({style.px(36), y});
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(theme::chosen));
-    ImGui::TextUnformatted(shortened(s.message, float(rectangle.width) - style.px(50)).c_str());
-    ImGui::PopStyleColor();
-    tooltip(s.message);
-  }
+  const bool is_dismissed = context.window.dismissed_failure == context.snapshot.failures;
+  const auto draw = context.snapshot.message.empty() || is_dismissed ? draw_last_step : draw_message;
+  draw(context, float(rectangle.width), y);
   ImGui::PopFont();
 }
 

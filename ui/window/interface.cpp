@@ -64,7 +64,7 @@ void Interface::connect(const request::Connect& scanner) {
   parts_->recorder.begin(*scanner.configuration);
   parts_->worker.post(scanner);
 }
-void Interface::offer(const UnfinishedSession& session) {
+void Interface::offer(const EarlierSession& session) {
   parts_->offered = session.folder;
   parts_->worker.post(request::OfferSession{session});
 }
@@ -100,6 +100,9 @@ bool Interface::wants_to_quit() const {
 }
 void Interface::set_text_scale(double scale) { parts_->state.text_scale = scale; }
 void Interface::show_guide(bool show) { parts_->state.guide_open = show; }
+void Interface::set_last_session(std::optional<EarlierSession> session) {
+  parts_->state.last_session = std::move(session);
+}
 void Interface::set_dark(bool dark) { parts_->state.dark = dark; }
 void Interface::set_place_sizes(const PlaceSizes& sizes) { parts_->state.place_sizes = sizes; }
 const Layout& Interface::layout() const { return parts_->layout; }

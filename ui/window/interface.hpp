@@ -36,7 +36,7 @@ class Interface {
   /// The same with a live scanner.
   void connect(const request::Connect& scanner);
   /// Offers to go on with a session that nobody closed.
-  void offer(const UnfinishedSession& session);
+  void offer(const EarlierSession& session);
   /// Does these calls one after the other, each when the one before has had its effect.
   void run_script(std::vector<CommandCall> calls);
   /// Records all that is done from now on, until it is ended by command or stop_recording(). The file ends in
@@ -69,6 +69,8 @@ class Interface {
   /// Of text and controls, beside the display's.
   void set_text_scale(double scale);
   void show_guide(bool show);
+  /// Shows with the guide what was scanned last, to go on with it.
+  void set_last_session(std::optional<EarlierSession> session);
   void set_dark(bool dark);
   void set_place_sizes(const PlaceSizes& sizes);
   /// "Nextview - gearbox - view 3 of 20"

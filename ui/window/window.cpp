@@ -257,6 +257,7 @@ int run_window(const Configuration& configuration, const Script& script, const W
     interface.open(configuration);
   if (const auto unfinished = start.offer ? unfinished_session(state_folder()) : std::nullopt)
     interface.offer(*unfinished);
+  if (start.offer) interface.set_last_session(last_session(state_folder()));
   if (!start.record.empty()) interface.record(start.record);
   script.demo ? interface.play_demo(script.calls) : interface.run_script(script.calls);
   prepare(target.handle(), interface);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/file/atomic_file.hpp"
+#include "core/session/recent_files.hpp"
 #include "core/session/untitled_sessions.hpp"
 
 namespace nextview {
@@ -76,6 +77,7 @@ void KeptSession::close(const Session* session) {
     if (session) keep_state(*session);
     folder_->close();
     closed_ = true;
+    if (!state_.empty() && !folder_->line().empty()) add_recent_file(state_, folder_->path());
   } catch (const std::exception&) {  // it will be offered again: nothing is lost
   }
 }

@@ -35,7 +35,8 @@ class KeptSession {
   std::optional<std::uint32_t> last_number() const {
     return folder_ && !folder_->line().empty() ? std::optional(folder_->line().back()) : std::nullopt;
   }
-  /// Nobody is in the middle of it. With what makes it quick to open, if the session is given.
+  /// Nobody is in the middle of it, and an untitled one is found among the recent files. With what makes it quick to
+  /// open, if the session is given.
   void close(const Session* session);
   const std::vector<CameraBookmark>& cameras() const { return cameras_; }
   /// Into its folder, if it has one yet; else with the first view.

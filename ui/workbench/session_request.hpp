@@ -29,7 +29,7 @@ struct OpenFile {
 };
 /// Offers to go on with a session that nobody closed.
 struct OfferSession {
-  UnfinishedSession session;
+  EarlierSession session;
 };
 /// Starts over with a live scanner.
 struct Connect {

@@ -70,7 +70,7 @@ class SessionWorker {
   void show_meanwhile();
   std::string ask(std::string question, std::vector<std::string> answers,
                   std::shared_ptr<const DoubtfulScan> about = nullptr);
-  void offer(const UnfinishedSession& session);
+  void offer(const EarlierSession& session);
   Session::Verdict judge(const Acquired& acquired, const std::string& reason);
   ScannerWishes scanner_wishes(const request::Connect& request);
   void news() const;

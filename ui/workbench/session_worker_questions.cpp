@@ -43,7 +43,7 @@ const std::vector<std::string>& SessionWorker::offer_answers() {
   return answers;
 }
 
-void SessionWorker::offer(const UnfinishedSession& session) {
+void SessionWorker::offer(const EarlierSession& session) {
   const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
                                            counted(session.views, "view"));
   const std::string answer = ask(question, offer_answers());

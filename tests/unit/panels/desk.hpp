@@ -38,7 +38,8 @@ class Desk {
     for (const CommandCall& call : calls) {
       CommandTarget target{worker_, window, *snapshot, progress};
       const bool is_window = call.command->menu == "Window" || call.command->menu == "Help";
-      const bool may_fail = call.command->name == "forget-runs" || call.command->name == "assert";
+      const bool may_fail =
+          call.command->name == "forget-runs" || call.command->name == "dismiss" || call.command->name == "assert";
       if (is_window && !may_fail) execute(call, target);
     }
     return calls;

@@ -58,6 +58,8 @@ Snapshots all_snapshots(const Desk& desk) {
   finished->compared = nullptr;  // a surface is made of one branch
   const auto live = std::make_shared<SessionSnapshot>(*desk.snapshot);
   live->live = true;
+  live->message = "the driver gave no answer";
+  live->failures = 1;
   return {desk.snapshot, finished, live};
 }
 

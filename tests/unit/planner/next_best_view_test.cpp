@@ -53,6 +53,16 @@ TEST(Rank, SumsGoOverTheAvailableAlone) {
   EXPECT_NEAR(c[2].utility, 0.75 - 0.5, 1e-12);
 }
 
+TEST(Rank, AmongThoseThatOverlapIfThereAreAny) {
+  auto c = candidates({{1, 1}, {9, 1}, {2, 1}, {8, 1}});
+  c[1].overlaps = c[3].overlaps = false;
+  EXPECT_EQ(rank(c, {1.0, 1.0}).best, 2u);
+  EXPECT_EQ(runner_up(c, 2), 0u);
+  c[0].overlaps = c[2].overlaps = false;
+  EXPECT_EQ(rank(c, {1.0, 1.0}).best, 1u);
+  EXPECT_EQ(runner_up(c, 1), 3u);
+}
+
 TEST(Rank, ATermWithoutASumIsZero) {
   auto no_cost = candidates({{1, 0}, {3, 0}});
   EXPECT_EQ(rank(no_cost, {1.0, 1.0}).best, 1u);

@@ -75,6 +75,19 @@ TEST(Reason, SaysWhichWayTheRestWouldTake) {
               HasSubstr(" About 0.4 % of the surface is left: 1 view, 2 m."));
 }
 
+TEST(Reason, SaysWhoIsPassedOverForRegistration) {
+  std::vector<Candidate> all = {at(1), at(1), at(1)};
+  all[2].overlaps = false;
+  EXPECT_THAT(ranked({10, 20, 30}, all).reason,
+              HasSubstr("Candidate 1: gain 20 nats; 1 m away. Runner-up 0: 10 nats, 1 m. One candidate is better, but "
+                        "would show too little of what was scanned to be registered with it."));
+  all[1].overlaps = false;
+  EXPECT_THAT(ranked({10, 20, 30}, all).reason, HasSubstr(" 2 candidates are better, but would show too little"));
+  EXPECT_THAT(ranked({40, 20, 30}, all).reason, Not(HasSubstr("registered")));
+  all[0].overlaps = false;
+  EXPECT_THAT(ranked({10, 20, 30}, all).reason, HasSubstr(" No candidate shows enough of what was scanned"));
+}
+
 TEST(Reason, PerSecondTheWayCostsItsTime) {
   PlannerConfig config;
   config.utility = UtilityKind::gain_per_second;

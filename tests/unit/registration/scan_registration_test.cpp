@@ -55,7 +55,7 @@ Scan displaced(const Scan& scan, const Vector3& shift, double angle = 0.0, const
 Scans all_displaced(const Scans& scans, std::uint64_t seed) {
   Scans result{scans.front()};
   for (std::uint32_t k = 1; k < scans.size(); ++k) {
-    const Pose error = pose_error({1.0, 1.0}, seed, k);
+    const Pose error = pose_error({1.0, 1.0}, seed, k + 1);
     const Vector3 direction = error.translation().normalized();
     const Vector3 axis = Eigen::AngleAxisd(error.linear()).axis();
     result.push_back(std::make_shared<const Scan>(displaced(*scans[k], 0.005 * direction, 1.0 * degrees, axis)));

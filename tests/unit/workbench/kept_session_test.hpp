@@ -15,7 +15,8 @@ class KeptSessionTest : public InTemporaryFolder {
   std::vector<std::filesystem::path> kept() const {
     std::vector<std::filesystem::path> sessions;
     if (std::filesystem::exists(state()))
-      for (const auto& entry : std::filesystem::directory_iterator(state())) sessions.push_back(entry.path());
+      for (const auto& entry : std::filesystem::directory_iterator(state()))
+        if (entry.is_directory()) sessions.push_back(entry.path());  // beside them is the list of recent files
     return sessions;
   }
   std::unique_ptr<SessionRunner> runner() {

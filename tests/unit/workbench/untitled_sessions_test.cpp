@@ -72,6 +72,26 @@ TEST_F(UntitledSessions, WhatNobodyClosedIsOfferedOnce) {
   EXPECT_FALSE(unfinished_session(state()));
 }
 
+TEST_F(UntitledSessions, TheLastThatWasLeftIsFoundTheNextDay) {
+  EXPECT_FALSE(last_session(state()));
+  for (const int views : {3, 2, 0}) {
+    auto one = runner();
+    Configuration c = small_scan();
+    c.evaluation.enabled = false;
+    one->load(c, job_control());
+    steps(*one, views);
+    EXPECT_EQ(last_session(state()).has_value(), views < 3) << "this one is in use";
+  }
+  const auto last = last_session(state());
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->name, "sphere");
+  EXPECT_EQ(last->views, 2u) << "one without views is none";
+  EXPECT_EQ(recent_files(state()).front(), last->folder) << "among the recent files, too";
+  EXPECT_FALSE(unfinished_session(state()));
+  fs::remove_all(last->folder);
+  EXPECT_EQ(last_session(state()).value().views, 3u);
+}
+
 TEST_F(UntitledSessions, OneThatWasOpenedElsewhereIsOfferedToo) {
   const fs::path folder = folder_ / "a session of the day before";
   {
