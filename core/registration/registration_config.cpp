@@ -16,7 +16,8 @@ std::vector<Setting> settings(RegistrationConfig& c) {
        &c.max_shift, zero_or(1e-5, 10)},
       {"registration.max_rotation", "deg", "how far a scan may be turned; 0: by the mode", &c.max_rotation,
        zero_or(1e-3, 180)},
-      {"registration.min_overlap", "", "share of a scan's points that must lie on what was scanned before; correct takes views that promise twice that",
+      {"registration.min_overlap", "",
+       "share of a scan's points that must lie on what was scanned before; correct takes views that promise twice that",
        &c.min_overlap, over_to(0, 1)},
   };
 }

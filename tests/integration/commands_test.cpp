@@ -180,6 +180,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
   EXPECT_NO_THROW(parse_script(read_file(file("a script.txt"))));
   walked_.insert("reset-settings");  // a large scan: it has a test of its own, as has
   walked_.insert("play-demo");
+  walked_.insert("dismiss");
   walked_.insert("quit");
   EXPECT_FALSE(user.window().wants_to_quit());
   user.run("quit\n");

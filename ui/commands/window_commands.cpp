@@ -54,14 +54,17 @@ const CommandOf<> command::forget_runs{
      [](const CommandState& t) { return t.session.earlier_runs ? "" : "there is no earlier run"; }},
     [](CommandTarget& t) { t.worker.post(request::ForgetRuns{}); }};
 
-const CommandOf<> command::dismiss{
-    {"dismiss",
-     "Window",
-     "Hide the message",
-     "Takes what failed last from the status line. The log keeps it.",
-     {},
-     [](const CommandState& t) { return t.session.message.empty() ? "there is no message" : ""; }},
-    [](CommandTarget& t) { t.window.dismissed_failure = t.session.failures; }};
+const CommandOf<> command::dismiss{{"dismiss",
+                                    "Window",
+                                    "Hide the message",
+                                    "Takes what failed last from the status line. The log keeps it.",
+                                    {},
+                                    [](const CommandState& t) {
+                                      const bool is_shown = !t.session.message.empty() &&
+                                                            t.window.dismissed_failure != t.session.failures;
+                                      return is_shown ? "" : "there is no message";
+                                    }},
+                                   [](CommandTarget& t) { t.window.dismissed_failure = t.session.failures; }};
 
 const CommandOf<CandidateColumn, SortOrder> command::sort{
     {"sort", "Window", "Sort the candidates…", "Sorts the table of candidates."},

@@ -77,8 +77,7 @@ void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   ImGui::PushFont(style.small);
   const float y = (float(rectangle.height) - ImGui::GetTextLineHeight()) / 2;
   ImGui::SetCursorPos({style.px(14), y});
-  const bool is_dismissed = context.window.dismissed_failure == context.snapshot.failures;
-  const auto draw = context.snapshot.message.empty() || is_dismissed ? draw_last_step : draw_message;
+  const auto draw = command::dismiss.available(context.state()) ? draw_message : draw_last_step;
   draw(context, float(rectangle.width), y);
   ImGui::PopFont();
 }

@@ -6,6 +6,7 @@
 
 #include "tests/unit/panels/made_scan.hpp"
 #include "tests/unit/panels/seen.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -153,7 +154,13 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   desk_.window.pointed_at = Vector3(1.25, -0.2, 0.31);
   EXPECT_THAT(status(), HasSubstr("x 1.250  y -0.200  z 0.310 m"));
   scan_->message = "it went wrong";
+  scan_->failures = 1;
   EXPECT_EQ(status(), "it went wrong");
+  EXPECT_EQ(text_of(click_on(desk_, "it went wrong", "Status")), "dismiss");
+  EXPECT_THAT(status(), HasSubstr("View 2: 500 points"));
+  EXPECT_FALSE(command::dismiss.available(desk_.state())) << "it was taken away";
+  scan_->failures = 2;
+  EXPECT_EQ(status(), "it went wrong") << "again";
   desk_.snapshot = scanned(small_scan(), 0);
   EXPECT_THAT(status(), HasSubstr("Nothing measured yet"));
 }

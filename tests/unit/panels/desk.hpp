@@ -38,9 +38,7 @@ class Desk {
     for (const CommandCall& call : calls) {
       CommandTarget target{worker_, window, *snapshot, progress};
       const bool is_window = call.command->menu == "Window" || call.command->menu == "Help";
-      const bool may_fail =
-          call.command->name == "forget-runs" || call.command->name == "dismiss" || call.command->name == "assert";
-      if (is_window && !may_fail) execute(call, target);
+      if (is_window && call.command->available(state()) && call.command->name != "assert") execute(call, target);
     }
     return calls;
   }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/journal/journal.hpp"
+#include "tests/unit/workbench/kept_folder.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 
 namespace nextview {
@@ -35,7 +36,7 @@ TEST_F(KeptBranches, AreThereWhenASessionIsOpened) {
     const auto aside = first->snapshot();
     first->go_to("main", 2, job_control());
     const auto main = first->snapshot();
-    const fs::path folder = fs::directory_iterator(state)->path();
+    const fs::path folder = kept_folder(state);
     first.reset();
 
     SessionRunner second;
@@ -70,7 +71,7 @@ TEST_F(KeptBranches, ACancelledWayThereLeavesAllAsItWas) {
     for (int k = 0; k < 4; ++k) first.step(job_control());
     first.go_to("", 1, job_control());
     first.step(job_control());
-    folder = fs::directory_iterator(state)->path();
+    folder = kept_folder(state);
   }
   runner_.keep_sessions(state, {});
   runner_.open(folder, job_control());
@@ -100,7 +101,7 @@ TEST_F(KeptBranches, TheSessionThatIsOpenIsNotOpenedAgain) {
   runner_.keep_sessions(folder_ / "state", {});
   runner_.load(small_scan(), job_control());
   steps(1);
-  const fs::path own = fs::directory_iterator(folder_ / "state")->path();
+  const fs::path own = kept_folder(folder_ / "state");
   try {
     runner_.open(own, job_control());
     FAIL();
@@ -125,7 +126,7 @@ TEST_F(KeptBranches, ABranchKeepsThePlannerThatWasSetAtItsEnd) {
     EXPECT_EQ(first.configuration().planner.gain, long_scan().planner.gain);
   }
   runner_.keep_sessions(state, {});
-  runner_.open(fs::directory_iterator(state)->path(), job_control());
+  runner_.open(kept_folder(state), job_control());
   runner_.go_to("other", {}, job_control());
   EXPECT_EQ(runner_.configuration().planner.gain, "rear-side-voxel");
 }
@@ -142,7 +143,7 @@ TEST_F(KeptBranches, AScanOfAnEarlierVersionGoesOnInAFolderOfItsOwn) {
   EXPECT_EQ(second.snapshot()->records.size(), 2u);
   second.step(job_control());
   expect_same_scan(*second.snapshot(), *fresh(3, long_scan()));
-  EXPECT_EQ(read_journal(fs::directory_iterator(folder_ / "state")->path()).line().size(), 3u);
+  EXPECT_EQ(read_journal(kept_folder(folder_ / "state")).line().size(), 3u);
 }
 
 TEST_F(KeptBranches, WhatIsShownOnlyIsExportedWhole) {
@@ -151,7 +152,7 @@ TEST_F(KeptBranches, WhatIsShownOnlyIsExportedWhole) {
   runner_.load(long_scan(), job_control());
   steps(3);
   SessionRunner second;
-  second.open(fs::directory_iterator(state)->path(), job_control());  // while the first one writes it
+  second.open(kept_folder(state), job_control());  // while the first one writes it
   second.step(job_control());
   second.write(folder_ / "out", job_control());
   SessionRunner third;

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "tests/unit/workbench/kept_folder.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 
 namespace nextview {
@@ -50,7 +51,7 @@ TEST_F(SessionRandomCommands, EqualAModelThatRecomputesEverything) {
   };
   auto runner = open({});
   runner->step(job_control());
-  const fs::path folder = fs::directory_iterator(folder_ / "state")->path();
+  const fs::path folder = kept_folder(folder_ / "state");
 
   Done done{{proposal}, {planning_of(runner->configuration())}, planning_of(runner->configuration())};
   for (int k = 0; k < commands; ++k) {
