@@ -209,10 +209,11 @@ Session::Verdict Session::verdict(const Acquired& acquired) const {
   if (reason.empty()) return within;
   if (config.beyond_limits == RegistrationConfig::Beyond::accept) return within;
   if (config.beyond_limits == RegistrationConfig::Beyond::ask && judge_) return judge_(acquired, reason);
-  throw std::runtime_error(fmt::format(
-      "the scan is rejected: {}; registration.mode correct moves such scans, registration.beyond_limits accept takes "
-      "them",
-      reason));
+  const char* const way_out = within == Verdict::correct
+                                  ? "registration.max_shift and registration.max_rotation allow more"
+                                  : "registration.mode correct moves such scans";
+  throw std::runtime_error(
+      fmt::format("the scan is rejected: {}; {}, registration.beyond_limits accept takes them", reason, way_out));
 }
 
 }  // namespace nextview
