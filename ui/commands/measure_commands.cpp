@@ -19,7 +19,8 @@ void add_point(CommandTarget& t, double x, double y, double z) {
   if (measurement.complete()) measurement.points.clear();
   measurement.points.emplace_back(x, y, z);
   if (measurement.complete())
-    t.worker.log().add(LogEntry::Level::success, measured_text(measurement, t.session.cloud->points));
+    t.worker.log().add(LogEntry::Level::success,
+                       measured_text(measurement, measured_circle(measurement, t.session.cloud->points)));
 }
 
 ArgumentOf<double> metres(const char* name) { return argument::number(name, "[m]", -1000, 1000); }

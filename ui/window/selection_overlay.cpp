@@ -137,21 +137,18 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
 /// The points that were picked, what lies between them, and what to click next.
 void draw_measurement(SceneView& view, const PanelContext& context, const Measurement& measurement) {
   const Style& style = context.style;
-  const auto& cloud = context.snapshot.cloud->points;
+  const auto circle = measured_circle(measurement, context.snapshot.cloud->points);
   const ImU32 colour = to_imgui_u32(theme::chosen);
   for (std::size_t i = 1; i < measurement.points.size(); ++i)
     draw_segment(view, measurement.points[i - 1], measurement.points[i], colour, style.px(2));
-  if (measurement.kind == MeasureKind::bore && measurement.complete()) {
-    if (const auto through = circle_through(measurement.points[0], measurement.points[1], measurement.points[2])) {
-      const FittedCircle circle = fitted(*through, cloud);
-      const Vector3 u = circle.radius * circle.normal.unitOrthogonal(), v = circle.normal.cross(u);
-      constexpr int sides = 72;
-      const auto on = [&](int k) -> Vector3 {
-        const double angle = 2 * std::numbers::pi * k / sides;
-        return circle.centre + std::cos(angle) * u + std::sin(angle) * v;
-      };
-      for (int k = 0; k < sides; ++k) draw_segment(view, on(k), on(k + 1), colour, style.px(2));
-    }
+  if (circle) {
+    const Vector3 u = circle->radius * circle->normal.unitOrthogonal(), v = circle->normal.cross(u);
+    constexpr int sides = 72;
+    const auto on = [&](int k) -> Vector3 {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      return circle->centre + std::cos(angle) * u + std::sin(angle) * v;
+    };
+    for (int k = 0; k < sides; ++k) draw_segment(view, on(k), on(k + 1), colour, style.px(2));
   }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const Vector3& point : measurement.points)
@@ -162,7 +159,7 @@ void draw_measurement(SceneView& view, const PanelContext& context, const Measur
   const auto sum = std::accumulate(measurement.points.begin(), measurement.points.end(), Vector3(Vector3::Zero()));
   const auto middle = view.project(sum / double(measurement.points.size()));
   const Rectangle beside = view.beside_legends()[0];  // what lies beneath them is not seen
-  draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, cloud), theme::chosen, &beside);
+  draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, circle), theme::chosen, &beside);
 }
 
 void draw_all(SceneView& view, const PanelContext& context) {
