@@ -49,6 +49,7 @@ int run(const WindowArguments& a) {
     return run_window({}, script, start);
   }
   const Configuration configuration = a.options.configuration();
+  resolve_object(configuration);  // who is wrong about the file need not look for it in the window
   if (a.scanner.wanted()) start.scanner = {a.scanner.command, a.scanner.confirm == "always", configuration};
   start.offer = !a.scanner.wanted() && a.script.empty() && object.empty() && !a.options.gives_settings();
   return run_window(configuration, script, start);

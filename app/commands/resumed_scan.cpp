@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/file/counted.hpp"
 #include "core/file/read_file.hpp"
@@ -11,6 +12,15 @@
 #include "core/session/scan_loop.hpp"
 
 namespace nextview {
+
+namespace {
+
+/// What says which scans are taken, as long as none was rejected for it. The mode says where they lie.
+bool is_registration_limit(std::string_view key) {
+  return key.starts_with("registration.max_") || key == "registration.beyond_limits";
+}
+
+}  // namespace
 
 bool adopt_termination(const ConfigurationOptions& options, SavedSession& saved) {
   Configuration& configuration = saved.configuration;
@@ -21,9 +31,10 @@ bool adopt_termination(const ConfigurationOptions& options, SavedSession& saved)
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i].text() == then[i].text()) continue;
     has_changed = true;
-    if (!now[i].key.starts_with("termination."))
+    if (!now[i].key.starts_with("termination.") && !is_registration_limit(now[i].key))
       throw std::invalid_argument(wanted.as_given(fmt::format(
-          "{}: --resume goes on with the settings that the scan was begun with; termination.* alone may change",
+          "{}: --resume goes on with the settings that the scan was begun with; termination.* and the limits of "
+          "registration alone may change",
           now[i].key)));
   }
   // With fewer, config.toml would no longer repeat the scan.
@@ -33,6 +44,7 @@ bool adopt_termination(const ConfigurationOptions& options, SavedSession& saved)
         wanted.as_given(fmt::format("termination.views: {} has {} already; give more to go on", saved.folder.string(),
                                     counted(std::size_t(taken), "view"))));
   configuration.termination = wanted.termination;
+  configuration.registration = wanted.registration;
   return has_changed;
 }
 

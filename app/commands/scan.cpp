@@ -17,6 +17,7 @@
 #include "core/export/scan_files.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
+#include "core/progress/stopped.hpp"
 #include "core/session/session_folder.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
@@ -24,7 +25,7 @@
 namespace nextview {
 namespace {
 
-constexpr int most_failures = 3;  // of a live scanner, one after the other
+constexpr int most_failures = 3;  // one after the other
 
 struct ScanArguments {
   ConfigurationOptions options;
@@ -63,7 +64,7 @@ bool avoid(const std::set<std::size_t>& failed, Session& session) {
 }
 
 /// Takes the views, one after the other, with a picture of each. A live scanner that is lost is reached again; where it
-/// cannot take a view, another one is taken.
+/// cannot take a view, or one is rejected, another one is taken.
 void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepPictures& pictures,
                 const ProgressLine& progress, const std::stop_token& stop) {
   int failures = 0;  // one after the other
@@ -73,9 +74,10 @@ void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepP
       if (!folder.step(session, progress, stop)) break;
     } catch (const std::runtime_error& error) {
       progress.clear();
-      if (!scanner || ++failures > most_failures) throw;
+      const bool is_rejected = dynamic_cast<const ScanRejected*>(&error);
+      if ((!scanner && !is_rejected) || ++failures > most_failures) throw;
       fmt::print(stderr, "{}\n", printable(error.what()));
-      if (scanner->is_lost())
+      if (scanner && scanner->is_lost())
         scanner->reconnect(stop);
       else if (session.next_candidate())
         failed.insert(*session.next_candidate());
@@ -90,8 +92,8 @@ void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepP
   }
 }
 
-void write_results(const Session& session, const ScanArguments& arguments, OutputFolder& out, bool failed,
-                   const ProgressLine& progress, const std::stop_token& stop) {
+void write_results(const Session& session, const ScanArguments& arguments, OutputFolder& out,
+                   const std::string& failure, const ProgressLine& progress, const std::stop_token& stop) {
   progress(1.0, "writing the files");
   write_scan(session, out);
   std::string surface_files;
@@ -105,7 +107,7 @@ void write_results(const Session& session, const ScanArguments& arguments, Outpu
           "  (no surfaces: stopped before they were made; nextview export {} surface surface.ply makes one)\n",
           shell_text(out.path()));
   }
-  print_end(session, failed);
+  print_end(session, failure);
   print_files(session, out.path(), !arguments.no_pictures, surface_files);
 }
 
@@ -125,7 +127,14 @@ int finish(Session& session, const ScanArguments& arguments, Scanner* scanner, S
     if (session.records().empty()) throw;
     failure = error.what();  // what was taken is written all the same
   }
-  write_results(session, arguments, folder.out(), !failure.empty(), progress, stop);
+  try {
+    write_results(session, arguments, folder.out(), failure, progress, stop);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // a full disk, for example
+    throw std::runtime_error(fmt::format("{}; what was captured is kept: nextview scan --resume {} writes the rest",
+                                         error.what(), shell_text(folder.out().path())));
+  }
   if (!failure.empty()) throw std::runtime_error(failure);
   folder.keep_state(session);
   folder.close();
@@ -222,7 +231,8 @@ void add_scan_command(CLI::App& program) {
                          ->check(not_empty());
   app->add_flag("--overwrite", arguments->overwrite, "replaces the session that is in the folder");
   app->add_option("--resume", arguments->resume,
-                  "goes on with the session in this folder, whatever ended it; termination.* may be changed")
+                  "goes on with the session in this folder, whatever ended it; termination.* and the limits of "
+                  "registration may be changed")
       ->type_name("DIR")
       ->excludes(out)
       ->excludes(app->get_option("OBJECT"));

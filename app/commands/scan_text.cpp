@@ -109,9 +109,9 @@ void print_step(const Session& session, const StepRecord& r) {
   std::fflush(stdout);
 }
 
-void print_end(const Session& session, bool failed) {
-  if (failed)
-    fmt::print("\nNot finished: see below.\n");
+void print_end(const Session& session, const std::string& failure) {
+  if (!failure.empty())
+    fmt::print("\nNot finished: {}.\n", printable(failure));
   else
     fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
   if (session.records().empty()) return;

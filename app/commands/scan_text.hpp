@@ -12,8 +12,8 @@ namespace nextview {
 void print_head(const Session& session);
 /// A row of the table.
 void print_step(const Session& session, const StepRecord& record);
-/// Why it ended, and how well. `failed`: it stopped for a reason that is said after it.
-void print_end(const Session& session, bool failed);
+/// Why it ended, and how well; `failure`: what ended it before it was done, or empty.
+void print_end(const Session& session, const std::string& failure);
 /// What was written where, and what to do next.
 void print_files(const Session& session, const std::filesystem::path& out, bool pictures, const std::string& surfaces);
 

@@ -67,8 +67,15 @@ void print_summary(const StudySummary& summary, const fs::path& out) {
       printable(out.string()), counted(summary.rows, "row"), counted(summary.runs, "run"), shell_text(out));
 }
 
+/// A file, or one of those that come with the program by its name: "smoke", "assets/studies/smoke.toml".
+fs::path study_file(const std::string& wanted) {
+  if (is_there(wanted)) return wanted;
+  const fs::path own = assets_folder() / "studies" / fs::path(wanted).filename().replace_extension(".toml");
+  return is_there(own) ? own : fs::path(wanted);
+}
+
 int run_file(const StudyArguments& a) {
-  const Study study = read_study(a.file);
+  const Study study = read_study(study_file(a.file));
   const StudyShare share = share_of(a, study.size());
   const StudyKeys keys = keys_of(study);
   const StudyFolder folder = StudyFolder::begin(a.out, study, keys, a.resume);
@@ -151,7 +158,7 @@ void add_study_command(CLI::App& program) {
   auto a = std::make_shared<StudyArguments>();
   CLI::App* app =
       program.add_subcommand("study", "Compare policies and maps over objects, start views, seeds, sensors");
-  app->add_option("FILE", a->file, "what is compared (TOML); assets/studies has examples");
+  app->add_option("FILE", a->file, "what is compared (TOML); smoke comes with the program");
   app->add_option("--out", a->out, "folder for it: new, or empty")->type_name("DIR");
   CLI::Option* shard =
       app->add_option("--shard", a->shard, "does each N-th run, beginning with the I-th, in a folder of its own")

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "core/file/lower_case.hpp"
+
 namespace nextview {
 namespace {
 
@@ -83,12 +85,26 @@ LengthUnit unit_of_fbx(const aiScene& scene) {
   return LengthUnit::automatic;
 }
 
+/// What was written into the head of an STL or PLY, which have no place of their own for it: "unit mm", "UNITS=mm".
+LengthUnit unit_of_head(std::string_view head) {
+  static const std::regex remark(R"(\bunits?\s*[ =:]\s*(um|mm|cm|m|inch|inches|ft)\b)", std::regex::icase);
+  const std::string text(head.substr(0, head.find('\0')));
+  std::smatch match;
+  if (!std::regex_search(text, match, remark)) return LengthUnit::automatic;
+  const std::string word = lower_case(match[1] == "inches" ? "inch" : match[1].str());
+  for (const auto& [ignored, unit] : named_units)
+    if (name(unit) == word) return unit;
+  return LengthUnit::automatic;
+}
+
 }  // namespace
 
 LengthUnit declared_unit(std::string_view extension, std::string_view bytes, const aiScene& scene) {
   if (extension == ".3mf") return unit_of_archive(bytes);
   if (extension == ".amf") return unit_of_text(bytes);
   if (extension == ".fbx") return unit_of_fbx(scene);
+  if (extension == ".stl") return unit_of_head(bytes.substr(0, 80));
+  if (extension == ".ply") return unit_of_head(bytes.substr(0, std::min(bytes.find("element"), begin_of_text)));
   return LengthUnit::automatic;
 }
 

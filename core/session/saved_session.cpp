@@ -115,6 +115,11 @@ SavedSession read_session(const fs::path& folder) {
   const Configuration& c = saved.configuration;
   if (!c.recorded.folder.empty() || !c.driver.name.empty())
     throw std::runtime_error(fmt::format("{}: has no journal: what was captured is not there", folder.string()));
+  if (is_there(folder / scans_name))
+    throw std::runtime_error(
+        fmt::format("{}: its journal is gone, which says what its {} are; scan them anew into another folder: "
+                    "nextview scan --config {}",
+                    folder.string(), scans_name, (folder / "config.toml").string()));
   require_same_object(folder, resolve_object(c));
   saved.notices.emplace_back("an earlier version left no scans there: its views are sensed again");
   return saved;

@@ -212,7 +212,7 @@ Session::Verdict Session::verdict(const Acquired& acquired) const {
   const char* const way_out = within == Verdict::correct
                                   ? "registration.max_shift and registration.max_rotation allow more"
                                   : "registration.mode correct moves such scans";
-  throw std::runtime_error(
+  throw ScanRejected(
       fmt::format("the scan is rejected: {}; {}, registration.beyond_limits accept takes them", reason, way_out));
 }
 

@@ -13,6 +13,11 @@
 
 namespace nextview {
 
+/// A scan that lies too far off those before it was not taken (RegistrationConfig). Another view may do.
+struct ScanRejected : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// What a session is made of. What is null is what the configuration says: a simulated camera that flies freely around
 /// the object, its planner, its candidates.
 struct SessionParts {

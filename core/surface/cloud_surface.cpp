@@ -194,7 +194,10 @@ Surface nothing(const std::string& reason) {
   return surface;
 }
 
-Surface too_few(std::size_t points) { return nothing(fmt::format("{} points are too few for a surface", points)); }
+Surface too_few(std::size_t points) {
+  return nothing(fmt::format("{} for a surface",
+                             points == 1 ? "1 point is too little" : fmt::format("{} points are too few", points)));
+}
 
 /// What both kinds of clouds go through, once it is known how wide cells are and how normals get their signs.
 Surface surface_in_cells(const Cloud::Ptr& points, double cell, void (*fit)(Cloud&, const Tree&),

@@ -1,7 +1,10 @@
 // A day's work at the window, by mouse and keyboard alone, under a window manager, on displays of three sizes.
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
+#include <thread>
 
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/surface/surface_file.hpp"
@@ -130,7 +133,12 @@ double DayByHand::measured_length() {
 TEST_P(DayByHand, EndsWithWhatWasWanted) {
   if (GetParam().width != 1280 && !std::getenv("NEXTVIEW_ALL_SIZES"))
     GTEST_SKIP() << "is tried with NEXTVIEW_ALL_SIZES=1";
-  Background manager(fmt::format("env DISPLAY={} openbox 2>/dev/null", display_));
+  // A window that is opened while the manager begins may never be told that it is seen; GLFW waits for that.
+  const auto begun = folder_ / "openbox has begun";
+  Background manager(
+      fmt::format("env DISPLAY={} openbox --startup \"touch '{}'\" 2>/dev/null", display_, begun.string()));
+  for (int i = 0; i < 600 && !std::filesystem::exists(begun); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const auto part = folder_ / "my part.stl";
   write_stl(box_part(), part);
   start_on_whole_screen("window sphere --sensor.width 160 --sensor.height 120 --termination.views 6",

@@ -226,7 +226,8 @@ TEST_F(SessionFolders, AnObjectThatIsGoneIsToBePutBack) {
 TEST_F(SessionFolders, MistakesAreOneLine) {
   ASSERT_EQ(nextview("scan box --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
   expect_refused("scan --resume " + in("nothing"), "nothing: holds no session");
-  expect_refused("scan --resume " + in("out") + " --planner.gain random", "termination.* alone may change");
+  expect_refused("scan --resume " + in("out") + " --planner.gain random",
+                 "termination.* and the limits of registration alone may change");
   expect_refused("scan --resume " + in("out") + " --out " + in("other"), "--out");
   ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("two")).exit_code, 0);
   const std::string before = read_file(in("two/config.toml"));

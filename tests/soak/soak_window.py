@@ -3,6 +3,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import tempfile
 import time
 
 
@@ -26,7 +27,16 @@ class Display:
         if self.name == ":":
             raise RuntimeError("Xvfb does not start; install xvfb")
         self.environment = {**os.environ, "DISPLAY": self.name}
-        self.manager = start(["openbox"], env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        # A window that is opened while the manager begins may never be told that it is seen; GLFW waits for that.
+        with tempfile.TemporaryDirectory() as folder:
+            begun = pathlib.Path(folder) / "begun"
+            self.manager = start(["openbox", "--startup", f"touch '{begun}'"], env=self.environment,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            until = time.monotonic() + 30
+            while not begun.exists():
+                if self.manager.poll() is not None or time.monotonic() > until:
+                    raise RuntimeError("openbox does not start; install openbox")
+                time.sleep(0.02)
 
     def xdotool(self, *words):
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, timeout=60, stdout=subprocess.DEVNULL,

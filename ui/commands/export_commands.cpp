@@ -82,11 +82,14 @@ const CommandOf<std::string, std::optional<MapChoice>> command::export_map{
 
 const CommandOf<std::string, std::optional<SurfaceSource>, std::optional<SurfacePart>> command::export_surface{
     declaration(ExportKind::surface, "Export a surface…"), where_to(ExportKind::surface),
-    argument::optional(argument::choice<SurfaceSource>("of", "the map that is shown, or the cloud", {"map", "cloud"})),
+    argument::optional(argument::choice<SurfaceSource>(
+        "of", "the map that is shown, or the cloud; else the surface that is shown, or the map's", {"map", "cloud"})),
     argument::optional(argument::choice<SurfacePart>(
         "part", "what was seen, or also what closes it, into NAME_unseen beside it", {"seen", "all"})),
     [](CommandTarget& t, const std::string& file, const auto& of, const auto& part) {
-      write(t, ExportKind::surface, file, {of.value_or(SurfaceSource::map), part == SurfacePart::all});
+      const LayerChoice& layers = t.window.layers;
+      const SurfaceSource usual = layers.surface ? layers.surface_source : SurfaceSource::map;
+      write(t, ExportKind::surface, file, {of.value_or(usual), part == SurfacePart::all});
     }};
 
 const CommandOf<std::string, std::optional<std::string>, std::optional<Background>> command::export_curves{

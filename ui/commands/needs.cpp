@@ -25,9 +25,9 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
   std::string lost;
   if (t.progress.refining)
     lost = "The Gibbs map is being sampled.";
-  else if (s.gibbs && !s.gibbs_kept && !s.planned_on_posterior)
-    lost = fmt::format("The Gibbs map of {} is kept nowhere: to keep it, cancel and export the scan (Ctrl+E).",
-                       counted(s.gibbs->views, "view"));
+  else if (s.gibbs_lost > 0 && !s.planned_on_posterior)
+    lost = fmt::format("The Gibbs map of {} is kept nowhere: to keep it, cancel{} and export the scan (Ctrl+E).",
+                       counted(s.gibbs_lost, "view"), s.gibbs ? "" : ", go to its view");
   if (!undoable && !s.kept && !s.records.empty())
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",
                         s.records.size() == 1 ? "The view is" : fmt::format("The {} views are", s.records.size()));

@@ -1,5 +1,6 @@
 #include "ui/commands/scan_commands.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "ui/commands/command_target.hpp"
@@ -88,11 +89,15 @@ const CommandOf<> command::go_on{
     {"continue",
      "Scan",
      "Continue beyond the limits",
-     "Lets a finished scan go on from where it is: lifts what ends it (termination.*), and takes the next view.",
+     "Lets a finished scan go on from where it is: lifts what ends it (termination.*), for 20 more views, and takes "
+     "the next one.",
      {},
      continue_why_not},
     [](CommandTarget& t) {
-      t.worker.post(request::SetTermination{TerminationConfig::unlimited()});
+      TerminationConfig beyond = TerminationConfig::unlimited();
+      const int allowed = t.session.configuration.termination.views, more = TerminationConfig().views;
+      beyond.views = std::max(allowed, std::min(int(t.session.records.size()) + more, TerminationConfig::max_views));
+      t.worker.post(request::SetTermination{beyond});
       t.worker.post(request::Step{});
     }};
 

@@ -102,7 +102,14 @@ SessionFigure::SessionFigure() : parts_(std::make_unique<Parts>()) {}
 SessionFigure::~SessionFigure() = default;
 
 void SessionFigure::write(const Session& session, const std::filesystem::path& file) {
-  parts_->figure.show(step_picture(session));
+  StepPicture picture = step_picture(session);
+  if (!session.finished().empty()) {
+    picture.finished = session.finished();
+    picture.reason.clear();
+    picture.chosen.reset();  // no view follows
+    picture.rays.clear();
+  }
+  parts_->figure.show(picture);
   parts_->target.render();
   write_png(parts_->target.read_back(), file);
 }

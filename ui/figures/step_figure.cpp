@@ -169,11 +169,11 @@ ViewDirection beside(const Pose& T_world_camera) {
 std::string step_title(const StepPicture& picture) {
   std::string title = fmt::format("Step {}", picture.step);
   if (picture.step_count > 0) title += fmt::format(" of {}", picture.step_count);
+  if (!picture.finished.empty()) title += " · finished: " + picture.finished;
   if (!picture.chosen) return title;
   title += fmt::format(" · next best view {}", *picture.chosen);
   if (*picture.chosen < picture.scores.size()) {
-    title += fmt::format(" · {} {}", picture.gain_name, short_number(picture.scores[*picture.chosen]));
-    if (!picture.gain_unit.empty()) title += " " + picture.gain_unit;
+    title += fmt::format(" · {} {}", picture.gain_name, short_text(picture.scores[*picture.chosen], picture.gain_unit));
   }
   return title;
 }

@@ -40,6 +40,7 @@ struct StepPicture {
   std::vector<RaySegment> rays;       ///< of the chosen view
   RayValues ray_values;
   std::string reason;        ///< of the choice
+  std::string finished;      ///< why no view follows; empty if one does
   std::string ranking_note;  ///< for example that all candidates tie, and why
 
   ChartContent entropy{"Entropy of the map", "view", "", "entropy", "bits", {}, {}, true};

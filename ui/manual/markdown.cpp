@@ -92,6 +92,8 @@ class Reader {
       blocks_.push_back({.kind = Kind::code, .language = std::string(line.substr(3))});
     } else if (line.starts_with('#')) {
       take_heading(line);
+    } else if (line.starts_with('|') && line.find("![") != line.npos) {
+      take_pictures(line);
     } else if (line.starts_with('|')) {
       take_row(line);
     } else if (line.starts_with("![")) {
@@ -122,6 +124,18 @@ class Reader {
     if (is_rule(line)) return;
     open_.rows.push_back(cells(line));
     open_.rows.back().resize(open_.rows.front().size());
+  }
+
+  /// A table of pictures, whose heads are empty: what each is called and shows.
+  void take_pictures(std::string_view line) {
+    open_ = {};
+    static const std::regex picture(R"(!\[([^\]]*)\]\([^)]*\)([^|]*))");
+    const std::string row(line);
+    for (auto at = std::sregex_iterator(row.begin(), row.end(), picture); at != std::sregex_iterator(); ++at) {
+      const std::string shows = (*at)[1], caption = (*at)[2], name = unmarked(trimmed(caption));
+      const char* const between = shows.empty() || name.empty() ? "" : ": ";
+      blocks_.push_back({.kind = Kind::item, .text = name + between + shows});
+    }
   }
 
   void take_text(std::string_view line) {

@@ -91,7 +91,9 @@ std::optional<Vector3> first_hit(const TriangleMesh& mesh, const Vector3& origin
 std::optional<Vector3> SceneView::surface_point(double x, double y) {
   if (!shown_ || doubtful_) return std::nullopt;
   const auto [origin, direction] = sight(x, y);
-  if (choice_.object && shown_->mesh)
+  // Through a ghost one points at what was measured.
+  const bool seen_through = choice_.object_style == MeshStyle::ghost && (choice_.cloud || shown_surface());
+  if (choice_.object && shown_->mesh && !seen_through)
     if (const auto hit = first_hit(*shown_->mesh, origin, direction, choice_.section)) return hit;
   if (const TriangleMesh* surface = shown_surface())
     if (const auto hit = first_hit(*surface, origin, direction, choice_.section)) return hit;

@@ -72,6 +72,8 @@ void SceneView::place(const Rectangle& rectangle) {
   drawn.height = std::max(drawn.height, 1.0);
   const Viewport viewport = drawn.in(target_.width(), target_.height());
   renderer().SetViewport(viewport.left, viewport.bottom, viewport.right, viewport.top);
+  const Vector3 room(drawn.width, drawn.height, scale_);
+  if (std::exchange(annotated_in_, room) != room) scene_.annotate();
 }
 
 std::array<Rectangle, 2> SceneView::beside_legends() const {

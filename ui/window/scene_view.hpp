@@ -96,7 +96,8 @@ class SceneView {
 
   RenderTarget& target_;
   Rectangle rectangle_;
-  double scale_;  ///< of the display
+  double scale_;                            ///< of the display
+  Vector3 annotated_in_ = Vector3::Zero();  ///< width, height and scale [px]: which legends there was room for
   Scene scene_;
   Vector3 pivot_ = Vector3::Zero();
   std::shared_ptr<const SessionSnapshot> shown_;

@@ -54,7 +54,7 @@ void draw_image_border(SceneView& view, const PanelContext& context) {
   const auto is_shown = [&](const auto& corner) { return corner && around.contains(corner->x(), corner->y()); };
   draw_label(style, {float(r.x) + style.px(8), float(r.y + r.height) - style.px(84)},
              std::ranges::all_of(corners, is_shown) ? "What this view sees. A drag, or F, leaves it."
-                                                    : "This view sees more than fits here: look through it (V).",
+                                                    : "This view sees more than fits here: look through it (C).",
              theme::chosen);
 }
 

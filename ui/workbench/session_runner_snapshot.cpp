@@ -46,7 +46,10 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   const bool is_there = snapshot.compared && tree_ && tree_->branches.has(snapshot.compared->branch);
   if (!is_there || snapshot.compared->branch == tree_->branches.current().name) snapshot.compared = nullptr;
   snapshot.kept = kept_ && kept_->folder();
-  snapshot.gibbs_kept = snapshot.gibbs && snapshot.gibbs == written_gibbs_;
+  // Also where the session stands elsewhere: the map comes back with its views.
+  const bool is_of_this = session_ && !gibbs_scans_.empty() && !session_->scans().empty() &&
+                          gibbs_scans_.front() == session_->scans().front();
+  snapshot.gibbs_lost = gibbs_ && is_of_this && gibbs_ != written_gibbs_ ? gibbs_->views : 0;
   snapshot.cameras =
       std::make_shared<const std::vector<CameraBookmark>>(kept_ ? kept_->cameras() : std::vector<CameraBookmark>());
   snapshot.live = scanner_ != nullptr;

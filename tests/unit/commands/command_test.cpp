@@ -267,10 +267,13 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   auto map = std::make_shared<GibbsMap>();
   map->views = 2;
   session.gibbs = map;
+  session.gibbs_lost = 2;
   const auto question = [&] { return command::quit.question({session, {}, {}}, {}).text; };
   EXPECT_THAT(question(),
               HasSubstr("The Gibbs map of 2 views is kept nowhere: to keep it, cancel and export the scan (Ctrl+E)."));
-  session.gibbs_kept = true;
+  session.gibbs = nullptr;
+  EXPECT_THAT(question(), HasSubstr("cancel, go to its view and export the scan")) << "one stands elsewhere";
+  session.gibbs_lost = 0;
   EXPECT_EQ(question(), "");
 }
 

@@ -53,6 +53,26 @@ TEST(OwnSize, IsInTheUnitThatTheFileDeclares) {
     }
 }
 
+TEST(OwnSize, OfAnStlOrPlyIsInTheUnitThatItsHeadNames) {
+  const TemporaryFolder folder;
+  const auto stl = [&](std::string head) {
+    head.resize(80, '\0');
+    std::string bytes = files::stl_binary();
+    return folder.write("t.stl", bytes.replace(0, 80, head));
+  };
+  EXPECT_NEAR(longest(at_own_size(stl("nextview, unit mm; what was seen"))), 0.004, 1e-9);
+  EXPECT_NEAR(longest(at_own_size(stl("by another, UNITS=inch"))), 4 * 0.0254, 1e-6);
+  EXPECT_NEAR(longest(at_own_size(stl("a unit of mine"))), 4.0, 1e-6);
+  const auto ply = [&](const std::string& remark) {
+    return folder.write("t.ply",
+                        "ply\nformat ascii 1.0\ncomment " + remark +
+                            "\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+                            "1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n30 0 0\n0 1 0\n3 0 1 2\n");
+  };
+  EXPECT_NEAR(longest(at_own_size(ply("reconstructed surface, nextview; unit m"))), 30.0, 1e-6);
+  EXPECT_NEAR(longest(at_own_size(ply("made by hand"))), 0.03, 1e-6);
+}
+
 TEST(OwnSize, InGltfIsInMetresHoweverLong) {
   const TemporaryFolder folder;
   folder.write("buffer.bin", files::gltf_buffer());
