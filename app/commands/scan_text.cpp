@@ -24,6 +24,9 @@ std::string object_text(const Session& session) {
       "{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()), size_text(*session.mesh()),
       unit == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit)),
       session.object_topology().summary(), lengths_text(session.configuration()));
+  const double longest = session.mesh()->bounding_box().sizes().maxCoeff();
+  if (const std::string moved = centring_text(session.object().placement, longest); !moved.empty())
+    text += fmt::format("  {}, in what is written, too; object.centred false keeps the file's\n", moved);
   for (const std::string& note : session.notes()) text += fmt::format("  {}\n", printable(note));
   return text;
 }
@@ -43,7 +46,7 @@ std::string recording_text(const Session& session) {
 
 std::string registration_text(const ScanRegistration& r) {
   if (!r.reliable) return "not registered: " + r.why_not;
-  return fmt::format("registered: {} and {:.2g} degrees off the scans before, {:.0f} % of it lie on them",
+  return fmt::format("registered: {} and {:.2g} degrees off the scans before, {:.0f} % of it lies on them",
                      length_text(r.shift), r.rotation * 180.0 / std::numbers::pi, 100.0 * r.overlap);
 }
 
@@ -112,8 +115,10 @@ void print_step(const Session& session, const StepRecord& r) {
 void print_end(const Session& session, const std::string& failure) {
   if (!failure.empty())
     fmt::print("\nNot finished: {}.\n", printable(failure));
+  else if (session.finished().empty())
+    fmt::print("\nStopped by the user.\n");
   else
-    fmt::print("\nFinished: {}.\n", session.finished().empty() ? "stopped by the user" : session.finished());
+    fmt::print("\nFinished: {}.\n", session.finished());
   if (session.records().empty()) return;
   const StepRecord& last = session.records().back();
   if (last.surface_left && session.known_object() && !session.recording())

@@ -190,6 +190,14 @@ TriangleMesh PlacedMesh::surroundings() const {
   return all;
 }
 
+std::string centring_text(const MeshPlacement& placement, double longest) {
+  const Eigen::Vector3d was = with_z_up(placement.up, placement.centre * placement.scale);
+  if (was.cwiseAbs().maxCoeff() <= 1e-3 * longest) return "";
+  const double scale = longest < 1.0 ? 1e3 : 1.0;
+  return fmt::format("its middle was at {:.4g}, {:.4g}, {:.4g} {} and is the origin now", scale * was.x(),
+                     scale * was.y(), scale * was.z(), scale > 1.0 ? "mm" : "m");
+}
+
 PlacedMesh place_mesh(const TriangleMesh& in_file_units, const MeshFileOptions& options) {
   ImportedTriangles triangles;
   for (const Eigen::Vector3f& vertex : in_file_units.vertices) triangles.vertices.push_back(vertex.cast<double>());

@@ -28,6 +28,10 @@ struct MeshPlacement {
   Eigen::Vector3d operator()(const Eigen::Vector3d& point) const { return with_z_up(up, (point - centre) * scale); }
 };
 
+/// Where a part that was centred had its middle, for people; empty if that was the origin to a thousandth of its size.
+/// "its middle was at 40, 25, 30 mm and is the origin now" @param longest its longest side [m]
+std::string centring_text(const MeshPlacement& placement, double longest);
+
 struct PlacedMesh {
   TriangleMesh mesh;
   MeshPlacement placement;

@@ -47,7 +47,7 @@ TEST_F(Signals, AScanThatIsStoppedKeepsItsViews) {
     ASSERT_TRUE(fs::exists(in("out/steps.csv"))) << signal << run.err;
     const std::string steps = read_file(in("out/steps.csv"));
     EXPECT_GT(std::count(steps.begin(), steps.end(), '\n'), 1) << signal;
-    EXPECT_THAT(read_file(in("printed")), HasSubstr("stopped by the user")) << signal;
+    EXPECT_THAT(read_file(in("printed")), HasSubstr("Stopped by the user")) << signal;
     fs::remove_all(in("out"));
     fs::remove(in("printed"));
   }

@@ -21,8 +21,9 @@ constexpr float label_width = 158, start_width = 20, picture_width = 60, picture
 
 /// What a view came to, in a few characters.
 std::string brief(const SessionSnapshot& s, const StepRecord& record) {
-  const auto percent = [](double share) {  // 99.6 % is not all of it
-    return fmt::format("{:.0f} %", share < 1 ? std::min(std::round(100 * share), 99.0) : 100.0);
+  const auto percent = [](double share) {  // 99.96 % is not all of it
+    return share >= 0.995 && share < 1 ? fmt::format("{:.1f} %", std::floor(1000 * share) / 10)
+                                       : fmt::format("{:.0f} %", 100 * share);
   };
   if (record.coverage_recorded) return percent(*record.coverage_recorded);
   return s.is_evaluated() ? percent(record.coverage_visible) : area_text(record.new_surface);

@@ -42,14 +42,15 @@ std::string measure_hint(const Measurement& m) {
   const char* const which = ordinals[m.complete() ? 0 : m.points.size()];
   switch (m.kind) {
     case MeasureKind::plane:
-      return fmt::format("Distance to a plane: click the {} point{}", which,
-                         m.points.size() == 3 ? ", off the plane" : " of the plane");
+      return fmt::format("Distance to a plane: click the {} point{}{}", which,
+                         m.points.size() == 3 ? ", off the plane" : " of the plane",
+                         m.points.empty() ? "; M: a bore" : "");
     case MeasureKind::bore:
       return fmt::format("Diameter of a bore: click the {} point of its rim", which);
     case MeasureKind::distance:
       break;
   }
-  return fmt::format("Distance: click the {} point", which);
+  return fmt::format("Distance: click the {} point{}", which, m.points.empty() ? "; M: to a plane, a bore" : "");
 }
 
 }  // namespace nextview

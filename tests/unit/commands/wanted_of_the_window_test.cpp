@@ -108,7 +108,13 @@ TEST_F(WantedOfTheWindow, MeasuresPointByPointAndBeginsAgain) {
   EXPECT_EQ(error_of("measure plane"), "no error");
   EXPECT_EQ(window_.measurement->kind, MeasureKind::plane);
   EXPECT_EQ(error_of("measure"), "no error");
-  EXPECT_FALSE(window_.measurement) << "again: no more";
+  EXPECT_EQ(window_.measurement.value().kind, MeasureKind::bore) << "again, before a click: the next kind";
+  EXPECT_EQ(error_of("measure"), "no error");
+  EXPECT_FALSE(window_.measurement) << "after the last kind: no more";
+  EXPECT_EQ(error_of("measure"), "no error");
+  EXPECT_EQ(error_of("measure-point 1 2 3"), "no error");
+  EXPECT_EQ(error_of("measure"), "no error");
+  EXPECT_FALSE(window_.measurement) << "after a click: no more";
 }
 
 TEST_F(WantedOfTheWindow, AssertionsHoldOnTheirSideOfANumberAndAtIt) {
