@@ -9,8 +9,8 @@ namespace nextview {
 struct RegistrationConfig {
   enum class Mode { off, check, correct } mode = Mode::off;  ///< check: says so alone; correct: moves the scan
   enum class Beyond { ask, accept, reject } beyond_limits = Beyond::ask;  ///< without a window, ask rejects
-  double max_shift = 0.0;     ///< of the scan's middle [m]; 0: by the noise and the mode (registration_limits)
-  double max_rotation = 0.0;  ///< [deg]; 0: by the mode
+  double max_shift = 0.0;     ///< of the scan's middle [m]; 0: by registration_limits
+  double max_rotation = 0.0;  ///< [deg]; 0: likewise
   double min_overlap = 0.25;  ///< share of a scan's points that lie on what was scanned before
 
   /// @throws std::invalid_argument naming the setting and its bounds.
@@ -26,8 +26,15 @@ struct RegistrationLimits {
   double min_overlap = 0.25;
 };
 
+/// How far off a robot is known to put scans: standard deviations of a scan's middle [m], and its turn [deg].
+struct KnownErrors {
+  double shift = 0.0, rotation = 0.0;
+};
+
 /// The limits of a scan whose sensor has this noise along its rays [m] and whose map has voxels of this edge [m]. Where
-/// the configuration sets none, check allows what good scans show, and correct what can be found.
-RegistrationLimits registration_limits(const RegistrationConfig& config, double range_noise, double resolution);
+/// the configuration sets none, check allows what good scans show, and correct what can be found, or what is known of
+/// the robot.
+RegistrationLimits registration_limits(const RegistrationConfig& config, double range_noise, double resolution,
+                                       const KnownErrors& known = {});
 
 }  // namespace nextview

@@ -1,5 +1,8 @@
 #include "core/session/scan_loop.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include "core/evaluation/entropy.hpp"
 #include "core/planner/new_surface_policy.hpp"
 #include "core/progress/part.hpp"
@@ -20,6 +23,15 @@ void report(const Progress& progress, const std::stop_token& stop, double fracti
 FusionConfig fusion(const ScanSetup& setup) {
   const Configuration& c = setup.configuration;
   return {c.map.insertion, setup.planner->needs().occlusions ? occlusion_distance(c) : 0.0, c.gibbs.view_sweeps};
+}
+
+/// Of a capture: a camera that is turned shifts what it looks at.
+RegistrationLimits limits_of(const ScanSetup& setup, const Pose& T_world_camera) {
+  const Configuration& c = setup.configuration;
+  const double distance = (T_world_camera.translation() - setup.region.box().center()).norm();
+  const double turn = c.robot.rotation_error * std::numbers::pi / 180.0;
+  const KnownErrors known{std::sqrt(3.0) * c.robot.position_error + turn * distance, c.robot.rotation_error};
+  return registration_limits(c.registration, setup.source.range_noise, c.map.resolution, known);
 }
 
 /// What the view did to the maps, as numbers of its record.
@@ -121,16 +133,14 @@ void register_capture(const ScanSetup& setup, const ScanState& state, Registrati
                       const std::stop_token& stop) {
   const Configuration& c = setup.configuration;
   if (c.registration.mode == RegistrationConfig::Mode::off || state.scans.empty()) return;
-  const RegistrationLimits limits = registration_limits(c.registration, setup.source.range_noise, c.map.resolution);
+  const RegistrationLimits limits = limits_of(setup, acquired.capture.T_world_camera);
   acquired.registration =
       register_scan(to_scan(acquired.capture, &c.cloud, stop).scan, state.scans, limits, target, stop);
 }
 
 std::string beyond_limits(const ScanSetup& setup, const Acquired& acquired) {
-  const Configuration& c = setup.configuration;
   if (!acquired.registration) return "";
-  return beyond_limits(*acquired.registration,
-                       registration_limits(c.registration, setup.source.range_noise, c.map.resolution));
+  return beyond_limits(*acquired.registration, limits_of(setup, acquired.capture.T_world_camera));
 }
 
 void correct(Acquired& acquired) {

@@ -181,6 +181,7 @@ TEST(RegistrationLimits, FollowFromTheNoiseUnlessSet) {
   config.max_rotation = 3.0;
   EXPECT_EQ(registration_limits(config, noise, resolution).max_shift, 0.02);
   EXPECT_EQ(registration_limits(config, noise, resolution).max_rotation, 3.0);
+  EXPECT_EQ(registration_limits(config, noise, resolution, {0.1, 9.0}).max_shift, 0.02) << "what is asked for counts";
   config.min_overlap = 0.0;
   EXPECT_THROW(config.validate(), std::invalid_argument);
 }
