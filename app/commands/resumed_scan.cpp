@@ -22,7 +22,7 @@ bool is_registration_limit(std::string_view key) {
 
 }  // namespace
 
-bool adopt_termination(const ConfigurationOptions& options, SavedSession& saved) {
+bool adopt_changes(const ConfigurationOptions& options, SavedSession& saved) {
   Configuration& configuration = saved.configuration;
   Configuration wanted = configuration;
   options.apply_to(wanted);

@@ -8,8 +8,9 @@ namespace nextview {
 
 // What `scan --resume` looks at before it goes on.
 
-/// Everything but the end of a scan stays as it was. Whether that has changed. @throws std::invalid_argument
-bool adopt_termination(const ConfigurationOptions& options, SavedSession& saved);
+/// Everything but the end of a scan, and which scans are rejected, stays as it was. Whether that has changed. @throws
+/// std::invalid_argument
+bool adopt_changes(const ConfigurationOptions& options, SavedSession& saved);
 /// By settings that would have ended the scan earlier, config.toml would no longer repeat it.
 /// @throws std::invalid_argument
 void require_no_earlier_end(const Session& session, const SavedSession& saved);

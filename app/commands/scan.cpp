@@ -57,7 +57,7 @@ bool avoid(const std::set<std::size_t>& failed, Session& session) {
   const std::vector<Candidate>& candidates = session.records().back().candidates;
   std::optional<std::size_t> best;
   for (std::size_t v = 0; v < candidates.size(); ++v)
-    if (candidates[v].available && !failed.contains(v) && (!best || candidates[v].utility > candidates[*best].utility))
+    if (candidates[v].available && !failed.contains(v) && (!best || is_better(candidates[v], candidates[*best])))
       best = v;
   if (best) session.override_next_view(*best);
   return best.has_value();
@@ -176,7 +176,7 @@ int begin(const ScanArguments& arguments) {
 /// Goes on with a session, by whatever it was ended.
 int resume(const ScanArguments& arguments) {
   SavedSession saved = read_session(arguments.resume);
-  const bool has_changed = adopt_termination(arguments.options, saved);
+  const bool has_changed = adopt_changes(arguments.options, saved);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Configuration& c = saved.configuration;

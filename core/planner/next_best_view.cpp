@@ -27,12 +27,11 @@ std::string degeneracy_reason(const std::vector<double>& gains) {
   return "";
 }
 
-/// Eq. 14, among those that overlap if there are any.
+}  // namespace
+
 bool is_better(const Candidate& a, const Candidate& b) {
   return a.overlaps != b.overlaps ? a.overlaps : a.utility > b.utility;
 }
-
-}  // namespace
 
 std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std::size_t best) {
   std::optional<std::size_t> second;

@@ -38,6 +38,9 @@ struct Ranking {
   std::string gain_unit = {};  ///< of the candidates' gains: the planner's
 };
 
+/// Whether one is to be taken rather than another (Eq. 14): those that overlap before those that do not.
+bool is_better(const Candidate& a, const Candidate& b);
+
 /// The available candidate of largest utility but `best`; nothing if there is none.
 std::optional<std::size_t> runner_up(std::span<const Candidate> candidates, std::size_t best);
 

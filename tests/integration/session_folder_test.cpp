@@ -223,6 +223,35 @@ TEST_F(SessionFolders, AnObjectThatIsGoneIsToBePutBack) {
                  "part.ply: is not there, and " + in("out") + " was scanned of it; put it back");
 }
 
+TEST_F(SessionFolders, OfOneWithoutAJournalNoCaptureIsWrittenOver) {
+  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  fs::remove(in("out/journal"));
+  const std::string capture = read_file(in("out/scans/0002.npy"));
+  expect_refused("scan --resume " + in("out"),
+                 "out: its journal is gone, which says what its scans are; scan them anew");
+  EXPECT_EQ(read_file(in("out/scans/0002.npy")), capture);
+}
+
+/// A robot that is 30 mm off: check rejects its scans, three others are tried, and the views that were taken are kept.
+TEST_F(SessionFolders, RejectedScansAreFollowedByOtherViewsAndThenByTheEnd) {
+  const std::string off = "--robot.position_error 0.03 --registration.mode check --registration.min_overlap 0.05 ";
+  const Result run =
+      nextview("scan slotted_housing --views 6 --views.layout rings --views.rings 1 --gain random " + off +
+               "--sensor.width 160 --sensor.height 120 --evaluation.enabled false --no-pictures "
+               "--no-surfaces --out " +
+               in("out"));
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  std::size_t rejected = 0;
+  for (std::size_t at = run.err.find("the scan is rejected"); at != run.err.npos;
+       at = run.err.find("the scan is rejected", at + 1))
+    ++rejected;
+  EXPECT_GE(rejected, 4u) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Not finished: the scan is rejected: the scan lies "));
+  EXPECT_EQ(nextview("scan --resume " + in("out") + " --registration.beyond_limits accept --no-pictures --no-surfaces")
+                .exit_code,
+            0);
+}
+
 TEST_F(SessionFolders, MistakesAreOneLine) {
   ASSERT_EQ(nextview("scan box --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
   expect_refused("scan --resume " + in("nothing"), "nothing: holds no session");

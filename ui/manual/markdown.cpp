@@ -128,7 +128,8 @@ class Reader {
 
   /// A table of pictures, whose heads are empty: what each is called and shows.
   void take_pictures(std::string_view line) {
-    open_ = {};
+    if (open_.kind == Kind::table) open_ = {};
+    finish();
     static const std::regex picture(R"(!\[([^\]]*)\]\([^)]*\)([^|]*))");
     const std::string row(line);
     for (auto at = std::sregex_iterator(row.begin(), row.end(), picture); at != std::sregex_iterator(); ++at) {

@@ -108,6 +108,12 @@ TEST(Markdown, ATableStandsColumnUnderColumnOnlyWhereItFits) {
   EXPECT_EQ(plain_text(blocks, 14), "a\n    is: short\n    words\nbc\n");
 }
 
+TEST(Markdown, ATableOfPicturesIsAListOfWhatTheyAreCalledAndShow) {
+  const auto blocks = parse_markdown(
+      "before\n| | |\n|---|---|\n| ![a cube](a.png) *Cube* | ![](b.png) a ball |\n| ![a cone](c.png) | |\nafter\n");
+  EXPECT_EQ(plain_text(blocks, 60), "before\n\n- Cube: a cube\n- a ball\n- a cone\n\nafter\n");
+}
+
 TEST(Markdown, AnyTextIsRead) {
   std::mt19937 random(20240229 + unsigned(testing::GTEST_FLAG(random_seed)));
   const std::vector<std::string> parts = {"|",  "```", "# ", "\n", "- ", "1. ", "<!--", "-->",
