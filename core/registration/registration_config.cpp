@@ -19,7 +19,8 @@ std::vector<Setting> settings(RegistrationConfig& c) {
        "how far a scan may be turned; 0: by the mode and what is known of the robot", &c.max_rotation,
        zero_or(1e-3, 180)},
       {"registration.min_overlap", "",
-       "share of a scan's points that must lie on what was scanned before; correct takes views that promise twice that",
+       "share of a scan's points that must lie on what was scanned before; correct takes views that promise four times "
+       "that",
        &c.min_overlap, over_to(0, 1)},
   };
 }
@@ -31,7 +32,7 @@ void RegistrationConfig::validate() const { require_in_bounds(*this); }
 // of which only the thin sides tell where it lies, up to 0.9 times the noise. So twice the noise is beyond what good
 // scans do, and half the spacing where there is less noise than spacing.
 RegistrationLimits registration_limits(const RegistrationConfig& config, double range_noise, double resolution,
-                                       const KnownErrors& known) {
+                                       const PoseErrors& known) {
   config.validate();
   const bool corrects = config.mode == RegistrationConfig::Mode::correct;
   RegistrationLimits limits;
@@ -39,11 +40,14 @@ RegistrationLimits registration_limits(const RegistrationConfig& config, double 
   const double good_shift = std::max(2.0 * range_noise, 0.5 * limits.spacing), good_rotation = 0.5;
   constexpr double deviations = 4.0;  // two scans' errors add up to more than one's
   const double found_shift = std::max(8.0 * limits.spacing, deviations * known.shift);  // pairs are looked for within 8
-  const double found_rotation = std::max(5.0, deviations * known.rotation);
+  const double found_rotation = known.rotation > 0.0 ? deviations * known.rotation : 5.0;
   limits.max_shift = corrects ? found_shift : good_shift;
   limits.max_rotation = corrects ? found_rotation : good_rotation;
   if (config.max_shift > 0.0) limits.max_shift = config.max_shift;
   if (config.max_rotation > 0.0) limits.max_rotation = config.max_rotation;
+  // What check allows says how good scans should be, not how good they are.
+  limits.expected = {(corrects ? limits.max_shift : found_shift) / deviations,
+                     (corrects ? limits.max_rotation : found_rotation) / deviations};
   limits.min_overlap = config.min_overlap;
   return limits;
 }

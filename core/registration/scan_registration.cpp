@@ -27,6 +27,9 @@ constexpr int neighbours_tried = 5;                          // for one that fac
 /// What a direction must do to the mean squared distance to the planes, per squared move, to count as constrained:
 /// this, and so many times what it seems to do on a plane, where normals differ by their noise alone.
 constexpr double least_constraint = 0.002, over_noise = 6.0;
+/// Against the prior, a pair's distance is taken to err by no less than this [spacings], and so many pairs to err
+/// alike.
+constexpr double least_pair_error = 0.25, pairs_that_err_alike = 40.0;
 
 /// What was scanned before, to be searched.
 class Target {
@@ -135,20 +138,25 @@ class Registrar {
 
   double share(const Pairs& pairs) const { return double(pairs.count()) / double(scan_.size()); }
 
-  /// Moves the scan once, along the directions that the pairs constrain. Returns how far [m], and how many those are.
-  double step(Pose& T, double reach, int& constrained) const {
+  /// Moves the scan once, along the directions that the pairs constrain; along the others, and where pairs say little,
+  /// back to where it is believed to be. Returns how far [m], and how many directions those are.
+  double step(Pose& T, double reach, const RegistrationLimits& limits, int& constrained) const {
     const Pairs all = pairs(T, reach);
     constrained = 0;
     if (all.count() < min_registered_points) return 0.0;
+    const Vector6 prior = weight_of_belief(all, limits);
+    Matrix6 normal_matrix = prior.asDiagonal();
+    Vector6 pull = -prior.cwiseProduct(moved_by(T));
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(all.normal_matrix / all.weight);
     const double floor = all.noise_floor();
-    Vector6 move = Vector6::Zero();
     for (int i = 0; i < 6; ++i) {
       if (solver.eigenvalues()[i] < floor) continue;
       const Vector6 direction = solver.eigenvectors().col(i);
-      move += direction * direction.dot(all.pull / all.weight) / solver.eigenvalues()[i];
+      normal_matrix += solver.eigenvalues()[i] * direction * direction.transpose();
+      pull += direction * direction.dot(all.pull / all.weight);
       ++constrained;
     }
+    const Vector6 move = normal_matrix.ldlt().solve(pull);
     const Vector3 turn = move.head<3>() / extent_.radius;
     const Eigen::AngleAxisd rotation(turn.norm(), turn.norm() > 0.0 ? turn.normalized() : Vector3::UnitX());
     // About the middle where it was at the start, as the unknowns are.
@@ -160,6 +168,25 @@ class Registrar {
   }
 
  private:
+  /// Of each unknown, what the prior adds to the normal matrix per weight of the pairs.
+  Vector6 weight_of_belief(const Pairs& pairs, const RegistrationLimits& limits) const {
+    const double variance = std::max(pairs.squares / double(pairs.count()),  // of a pair's distance
+                                     std::pow(least_pair_error * limits.spacing, 2));
+    const double of_all = variance / std::max(1.0, double(pairs.count()) / pairs_that_err_alike);
+    const double turn = limits.expected.rotation * std::numbers::pi / 180.0 * extent_.radius;
+    Vector6 deviations;
+    deviations << Vector3::Constant(turn), Vector3::Constant(limits.expected.shift);
+    return of_all * deviations.cwiseProduct(deviations).cwiseInverse();
+  }
+
+  /// How far a pose is from the believed one, as the unknowns are.
+  Vector6 moved_by(const Pose& T) const {
+    const Eigen::AngleAxisd turn(T.linear());
+    Vector6 moved;
+    moved << turn.angle() * turn.axis() * extent_.radius, T * extent_.middle - extent_.middle;
+    return moved;
+  }
+
   std::vector<OrientedPoint> scan_;
   Target target_;
   Extent extent_;
@@ -221,7 +248,7 @@ ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr
   for (double reach = farthest_reach; reach >= nearest_reach; reach *= 0.5)
     for (int i = 0; i < most_iterations; ++i) {
       throw_if_stopped(stop);
-      step = registrar.step(T, reach * limits.spacing, found.constrained);
+      step = registrar.step(T, reach * limits.spacing, limits, found.constrained);
       if (step < settled_move * limits.spacing) break;
     }
   const Pairs after = registrar.pairs(T, near);

@@ -20,9 +20,9 @@ struct ScanRegistration {
   double overlap = 0.0;                          ///< share of the scan's points that lie on what was scanned before
   double residual_before = 0.0;  ///< of those points, root mean square distance to the surface there [m]
   double residual_after = 0.0;   ///< the same, once the scan is moved [m]
-  int constrained = 6;    ///< directions of 6 that the shape tells; a plane tells 3. The others are not corrected
-  bool reliable = false;  ///< else nothing is corrected
-  std::string why_not;    ///< if it is not reliable
+  int constrained = 6;           ///< directions of 6 that the shape tells; a plane tells 3. The others stay as believed
+  bool reliable = false;         ///< else nothing is corrected
+  std::string why_not;           ///< if it is not reliable
 };
 
 /// What scans are registered with, brought along from one to the next: the scans that have come since are added, and no
@@ -42,7 +42,8 @@ class RegistrationTarget {
 
 /// Registers a scan with those before it, which have been corrected: iterative closest points to planes (Chen and
 /// Medioni 1991), from far pairs to near ones, along the directions alone that the shape constrains (Zhang, Kaess and
-/// Singh 2016). Sides of a thin wall are told apart by where they were seen from. The same for the same input.
+/// Singh 2016), with the believed pose as a Gaussian prior of the expected errors. Sides of a thin wall are told apart
+/// by where they were seen from. The same for the same input.
 /// @throws std::invalid_argument if the spacing is not over 0; Stopped
 ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr<const Scan>> so_far,
                                const RegistrationLimits& limits, const std::stop_token& stop = {});

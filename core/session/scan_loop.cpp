@@ -30,7 +30,7 @@ RegistrationLimits limits_of(const ScanSetup& setup, const Pose& T_world_camera)
   const Configuration& c = setup.configuration;
   const double distance = (T_world_camera.translation() - setup.region.box().center()).norm();
   const double turn = c.robot.rotation_error * std::numbers::pi / 180.0;
-  const KnownErrors known{std::sqrt(3.0) * c.robot.position_error + turn * distance, c.robot.rotation_error};
+  const PoseErrors known{std::sqrt(3.0) * c.robot.position_error + turn * distance, c.robot.rotation_error};
   return registration_limits(c.registration, setup.source.range_noise, c.map.resolution, known);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// Times the least overlap that registration asks for: scans of three objects had from a half to all of what the map
 /// expected.
-constexpr double overlap_margin = 2.0;
+constexpr double overlap_margin = 4.0;
 
 /// The true surface as the views so far have seen it: that of a known object, or what a recording's frames show.
 template <class Surface>
