@@ -136,6 +136,10 @@ void JournalWriter::keep_outcome(std::uint32_t number, const std::map<std::strin
   file_.append(outcome_record(number, outcome));
 }
 
+void JournalWriter::keep_reach(std::uint32_t number, const std::vector<Reach>& reach) {
+  file_.append(reach_record(number, reach));
+}
+
 void JournalWriter::close() { file_.append(closing_record()); }
 
 }  // namespace nextview

@@ -35,6 +35,7 @@ struct JournalStep {
   std::string scan;                            ///< file in scans/
   FileHash hash;                               ///< of it
   std::map<std::string, double> outcome = {};  ///< what it came to, by name; empty: it was not absorbed, or not kept
+  std::vector<Reach> reach = {};  ///< what a live robot then said of the candidates, without turns; empty: not kept
 };
 
 /// What a session is of: a file or folder that must still be the one it was. None of a live scanner.
@@ -94,6 +95,8 @@ class JournalWriter {
   void keep_branches(const Branches& branches);
   /// What a step came to, by name: it need not be taken again to be told of.
   void keep_outcome(std::uint32_t number, const std::map<std::string, double>& outcome);
+  /// What a robot said of the candidates after a step: who goes through the session again cannot ask it.
+  void keep_reach(std::uint32_t number, const std::vector<Reach>& reach);
   void close();
 
   const std::filesystem::path& folder() const { return folder_; }

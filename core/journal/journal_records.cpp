@@ -119,6 +119,16 @@ JournalStep step_of(const Json& json) {
   return step;
 }
 
+Json to_json(const Reach& reach) {
+  if (!reach.unreachable.empty()) return {{"unreachable", reach.unreachable}};
+  return {{"distance", to_json(reach.cost.distance)}, {"seconds", to_json(reach.cost.seconds)}};
+}
+
+Reach reach_of(const Json& json) {
+  if (json.contains("unreachable")) return {json["unreachable"].get<std::string>(), {}};
+  return {"", {number_of(json.at("distance")), 0.0, number_of(json.at("seconds"))}};
+}
+
 Branches branches_of(const Json& json, std::uint32_t last_number) {
   Branches branches;
   branches.all.clear();
@@ -184,6 +194,12 @@ std::string outcome_record(std::uint32_t number, const std::map<std::string, dou
   return json_text(Json::object({{"record", "outcome"}, {"number", number}, {"values", values}}));
 }
 
+std::string reach_record(std::uint32_t number, const std::vector<Reach>& reach) {
+  Json list = Json::array();
+  for (const Reach& one : reach) list.push_back(to_json(one));
+  return json_text(Json::object({{"record", "reach"}, {"number", number}, {"candidates", list}}));
+}
+
 std::string closing_record() { return json_text(Json::object({{"record", "closed"}})); }
 
 bool read_record(const std::string& record, Journal& journal) {
@@ -220,6 +236,10 @@ bool read_record(const std::string& record, Journal& journal) {
     std::map<std::string, double> outcome;
     for (const auto& [name, value] : json.at("values").items()) outcome[name] = number_of(value);
     journal.steps.at(json.at("number").get<std::uint32_t>()).outcome = std::move(outcome);
+  } else if (kind == "reach") {
+    std::vector<Reach> reach;
+    for (const Json& one : json.at("candidates")) reach.push_back(reach_of(one));
+    journal.steps.at(json.at("number").get<std::uint32_t>()).reach = std::move(reach);
   } else if (kind != "closed") {
     throw std::runtime_error("no record");
   }

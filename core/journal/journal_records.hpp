@@ -17,6 +17,7 @@ std::string step_record(const JournalStep& step);
 std::string position_record(std::uint32_t number);
 std::string branches_record(const Branches& branches);
 std::string outcome_record(std::uint32_t number, const std::map<std::string, double>& outcome);
+std::string reach_record(std::uint32_t number, const std::vector<Reach>& reach);
 std::string closing_record();
 
 /// Adds what a record says. True if it is the one that a journal begins with.

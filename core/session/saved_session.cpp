@@ -33,6 +33,7 @@ Acquired acquired_of(const JournalStep& step, Capture capture) {
   acquired.capture = std::move(capture);
   acquired.motion = step.motion;
   acquired.registration = step.registration;
+  acquired.reach = step.reach;
   return acquired;
 }
 

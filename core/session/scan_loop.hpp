@@ -29,10 +29,12 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
 
 /// The rays that score views, by the setup's configuration and its source's camera.
 void choose_rays(ScanSetup& setup);
-/// The state with the candidates ranked from where the robot is, the next view, and whether the scan is done.
-/// @throws Stopped @pre !state.records.empty()
-ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Progress& progress,
-               const std::stop_token& stop);
+/// The state with the candidates ranked from where the robot is, the next view, and whether the scan is done. `reach`:
+/// what the robot said of these candidates; else it is asked. @throws Stopped @pre !state.records.empty()
+ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, std::span<const Reach> reach,
+               const Progress& progress, const std::stop_token& stop);
+/// What the robot said of the candidates that were ranked after a view.
+std::vector<Reach> reach_of(const StepRecord& record);
 
 /// The view that the planner wants next. @pre !state.records.empty(), ranked
 NextView proposal(const ScanSetup& setup, const ScanState& state);

@@ -66,6 +66,8 @@ struct Acquired {
   MotionCost motion;                 ///< of getting there
   double sense_seconds = 0.0;
   std::optional<ScanRegistration> registration = {};  ///< with the scans before it; none: not asked for
+  /// What the robot then said of the candidates; empty: it is to be asked.
+  std::vector<Reach> reach = {};
 };
 
 }  // namespace nextview

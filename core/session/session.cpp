@@ -180,7 +180,7 @@ std::optional<ScanState> Session::next_state(const Progress& progress, const std
                                              const Accept& accept) {
   if (taken_ && !(taken_->wanted == state_.next.view)) taken_.reset();  // another one is wanted by now
   if (!taken_ && !take_view(progress, stop, accept)) return std::nullopt;
-  return plan(setup_, absorb(setup_, state_, *taken_, progress, stop), *robot_, progress, stop);
+  return plan(setup_, absorb(setup_, state_, *taken_, progress, stop), *robot_, taken_->reach, progress, stop);
 }
 
 /// False if it was cancelled or refused.

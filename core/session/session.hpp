@@ -110,6 +110,8 @@ class Session {
   const std::string& name() const { return name_; }
   /// The recording that it goes through, if it does; else null.
   const Recording* recording() const { return recording_; }
+  /// Its robot is a driver's: what it says is not known without it.
+  bool has_live_robot() const { return !robot_as_configured_; }
   /// How a recording lies on the mesh of what was scanned; none without.
   const std::optional<Alignment>& truth_alignment() const { return truth_alignment_; }
   /// What was guessed and found when the recording was opened, a line each, for people.

@@ -75,7 +75,13 @@ void Session::set_planning(const PlanningConfig& config, const Progress& progres
     remake(setup, state, nothing, progress, stop);
     if (now.posterior && posterior) state.known.posterior = posterior;
   }
-  if (!state.records.empty()) state = plan(setup, std::move(state), *robot_, progress, stop);
+  if (!state.records.empty()) {
+    // A scanner that is not connected cannot be asked again.
+    const bool is_absent = robot_as_configured_ && !configuration().driver.name.empty();
+    const bool knows = is_absent && same_views(config.views, configuration().views);
+    const std::vector<Reach> reach = knows ? reach_of(*state.records.back()) : std::vector<Reach>();
+    state = plan(setup, std::move(state), *robot_, reach, progress, stop);
+  }
   setup_ = std::move(setup);
   adopt(std::move(state));
 }

@@ -44,6 +44,12 @@ JournalStep step_of(const NextView& choice, const Acquired& acquired) {
   return step;
 }
 
+/// What came of a step, as far as it is known.
+void keep_result(JournalWriter& writer, const JournalStep& step) {
+  if (!step.outcome.empty()) writer.keep_outcome(step.number, step.outcome);
+  if (!step.reach.empty()) writer.keep_reach(step.number, step.reach);
+}
+
 /// And the captures that it names, also if no list of files does. @throws JournalInUse
 void remove_journal(const fs::path& folder) {
   Journal journal;
@@ -140,8 +146,10 @@ bool SessionFolder::step(Session& session, const Progress& progress, const std::
   const std::uint32_t number = *std::exchange(pending_, std::nullopt);
   branches_.add_step(number, line_.empty() ? 0 : line_.back());
   line_.push_back(number);
-  const auto& outcome = steps_.at(number).outcome = outcome_of(session.records().back());
-  write([&] { writer_->keep_outcome(number, outcome); });
+  JournalStep& step = steps_.at(number);
+  step.outcome = outcome_of(session.records().back());
+  if (session.has_live_robot()) step.reach = reach_of(session.records().back());
+  write([&] { keep_result(*writer_, step); });
   return true;
 }
 
@@ -228,7 +236,7 @@ void SessionFolder::copy_to(OutputFolder& copy, const Session& session) const {
     for (; settings < step.settings; ++settings) writer.keep_settings(settings_[settings]);
     copy.claim(fmt::format("{}/{}", scans_name, capture_name(*capture, number)));
     writer.add(step, *capture);
-    if (!step.outcome.empty()) writer.keep_outcome(number, step.outcome);
+    keep_result(writer, step);
   }
   writer.keep_settings(to_toml(session.configuration(), copy.path()));
   writer.keep_branches(branches_);

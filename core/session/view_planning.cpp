@@ -64,12 +64,11 @@ struct PlanningInput {
 };
 
 /// The candidates with what the robot says of them. Views that were taken are not available.
-std::vector<Candidate> reachable_candidates(const ScanState& state, Robot& robot) {
+std::vector<Candidate> reachable_candidates(const ScanState& state, std::span<const Reach> reach) {
   const std::vector<View>& views = state.candidates;
-  const std::vector<Reach> reach = robot.reach(robot.pose(), views);
   std::vector<Candidate> candidates(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
-    candidates[v].cost = reach.at(v).cost.distance;
+    candidates[v].cost = reach[v].cost.distance;
     candidates[v].seconds = reach[v].cost.seconds;
     candidates[v].unreachable = reach[v].unreachable;
     candidates[v].available = reach[v].unreachable.empty() && !state.known.has_taken(views[v]);
@@ -119,15 +118,22 @@ void choose_rays(ScanSetup& setup) {
   setup.fine_bundle = finer_rays(setup.configuration, setup.source.camera);
 }
 
-ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, const Progress& progress,
-               const std::stop_token& stop) {
+std::vector<Reach> reach_of(const StepRecord& record) {
+  std::vector<Reach> reach;
+  for (const Candidate& c : record.candidates) reach.push_back({c.unreachable, {c.cost, 0.0, c.seconds}});
+  return reach;
+}
+
+ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, std::span<const Reach> reach,
+               const Progress& progress, const std::stop_token& stop) {
   if (progress) progress(0.7, "scoring the candidate views");
   throw_if_stopped(stop);
   auto record = std::make_shared<StepRecord>(*state.records.back());
   {
     Stopwatch watch(record->seconds.score);
     state.candidates = setup.candidates->candidates(state.known);
-    auto candidates = reachable_candidates(state, robot);
+    const bool is_said = reach.size() == state.candidates.size();
+    auto candidates = reachable_candidates(state, is_said ? reach : robot.reach(robot.pose(), state.candidates));
     if (setup.configuration.registration.mode == RegistrationConfig::Mode::correct)
       ask_for_overlap(setup, state, candidates, stop);
     const PlanningInput input(setup, state);

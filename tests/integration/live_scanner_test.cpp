@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
 #include "tests/integration/program.hpp"
@@ -42,6 +45,21 @@ TEST_F(LiveScanner, TheSimulatorBehindTheProtocolGivesTheSameFiles) {
   EXPECT_THAT(live.out, HasSubstr("box.ply: 500 x 331 x 247 mm"));
   for (const char* file : {"map.ot", "cloud.ply", "steps.csv", "scores.csv", "views.csv"})
     EXPECT_EQ(read_file(in("built_in") + "/" + file), read_file(in("live") + "/" + file)) << file;
+}
+
+TEST_F(LiveScanner, WhatItsRobotSaidOfCandidatesIsKnownWithoutIt) {
+  write_file(in("driver.sh"), "exec '" NEXTVIEW_PROGRAM "' driver simulated box " + camera +
+                                  "| sed -u 's/\"reach\":\\[{[^}]*}/\"reach\":[{\"unreachable\":\"a table\"}/'\n");
+  const Result live = nextview("scan --driver 'sh " + in("driver.sh") + "' " + quick + "--out " + in("live"));
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  const std::array tables = {"steps.csv", "scores.csv"};
+  std::map<std::string, std::string> written;
+  for (const char* table : tables) written[table] = read_file(in("live") + "/" + table);
+  EXPECT_THAT(written["scores.csv"], HasSubstr("\n1,0,0,")) << "candidate 0 is not available";
+  for (const char* lost : {"state", "steps.csv", "scores.csv"}) fs::remove(in("live") + "/" + lost);
+  const Result again = nextview("scan --resume " + in("live") + " --no-pictures --no-surfaces");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const char* table : tables) EXPECT_EQ(read_file(in("live") + "/" + table), written[table]) << table;
 }
 
 TEST_F(LiveScanner, TheConfigurationStartsNoProgram) {

@@ -170,6 +170,21 @@ TEST(JournalRecords, OneStandsAtStepsThatThereAre) {
   EXPECT_ANY_THROW(read_record(outcome_record(2, {{"coverage", 1.0}}), journal)) << "of no step";
 }
 
+TEST(JournalRecords, WhatARobotSaidOfCandidatesBelongsToItsStep) {
+  Journal journal = begun();
+  read_record(step_record(full_step()), journal);
+  const double far = std::numeric_limits<double>::infinity();
+  read_record(reach_record(1, {{"", {0.25, 0.0, 2.0}}, {"below the table", {}}, {"", {far, 0.0, 1.0}}}), journal);
+  const std::vector<Reach>& reach = journal.steps.at(1).reach;
+  ASSERT_EQ(reach.size(), 3u);
+  EXPECT_EQ(reach[0].cost.distance, 0.25);
+  EXPECT_EQ(reach[0].cost.seconds, 2.0);
+  EXPECT_EQ(reach[0].unreachable, "");
+  EXPECT_EQ(reach[1].unreachable, "below the table");
+  EXPECT_EQ(reach[2].cost.distance, far);
+  EXPECT_ANY_THROW(read_record(reach_record(2, {}), journal)) << "of no step";
+}
+
 TEST(JournalRecords, SettingsCountFromTheStepThatOneStandsAt) {
   Journal journal = begun();
   read_record(step_record(full_step()), journal);
