@@ -64,6 +64,8 @@ void examine(ScanSurface& found, const ReconstructionInput& input, const std::op
   found.openings = boundary_loops(found.surface.mesh);
   if (!truth) return;
   SurfaceErrorOptions options;
+  // Made for voxels of 10 mm; of a smaller part, or a larger one, others say as much.
+  for (double& threshold : options.thresholds) threshold *= input.grid.resolution / 0.01;
   if (input.on_ground) options.ground = input.true_mesh->bounding_box().min().z();
   found.surface_error = surface_error(found.surface, *truth, *input.samples, input.visible, options);
 }

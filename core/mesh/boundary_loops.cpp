@@ -90,7 +90,7 @@ std::string summary(std::span<const BoundaryLoop> loops) {
   if (loops.empty()) return "watertight";
   const double places = loops[0].length < 0.01 ? 1e2 : 1.0;  // of parts of millimetres two decimals, else none
   const Vector3 centre = (1e3 * places * loops[0].centre).array().round() / places + 0.0;  // [mm]; no "-0"
-  return fmt::format("{} opening{}{} around ({:g}, {:g}, {:g}) mm", loops.size(),
+  return fmt::format("{} opening{}{} around, at ({:g}, {:g}, {:g}) mm", loops.size(),
                      loops.size() == 1 ? ", " : "s, the longest ", length_text(loops[0].length), centre.x(), centre.y(),
                      centre.z());
 }

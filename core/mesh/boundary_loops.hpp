@@ -24,7 +24,7 @@ struct BoundaryLoop {
 /// openings touch in one place they are told apart; where in several, they may share their parts out differently.
 std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh);
 
-/// For people: "watertight", or "3 openings, the longest 123 mm around (100, 20.5, 310) mm".
+/// For people: "watertight", or "3 openings, the longest 123 mm around, at (100, 20.5, 310) mm".
 std::string summary(std::span<const BoundaryLoop> loops);
 
 }  // namespace nextview

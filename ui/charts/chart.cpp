@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <vtkAxis.h>
-#include <vtkChartLegend.h>
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
@@ -20,8 +19,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
+#include "ui/charts/curve_names.hpp"
 #include "ui/drawing/painter.hpp"
 #include "ui/render_target/render_target.hpp"
 
@@ -89,7 +90,8 @@ struct Extent {
   bool empty() const { return low > high; }
 };
 
-void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colour, double y_factor) {
+/// `hidden`: beneath another, beside which it is seen if it is wide.
+void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colour, double y_factor, bool hidden) {
   vtkNew<vtkDoubleArray> x, y;
   x->SetName("x");
   y->SetName(series.name.c_str());
@@ -103,12 +105,21 @@ void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colo
   // VTK takes a line through a single point for an error.
   auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(series.x.size() > 1 ? vtkChart::LINE : vtkChart::POINTS));
   plot->SetInputData(table, 0, 1);
-  set_pen(*plot->GetPen(), colour, 2);
+  set_pen(*plot->GetPen(), colour, hidden ? 6 : 2);
   plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  plot->SetMarkerSize(6);
+  plot->SetMarkerSize(hidden ? 12 : 6);
 }
 
-/// A chart with its title at the left, as all panels have it, and a margin all around.
+/// Whether a curve would be hidden beneath another.
+bool lies_on(const ChartSeries& a, const ChartSeries& b, double y_range) {
+  constexpr double unseen = 0.01;
+  return a.x == b.x && std::ranges::equal(a.y, b.y, [&](double y, double other) {
+           return std::abs(y - other) <= unseen * y_range || (std::isnan(y) && std::isnan(other));
+         });
+}
+
+/// A chart with its title at the left, as all panels have it, its curves' names beneath, where no curve runs, and a
+/// margin all around.
 class TitledChart : public vtkChartXY {
  public:
   static TitledChart* New();
@@ -117,12 +128,16 @@ class TitledChart : public vtkChartXY {
       bool Paint(vtkContext2D* context) override {
     constexpr float margin = 16, title = 36;
     const auto width = float(GetScene()->GetSceneWidth()), height = float(GetScene()->GetSceneHeight());
-    SetSize(vtkRectf(margin, 4, width - 2 * margin, height - title - 8));
-    Painter(*context).text(margin, height - 30, heading, theme::caption, theme::ink, TextWeight::semi_bold);
+    Painter painter(*context);
+    painter.text(margin, height - 30, heading, theme::caption, theme::ink, TextWeight::semi_bold);
+    float rows = 0;
+    if (names.size() > 1) rows = float(paint_curve_names(painter, margin, height - title, width - 2 * margin, names));
+    SetSize(vtkRectf(margin, 4, width - 2 * margin, height - title - rows - 8));
     return vtkChartXY::Paint(context);
   }
 
   std::string heading;
+  std::vector<CurveName> names;
 };
 
 vtkStandardNewMacro(TitledChart);
@@ -138,9 +153,6 @@ Chart::Chart() : renderer_(vtkSmartPointer<vtkRenderer>::New()), parts_(std::mak
   renderer_->SetBackground(theme::paper.data());
   vtkChartXY& chart = *parts_->chart;
   chart.SetAutoSize(false);
-  set_text(*chart.GetLegend()->GetLabelProperties(), theme::small_text, theme::ink);
-  chart.GetLegend()->GetPen()->SetOpacity(0);
-  chart.GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   chart.SetInteractive(false);
   parts_->actor->GetScene()->AddItem(&chart);
   parts_->actor->GetScene()->SetRenderer(renderer_);
@@ -173,13 +185,15 @@ void Chart::show(const ChartContent& content) {
   TitledChart& chart = *parts_->chart;
   chart.ClearPlots();
   chart.heading = content.title;
-  chart.SetShowLegend(content.series.size() > 1);
+  chart.names.clear();
   for (std::size_t i = 0; i < content.series.size(); ++i) {
-    add_series(chart, content.series[i], theme::series[i % theme::series.size()], scale.factor);
+    const auto later = std::span(content.series).subspan(i + 1);
+    const bool hidden = std::ranges::any_of(
+        later, [&](const ChartSeries& other) { return lies_on(content.series[i], other, top - std::min(0.0, y.low)); });
+    const Colour& colour = theme::series[i % theme::series.size()];
+    add_series(chart, content.series[i], colour, scale.factor, hidden);
+    chart.names.push_back({content.series[i].name, colour});
   }
-  const bool rising = !content.series.empty() && !content.series[0].y.empty() &&
-                      content.series[0].y.back() > content.series[0].y.front();
-  chart.GetLegend()->SetVerticalAlignment(rising ? vtkChartLegend::BOTTOM : vtkChartLegend::TOP);
   style_axis(*chart.GetAxis(vtkAxis::BOTTOM), Scale(1.0, "").title(content.x_label, content.x_unit));
   style_axis(*chart.GetAxis(vtkAxis::LEFT), scale.title(content.y_label, content.y_unit));
   set_ticks(*chart.GetAxis(vtkAxis::BOTTOM), round_ticks(x.low, x.high, 8, content.whole_x), 0.02, 0.02);

@@ -10,12 +10,13 @@
 #include <stdexcept>
 
 #include "ui/charts/chart.hpp"
+#include "ui/charts/curve_names.hpp"
 
 namespace nextview {
 namespace {
 
-constexpr double left_room = 62, right_room = 8, bottom_room = 44, row = 22.0;  // [px]
-constexpr double between_x_ticks = 44, between_y_ticks = 56;                    // [px], at least about
+constexpr double left_room = 62, right_room = 8, bottom_room = 44;  // [px]
+constexpr double between_x_ticks = 44, between_y_ticks = 56;        // [px], at least about
 
 /// Where values lie in the plot's area.
 class Frame {
@@ -144,32 +145,22 @@ void paint_curve(vtkContext2D& context, const Frame& frame, const Curve& curve) 
   }
 }
 
-constexpr double line = 20, gap = 8;  // of a curve's sample [px]
-
-/// In rows; returns their height.
 double paint_names_above(Painter& painter, double left, double top, double width, const std::vector<Curve>& curves) {
-  constexpr double between = 20;
-  double x = left, y = top - row;
-  for (const Curve& curve : curves) {
-    if (curve.name.empty()) continue;
-    const double needed = line + gap + painter.text_width(curve.name, theme::small_text);
-    if (x > left && x + needed > left + width) x = left, y -= row;
-    painter.line(x, y + 7, x + line, y + 7, 2, curve.colour);
-    painter.text(x + line + gap, y, curve.name, theme::small_text, theme::ink);
-    x += needed + between;
-  }
-  return top - y + 10;
+  std::vector<CurveName> names;
+  for (const Curve& curve : curves) names.push_back({curve.name, curve.colour});
+  return paint_curve_names(painter, left, top, width, names) + 10;
 }
 
 void paint_names_beside(Painter& painter, double left, double top, const std::vector<Curve>& curves) {
   double y = top;
   for (const Curve& curve : curves) {
     y -= 20;
-    painter.line(left, y + 7, left + line, y + 7, 2, curve.colour);
-    painter.text(left + line + gap, y, curve.name, theme::small_text, theme::ink, TextWeight::semi_bold);
+    painter.line(left, y + 7, left + curve_sample, y + 7, 2, curve.colour);
+    painter.text(left + curve_sample + curve_sample_gap, y, curve.name, theme::small_text, theme::ink,
+                 TextWeight::semi_bold);
     for (const std::string& detail : curve.details) {
       y -= 18;
-      painter.text(left + line + gap, y, detail, theme::small_text, theme::soft_ink);
+      painter.text(left + curve_sample + curve_sample_gap, y, detail, theme::small_text, theme::soft_ink);
     }
     y -= 8;
   }

@@ -29,6 +29,11 @@ double d_reg_of(const Session& session) {
   return recorded ? recorded->d_reg() : session.configuration().evaluation.d_reg;
 }
 
+ScanCourse course_of(const Session& session) {
+  return {session.records(), session.map().grid().voxel_count(), d_reg_of(session), session.planner().unit(),
+          session.known_object() != nullptr};
+}
+
 }  // namespace
 
 StepPicture step_picture(const Session& session) {
@@ -50,6 +55,7 @@ StepPicture step_picture(const Session& session) {
   picture.ranking_note = last.ranking.degenerate;
   picture.reason = last.ranking.reason.substr(0, last.ranking.reason.find(" Runner-up"));
   for (const Candidate& candidate : last.candidates) {
+    if (!candidate.unreachable.empty()) picture.unreachable.push_back(picture.scores.size());
     picture.scores.push_back(candidate.gain);
     picture.utilities.push_back(candidate.utility);
   }
@@ -78,12 +84,12 @@ StepPicture step_picture(const Session& session) {
   picture.coverage.title = "Surface coverage at d_reg = " + length_text(d_reg_of(session));
   if (session.known_object()) picture.coverage.series = {visible, all};
   if (session.recording()) picture.coverage.series.insert(picture.coverage.series.begin(), recorded);
+  if (picture.coverage.series.empty()) picture.coverage = gain_chart(course_of(session));  // no truth is known
   return picture;
 }
 
 std::vector<ChartContent> session_charts(const Session& session) {
-  ScanCourse course{session.records(), session.map().grid().voxel_count(), d_reg_of(session), session.planner().unit(),
-                    session.known_object() != nullptr};
+  ScanCourse course = course_of(session);
   std::optional<CoverageByOrder> orders;
   const auto taken = frames_taken(session.state().known);
   if (const RecordedSurface* recorded = session.setup().recorded.get(); recorded && !taken.empty()) {

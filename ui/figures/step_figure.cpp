@@ -129,8 +129,10 @@ void StepFigure::show(const StepPicture& picture) {
   p.map.octree().show(picture.grid, picture.voxels);
   p.map.frame(direction);
 
+  std::vector<std::size_t> not_ranked = picture.taken;
+  not_ranked.insert(not_ranked.end(), picture.unreachable.begin(), picture.unreachable.end());
   p.ranking->content = {"Best candidates", picture.gain_name, picture.gain_unit, picture.scores,
-                        picture.utilities, picture.taken,     picture.chosen,    picture.ranking_note};
+                        picture.utilities, not_ranked,        picture.chosen,    picture.ranking_note};
   p.entropy.show(picture.entropy);
   p.coverage.show(picture.coverage);
 }
@@ -149,6 +151,7 @@ ViewsPicture views_of(const StepPicture& picture) {
   views.candidates = picture.candidates;
   views.scores = picture.scores;
   views.taken = picture.taken;
+  views.unreachable = picture.unreachable;
   views.chosen = picture.chosen;
   views.path = picture.path;
   views.score_name = picture.gain_name;

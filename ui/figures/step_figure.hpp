@@ -31,20 +31,21 @@ struct StepPicture {
   double point_size = 2.5;  ///< [px]
 
   PinholeCamera camera;
-  std::vector<Pose> candidates;       ///< T_world_camera
-  std::vector<double> scores;         ///< one per candidate [gain_unit]
-  std::vector<double> utilities;      ///< one per candidate if the ranking is by utility, otherwise none
-  std::vector<std::size_t> taken;     ///< candidates that no longer take part
-  std::optional<std::size_t> chosen;  ///< a candidate: the next best view
-  std::vector<Pose> path;             ///< views taken so far, the start view first; T_world_camera
-  std::vector<RaySegment> rays;       ///< of the chosen view
+  std::vector<Pose> candidates;          ///< T_world_camera
+  std::vector<double> scores;            ///< one per candidate [gain_unit]
+  std::vector<double> utilities;         ///< one per candidate if the ranking is by utility, otherwise none
+  std::vector<std::size_t> taken;        ///< candidates that no longer take part
+  std::vector<std::size_t> unreachable;  ///< candidates that the robot cannot go to
+  std::optional<std::size_t> chosen;     ///< a candidate: the next best view
+  std::vector<Pose> path;                ///< views taken so far, the start view first; T_world_camera
+  std::vector<RaySegment> rays;          ///< of the chosen view
   RayValues ray_values;
   std::string reason;        ///< of the choice
   std::string finished;      ///< why no view follows; empty if one does
   std::string ranking_note;  ///< for example that all candidates tie, and why
 
   ChartContent entropy{"Entropy of the map", "view", "", "entropy", "bits", {}, {}, true};
-  ChartContent coverage{"Surface coverage", "view", "", "coverage", "%", {}, 100.0, true};
+  ChartContent coverage{"Surface coverage", "view", "", "coverage", "%", {}, 100.0, true};  ///< or what else is known
 
   std::optional<ViewDirection> direction;  ///< where both 3D views look from; otherwise beside the chosen view
 };

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/gain/new_surface_model.hpp"
+#include "core/setting/area_text.hpp"
 #include "core/setting/percent_text.hpp"
 #include "ui/charts/curve_plot.hpp"
 #include "ui/figures/surface_views.hpp"
@@ -149,7 +151,16 @@ CurvePlot distance_plot(const SurfaceError& error) {
 }
 
 std::string seen_share(double seen, double unseen) {
-  return fmt::format("{:.3g} m² seen, {:.3g} m² not", seen, unseen);
+  const double larger = square_centimetres_of_a_square_metre * std::max(seen, unseen);
+  const auto text = [&](double area) { return area_text(square_centimetres_of_a_square_metre * area, larger); };
+  return fmt::format("{} seen, {} not", text(seen), text(unseen));
+}
+
+/// How many there are stands where other numbers have their names.
+Number openings_number(const std::string& openings) {
+  const auto comma = openings.find(", ");
+  if (comma == std::string::npos) return {"openings", openings};
+  return {openings.substr(0, comma), openings.substr(comma + 2)};
 }
 
 void paint_surface_error(Painter& painter, const PageArea& panel, const SurfacePicture& picture,
@@ -161,7 +172,7 @@ void paint_surface_error(Painter& painter, const PageArea& panel, const SurfaceP
                  {"50th, 95th, 99th percentile",
                   digits(i.percentile_50) + ", " + digits(i.percentile_95) + ", " + mm(i.percentile_99)},
                  {"area", seen_share(i.area_seen, i.area_unseen)},
-                 {"openings", picture.openings}});
+                 openings_number(picture.openings)});
   paint_note(painter, panel,
              "Accuracy: share of the seen surface that lies within so much of the true one. Completeness: share of the "
              "true surface that some view could see, and of all of it, within so much of the seen one.");
@@ -184,7 +195,7 @@ void paint_uncertainty(Painter& painter, const PageArea& panel, const SurfacePic
       {{"area", seen_share(spread.area_seen, spread.area_unseen)},
        {"uncertainty, median and 95th percentile", mm(spread.median) + ", " + mm(spread.percentile_95)},
        {"vertices, triangles", fmt::format("{}, {}", surface.mesh.vertices.size(), surface.mesh.triangles.size())},
-       {"openings", picture.openings}});
+       openings_number(picture.openings)});
   paint_note(painter, panel,
              "Seen: triangles whose three corners were measured. What is not seen closes the surface where no view has "
              "looked; it has no uncertainty that means anything.");

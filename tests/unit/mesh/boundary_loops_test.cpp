@@ -53,13 +53,13 @@ TEST(BoundaryLoops, aMissingTriangleIsAnOpeningAsLongAsItsSides) {
   std::vector<std::uint32_t> corners = loops[0].vertices;
   std::sort(corners.begin(), corners.end());
   EXPECT_EQ(corners, (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_EQ(summary(loops), "1 opening, 1.2 m around (100, 150, 0) mm");
+  EXPECT_EQ(summary(loops), "1 opening, 1.2 m around, at (100, 150, 0) mm");
 }
 
 TEST(BoundaryLoops, ofAPartOfMillimetresStandInMillimetres) {
   TriangleMesh mesh = closed_meshes::box({0.001, 0.0, 0.0}, {0.0013, 0.0004, 0.0005});
   mesh.triangles.erase(mesh.triangles.begin());
-  EXPECT_EQ(summary(boundary_loops(mesh)), "1 opening, 1.2 mm around (1.1, 0.15, 0) mm");
+  EXPECT_EQ(summary(boundary_loops(mesh)), "1 opening, 1.2 mm around, at (1.1, 0.15, 0) mm");
 }
 
 TEST(BoundaryLoops, goAroundInOrder) {
@@ -82,7 +82,7 @@ TEST(BoundaryLoops, goAroundInOrder) {
 TEST(BoundaryLoops, theLongestComesFirstAndTheSummaryNamesIt) {
   const TriangleMesh mesh = sheet({"######", "#.##.#", "####.#", "######"});
   EXPECT_EQ(lengths(mesh), (std::vector<double>{20.0, 6.0, 4.0}));
-  EXPECT_EQ(summary(boundary_loops(mesh)), "3 openings, the longest 20 m around (3000, 2000, 0) mm");
+  EXPECT_EQ(summary(boundary_loops(mesh)), "3 openings, the longest 20 m around, at (3000, 2000, 0) mm");
   EXPECT_EQ(boundary_loops(mesh)[1].centre, Vector3(4.5, 2.0, 0.0));
 }
 
