@@ -6,6 +6,7 @@
 
 #include "core/cloud/point_cloud.hpp"
 #include "core/config/configuration.hpp"
+#include "core/evaluation/entropy.hpp"
 #include "core/evaluation/known_object.hpp"
 #include "core/evaluation/recorded_surface.hpp"
 #include "core/planner/planner.hpp"
@@ -31,6 +32,10 @@ struct ScanSetup {
   std::shared_ptr<const CandidateSight> sight = {};      ///< of the candidates, if they are not those of `truth`
   std::shared_ptr<const RecordedSurface> recorded = {};  ///< null if the source is no recording
   std::vector<std::uint8_t> any_pose = {};  ///< KnownObject::seen_from_any_pose; empty unless it is asked for
+  MapEntropy start_entropy = {};            ///< of the map before the first view
+
+  /// How near a point must come to what it covers [m].
+  double d_reg() const { return recorded ? recorded->d_reg() : configuration.evaluation.d_reg; }
 };
 
 /// The view that is taken next.

@@ -56,6 +56,8 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   }
   if (world && c.evaluation.enabled) compare_with(world, progress, stop);
   ScanState nothing = nothing_scanned(setup_, robot_->pose());
+  const auto voxels = double(nothing.known.map.voxels().size());
+  setup_.start_entropy = setup_.start_map ? map_entropy(nothing.known.map.voxels()) : MapEntropy{voxels, voxels};
   if (map_alone) nothing.finished = "this is a map alone, and nothing can be scanned";
   adopt(std::move(nothing));
 }

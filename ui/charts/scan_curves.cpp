@@ -11,19 +11,21 @@
 namespace nextview {
 namespace {
 
+bool any(const StepRecord&) { return true; }
+
 struct Value {
   const char* name;
   std::function<double(const StepRecord&)> of;
-  std::function<bool(const StepRecord&)> is_there = [](const StepRecord&) { return true; };
+  std::function<bool(const StepRecord&)> is_there = any;
+  std::optional<double> at_start = {};  ///< before the first view
 };
 
-void add_series(ChartContent& content, const ScanCourse& course, const std::vector<Value>& values,
-                std::optional<double> at_start = {}) {
+void add_series(ChartContent& content, const ScanCourse& course, const std::vector<Value>& values) {
   for (const Value& value : values) {
     ChartSeries series{value.name, {}, {}};
-    if (at_start && (course.records.empty() || value.is_there(course.records.front()))) {
+    if (value.at_start && (course.records.empty() || value.is_there(course.records.front()))) {
       series.x.push_back(0);
-      series.y.push_back(*at_start);
+      series.y.push_back(*value.at_start);
     }
     for (const StepRecord& r : course.records) {
       if (!value.is_there(r)) continue;
@@ -41,15 +43,17 @@ ChartContent entropy_chart(const ScanCourse& course) {
   const auto total = [](const StepRecord& r) { return r.total_entropy / 1e6; };
   const auto refined = [](const StepRecord& r) { return r.refinement.has_value(); };
   const auto conventional = [&](const StepRecord& r) { return !refined(r); };
-  std::vector<Value> values = {{"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }}};
+  const double at_start = course.start.total / 1e6;
+  std::vector<Value> values = {
+      {"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }, any, course.start.unmeasured / 1e6}};
   // Of two maps, where the gain was changed to or from one that needs the Gibbs map, it is two curves.
   if (std::ranges::any_of(course.records, refined) && std::ranges::any_of(course.records, conventional)) {
-    values.push_back({"total, ΣH(p)", total, conventional});
-    values.push_back({"total, Gibbs map", total, refined});
+    values.push_back({"total, ΣH(p)", total, conventional, at_start});
+    values.push_back({"total, Gibbs map", total, refined, at_start});
   } else {
-    values.push_back({"total, ΣH(p)", total});
+    values.push_back({"total, ΣH(p)", total, any, at_start});
   }
-  add_series(content, course, values, double(course.voxels) / 1e6);
+  add_series(content, course, values);
   return content;
 }
 
@@ -75,9 +79,8 @@ ChartContent coverage_chart(const ScanCourse& course) {
   const std::string title = fmt::format("Surface within {:.3g} mm of a point [%]", 1e3 * course.d_reg);
   ChartContent content{title, "view", "", "coverage", "%", {}, 100.0, true};
   add_series(content, course,
-             {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }},
-              {"of all surface", [](const StepRecord& r) { return 100 * r.coverage; }}},
-             0.0);
+             {{"of visible surface", [](const StepRecord& r) { return 100 * r.coverage_visible; }, any, 0.0},
+              {"of all surface", [](const StepRecord& r) { return 100 * r.coverage; }, any, 0.0}});
   return content;
 }
 

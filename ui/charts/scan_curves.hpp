@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/evaluation/entropy.hpp"
 #include "core/evaluation/recorded_surface.hpp"
 #include "core/session/step_record.hpp"
 #include "ui/charts/chart.hpp"
@@ -12,8 +13,8 @@ namespace nextview {
 /// How a scan went, view by view: what its curves are made of. Spans and pointers need to live while it is used only.
 struct ScanCourse {
   std::span<const StepRecord> records;
-  std::size_t voxels = 0;  ///< of the region
-  double d_reg = 0.005;    ///< [m]
+  MapEntropy start;      ///< of the map before the first view
+  double d_reg = 0.005;  ///< [m]
   std::string gain_unit;
   bool is_evaluated = true;                 ///< compared with a true surface
   const CoverageByOrder* orders = nullptr;  ///< of a recording, once a view was taken

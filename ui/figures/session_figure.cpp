@@ -23,14 +23,8 @@ PointCloud thinned(const std::vector<std::shared_ptr<const Scan>>& scans) {
   return points;
 }
 
-/// How near a point must come to what it covers [m].
-double d_reg_of(const Session& session) {
-  const RecordedSurface* recorded = session.setup().recorded.get();
-  return recorded ? recorded->d_reg() : session.configuration().evaluation.d_reg;
-}
-
 ScanCourse course_of(const Session& session) {
-  return {session.records(), session.map().grid().voxel_count(), d_reg_of(session), session.planner().unit(),
+  return {session.records(), session.setup().start_entropy, session.setup().d_reg(), session.planner().unit(),
           session.known_object() != nullptr};
 }
 
@@ -81,7 +75,7 @@ StepPicture step_picture(const Session& session) {
   }
   picture.entropy.y_unit = "Mbit";
   picture.entropy.series = {unmeasured, total};
-  picture.coverage.title = "Surface coverage at d_reg = " + length_text(d_reg_of(session));
+  picture.coverage.title = "Surface coverage at d_reg = " + length_text(session.setup().d_reg());
   if (session.known_object()) picture.coverage.series = {visible, all};
   if (session.recording()) picture.coverage.series.insert(picture.coverage.series.begin(), recorded);
   if (picture.coverage.series.empty()) picture.coverage = gain_chart(course_of(session));  // no truth is known

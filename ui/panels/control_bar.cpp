@@ -159,7 +159,7 @@ float draw_figures(const PanelContext& context, float least, float right, float 
                                          : "What was scanned, as a share of the true surface that some candidate view "
                                            "can see.");
   }
-  const double bits = any ? s.records.back().entropy : double(s.grid.voxel_count());
+  const double bits = any ? s.records.back().entropy : s.setup->start_entropy.unmeasured;
   right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy",
                       "Of the region: a bit for each voxel that nothing was measured in (Eq. 18).");
   const TerminationConfig& limits = s.configuration.termination;

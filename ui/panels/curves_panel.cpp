@@ -15,8 +15,7 @@ namespace {
 constexpr std::array kind_names = {"entropy", "coverage", "divergence", "gain", "time"};
 
 ScanCourse course_of(const SessionSnapshot& s, std::span<const StepRecord> records) {
-  const double d_reg = s.is_recording() ? s.setup->recorded->d_reg() : s.configuration.evaluation.d_reg;
-  return {records, s.grid.voxel_count(), d_reg, s.gain_unit, s.is_evaluated(), s.orders.get()};
+  return {records, s.setup->start_entropy, s.setup->d_reg(), s.gain_unit, s.is_evaluated(), s.orders.get()};
 }
 
 /// The branches that the scan is not on, as far as it is known what came of their views.

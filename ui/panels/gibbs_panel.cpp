@@ -70,7 +70,7 @@ void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d)
 }
 
 /// How many informed voxels have which probability, before and after.
-void draw_histograms(const PanelContext& context, const MapChange& change) {
+void draw_histograms(const PanelContext& context, const RefinementChange& change) {
   ChartContent chart{"Voxels by p, log10 of their number", "p", "", "", "", {}, {}, false};
   for (const auto& [name, counts] : {std::pair{"conventional", &change.before}, {"Gibbs", &change.after}}) {
     ChartSeries series{name, {}, {}};
@@ -83,7 +83,7 @@ void draw_histograms(const PanelContext& context, const MapChange& change) {
   plot(context, chart, 150);
 }
 
-void draw_changes(const PanelContext& context, const MapChange& change) {
+void draw_changes(const PanelContext& context, const RefinementChange& change) {
   small_text(context.style,
              fmt::format("{:.0f} thousand voxels are of another class than in the conventional map; the entropy of all "
                          "voxels went from {:.0f} to {:.0f} knats.",

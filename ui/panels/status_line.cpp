@@ -14,7 +14,7 @@ namespace {
 /// Without what was measured by a clock if it is to look the same every time.
 std::string last_step(const SessionSnapshot& s, bool with_seconds) {
   if (!s.loaded()) return "";
-  if (s.records.empty()) return "Nothing measured yet";
+  if (s.records.empty()) return s.setup->start_map ? "No view taken yet" : "Nothing measured yet";
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
   const std::string text =

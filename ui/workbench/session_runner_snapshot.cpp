@@ -124,7 +124,7 @@ void SessionRunner::fill_map(SessionSnapshot& next) {
 void SessionRunner::show_refinement(SessionSnapshot& snapshot, const GibbsState& refinement) {
   ++snapshot.map;
   LaidOutVoxels voxels(refinement.voxels());
-  const MapChange change = map_change(*snapshot.voxels, *voxels);
+  const RefinementChange change = refinement_change(*snapshot.voxels, *voxels);
   snapshot.gibbs = std::make_shared<const GibbsMap>(GibbsMap{session_->scans().size(), refinement.shared_posterior(),
                                                              std::move(voxels), refinement.shared_measurements(),
                                                              refinement.config(), change});

@@ -4,8 +4,8 @@
 
 namespace nextview {
 
-MapChange map_change(std::span<const Voxel> conventional, std::span<const Voxel> refined) {
-  MapChange change;
+RefinementChange refinement_change(std::span<const Voxel> conventional, std::span<const Voxel> refined) {
+  RefinementChange change;
   const auto bin = [&](float p) {
     return std::min(static_cast<std::size_t>(p * float(change.before.size())), change.before.size() - 1);
   };

@@ -28,13 +28,13 @@ struct SeenCloud {
 };
 
 /// What refining changed, over the voxels.
-struct MapChange {
+struct RefinementChange {
   std::size_t changed_class = 0;                     ///< voxels
   double entropy_before = 0.0, entropy_after = 0.0;  ///< sums over all voxels [nats]
   std::array<std::size_t, 20> before{}, after{};     ///< informed and measured voxels by probability, in equal bins
 };
 
-MapChange map_change(std::span<const Voxel> conventional, std::span<const Voxel> refined);
+RefinementChange refinement_change(std::span<const Voxel> conventional, std::span<const Voxel> refined);
 
 /// The Gibbs map of the first views of a scan. What is large is shared with the refinement that made it.
 struct GibbsMap {
@@ -43,7 +43,7 @@ struct GibbsMap {
   LaidOutVoxels voxels;                                   ///< the posterior as the scene and the gains see it
   std::shared_ptr<const RangeMeasurements> measurements;  ///< what it was sampled from
   PosteriorSamplerConfig config;
-  MapChange change;  ///< against the conventional map of the same views
+  RefinementChange change;  ///< against the conventional map of the same views
 };
 
 /// Points of the object's surface.

@@ -24,7 +24,7 @@ class ScanCurves : public testing::Test {
       r.seconds = {.sense = 1.0, .clean = 2.0, .insert = 4.0, .refine = 8.0, .evaluate = 16.0, .score = 32.0 + i};
     }
     course_.records = records_;
-    course_.voxels = 4'000'000;
+    course_.start = {4e6, 5e6};
   }
   static std::vector<std::string> names(const ChartContent& chart) {
     std::vector<std::string> names;
@@ -46,12 +46,12 @@ class ScanCurves : public testing::Test {
   ScanCourse course_;
 };
 
-TEST_F(ScanCurves, EntropyBeginsWithABitAVoxel) {
+TEST_F(ScanCurves, EntropyBeginsWithThatOfTheMapBeforeTheFirstView) {
   const ChartContent chart = entropy_chart(course_);
   EXPECT_THAT(names(chart), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)"));
   EXPECT_THAT(chart.series.at(0).x, ElementsAre(0, 1, 2));
   EXPECT_THAT(chart.series.at(0).y, ElementsAre(4, 1, 2)) << "in millions";
-  EXPECT_THAT(chart.series.at(1).y, ElementsAre(4, 3, 6));
+  EXPECT_THAT(chart.series.at(1).y, ElementsAre(5, 3, 6));
   EXPECT_EQ(chart.y_unit, "Mbit");
   EXPECT_FALSE(chart.y_high);
 }

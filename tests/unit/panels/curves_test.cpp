@@ -65,7 +65,9 @@ TEST(Curves, NewSurfaceIsExpectedAndSeenInOneUnit) {
 
 TEST(Curves, TheDistanceThatCoverageIsCountedAtIsInMillimetres) {
   const auto s = made_scan();
-  s->configuration.evaluation.d_reg = 0.0075;
+  auto setup = std::make_shared<ScanSetup>(*s->setup);
+  setup->configuration.evaluation.d_reg = 0.0075;
+  s->setup = setup;
   EXPECT_EQ(curve_content(*s, CurveKind::coverage).title, "Surface within 7.5 mm of a point [%]");
 }
 

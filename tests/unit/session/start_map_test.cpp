@@ -42,6 +42,10 @@ TEST_F(StartMap, IsWhatTheScanBeginsWith) {
   Session session(c);
   for (std::uint32_t v = 0; v < voxels_.size(); ++v)
     ASSERT_EQ(session.map().log_odds(v), voxels_[v].measured ? voxels_[v].log_odds : 0.0f);
+  const auto measured = std::ranges::count_if(voxels_, &Voxel::measured);
+  EXPECT_EQ(session.setup().start_entropy.unmeasured, double(voxels_.size()) - double(measured)) << "a bit each";
+  EXPECT_LT(session.setup().start_entropy.total, double(voxels_.size()));
+  EXPECT_GT(session.setup().start_entropy.total, session.setup().start_entropy.unmeasured);
   session.step();
   EXPECT_LT(session.records().front().new_voxels, session.records().front().points) << "most was known";
 }

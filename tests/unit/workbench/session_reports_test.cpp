@@ -224,7 +224,7 @@ TEST_F(SessionRunnerTest, WhatIsMissedIsWhatNoPointIsNear) {
   EXPECT_GT(unseen, 10u);
 }
 
-TEST(MapChange, CountsClassesEntropyAndBins) {
+TEST(RefinementChange, CountsClassesEntropyAndBins) {
   const auto voxel = [](float p, float entropy, VoxelClass c, bool measured) {
     return Voxel{p, entropy, c, measured, 0};
   };
@@ -233,7 +233,7 @@ TEST(MapChange, CountsClassesEntropyAndBins) {
                                   voxel(0.5f, 4, unknown, false), voxel(0.5f, 8, unknown, true)};
   const std::vector<Voxel> after{voxel(0.07f, 16, free, true), voxel(1.0f, 32, unknown, true),
                                  voxel(0.3f, 64, free, true), voxel(0.5f, 128, unknown, false)};
-  const MapChange change = map_change(before, after);
+  const RefinementChange change = refinement_change(before, after);
   EXPECT_EQ(change.changed_class, 2u);
   EXPECT_EQ(change.entropy_before, 15) << "over all voxels";
   EXPECT_EQ(change.entropy_after, 240);

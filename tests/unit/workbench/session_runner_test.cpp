@@ -93,7 +93,7 @@ TEST_F(SessionRunnerTest, TheChangeCountsWhatTheMapsSay) {
     both += before[v].measured && after[v].measured;
     entropy += after[v].entropy;
   }
-  const MapChange& change = now().gibbs->change;
+  const RefinementChange& change = now().gibbs->change;
   for (std::size_t b = 0; b < change.before.size(); ++b) {
     in_bins += change.before[b];
     in_bins_after += change.after[b];
