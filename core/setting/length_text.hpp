@@ -1,13 +1,14 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 
 namespace nextview {
 
 /// A length [m] as people write it: in mm below a metre, to three digits.
 inline std::string length_text(double length) {
-  return length < 0.9995 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
+  return std::abs(length) < 0.9995 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
 }
 
 }  // namespace nextview

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/setting/length_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 
 namespace nextview {
@@ -146,8 +147,8 @@ void paint_scale_bar(Painter& painter, double right, double y, double pixels_per
   const double left = right - length * pixels_per_metre;
   painter.line(left, y + 4, right, y + 4, 2, theme::ink);
   for (const double end : {left, right}) painter.line(end, y, end, y + 8, 2, theme::ink);
-  painter.text(0.5 * (left + right), y + legend_row, fmt::format("{:g} cm", 100 * length), theme::small_text,
-               theme::ink, TextWeight::regular, TextAlign::centre);
+  painter.text(0.5 * (left + right), y + legend_row, length_text(length), theme::small_text, theme::ink,
+               TextWeight::regular, TextAlign::centre);
 }
 
 }  // namespace
@@ -177,7 +178,7 @@ void paint_slice(vtkContext2D& context, const PageArea& panel, const SliceConten
   Painter painter(context);
   const char* axes = "xyz";
   paint_panel(painter, panel, content.title,
-              fmt::format("{} = {:.1f} cm · {} right, {} up", axes[slice.axis], 100 * slice.position(content.grid),
+              fmt::format("{} = {} · {} right, {} up", axes[slice.axis], length_text(slice.position(content.grid)),
                           axes[slice.right_axis()], axes[slice.up_axis()]));
   PageArea picture{0, 0, double(slice.width) * edge, double(slice.height) * edge};
   picture.left = std::floor(room.left + 0.5 * (room.width - picture.width));

@@ -77,7 +77,7 @@ VectorDrawing maps_figure(std::span<ReportScan> scans, const FigurePaper& paper)
     all.push_back(scan.maps());
     bottom += height + panel_gap + (openings_of(*all.back()).empty() ? 0.0 : magnified + panel_gap) + 30;
   }
-  VectorDrawing d(2 * panel_margin + 4 * width + 3 * panel_gap, bottom - 14, paper.look);
+  VectorDrawing d(2 * panel_margin + 4 * width + 3 * panel_gap, bottom + 20, paper.look);
   draw_title(d, "Objects and the maps of their scans");
   double top = panel_top + 22;
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -95,6 +95,7 @@ VectorDrawing maps_figure(std::span<ReportScan> scans, const FigurePaper& paper)
     }
     top += 30;
   }
+  draw_voxel_key(d, bottom - 8);
   return d;
 }
 

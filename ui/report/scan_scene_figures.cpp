@@ -33,23 +33,15 @@ std::vector<int> columns_of(const ReportScan& scan, const FigurePaper& paper) {
 
 /// What the colours of rays and voxels mean, in two lines from `top` on [px].
 void draw_key(VectorDrawing& drawing, double top, const std::string& along_rays) {
-  constexpr double swatch = 12, line = 20, gap = 6;
-  const auto say = [&](double x, double y, const std::string& words) {
-    drawing.text(x, y + swatch - 1, words, theme::small_text, drawing.look().soft_ink);
-  };
-  const auto shown_as = [&](double x, const Colour& colour, const std::string& words) {
-    drawing.box(x, top, swatch, swatch, colour);
-    say(x + swatch + gap, top, words);
-  };
-  shown_as(panel_margin, theme::occupied, "occupied");
-  shown_as(panel_margin + 92, theme::unknown, "measured but unknown");
+  draw_voxel_key(drawing, top);
   if (along_rays.empty()) return;  // views at random are not explained
   constexpr int shades = 24;
-  constexpr double width = 4;
+  constexpr double width = 4, height = 12, line = 20, gap = 6;
   const ColourMap map = drawing.look().is_dark() ? ColourMap::contribution().on_dark() : ColourMap::contribution();
   for (int i = 0; i < shades; ++i)
-    drawing.box(panel_margin + i * width, top + line, width, swatch, map.at(i / double(shades - 1)));
-  say(panel_margin + shades * width + gap, top + line, along_rays + ", none to most");
+    drawing.box(panel_margin + i * width, top + line, width, height, map.at(i / double(shades - 1)));
+  drawing.text(panel_margin + shades * width + gap, top + line + height - 1, along_rays + ", none to most",
+               theme::small_text, drawing.look().soft_ink);
 }
 
 }  // namespace

@@ -48,4 +48,14 @@ void draw_title(VectorDrawing& drawing, const std::string& text) {
   drawing.text(16, 26, text, theme::caption, drawing.look().ink, TextAlign::left, true);
 }
 
+void draw_voxel_key(VectorDrawing& drawing, double top) {
+  constexpr double swatch = 12, gap = 6;
+  const auto shown_as = [&](double x, const Colour& colour, const std::string& words) {
+    drawing.box(x, top, swatch, swatch, colour);
+    drawing.text(x + swatch + gap, top + swatch - 1, words, theme::small_text, drawing.look().soft_ink);
+  };
+  shown_as(panel_margin, theme::occupied, "occupied");
+  shown_as(panel_margin + 92, theme::unknown, "measured but unknown");
+}
+
 }  // namespace nextview

@@ -25,4 +25,7 @@ void draw_heading(VectorDrawing& drawing, const DrawingArea& area, const std::st
 /// A figure's title at its upper left.
 void draw_title(VectorDrawing& drawing, const std::string& text);
 
+/// What the colours of voxels mean, in a line from `top` on [px].
+void draw_voxel_key(VectorDrawing& drawing, double top);
+
 }  // namespace nextview

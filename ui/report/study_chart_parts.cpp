@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "core/file/counted.hpp"
+
 namespace nextview {
 namespace {
 
@@ -71,7 +73,8 @@ Plot courses(const SummaryTable& table, const StudySetting& setting, const std::
 }
 
 std::string scope(const SummaryTable& table, const StudySetting& setting, const std::string& measure) {
-  return fmt::format("mean of {} objects, {}", table.objects(setting, measure).size(), in_words(setting.sensor));
+  return fmt::format("mean of {}, {}", counted(table.objects(setting, measure).size(), "object"),
+                     in_words(setting.sensor));
 }
 
 StudyChart one_plot(const Plot& plot, const Look& look, double height) {

@@ -52,7 +52,9 @@ std::span<const StudyFigure> study_figures() {
        coverage_by_object},
       {"gap_closed",
        "Where each plan stands between random views (0) and a greedy oracle that knows the mesh (1), by the mean "
-       "coverage; means over objects first.",
+       "coverage; means over objects first. Over 1 is a camera that is coarse beside d_reg: the oracle takes no "
+       "account of "
+       "gaps between points.",
        gap_closed},
       {"entropy_by_view",
        "Fig. 7c: entropy of the maximum-likelihood map (Eq. 18) after each view; the mean over objects.",
