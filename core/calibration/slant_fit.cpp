@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 namespace nextview {
-
 void SlantFit::add(const ShownByViews& shown) {
   const NewSurfaceField field(shown.evidence, model_);
   const auto areas = [&](const SurfaceSlant& slant) {
@@ -21,7 +20,7 @@ void SlantFit::add(const ShownByViews& shown) {
 
 SurfaceSlant SlantFit::fit() const {
   if (!(expected_.determinant() > 0.0)) throw std::invalid_argument("new surface: no view is expected to show any");
-  const Eigen::Vector2d fitted = expected_.ldlt().solve(met_);
+  const Eigen::Vector2d fitted = views_taken_show * expected_.ldlt().solve(met_);
   const auto slant = [](double value) { return std::clamp(value, SurfaceSlant::least, SurfaceSlant::most); };
   return {slant(fitted[0]), slant(fitted[1])};
 }

@@ -27,10 +27,11 @@ void show(std::vector<ShownByViews>& states, const NewSurfaceModel& model, const
     state.areas = expected_new_surface({state.evidence, model}, state.views, state.bundle, {state.ray_length, slant});
 }
 
+/// Of all views alike.
 SurfaceSlant fitted_slant(const NewSurfaceModel& model, const std::vector<ShownByViews>& states) {
   SlantFit fit(model);
   for (const ShownByViews& state : states) fit.add(state);
-  return fit.fit();
+  return fit.fit().times(1.0 / SlantFit::views_taken_show);
 }
 
 TEST(SlantFit, GivesTheSlantsBackThatWerePlanted) {
@@ -57,7 +58,7 @@ TEST(SlantFit, StaysInItsBounds) {
   const NewSurfaceModel model = NewSurfaceModel::fitted();
   show(states, model, {50.0, -3.0});
   const SurfaceSlant fitted = fitted_slant(model, states);
-  EXPECT_EQ(fitted.edge_on, SurfaceSlant::most);
+  EXPECT_DOUBLE_EQ(fitted.edge_on, SurfaceSlant::most / SlantFit::views_taken_show);
   EXPECT_EQ(fitted.face_on, SurfaceSlant::least);
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "core/calibration/slant_fit.hpp"
 #include "core/planner/look_ahead_planner.hpp"
 #include "core/planner/new_surface_policy.hpp"
 #include "core/progress/stopped.hpp"
@@ -174,7 +175,8 @@ TEST(DrawnWorlds, ShowViewsAboutWhatRaysExpect) {
   const NewSurfaceModel model = NewSurfaceModel::fitted();
   const NewSurfaceField field(evidence, model);
   const std::vector<Pose> poses = poses_of(box.views);
-  const auto expected = expected_new_surface(field, poses, box.bundle, {1.5, model.slant});
+  const SurfaceSlant of_all_views = model.slant.times(1.0 / SlantFit::views_taken_show);
+  const auto expected = expected_new_surface(field, poses, box.bundle, {1.5, of_all_views});
   WorldDraws draws;
   draws.count = 100;
   const auto worlds = draw_worlds(evidence, field, poses, box.bundle, draws);
