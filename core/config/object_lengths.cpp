@@ -66,6 +66,21 @@ void fit_lengths(Configuration& configuration, double longest_side) {
     fit("planner.ray_length", distance + 1.2 * longest);
 }
 
+void fit_region(Configuration& configuration, const Eigen::AlignedBox3d& object) {
+  std::string& region = configuration.map.region;
+  const auto fitted = configuration.fitted.find("map.region");
+  const bool is_fitted = fitted != configuration.fitted.end() && fitted->second == region;
+  if (!region.empty() && !is_fitted) return;
+  if (is_fitted) configuration.fitted.erase(fitted);
+  region.clear();
+  if (configuration.object.centred) return;  // in the origin, around which the cube lies
+  const Vector3 half = Vector3::Constant(0.5 * configuration.map.region_edge);
+  const Vector3 low = object.center() - half, high = object.center() + half;
+  region =
+      fmt::format("{:.7g} {:.7g} {:.7g} {:.7g} {:.7g} {:.7g}", low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+  configuration.fitted["map.region"] = region;
+}
+
 std::map<std::string, std::string> lengths_as_fitted(const Configuration& configuration, double longest_side) {
   Configuration fitted, copy = configuration;  // in which nothing was given but what lengths follow from
   fitted.map.start = configuration.map.start;

@@ -10,6 +10,9 @@ namespace nextview {
 /// `sources` names, or what is neither as it is by default nor as it was fitted before; a sensor's lengths also where a
 /// preset was given. With 0.5 m all is as it is by default.
 void fit_lengths(Configuration& configuration, double longest_side);
+/// Lays the region of interest, a cube of map.region_edge, around an object that stays where its file has it
+/// (object.centred false), unless map.region was given.
+void fit_region(Configuration& configuration, const Eigen::AlignedBox3d& object);
 /// The lengths that are what fit_lengths would make of an object with this longest side [m], whoever set them: by key,
 /// as Configuration::fitted.
 std::map<std::string, std::string> lengths_as_fitted(const Configuration& configuration, double longest_side);

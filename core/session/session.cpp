@@ -117,9 +117,14 @@ void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, c
 }
 
 void Session::recognise_fitted() {
-  if (object_ && !recording_)
-    setup_.configuration.fitted =
-        lengths_as_fitted(setup_.configuration, object_->mesh.bounding_box().sizes().maxCoeff());
+  if (!object_ || recording_) return;
+  Configuration& c = setup_.configuration;
+  const Eigen::AlignedBox3d box = object_->mesh.bounding_box();
+  c.fitted = lengths_as_fitted(c, box.sizes().maxCoeff());
+  Configuration around = c;
+  around.map.region.clear();
+  fit_region(around, box);
+  if (around.map.region == c.map.region) c.fitted = around.fitted;
 }
 
 std::shared_ptr<const TriangleMesh> Session::mesh() const {

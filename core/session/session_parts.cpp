@@ -150,7 +150,9 @@ ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
                                c.driver.name)));
   const std::filesystem::path file = resolve_object(c);
   ConfiguredObject object{file, std::make_shared<PlacedMesh>(load_object_mesh(file, placement(c.object, file), stop))};
-  fit_lengths(c, object.placed->mesh.bounding_box().sizes().maxCoeff());
+  const Eigen::AlignedBox3d box = object.placed->mesh.bounding_box();
+  fit_lengths(c, box.sizes().maxCoeff());
+  fit_region(c, box);
   c = affordable(validated(std::move(c)));
   c.views.projections = projection_placement(c, *object.placed);
   require_within_region(object.placed->mesh, c, file);
@@ -160,7 +162,8 @@ ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
 void require_within_region(const TriangleMesh& object, const Configuration& c, const std::filesystem::path& file) {
   const Eigen::AlignedBox3d box = object.bounding_box(), region = c.map.region_box();
   const double longest = box.sizes().maxCoeff();
-  if (c.map.region.empty() && c.object.centred && longest > c.map.region_edge)
+  const bool is_cube = c.map.region.empty() || !is_given(c, "map.region");
+  if (is_cube && longest > c.map.region_edge)
     throw std::invalid_argument(fmt::format(
         "{}: the object is {:.3g} m long, but the region of interest has an edge of {} m; scale the object with "
         "object.longest_side or enlarge map.region_edge",
@@ -171,7 +174,7 @@ void require_within_region(const TriangleMesh& object, const Configuration& c, c
         "{}: the object reaches from {} to {} m, beyond the region of interest from {} to {} m; enlarge {}, "
         "scale the object with object.longest_side, or move it with object.centred",
         file.string(), text(box.min()), text(box.max()), text(region.min()), text(region.max()),
-        c.map.region.empty() ? "map.region_edge" : "map.region"));
+        is_cube ? "map.region_edge" : "map.region"));
 }
 
 SurfaceSamples evaluation_samples(const Configuration& c, const TriangleMesh& object) {

@@ -32,7 +32,8 @@ struct ConfiguredObject {
 /// How the coordinates of projection matrices (views.file) become the world's: as those of the object's file did.
 /// @throws std::invalid_argument if views.unit is set and nothing says the object's
 ProjectionPlacement projection_placement(const Configuration& configuration, const PlacedMesh& object);
-/// Reads it, fits the lengths to its size (fit_lengths), and puts the views of projection matrices where it is.
+/// Reads it, fits lengths and region to it (fit_lengths, fit_region), and puts the views of projection matrices where
+/// it is.
 /// @throws std::invalid_argument, std::runtime_error naming the file or the setting; OutOfMemory; Stopped
 ConfiguredObject load_object(Configuration& configuration, const std::stop_token& stop = {});
 

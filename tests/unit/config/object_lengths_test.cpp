@@ -136,6 +136,26 @@ TEST(ObjectLengths, RaysGetThroughTheRegionFromWhereverViewsAre) {
   EXPECT_DOUBLE_EQ(c.planner.ray_length, 0.3);
 }
 
+TEST(ObjectLengths, TheRegionLiesAroundAnObjectThatStaysWhereItIs) {
+  const Eigen::AlignedBox3d object(Vector3(5.0, 0.0, 0.0), Vector3(5.12, 0.08, 0.09));
+  Configuration c;
+  fit_region(c, object);
+  EXPECT_EQ(c.map.region, "") << "it is put in the origin";
+  c.object.centred = false;
+  c.map.region_edge = 0.4;
+  fit_region(c, object);
+  EXPECT_EQ(c.map.region, "4.86 -0.16 -0.155 5.26 0.24 0.245");
+  fit_region(c, {object.min() + Vector3::UnitY(), object.max() + Vector3::UnitY()});
+  EXPECT_EQ(c.map.region, "4.86 0.84 -0.155 5.26 1.24 0.245") << "of the next object";
+  c.object.centred = true;
+  fit_region(c, object);
+  EXPECT_EQ(c.map.region, "");
+  c.object.centred = false;
+  give(c, "map.region", "0 0 0 1 1 1", "--map.region");
+  fit_region(c, object);
+  EXPECT_EQ(c.map.region, "0 0 0 1 1 1") << "what was given stays";
+}
+
 TEST(ObjectLengths, AsText) {
   EXPECT_EQ(length_text(0.0915), "91.5 mm");
   EXPECT_EQ(length_text(1.5), "1.5 m");

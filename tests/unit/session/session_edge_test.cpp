@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "core/mesh/mesh_file.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/surface/surface_file.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -61,6 +65,30 @@ TEST(SessionEdge, AnObjectLargerThanTheRegionIsAnErrorWithAdvice) {
   const std::string why = reason<std::invalid_argument>(c);
   EXPECT_NE(why.find("map.region_edge"), std::string::npos) << why;
   EXPECT_NE(why.find("object.longest_side"), std::string::npos) << why;
+}
+
+TEST(SessionEdge, AnObjectThatStaysFarFromTheOriginIsScannedWhereItIs) {
+  const TemporaryFolder folder;
+  const Vector3 middle(5.06, -3.0, 0.25);
+  TriangleMesh moved = load_mesh(small_scan().object.file);
+  for (Eigen::Vector3f& vertex : moved.vertices) vertex += middle.cast<float>();
+  write_stl(moved, folder / "moved.stl");
+  Configuration c = small_scan();
+  c.object.file = (folder / "moved.stl").string();
+  c.object.centred = false;
+  Session session(c);
+  EXPECT_LT((session.setup().region.box().center() - middle).norm(), 1.1 * c.map.resolution);
+  EXPECT_LT((view_target(session.configuration()) - middle).norm(), 1e-5);
+  for (const Pose& pose : session.candidates()) {
+    EXPECT_LT((middle - pose.translation()).cross(pose.linear().col(2)).norm(), 1e-5);
+    EXPECT_NEAR((middle - pose.translation()).norm(), session.configuration().views.radius, 1e-5);
+  }
+  finish(session);
+  EXPECT_GT(session.records().back().coverage_visible, 0.5);
+  c.map.region_edge = 0.4;
+  EXPECT_NE(reason<std::invalid_argument>(c).find("enlarge map.region_edge"), std::string::npos);
+  c.map.region = "-0.4 -0.4 -0.4 0.4 0.4 0.4";
+  EXPECT_NE(reason<std::invalid_argument>(c).find("enlarge map.region,"), std::string::npos) << "which was given";
 }
 
 TEST(SessionEdge, WithoutEvaluationNothingIsKnownOfTheObject) {
