@@ -56,6 +56,21 @@ std::vector<Vector3> points_of_ply(const fs::path& file) {
   return points;
 }
 
+/// Millimetres that were taken for metres would be a scan of what is not there.
+void require_unit(const fs::path& file, const Capture& capture) {
+  constexpr double by_far = 10.0;
+  std::vector<double> ranges;
+  if (const auto* points = std::get_if<std::vector<Vector3>>(&capture.measured))
+    for (const Vector3& point : *points) ranges.push_back(point.norm());
+  else
+    for (const float range : std::get<DepthImage>(capture.measured).range)
+      if (std::isfinite(range)) ranges.push_back(double(range));
+  const auto too_far = std::ranges::count_if(ranges, [&](double r) { return r > by_far * capture.max_range; });
+  if (2 * std::size_t(too_far) > ranges.size())
+    refuse(file, fmt::format("ranges up to {:.3g} m, but hello says max_range {:.3g} m: are they millimetres?",
+                             std::ranges::max(ranges), capture.max_range));
+}
+
 bool is_empty(const std::variant<DepthImage, std::vector<Vector3>>& measured) {
   if (const auto* points = std::get_if<std::vector<Vector3>>(&measured)) return points->empty();
   return std::ranges::all_of(std::get<DepthImage>(measured).range, [](float range) { return std::isnan(range); });
@@ -77,6 +92,7 @@ Capture read_capture(const CapturedFile& captured, const fs::path& folder, const
   else
     refuse(file, "is of no kind that a capture is read from: .npy, .png, .ply");
   if (is_empty(capture.measured)) refuse(file, "nothing was measured: it holds neither a range nor a free way");
+  require_unit(file, capture);
   return capture;
 }
 

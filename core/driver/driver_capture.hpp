@@ -10,7 +10,7 @@ namespace nextview {
 ///  - .ply: points in the camera frame [m]
 /// @param folder of the request
 /// @throws std::runtime_error naming the file and the reason: missing, no regular file, damaged, another size than
-///         `camera` has, values that are no ranges, nothing measured
+///         `camera` has, values that are no ranges or mostly far beyond `max_range`, nothing measured
 Capture read_capture(const CapturedFile& captured, const std::filesystem::path& folder, const PinholeCamera& camera,
                      double max_range);
 

@@ -108,6 +108,22 @@ TEST(DriverCapture, OfPoints) {
   EXPECT_NE(reason(file("a.ply"), folder), "it was read");
 }
 
+TEST(DriverCapture, RangesOfAnotherUnitAreNone) {
+  const TemporaryFolder folder;
+  NpyTable table{4, 3, std::vector<float>(12, DepthImage::beyond_range)};
+  const auto of_ranges = [&] {
+    write_npy(table, folder / "a.npy");
+    return reason(file("a.npy"), folder);
+  };
+  table.values[0] = table.values[1] = 1500.0f;
+  table.values[2] = 3.0f;
+  EXPECT_THAT(of_ranges(), HasSubstr("ranges up to 1.5e+03 m, but hello says max_range 2 m: are they millimetres?"));
+  table.values[1] = 19.0f;
+  EXPECT_EQ(of_ranges(), "it was read") << "one is far off";
+  write_ply({{0, 0, 800}, {0, 1, 900}, {0, 0, 1}}, folder / "a.ply");
+  EXPECT_THAT(reason(file("a.ply"), folder), HasSubstr("ranges up to 900 m"));
+}
+
 TEST(DriverCapture, OfNothingIsNone) {
   const TemporaryFolder folder;
   const auto of_ranges = [&](float first) {
