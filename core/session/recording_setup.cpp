@@ -9,10 +9,8 @@
 #include "core/file/read_file.hpp"
 #include "core/journal/journal.hpp"
 #include "core/recording/frame_files.hpp"
-#include "core/session/object_mesh.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
-#include "core/setting/length_text.hpp"
 #include "core/source/simulated_source.hpp"
 
 namespace nextview {
@@ -214,40 +212,6 @@ std::shared_ptr<const RecordedSurface> recorded_surface(const Configuration& c, 
     throw std::invalid_argument(
         c.as_given(fmt::format("{}: {} within the region of interest (map.region)", c.recorded.folder, error.what())));
   }
-}
-
-std::string alignment_note(const Alignment& alignment, const std::string& mesh_name, const PointCloud& scanned,
-                           const TriangleMesh& mesh) {
-  constexpr double doubtful = 0.9;
-  std::string note = fmt::format("{:.0f} % of its points lie on {}, {} from it (root mean square)",
-                                 100.0 * alignment.overlap, mesh_name, length_text(alignment.residual));
-  if (alignment.overlap >= doubtful) return note;
-  const auto longest = [&](const auto& points) {  // along the axes that the mesh has in its file
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3f& p : points) box.extend(alignment.T_surface_cloud * p.cast<double>());
-    return length_text(box.sizes().maxCoeff());
-  };
-  return note + fmt::format(
-                    "; is it the same object? The scans are {} long, the mesh {}: object.unit or "
-                    "object.longest_side sets its size",
-                    longest(scanned), longest(mesh.vertices));
-}
-
-AlignedTruth aligned_truth(const Configuration& c, const PointCloud& scanned, const std::stop_token& stop) {
-  AlignedTruth truth{resolve_object(c.recorded.truth), nullptr, {}};
-  ObjectConfig as_it_stands = c.object;
-  as_it_stands.centred = false;
-  if (as_it_stands.up == UpAxis::automatic) as_it_stands.up = UpAxis::z;  // as the scans, whatever they call up
-  auto placed = std::make_shared<PlacedMesh>(load_object_mesh(truth.file, placement(as_it_stands, truth.file), stop));
-  try {
-    truth.alignment = align(scanned, placed->mesh, stop);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", c.recorded.folder, error.what()));
-  }
-  const Pose T_scans_mesh = truth.alignment.T_surface_cloud.inverse();
-  for (Eigen::Vector3f& vertex : placed->mesh.vertices) vertex = (T_scans_mesh * vertex.cast<double>()).cast<float>();
-  truth.placed = std::move(placed);
-  return truth;
 }
 
 }  // namespace nextview

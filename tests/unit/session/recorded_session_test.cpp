@@ -172,6 +172,19 @@ TEST_F(RecordedSession, TheTruthIsFoundWhereverItLies) {
   EXPECT_NEAR(session.records().back().coverage, original_->records.back()->coverage, 0.02);
 }
 
+TEST(AlignmentNote, DoubtsAMeshThatIsFarSmallerOrLargerThanTheScans) {
+  PointCloud scans;
+  TriangleMesh mesh;
+  const auto note = [&](double of_scans, double of_mesh, double overlap) {
+    scans = {Eigen::Vector3f::Zero(), float(of_scans) * Eigen::Vector3f::UnitX()};
+    mesh.vertices = {Eigen::Vector3f::Zero(), float(of_mesh) * Eigen::Vector3f::UnitX()};
+    return alignment_note({Pose::Identity(), 0.001, overlap}, "box.ply", scans, mesh);
+  };
+  EXPECT_THAT(note(0.12, 0.4, 1.0), testing::EndsWith("(root mean square)")) << "the scans are of a part of it";
+  EXPECT_THAT(note(0.12, 8.0, 1.0), testing::HasSubstr("The scans are 120 mm long, the mesh 8 m"));
+  EXPECT_THAT(note(0.12, 0.012, 0.1), testing::HasSubstr("The scans are 120 mm long, the mesh 12 mm"));
+}
+
 TEST_F(RecordedSession, ItsConfigurationRepeatsIt) {
   Session first(replay());
   finish(first);
