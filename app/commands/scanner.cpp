@@ -20,8 +20,8 @@ std::string text(const Pose& pose) {
 
 /// A robot moves when someone looks.
 bool confirmed(const Pose& from, const Pose& to) {
-  fmt::print(stderr, "\nMove the camera {:.3g} m to {}? [y/N] ", (to.translation() - from.translation()).norm(),
-             text(to));
+  fmt::print(stderr, "\nMove the camera {:.3g} m to {}? n ends the scan, which --resume goes on with. [y/N] ",
+             (to.translation() - from.translation()).norm(), text(to));
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
 }

@@ -27,8 +27,8 @@ const Json& member(const Json& object, const char* key) {
 }
 
 [[noreturn]] void wrong(const char* key, const std::string& expected, const Json& is) {
-  const std::string text = json_text(is);
-  throw std::invalid_argument(fmt::format("'{}' is not {} but {}", key, expected, excerpt(text)));
+  const std::string text = is.is_number() ? fmt::format("{}", is.get<double>()) : json_text(is);
+  throw std::invalid_argument(fmt::format("'{}' must be {}, not {}", key, expected, excerpt(text)));
 }
 
 double number_in(const Json& object, const char* key, double least, double largest) {
@@ -37,8 +37,9 @@ double number_in(const Json& object, const char* key, double least, double large
   const double number = value.get<double>();
   if (!(number >= least && number <= largest))
     wrong(key,
-          largest == DriverAnswer::unlimited ? fmt::format("at least {:g}", least)
-                                             : fmt::format("from {:g} to {:g}", least, largest),
+          least == DriverAnswer::over_zero     ? "over 0"
+          : largest == DriverAnswer::unlimited ? fmt::format("at least {:g}", least)
+                                               : fmt::format("from {:g} to {:g}", least, largest),
           value);
   return number;
 }

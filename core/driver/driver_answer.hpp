@@ -24,6 +24,7 @@ class DriverAnswer {
   /// Why it did not do what it was asked; none if it says `ok: true`.
   std::optional<std::string> error() const;
 
+  static constexpr double over_zero = std::numeric_limits<double>::min();  ///< as the least that a number may be
   static constexpr double unlimited = std::numeric_limits<double>::max();  ///< as the most that a number may be
   bool has(const char* key) const;                                         ///< null counts as nothing
   double number(const char* key, double least, double most) const;

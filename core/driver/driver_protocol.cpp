@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
+#include "core/driver/words.hpp"
 #include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
 
@@ -55,7 +55,7 @@ DriverGreeting greeting_of(const DriverAnswer& answer) {
     throw std::invalid_argument(fmt::format("it speaks version {} of the protocol, and this program version {}",
                                             version, driver_protocol_version));
   DriverGreeting greeting{answer.text("name"), answer.texts("abilities"), camera_of(answer),
-                          answer.number("max_range", std::numeric_limits<double>::min(), DriverAnswer::unlimited),
+                          answer.number("max_range", DriverAnswer::over_zero, DriverAnswer::unlimited),
                           answer.number("range_noise", 0.0, DriverAnswer::unlimited)};
   if (answer.has("start")) greeting.start = answer.pose("start");
   if (answer.has("region")) greeting.region = region_of(answer);
@@ -68,8 +68,7 @@ DriverGreeting greeting_of(const DriverAnswer& answer) {
 
 CapturedFile captured_file_of(const DriverAnswer& answer) {
   CapturedFile captured{answer.pose("pose"), answer.text("file"), 0.0, {}};
-  if (answer.has("scale"))
-    captured.scale = answer.number("scale", std::numeric_limits<double>::min(), DriverAnswer::unlimited);
+  if (answer.has("scale")) captured.scale = answer.number("scale", DriverAnswer::over_zero, DriverAnswer::unlimited);
   if (answer.has("measures")) captured.measures = answer.text("measures");
   return captured;
 }
@@ -80,7 +79,7 @@ bool DriverGreeting::can(const std::string& ability) const {
 
 DriverProtocol::DriverProtocol(const std::vector<std::string>& words, std::function<void(const std::string&)> log,
                                double grace, double stop_time)
-    : process_(words, std::move(log), grace), name_(printable(words.front())), stop_time_(stop_time) {}
+    : process_(words, std::move(log), grace), name_(printable(program_named(words))), stop_time_(stop_time) {}
 
 DriverProtocol::~DriverProtocol() { process_.end(json_text(Json{{"id", last_id_ + 1}, {"request", "bye"}})); }
 

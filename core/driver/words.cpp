@@ -1,5 +1,8 @@
 #include "core/driver/words.hpp"
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -78,6 +81,23 @@ std::vector<std::string> shell_words(std::string_view text) {
   std::vector<std::string> words = Splitter(text).split();
   if (words.empty() || words.front().empty()) throw std::invalid_argument("it names no program");
   return words;
+}
+
+std::string program_named(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 9> interpreters = {"env",  "sh",   "bash", "dash",  "zsh",
+                                                            "perl", "ruby", "node", "python"};
+  const auto interprets = [&](const std::string& word) {
+    std::string name = std::filesystem::path(word).filename().string();
+    name.erase(name.find_last_not_of("0123456789.") + 1);  // python3.11
+    return std::ranges::find(interpreters, name) != interpreters.end();
+  };
+  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
+  std::size_t at = 0;
+  while (at + 1 < words.size() && (interprets(words[at]) || is_option(words[at]))) {
+    if (words[at] == "-c" || words[at] == "-e") return words.front();  // what follows is the script itself
+    ++at;
+  }
+  return interprets(words[at]) || is_option(words[at]) ? words.front() : words[at];
 }
 
 }  // namespace nextview

@@ -146,6 +146,8 @@ TEST(DriverProtocol, ACaptureNamesItsFileAndWhatItsNumbersAre) {
   EXPECT_EQ(all.scale, 0.001);
   EXPECT_EQ(all.measures, "range");
   EXPECT_THAT(refusal([&] { captured_file_of(answer_with(pose + ",\"scale\":0")); }), HasSubstr("'scale'"));
+  EXPECT_EQ(refusal([&] { captured_file_of(answer_with(pose + ",\"scale\":-1.0")); }),
+            "'scale' must be over 0, not -1");
 }
 
 }  // namespace

@@ -31,6 +31,17 @@ TEST(Words, WhatDoesNotEndIsAnError) {
     EXPECT_THROW(shell_words(bad), std::invalid_argument) << bad;
 }
 
+TEST(Words, NameTheScriptAndNotItsInterpreter) {
+  for (const auto& [command, name] : {std::pair{"/usr/bin/python3 drv.py mm", "drv.py"},
+                                      {"python3.11 -u a/drv.py --x", "a/drv.py"},
+                                      {"/usr/bin/env python3 drv.py", "drv.py"},
+                                      {"nextview driver simulated bunny.ply", "nextview"},
+                                      {"./drv --fast x", "./drv"},
+                                      {"sh -c 'a | b'", "sh"},
+                                      {"python3", "python3"}})
+    EXPECT_EQ(program_named(shell_words(command)), name) << command;
+}
+
 /// What /bin/sh makes of it, a word a line.
 std::string split_by_shell(const std::string& text) {
   const std::string command = "printf '%s\\n' " + text;
