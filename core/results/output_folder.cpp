@@ -33,6 +33,9 @@ OutputFolder::OutputFolder(fs::path folder, std::span<const InputFile> inputs, s
     : folder_(std::move(folder)) {
   if (folder_.empty()) throw std::invalid_argument("the folder for the results has no name");
   std::error_code ignored;
+  if (fs::is_symlink(folder_, ignored) && fs::status(folder_, ignored).type() == fs::file_type::not_found)
+    throw std::runtime_error(
+        fmt::format("{}: is a link to what is not there; remove it, or give another folder", folder_.string()));
   if (fs::exists(folder_, ignored) && !fs::is_directory(folder_, ignored))
     throw std::runtime_error(
         fmt::format("{}: cannot be made a folder: there is a file of this name", folder_.string()));

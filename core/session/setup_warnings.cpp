@@ -82,25 +82,22 @@ Standing standing(const Configuration& c, const TriangleMesh& object, std::span<
   return s;
 }
 
-}  // namespace
+/// What the views' warnings call them, and what changes where they are.
+struct Naming {
+  std::string whose, stand, radius;
+};
 
-std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMesh& object,
-                                        std::span<const Pose> candidates) {
-  std::vector<Pose> views(candidates.begin(), candidates.end());
-  views.push_back(configured_start_view(c));
+void warn_of_views(const Configuration& c, const TriangleMesh& object, std::span<const Pose> views,
+                   const Naming& naming, std::vector<std::string>& warnings) {
   const Standing s = standing(c, object, views);
-  const double longest = object.bounding_box().sizes().maxCoeff();
   const double reach = 0.5 * object.bounding_box().diagonal().norm();
-  const bool from_file = c.views.layout == ViewLayout::file;
-  const std::string stand = from_file ? "the views of views.file" : "views.radius";
-  std::vector<std::string> warnings;
+  const std::string& stand = naming.stand;
   const auto warn = [&](std::size_t count, const std::string& text) {
-    if (count > 0)
-      warnings.push_back(fmt::format("{} of {} views (candidates and start view): {}", count, s.views, text));
+    if (count > 0) warnings.push_back(fmt::format("{} of {} views ({}): {}", count, s.views, naming.whose, text));
   };
   warn(s.inside, fmt::format("inside the object, where nothing of its outside is seen; it reaches {} from its centre: "
                              "change {} ({}), or scale it with object.longest_side",
-                             length_text(reach), stand, from_file ? c.views.file : length_text(c.views.radius)));
+                             length_text(reach), stand, naming.radius));
   warn(s.near, fmt::format("nearer to the object than sensor.min_range ({}), which gives no range; the nearest is {} "
                            "off: lower sensor.min_range, or change {}",
                            length_text(c.sensor.min_range), length_text(s.nearest), stand));
@@ -113,13 +110,31 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
                                     length_text(c.planner.ray_length), length_text(s.farthest)));
   if (s.inside < s.views && s.max_in_image < min_in_image)
     warnings.push_back(
-        fmt::format("no view has more than {:.0f} % of the object in its image: widen "
+        fmt::format("no view ({}) has more than {:.0f} % of the object in its image: widen "
                     "sensor.field_of_view ({:g} deg), or change {}",
-                    std::ceil(100.0 * s.max_in_image), c.sensor.field_of_view, stand));
+                    naming.whose, std::ceil(100.0 * s.max_in_image), c.sensor.field_of_view, stand));
   else
     warn(s.past, fmt::format("nothing of the object in the image, which looks past it: change {}, or widen "
                              "sensor.field_of_view ({:g} deg)",
                              stand, c.sensor.field_of_view));
+}
+
+}  // namespace
+
+std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMesh& object,
+                                        std::span<const Pose> candidates) {
+  const double longest = object.bounding_box().sizes().maxCoeff();
+  const bool from_file = c.views.layout == ViewLayout::file, own_start = !c.planner.start_view.empty();
+  const std::string stand = from_file ? "the views of views.file" : "views.radius";
+  const std::string radius = from_file ? c.views.file : length_text(c.views.radius);
+  std::vector<std::string> warnings;
+  std::vector<Pose> views(candidates.begin(), candidates.end());
+  const Pose start = configured_start_view(c);
+  if (own_start)
+    warn_of_views(c, object, {&start, 1}, {"start view", "planner.start_view", c.planner.start_view}, warnings);
+  else
+    views.push_back(start);
+  warn_of_views(c, object, views, {own_start ? "candidates" : "candidates and start view", stand, radius}, warnings);
   if (longest < min_voxels * c.map.resolution)
     warnings.push_back(fmt::format(
         "voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: lower "

@@ -78,6 +78,14 @@ TEST_F(OutputFolders, RefuseToReplaceAnInputByWhateverNameItIsGiven) {
   EXPECT_EQ(read_file(object), "mine");
 }
 
+TEST_F(OutputFolders, AreNoLinkToWhatIsNotThere) {
+  fs::create_directory_symlink(folder_ / "gone", folder_ / "link");
+  const fs::path input = write("part.stl");
+  EXPECT_THAT(refusal(input, "link"), HasSubstr("link: is a link to what is not there; remove it, or give another"));
+  fs::create_directory(folder_ / "gone");
+  EXPECT_EQ(refusal(input, "link"), "");
+}
+
 TEST_F(OutputFolders, TakeInputsUnderNamesThatAreNeverWrittenAndLeaveThemAlone) {
   const fs::path part = write("out/part.ply"), other = write("part.json");
   EXPECT_EQ(refusal(part), "");

@@ -108,6 +108,18 @@ TEST_F(SetupWarningFiles, ViewsThatLookPastTheObject) {
               ElementsAre(AllOf(HasSubstr("1 of 4 views"), HasSubstr("looks past"), HasSubstr("views.file"))));
 }
 
+TEST(SetupWarnings, AStartViewOfItsOwnIsWarnedOfByItsName) {
+  Configuration c;
+  c.planner.start_view = "0 0 0.05 0 0 0 1";
+  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("1 of 1 views (start view): inside the object"),
+                                                  HasSubstr("change planner.start_view (0 0 0.05 0 0 0 1)"))));
+  c.planner.start_view = "0 0 -0.9 0 0 0 1";
+  EXPECT_THAT(of_the_sphere(c), IsEmpty());
+  c.views.radius = 0.2;
+  EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("48 of 48 views (candidates): inside"),
+                                                  HasSubstr("change views.radius (200 mm)"))));
+}
+
 TEST(SetupWarnings, AreALineEach) {
   Configuration c;
   c.views.radius = 0.3;
