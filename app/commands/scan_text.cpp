@@ -18,13 +18,20 @@
 namespace nextview {
 namespace {
 
+/// Objects are seldom so large, and often without a unit.
+std::string unit_text(const PlacedMesh& object, double longest) {
+  constexpr double large = 3.0;  // [m]
+  if (object.unit == LengthUnit::automatic) return "";
+  if (object.is_unit_guessed && object.unit == LengthUnit::metres && longest > large)
+    return " (no unit in the file: metres; --object.unit mm if it is millimetres)";
+  return fmt::format(" (its unit taken as {})", name(object.unit));
+}
+
 std::string object_text(const Session& session) {
-  const LengthUnit unit = session.object().unit;
-  std::string text = fmt::format(
-      "{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()), size_text(*session.mesh()),
-      unit == LengthUnit::automatic ? "" : fmt::format(" (its unit taken as {})", name(unit)),
-      session.object_topology().summary(), lengths_text(session.configuration()));
   const double longest = session.mesh()->bounding_box().sizes().maxCoeff();
+  std::string text = fmt::format("{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()),
+                                 size_text(*session.mesh()), unit_text(session.object(), longest),
+                                 session.object_topology().summary(), lengths_text(session.configuration()));
   if (const std::string moved = centring_text(session.object().placement, longest); !moved.empty())
     text += fmt::format("  {}, in what is written, too; object.centred false keeps the file's\n", moved);
   for (const std::string& note : session.notes()) text += fmt::format("  {}\n", printable(note));

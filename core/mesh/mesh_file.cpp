@@ -84,11 +84,14 @@ LengthUnit unit_of_type(const std::string& extension) {
   return LengthUnit::automatic;
 }
 
-LengthUnit unit_taken(LengthUnit asked, LengthUnit declared, const std::string& extension, double longest) {
-  constexpr double longest_in_metres = 10.0;
+/// automatic if nothing says it.
+LengthUnit unit_said(LengthUnit asked, LengthUnit declared, const std::string& extension) {
   if (asked == LengthUnit::automatic) asked = declared;
-  if (asked == LengthUnit::automatic) asked = unit_of_type(extension);
-  if (asked != LengthUnit::automatic) return asked;
+  return asked == LengthUnit::automatic ? unit_of_type(extension) : asked;
+}
+
+LengthUnit unit_guessed(double longest) {
+  constexpr double longest_in_metres = 10.0;
   return longest > longest_in_metres ? LengthUnit::millimetres : LengthUnit::metres;
 }
 
@@ -165,13 +168,15 @@ PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options, co
   check_precision(box);
   const double longest = box.sizes().maxCoeff();
   const bool scaled = options.longest_side > 0.0;
-  const LengthUnit unit = scaled ? LengthUnit::automatic : unit_taken(options.unit, imported.unit, extension, longest);
+  const LengthUnit said = unit_said(options.unit, imported.unit, extension);
+  const bool is_guessed = !scaled && said == LengthUnit::automatic;
+  const LengthUnit unit = is_guessed ? unit_guessed(longest) : scaled ? LengthUnit::automatic : said;
   const MeshPlacement placement{options.centred ? box.center() : Eigen::Vector3d::Zero().eval(),
                                 scaled ? options.longest_side / longest : own_scale(longest, unit),
                                 up_taken(options.up, extension)};
   TriangleMesh mesh = moved(imported, placement);
   topology.left_out = all - mesh.triangles.size();
-  return {std::move(mesh), placement, topology, unit, options.ground, 0};
+  return {std::move(mesh), placement, topology, unit, is_guessed, options.ground, 0};
 }
 
 }  // namespace

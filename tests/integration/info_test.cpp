@@ -142,6 +142,14 @@ TEST(OwnSize, APartInMillimetresIsScannedAsLargeAsItIs) {
   EXPECT_THAT(read_file(folder.path() / "out" / "config.toml", 1 << 20), HasSubstr("resolution = 0.002 "));
 }
 
+TEST(OwnSize, OfMetresThatNobodySaidIsDoubtedWhereItIsLarge) {
+  const TemporaryFolder folder;
+  const Result run = nextview("scan " + scaled_box(folder.path(), 16.0).string() + " " + quick + "--out " +
+                              (folder.path() / "out").string());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("(no unit in the file: metres; --object.unit mm if it is millimetres)"));
+}
+
 /// The same shape at another size: the same scan, but for rounding.
 TEST(OwnSize, CoverageIsThatOfTheSameShapeAtHalfAMetre) {
   const auto coverage = [](double factor) {

@@ -27,6 +27,8 @@ TEST(OwnSize, IsThatOfTheTypesUnit) {
     const bool is_3mf = name.ends_with(".3mf");
     EXPECT_NEAR(longest(placed), is_3mf ? 0.004 : 4.0, 1e-6) << name;
     EXPECT_EQ(placed.unit, is_3mf ? LengthUnit::millimetres : LengthUnit::metres) << name;
+    EXPECT_EQ(placed.is_unit_guessed, !is_3mf && !name.ends_with(".gltf") && !name.ends_with(".glb")) << name;
+    EXPECT_FALSE(at_own_size(folder.path() / name, LengthUnit::metres).is_unit_guessed) << "it was said";
   }
 }
 
