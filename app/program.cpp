@@ -57,17 +57,17 @@ int end(int exit_code) {
 /// The arguments that nothing takes, in the order they were typed in, and what the first mistyped option may be.
 std::string too_much(const CLI::App& program) {
   const std::vector<std::string> words = program.remaining(true);
-  std::vector<std::string> options = {"threads", "version", "help"};
+  std::vector<std::string> options = {"--threads", "--version", "--help"};
   for (const CLI::App* command : program.get_subcommands())
     for (const CLI::Option* option : command->get_options())
-      options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   std::string text = fmt::format("not expected: {}", fmt::join(words, " "));
   const auto mistyped =
       std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-') && word.size() > 2; });
   if (mistyped == words.end()) return text;
   std::string name = mistyped->substr(0, mistyped->find('='));
   name.erase(0, name.find_first_not_of('-'));
-  return text + fmt::format("; did you mean '--{}'?", nextview::nearest(name, options));
+  return text + nextview::did_you_mean("--" + name, options);
 }
 
 /// What CLI11 says, but for what it says of options as "At Most 1 required but received 2", "1 required INT missing".

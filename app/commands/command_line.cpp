@@ -53,9 +53,10 @@ void require_file_or_object(const std::string& word) {
   const auto objects = known_objects();
   std::vector<std::string> known(subcommands.begin(), subcommands.end());
   known.insert(known.end(), objects.begin(), objects.end());
+  const std::string hint = did_you_mean(word, known, ";");
   throw std::runtime_error(
-      fmt::format("no such command '{}', nor a file or an object of this name; did you mean '{}'? See nextview --help",
-                  word, nearest(word, known)));
+      fmt::format("no such command '{}', nor a file or an object of this name{} {} nextview --help", word, hint,
+                  hint == ";" ? "see" : "See"));
 }
 
 bool gives(const std::vector<std::string_view>& words, std::string_view option) {

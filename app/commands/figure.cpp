@@ -155,7 +155,7 @@ void check(const FigureArguments& a) {
   const auto names = figure_names();
   if (std::ranges::find(names, a.name) == names.end())
     throw std::invalid_argument(
-        fmt::format("there is no figure '{}'; did you mean '{}'?", a.name, nearest(a.name, names)));
+        fmt::format("there is no figure '{}'{}", a.name, did_you_mean(a.name, names, "; see nextview figure --list")));
   const auto is_scene = [&](const ScanFigure& figure) { return is_wanted(a, figure.name); };
   if (!a.sessions.empty() && std::ranges::none_of(scan_figures(), is_scene))
     throw std::invalid_argument(

@@ -57,8 +57,9 @@ void print_topic(const std::string& topic, const CLI::App& program) {
     const std::string section = section_of(setting.key);
     known.push_back(is_key || section.empty() ? setting.key : section);
   }
+  const std::string hint = did_you_mean(topic, known, ";");
   throw std::runtime_error(
-      fmt::format("there is no topic '{}'; did you mean '{}'? See nextview help", topic, nearest(topic, known)));
+      fmt::format("there is no topic '{}'{} {} nextview help", topic, hint, hint == ";" ? "see" : "See"));
 }
 
 /// The pages with their tables as the declarations say them now.

@@ -34,7 +34,8 @@ std::vector<std::string> wanted_gains(const std::string& gain, Semantics semanti
   if (gain == "all") return known;
   if (std::find(known.begin(), known.end(), gain) == known.end())
     throw std::invalid_argument(
-        fmt::format("there is no gain '{}' to score views by; did you mean '{}'?", gain, nearest(gain, known)));
+        fmt::format("there is no gain '{}' to score views by{}", gain,
+                    did_you_mean(gain, known, fmt::format("; it is all, or one of {}", fmt::join(known, ", ")))));
   return {gain};
 }
 

@@ -50,8 +50,8 @@ const ExportEntry& export_entry(std::string_view name) {
   std::vector<std::string> names;
   names.reserve(entries.size());
   for (const ExportEntry& entry : entries) names.emplace_back(entry.name);
-  throw std::invalid_argument(fmt::format("there is no '{}' to export, but {}; did you mean '{}'?", name,
-                                          fmt::join(names, ", "), nearest(std::string(name), names)));
+  throw std::invalid_argument(fmt::format("there is no '{}' to export, but {}{}", name, fmt::join(names, ", "),
+                                          did_you_mean(std::string(name), names)));
 }
 
 void require_ending(const ExportEntry& entry, const std::filesystem::path& file) {

@@ -157,8 +157,8 @@ SceneParameters scene_parameters(const RecordedScene& scene, const std::function
   parameters("voxels_in_void_ray", 100.0);  // the reference code has it, and never gets to use it
   for (const std::string& name : parameters.not_asked_for())
     if (warn)
-      warn(fmt::format("parameter {} has no meaning here and is ignored; did you mean '{}'?", name,
-                       nearest(name, parameters.known())));
+      warn(fmt::format("parameter {} has no meaning here and is ignored{}", name,
+                       did_you_mean(name, parameters.known())));
   for (const RecordedScan& scan : scene.scans)
     require_in_octree(scan.T_world_camera.translation(), result.map.resolution, "the position of a scan");
   for (const Pose& view : scene.views)

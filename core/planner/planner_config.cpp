@@ -58,7 +58,8 @@ void PlannerConfig::validate() const {
   const auto names = policy_names();
   if (std::find(names.begin(), names.end(), gain) == names.end())
     throw std::invalid_argument(
-        fmt::format("planner.gain: there is no gain '{}'; did you mean '{}'?", gain, nearest(gain, names)));
+        fmt::format("planner.gain: there is no gain '{}'{}", gain,
+                    did_you_mean(gain, names, fmt::format("; it is one of {}", fmt::join(names, ", ")))));
   if (make_policy(*this)->needs().posterior && semantics != Semantics::published)
     throw std::invalid_argument(
         fmt::format("planner.gain {} needs planner.semantics published: the reference code knows no Gibbs map", gain));

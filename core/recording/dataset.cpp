@@ -79,7 +79,7 @@ class DatasetReader {
       if (setting.key == key) return setting;
       keys.push_back(setting.key);
     }
-    throw failure(line, fmt::format("there is no key '{}'; did you mean '{}'?", key, nearest(key, keys)));
+    throw failure(line, fmt::format("there is no key '{}'{}", key, did_you_mean(key, keys)));
   }
 
   std::string value_text(const Setting& setting, const toml::node& node) const {

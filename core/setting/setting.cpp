@@ -119,6 +119,14 @@ std::size_t distance(const std::string& word, const std::string& name) {
   return least;
 }
 
+/// For people to be told of it.
+bool is_near(const std::string& word, const std::string& name) {
+  const std::string typed = letters_of(word);
+  if (typed.size() > 1 && name.starts_with(word)) return true;
+  if (typed.size() > 2 && letters_of(name).find(typed) != std::string::npos) return true;
+  return 3 * distance(word, name) <= 2 * typed.size();
+}
+
 }  // namespace
 
 std::string Setting::text() const { return std::visit(Text{}, value); }
@@ -126,8 +134,7 @@ std::string Setting::text() const { return std::visit(Text{}, value); }
 void Setting::set(const std::string& new_text) {
   if (std::visit(Assign{new_text, unit}, value)) return;
   std::string hint;
-  if (const auto* c = std::get_if<Choice>(&value))
-    hint = fmt::format("; did you mean '{}'?", nearest(new_text, c->names));
+  if (const auto* c = std::get_if<Choice>(&value)) hint = did_you_mean(new_text, c->names);
   std::string with_point = new_text;
   std::ranges::replace(with_point, ',', '.');
   double ignored = 0.0;
@@ -163,12 +170,18 @@ Setting& find_setting(std::vector<Setting>& settings, const std::string& key) {
   if (found != settings.end()) return *found;
   std::vector<std::string> keys;
   for (const Setting& setting : settings) keys.push_back(setting.key);
-  throw std::invalid_argument(fmt::format("there is no setting '{}'; did you mean '{}'?", key, nearest(key, keys)));
+  throw std::invalid_argument(fmt::format("there is no setting '{}'{}", key, did_you_mean(key, keys)));
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
   return *std::ranges::min_element(
       known, {}, [&](const std::string& name) { return std::pair(!name.starts_with(word), distance(word, name)); });
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise) {
+  if (known.empty()) return otherwise;
+  const std::string name = nearest(word, known);
+  return is_near(word, name) ? fmt::format("; did you mean '{}'?", name) : otherwise;
 }
 
 }  // namespace nextview

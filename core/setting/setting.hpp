@@ -54,7 +54,12 @@ void require_in_bounds(Configuration configuration) {
 /// @throws std::invalid_argument if there is none with this key, with one that may be meant
 Setting& find_setting(std::vector<Setting>& settings, const std::string& key);
 
-/// Of `known`, the one that `word` is most likely meant to be.
+/// Of `known`, the one that `word` is most likely meant to be. @pre there is one
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+/// "; did you mean 'scan'?", with the nearest of `known`; `otherwise` if that is not near: `word` is neither its
+/// beginning, nor one of its words, nor the same but for slips in at most a third of its letters.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
+                         const std::string& otherwise = "");
 
 }  // namespace nextview

@@ -206,7 +206,7 @@ class StudyReader {
   std::string one_of(const toml::node& node, const std::string& key, const std::vector<std::string>& known) const {
     std::string text = text_of(node, key);
     if (std::ranges::find(known, text) == known.end())
-      throw failure(node, fmt::format("'{}' has no '{}'; did you mean '{}'?", key, text, nearest(text, known)));
+      throw failure(node, fmt::format("'{}' has no '{}'{}", key, text, did_you_mean(text, known)));
     return text;
   }
 
@@ -236,7 +236,7 @@ class StudyReader {
   }
   std::runtime_error unknown(const toml::node& node, const std::string& key,
                              const std::vector<std::string>& known) const {
-    return failure(node, fmt::format("there is no '{}' here; did you mean '{}'?", key, nearest(key, known)));
+    return failure(node, fmt::format("there is no '{}' here{}", key, did_you_mean(key, known)));
   }
 
   fs::path file_;

@@ -54,8 +54,8 @@ std::size_t Argument::choice_of(const std::string& text) const {
   const auto found = std::find(names.begin(), names.end(), text);
   constexpr std::size_t most_listed = 30;
   if (found == names.end() && names.size() > most_listed)
-    throw std::invalid_argument(fmt::format("{}: there is no {} '{}'; did you mean '{}'?", command, upper_case(name),
-                                            text, nearest(text, names)));
+    throw std::invalid_argument(
+        fmt::format("{}: there is no {} '{}'{}", command, upper_case(name), text, did_you_mean(text, names)));
   if (found == names.end()) throw wrong(*this, fmt::format("one of {}", fmt::join(names, ", ")), text);
   return static_cast<std::size_t>(found - names.begin());
 }

@@ -67,8 +67,8 @@ const Command& find_command(std::string_view name) {
     if (command.name == name) return command;
     names.push_back(command.name);
   }
-  throw std::invalid_argument(
-      fmt::format("there is no command '{}'; did you mean '{}'?", name, nearest(std::string(name), names)));
+  throw std::invalid_argument(fmt::format("there is no command '{}'{}", name,
+                                          did_you_mean(std::string(name), names, "; see nextview help commands")));
 }
 
 std::string command_table() {

@@ -42,8 +42,7 @@ std::vector<std::string> manual_topics() {
 ManualPage read_manual_page(const std::string& topic) {
   const auto topics = manual_topics();
   if (std::ranges::find(topics, topic) == topics.end())
-    throw std::runtime_error(
-        fmt::format("there is no topic '{}' in the manual; did you mean '{}'?", topic, nearest(topic, topics)));
+    throw std::runtime_error(fmt::format("there is no topic '{}' in the manual{}", topic, did_you_mean(topic, topics)));
   const std::string text = read_file(manual_folder() / (topic + ".md"), longest_page);
   return {topic, title_of(text), text};
 }

@@ -23,6 +23,17 @@ TEST(Nearest, CountsExchangedLettersOnceAndWhatPartsWordsNotAtAll) {
   EXPECT_EQ(nearest("downsampling", {"down", "down_sampling"}), "down_sampling");
 }
 
+TEST(Nearest, IsNotSaidToBeMeantWhereItIsFar) {
+  EXPECT_EQ(did_you_mean("furlong", {"auto", "m", "mm", "cm", "inch"}), "");
+  EXPECT_EQ(did_you_mean("oracle", {"gibbs", "occlusion-aware"}, "; see there"), "; see there");
+  EXPECT_EQ(did_you_mean("foo", {"info", "scan"}), "");
+  EXPECT_EQ(did_you_mean("x", {}), "");
+  EXPECT_EQ(did_you_mean("in", {"m", "inch"}), "; did you mean 'inch'?") << "it begins so";
+  EXPECT_EQ(did_you_mean("widht", {"seed", "sensor.width"}), "; did you mean 'sensor.width'?");
+  EXPECT_EQ(did_you_mean("noise", {"seed", "sensor.range_noise"}), "; did you mean 'sensor.range_noise'?");
+  EXPECT_EQ(did_you_mean("scna", {"score", "scan"}), "; did you mean 'scan'?");
+}
+
 TEST(Nearest, OfAKeyTheSectionOrAllButAWordMayBeLeftOut) {
   const std::vector<std::string> keys = {"gain",          "seed",
                                          "truth",         "every",
