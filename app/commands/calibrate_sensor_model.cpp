@@ -49,11 +49,13 @@ void add_examples(const CalibrateArguments& arguments, const std::string& input,
   for (const int count : arguments.views) {
     Configuration configuration = arguments.options.configuration();
     configuration.object.file = input;
-    CandidateViewsConfig around = configuration.views;
+    Configuration fitted = configuration;
+    load_object(fitted, stop);  // the views' distance follows from its size
+    CandidateViewsConfig around = fitted.views;
     around.layout = ViewLayout::fibonacci;
     around.count = count;
     CalibrationExample example{
-        refinement_job(configuration, candidate_views(around, view_target(configuration)), progress, stop), held_out};
+        refinement_job(configuration, candidate_views(around, view_target(fitted)), progress, stop), held_out};
     example.job.name = fs::path(input).stem().string();
     examples.push_back(std::move(example));
   }

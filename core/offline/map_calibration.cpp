@@ -110,6 +110,19 @@ void check(std::span<const CalibrationExample> examples) {
           e.job.name, e.job.grid.resolution, examples.front().job.name, examples.front().job.grid.resolution));
 }
 
+std::string nothing_to_fit_to(std::span<const CalibrationExample> examples) {
+  std::vector<std::string> fitted;
+  std::size_t hits = 0;
+  for (const CalibrationExample& e : examples) {
+    if (e.held_out) continue;
+    if (std::ranges::find(fitted, e.job.name) == fitted.end()) fitted.push_back(e.job.name);
+    for (const Scan& scan : e.job.scans) hits += scan.hits.size();
+  }
+  return fmt::format("calibration: {}: there is nothing to fit to: {}", fmt::join(fitted, ", "),
+                     hits == 0 ? "no view met a surface; mind views.radius, sensor.min_range and sensor.max_range"
+                               : "no Gibbs map calls a voxel occupied; give more views, pixels or gibbs.sweeps");
+}
+
 }  // namespace
 
 MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const MapCalibrationConfig& config,
@@ -128,9 +141,7 @@ MapCalibration calibrate_map(std::vector<CalibrationExample> examples, const Map
     if (!examples[e].held_out) histories.append(of_example);
     prepared.push_back({examples[e], std::move(refinement), std::move(mask), std::move(of_example)});
   }
-  if (histories.voxels() == 0)
-    throw std::invalid_argument(
-        "calibration: there is nothing to fit to: no Gibbs map of the objects calls a voxel occupied");
+  if (histories.voxels() == 0) throw std::invalid_argument(nothing_to_fit_to(examples));
   MapCalibration result;
   result.config = config;
   result.before = examples.front().job.model;

@@ -191,7 +191,16 @@ TEST_F(Calibrate, VoxelsOfTwoSizesAreRefused) {
 
 // A camera that reaches nothing leaves no voxel to fit to: a reason for people, not for programmers.
 TEST_F(Calibrate, NothingToFitToIsSaidSo) {
-  expect_error(sphere_and_box + " --sensor.max_range 0.3" + small + in("out"), "fit");
+  expect_error(sphere_and_box + " --sensor.max_range 0.3" + small + in("out"),
+               "sphere: there is nothing to fit to: no view met a surface");
+}
+
+TEST_F(Calibrate, ViewsOfASmallPartAreAsNearAsScanTakesThem) {
+  run(sphere_and_box +
+      " --object.longest_side 0.1 --sensor.width 60 --sensor.height 45 --evaluation.surface_samples 1000 --views 3 "
+      "--no-pictures --out " +
+      in("out"));
+  EXPECT_THAT(read("out", "sensor_model.toml"), HasSubstr("voxels of 0.002 m"));
 }
 
 // Objects are taken as `scan` takes them.
