@@ -44,6 +44,17 @@ std::optional<Pose> pose_in(const fs::path& file, const DatasetDescription& d, F
   return one.front()->pose();
 }
 
+/// Poses whose frames are not there. A file without a number may be anything.
+void note_unused(const std::vector<FrameFile>& files, const std::vector<const FrameFile*>& used, FramePoses& found) {
+  std::vector<const FrameFile*> unused;
+  for (const FrameFile& file : files)
+    if (last_number(file.key) && std::ranges::find(used, &file) == used.end()) unused.push_back(&file);
+  if (!unused.empty())
+    found.guessed.push_back(fmt::format("{} without a frame {} left out, {} for example",
+                                        counted(unused.size(), "pose"), unused.size() == 1 ? "is" : "are",
+                                        unused.front()->file.filename().string()));
+}
+
 FramePoses from_a_file_each(const std::vector<FrameFile>& frames, const std::vector<FrameFile>& files,
                             const DatasetDescription& d) {
   FramePoses found;
@@ -56,6 +67,7 @@ FramePoses from_a_file_each(const std::vector<FrameFile>& frames, const std::vec
   }
   if (!any && files.size() == frames.size())
     for (std::size_t i = 0; i < files.size(); ++i) file_of[i] = &files[i];
+  note_unused(files, file_of, found);
   for (const FrameFile* file : file_of) {
     found.T_world_camera.push_back(file ? pose_in(file->file, d, found) : std::nullopt);
     if (file) found.files.push_back(file->file);

@@ -36,6 +36,7 @@ class Survey {
     recording.points = points_;
     if (const std::string outside = cloud_camera_.outside(); !camera_ && !outside.empty())
       recording.guessed.push_back(outside);
+    if (const std::string far = far_apart(recording, unit); !far.empty()) recording.guessed.push_back(far);
     if (!empty_.empty())
       recording.guessed.push_back(
           fmt::format("{} measured nothing, {} for example", counted(empty_.size(), "frame"), empty_.front()));
@@ -44,9 +45,24 @@ class Survey {
   double longest_side() const { return extent_.sizes().maxCoeff(); }
 
  private:
+  /// That poses are of another unit than the ranges; empty if it does not seem so.
+  std::string far_apart(const Recording& recording, double unit) const {
+    constexpr double too_many = 100.0;  // times as far apart as they see
+    Eigen::AlignedBox3d cameras;
+    for (const RecordedFrame& frame : recording.frames) cameras.extend(frame.T_world_camera.translation());
+    const double apart = cameras.diagonal().norm(), range = unit * ranges_ / double(points_);
+    if (!(apart > too_many * range)) return "";
+    return fmt::format(
+        "the cameras stand {:.3g} m apart and see {:.3g} m far on average: are their poses in millimetres? They must "
+        "be "
+        "in metres",
+        apart, range);
+  }
+
   void add_point(const Pose& T_world_camera, const Vector3& point) {
     extent_.extend(T_world_camera * point);
     farthest_ = std::max(farthest_, point.norm());
+    ranges_ += point.norm();
     ++points_;
   }
   void add_image(const RecordedFrame& frame, const DepthImage& image) {
@@ -71,7 +87,7 @@ class Survey {
   std::optional<PinholeCamera> camera_;  ///< of images
   CloudCamera cloud_camera_;
   Eigen::AlignedBox3d extent_;
-  double farthest_ = 0.0;
+  double farthest_ = 0.0, ranges_ = 0.0;  ///< the largest range, and their sum
   std::size_t points_ = 0;
   std::vector<std::string> empty_;  ///< names of frames
 };

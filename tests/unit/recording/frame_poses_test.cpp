@@ -102,6 +102,27 @@ TEST(FramePoses, OnesThatAreNotKnownLeaveTheirFramesOut) {
   }
 }
 
+TEST(FramePoses, OnesWithoutAFrameAreTold) {
+  const TemporaryFolder folder;
+  write_3dmatch(folder);
+  std::filesystem::remove(folder / "frame-000010.depth.png");
+  const Recording recording = open_recording(folder / "");
+  expect_walls(recording, {0, 2});
+  EXPECT_THAT(recording.guessed, Contains("1 pose without a frame is left out, frame-000010.pose.txt for example"));
+}
+
+TEST(FramePoses, InMillimetresAreDoubted) {
+  const TemporaryFolder folder;
+  write_3dmatch(folder);
+  EXPECT_THAT(open_recording(folder / "").guessed, Not(Contains(HasSubstr("millimetres"))));
+  for (int i = 0; i < 3; ++i) {
+    Pose pose = poses[std::size_t(i)];
+    pose.translation() *= 1000.0;
+    folder.write(fmt::format("frame-{:06}.pose.txt", 9 + i), matrix(pose));
+  }
+  EXPECT_THAT(open_recording(folder / "").guessed, Contains(HasSubstr("are their poses in millimetres?")));
+}
+
 TEST(GuessedDataset, RealNumbersAreMetres) {
   for (const std::string type : {"<f4", "<f8", "<u2"}) {
     const TemporaryFolder folder;
