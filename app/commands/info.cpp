@@ -70,13 +70,14 @@ std::string mesh_info(const fs::path& file) {
 
 /// As an object that is scanned, but for its surface, which takes long to make.
 std::string cloud_info(const fs::path& file) {
-  const PointCloud cloud = read_cloud_file(file).points;
+  const CloudFile read = read_cloud_file(file);
+  const PointCloud& cloud = read.points;
   const Eigen::AlignedBox3d box = box_of(cloud);
   constexpr double longest_in_metres = 10.0;
   const bool in_mm = !cloud.empty() && box.sizes().maxCoeff() > longest_in_metres;
   const LengthUnit unit = in_mm ? LengthUnit::millimetres : LengthUnit::metres;
   const double scale = metres_per(unit);
-  return fmt::format("a cloud of {}\n  {}\n  {}", counted(cloud.size(), "point"),
+  return fmt::format("a cloud of {}\n  {}\n  {}", points_text(cloud.size(), read.left_out),
                      extents({box.min() * scale, box.max() * scale}), unit_text(unit));
 }
 

@@ -42,10 +42,10 @@ class VertexReader {
 
   const std::vector<std::string>& unknown_lines() const { return header_.unknown_lines; }
 
-  PointCloud read() {
+  PointCloud read(NotFinite not_finite) {
     for (const PlyElement& element : header_.elements) {
       check_size(element);
-      if (element.name == "vertex") return read_vertices(element);
+      if (element.name == "vertex") return read_vertices(element, not_finite);
       for (std::uint64_t row = 0; row < element.count; ++row)
         for (const PlyProperty& property : element.properties) read_property(property, element, row);
     }
@@ -97,7 +97,7 @@ class VertexReader {
     return length;
   }
 
-  PointCloud read_vertices(const PlyElement& element) {
+  PointCloud read_vertices(const PlyElement& element, NotFinite not_finite) {
     const std::vector<int> axis_of = axes(element);
     PointCloud cloud(element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -105,7 +105,7 @@ class VertexReader {
         const double value = read_property(element.properties[i], element, row);
         if (axis_of[i] >= 0) cloud[row][axis_of[i]] = static_cast<float>(value);
       }
-      if (!cloud[row].allFinite())
+      if (not_finite == NotFinite::refused && !cloud[row].allFinite())
         throw std::runtime_error(fmt::format("vertex {} of {} is not finite", row + 1, element.count));
     }
     return cloud;
@@ -139,12 +139,13 @@ void write_ply(const PointCloud& cloud, const std::filesystem::path& file) {
   out.commit();
 }
 
-PointCloud read_ply(const std::filesystem::path& file, const std::function<void(const std::string&)>& notice) {
+PointCloud read_ply(const std::filesystem::path& file, const std::function<void(const std::string&)>& notice,
+                    NotFinite not_finite) {
   const std::string data = file.extension() == ".gz" ? read_gzip_file(file) : read_file(file, largest_file);
   try {
     VertexReader reader(data);
     if (notice && !reader.unknown_lines().empty()) notice(reader.unknown_lines().front());
-    return reader.read();
+    return reader.read(not_finite);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), error.what()));
   }

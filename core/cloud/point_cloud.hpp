@@ -55,12 +55,16 @@ void write_ply(const PointCloud& cloud, const std::filesystem::path& file);
 /// @throws std::runtime_error naming the file and the reason.
 void write_pcd(const PointCloud& cloud, const std::filesystem::path& file);
 
+/// What becomes of points that are not finite, as some scanners write where nothing was measured.
+enum class NotFinite { refused, kept };
+
 /// The vertices of an ASCII or binary PLY file; other elements and properties are passed over. A file whose name ends
 /// in .gz is decompressed first. Header lines that are not known are read on over; `notice`, if given, hears of the
 /// first.
 /// @throws std::runtime_error with one line that names the file and the reason: missing, not PLY, truncated, claims
-///         more than the file holds, no x y z, not finite.
+///         more than the file holds, no x y z, not finite unless they are kept.
 PointCloud read_ply(const std::filesystem::path& file,
-                    const std::function<void(const std::string& unknown_line)>& notice = {});
+                    const std::function<void(const std::string& unknown_line)>& notice = {},
+                    NotFinite not_finite = NotFinite::refused);
 
 }  // namespace nextview

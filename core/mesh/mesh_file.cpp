@@ -176,7 +176,7 @@ PlacedMesh placed(ImportedTriangles imported, const MeshFileOptions& options, co
                                 up_taken(options.up, extension)};
   TriangleMesh mesh = moved(imported, placement);
   topology.left_out = all - mesh.triangles.size();
-  return {std::move(mesh), placement, topology, unit, is_guessed, options.ground, 0};
+  return {std::move(mesh), placement, topology, unit, is_guessed, options.ground, 0, 0};
 }
 
 }  // namespace

@@ -38,8 +38,9 @@ struct PlacedMesh {
   MeshTopology topology;                    ///< of the file's triangles as they come, those without an area included
   LengthUnit unit = LengthUnit::automatic;  ///< what the coordinates were taken for; automatic: scaled, whatever it is
   bool is_unit_guessed = false;             ///< by its size: neither the file nor who loads it says the unit
-  bool on_ground = false;        ///< it stands on a horizontal plane that a camera sees, which is no part of it
-  std::size_t cloud_points = 0;  ///< of a file that is a cloud, of which the mesh is a surface; 0: it is a mesh
+  bool on_ground = false;          ///< it stands on a horizontal plane that a camera sees, which is no part of it
+  std::size_t cloud_points = 0;    ///< of a file that is a cloud, of which the mesh is a surface; 0: it is a mesh
+  std::size_t cloud_left_out = 0;  ///< of it, that are not finite
 
   /// What a camera sees: the mesh and, behind its triangles, the ground.
   TriangleMesh surroundings() const;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/file/counted.hpp"
 #include "core/file/gzip_file.hpp"
 
 namespace nextview {
@@ -148,12 +149,16 @@ CloudFile read_cloud_file(const fs::path& file) {
       throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
     }
   } else {
-    cloud.points = read_ply(file);
+    cloud.points = read_ply(file, {}, NotFinite::kept);
   }
   constexpr float farthest = 1e9f;  // of any unit
-  std::erase_if(cloud.points,
-                [](const Eigen::Vector3f& p) { return !p.allFinite() || p.cwiseAbs().maxCoeff() > farthest; });
+  cloud.left_out = std::erase_if(
+      cloud.points, [](const Eigen::Vector3f& p) { return !p.allFinite() || p.cwiseAbs().maxCoeff() > farthest; });
   return cloud;
+}
+
+std::string points_text(std::size_t points, std::size_t left_out) {
+  return counted(points, "point") + (left_out > 0 ? fmt::format(" ({} that are not finite left out)", left_out) : "");
 }
 
 }  // namespace nextview

@@ -63,13 +63,14 @@ PlacedMesh load_unpacked(const fs::path& file, const MeshFileOptions& options, c
 }
 
 PlacedMesh load_cloud(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
-  const PointCloud points = read_cloud_file(file).points;
+  const auto [points, viewpoint, left_out] = read_cloud_file(file);
   try {
     const Surface surface = cloud_surface(points, {}, stop);
     throw_if_stopped(stop);
     if (surface.empty()) throw std::runtime_error(surface.why_empty);
     PlacedMesh placed = place_mesh(surface.mesh, options);
     placed.cloud_points = points.size();
+    placed.cloud_left_out = left_out;
     return placed;
   } catch (const Stopped&) {
     throw;
@@ -96,7 +97,8 @@ PlacedMesh load_object_mesh(const fs::path& file, const MeshFileOptions& options
 std::string cloud_note(const PlacedMesh& object) {
   if (object.cloud_points == 0) return "";
   return fmt::format("the object is a cloud of {}: the program's own surface of it is scanned ({})",
-                     counted(object.cloud_points, "point"), counted(object.mesh.triangles.size(), "triangle"));
+                     points_text(object.cloud_points, object.cloud_left_out),
+                     counted(object.mesh.triangles.size(), "triangle"));
 }
 
 }  // namespace nextview

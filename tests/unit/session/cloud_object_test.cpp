@@ -126,6 +126,19 @@ TEST_F(CloudObject, PcdIsReadToo) {
   EXPECT_EQ(pcd.cloud_points, 20'000u);
 }
 
+TEST_F(CloudObject, PointsThatAreNotFiniteAreLeftOutAndCounted) {
+  const std::string whole = read_file(cloud_);
+  std::ofstream holed(folder_ / "holed.ply");
+  const std::size_t count = whole.find("20000"), end = whole.find("end_header\n") + 11;
+  const std::string first = whole.substr(end, whole.find('\n', end) + 1 - end);
+  const std::string hole = "nan" + first.substr(first.find(' '));
+  holed << whole.substr(0, count) << "20002" << whole.substr(count + 5, end - count - 5) << hole << hole
+        << whole.substr(end) << std::flush;
+  const PlacedMesh object = load_object_mesh(folder_ / "holed.ply");
+  EXPECT_EQ(object.mesh.vertices, load_object_mesh(cloud_).mesh.vertices);
+  EXPECT_THAT(cloud_note(object), HasSubstr("a cloud of 20000 points (2 that are not finite left out): "));
+}
+
 TEST_F(CloudObject, ACompressedMeshIsNone) {
   constexpr const char* objects = NEXTVIEW_SOURCE_DIR "/assets/objects/";
   const fs::path plain = fs::path(objects) / "slotted_plate.ply", packed = folder_ / "plate.ply.gz";
@@ -153,7 +166,11 @@ TEST_F(CloudObject, WhatCannotBeScannedIsOneLine) {
   EXPECT_THAT(why(head + "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"),
               HasSubstr("is a cloud of 3 points"));
   EXPECT_THAT(why(head + "end_header\n0 0 0\n"), HasSubstr("bad.ply: "));
-  EXPECT_THAT(why(head + "end_header\n0 0 nan\n1 0 0\n0 1 0\n"), HasSubstr("is not finite"));
+  EXPECT_THAT(why(head + "end_header\n0 0 nan\n1 0 0\n0 1 0\n"), HasSubstr("2 points are too few"));
+  EXPECT_THAT(why(head + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 nan\n1 0 0\n0 1 0\n"
+                         "3 0 1 2\n"),
+              HasSubstr("bad.ply: "))
+      << "a mesh is refused";
   std::string far =
       "ply\nformat ascii 1.0\nelement vertex 100\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 100; ++i) far += fmt::format("{} {} {}\n", i * 7919 % 101, i * 104729 % 103, i * 1299709 % 107);
