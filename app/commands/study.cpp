@@ -36,12 +36,18 @@ std::pair<std::size_t, std::size_t> two_numbers(const std::string& text, char si
   return numbers;
 }
 
+/// One number is a range of one.
+std::pair<std::size_t, std::size_t> range_of(const std::string& text) {
+  const bool is_one = text.find('-') == text.npos;
+  return two_numbers(is_one ? text + "-" + text : text, '-', "--runs");
+}
+
 StudyShare share_of(const StudyArguments& a, std::size_t runs) {
   StudyShare share{{1, runs}};
   if (!a.shard.empty()) std::tie(share.shard, share.shards) = two_numbers(a.shard, '/', "--shard");
   if (share.shard > share.shards)
     throw std::invalid_argument(fmt::format("--shard {}: there are {}", a.shard, counted(share.shards, "shard")));
-  if (!a.runs.empty()) std::tie(share.range.first, share.range.last) = two_numbers(a.runs, '-', "--runs");
+  if (!a.runs.empty()) std::tie(share.range.first, share.range.last) = range_of(a.runs);
   if (share.range.first > share.range.last || share.range.last > runs)
     throw std::invalid_argument(fmt::format("--runs {}: the study has runs 1 to {}", a.runs, runs));
   return share;
@@ -56,7 +62,8 @@ void print_run(std::size_t number, const StudyRun& run, const RunResult& result,
   std::fflush(stdout);
 }
 
-void print_summary(const StudySummary& summary, const fs::path& out) {
+/// Returns the exit code.
+int print_summary(const StudySummary& summary, const fs::path& out) {
   if (summary.failed > 0)
     fmt::print(stderr, "warning: {} of {} came to nothing; summary.csv says why\n", summary.failed,
                counted(summary.runs, "run"));
@@ -65,6 +72,7 @@ void print_summary(const StudySummary& summary, const fs::path& out) {
       "  timings.csv          seconds, which differ from one time to the next\n"
       "All of it as one HTML file: nextview figure report --study {} --out report\n",
       printable(out.string()), counted(summary.rows, "row"), counted(summary.runs, "run"), shell_text(out));
+  return summary.failed > 0 ? exit_bad_input : 0;
 }
 
 /// A file, or one of those that come with the program by its name: "smoke", "assets/studies/smoke.toml".
@@ -98,8 +106,7 @@ int run_file(const StudyArguments& a) {
                share.shards);
     return 0;
   }
-  print_summary(summarise(study, keys.keys, {&folder, 1}, share.range, folder.path()), folder.path());
-  return 0;
+  return print_summary(summarise(study, keys.keys, {&folder, 1}, share.range, folder.path()), folder.path());
 }
 
 /// The study of all these folders. @throws std::invalid_argument naming one that holds another
@@ -141,8 +148,7 @@ int merge(const StudyArguments& a) {
   const StudyFolder out = StudyFolder::begin_merged(a.out, folders.front());
   const StudySummary summary = summarise(study, keys.keys, folders, share.range, out.path());
   merge_timings(folders, out.path());
-  print_summary(summary, out.path());
-  return 0;
+  return print_summary(summary, out.path());
 }
 
 int run(const StudyArguments& a) {

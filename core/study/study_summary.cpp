@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
 #include "core/file/csv_cell.hpp"
 #include "core/file/json_text.hpp"
 #include "core/setting/rounded.hpp"
@@ -94,11 +95,20 @@ class Results {
 }  // namespace
 
 void require_results(std::span<const std::string> keys, std::span<const StudyFolder> folders, const RunRange& range) {
+  constexpr std::size_t most_named = 5;
+  std::vector<std::size_t> missing;
   for (std::size_t number = range.first; number <= range.last; ++number)
     if (std::ranges::none_of(folders, [&](const StudyFolder& folder) { return folder.has(keys[number - 1]); }))
-      throw std::runtime_error(
-          fmt::format("{}: run {} of {} is not done yet; --resume goes on with it, --merge needs all shards",
-                      folders.front().path().string(), number, keys.size()));
+      missing.push_back(number);
+  if (missing.empty()) return;
+  std::vector<std::string> in;
+  for (const StudyFolder& folder : folders) in.push_back(folder.path().string());
+  const std::size_t named = std::min(most_named, missing.size());
+  throw std::runtime_error(fmt::format(
+      "{}: {} of {} {} not done{} ({}{}); {}", fmt::join(in, ", "), missing.size(), counted(keys.size(), "run"),
+      missing.size() == 1 ? "is" : "are", in.size() > 1 ? " in any of them" : "",
+      fmt::join(missing.begin(), missing.begin() + std::ptrdiff_t(named), ", "), named < missing.size() ? ", …" : "",
+      "--merge needs the folders of all shards, and --resume goes on with one that is not done"));
 }
 
 StudySummary summarise(const Study& study, std::span<const std::string> keys, std::span<const StudyFolder> folders,
