@@ -133,7 +133,8 @@ std::shared_ptr<DriverConnection> connect_scanner(Configuration& c, const Scanne
   const DriverGreeting& greeting = connection->greeting();
   follow_greeting(c, greeting);
   c.recorded.folder.clear();
-  c.driver.name = connection->is_simulated() ? "" : greeting.name;
+  // Who simulates an object that is known is done without, another time.
+  c.driver.name = connection->is_simulated() && !greeting.object.empty() ? "" : greeting.name;
   if (greeting.object.empty())
     follow_region(c, *connection, stop);
   else

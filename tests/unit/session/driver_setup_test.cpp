@@ -47,6 +47,14 @@ TEST_F(DriverSetup, RaysGetThroughTheRegionFromWhereTheScannerStands) {
   }
 }
 
+// Of who simulates what it does not tell nobody can repeat the scan.
+TEST_F(DriverSetup, ASimulatorOfAnUnknownObjectIsNeededAgain) {
+  connect(R"(,"abilities":["simulated"])");
+  EXPECT_EQ(c_.driver.name, "canned");
+  connect(R"(,"abilities":["simulated"],"object":"box")");
+  EXPECT_EQ(c_.driver.name, "");
+}
+
 TEST_F(DriverSetup, AConflictIsNamedOnce) {
   give(c_, "sensor.width", "100", "--width (sensor.width)");
   EXPECT_EQ(refusal(), "--width (sensor.width): the scanner has its own, 4; leave it out");
