@@ -8,6 +8,7 @@
 
 #include "core/config/opened_input.hpp"
 #include "core/file/read_file.hpp"
+#include "core/setting/quantity.hpp"
 
 namespace nextview {
 namespace {
@@ -49,6 +50,16 @@ std::filesystem::path find_configuration(const std::string& name) {
 
 CLI::Validator not_empty() {
   return {[](std::string& text) { return std::string(text.empty() ? "is empty; give a name, or leave it out" : ""); },
+          ""};
+}
+
+CLI::Validator quantity(const std::string& unit) {
+  return {[unit](std::string& text) {
+            double value = 0.0;
+            if (!read_quantity(text, unit, value)) return fmt::format("takes {}, not '{}'", number_wanted(unit), text);
+            text = fmt::format("{}", value);
+            return std::string();
+          },
           ""};
 }
 

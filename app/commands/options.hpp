@@ -11,6 +11,9 @@ namespace nextview {
 /// Of names: an empty one, as a script has of a variable that is not set, would be taken for none.
 CLI::Validator not_empty();
 
+/// Of numbers with this unit: they are taken as settings take theirs, "1 mm" for 0.001 [m].
+CLI::Validator quantity(const std::string& unit);
+
 /// What the command line says of a configuration: files, and settings by their keys, which override them.
 class ConfigurationOptions {
  public:

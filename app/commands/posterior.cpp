@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/gibbs/exact_posterior.hpp"
@@ -155,7 +156,9 @@ void add_posterior_command(CLI::App& program) {
   app->add_option("--model", arguments->model, "forward sensor model: paper, cone, beam or attenuation")
       ->capture_default_str();
   app->add_option("--prior", arguments->prior, "probability that a voxel is occupied")->capture_default_str();
-  app->add_option("--sigma", arguments->sigma, "noise of the ranges [m]; the test problem has its own")->type_name("M");
+  app->add_option("--sigma", arguments->sigma, "noise of the ranges [m]; the test problem has its own")
+      ->type_name("M")
+      ->transform(quantity("m"));
   app->add_option("--sweeps", arguments->sweeps, "of each chain")->capture_default_str();
   app->add_option("--seed", arguments->seed, "of the chains' random numbers")->capture_default_str();
   app->add_option("--csv", arguments->csv, "write a row per voxel, too; - for standard output and no table")

@@ -18,10 +18,12 @@ namespace fs = std::filesystem;
 void RangeScanOptions::add_to(CLI::App& app) {
   app.add_option("--voxel", resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->transform(quantity("m"));
   app.add_option("--stand-off", stand_off, "range scans: the scanner's distance, which they do not tell [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->transform(quantity("m"));
 }
 
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
