@@ -111,7 +111,7 @@ std::string closedness(const Surface& surface, std::span<const BoundaryLoop> ope
   if (!(area.unseen > 0.0))
     return fmt::format("{}, {}: {}", summary(openings), openings.empty() ? "all of it seen" : "only what was seen",
                        area.text(area.seen));
-  return fmt::format("{}, {}{} of it was seen: {} seen, {} is the hull of what no view saw",
+  return fmt::format("{}, {}{} of it was seen: {} seen, {} is the hull of what no ray met",
                      openings.empty() ? "closed" : summary(openings), area.seen < area.unseen ? "but only " : "",
                      area.percent_seen(), area.text(area.seen), area.text(area.unseen));
 }

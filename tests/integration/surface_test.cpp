@@ -132,7 +132,7 @@ TEST_F(Surfaces, OneViewIsEnoughAndPicturesAreDrawn) {
   ASSERT_EQ(found.size(), 2u);
   for (const std::string name : {"surface_map", "surface_cloud"}) expect_sane(found[name], in("out"), name, true);
   EXPECT_THAT(printed, HasSubstr("closed, but only ")) << "not: watertight";
-  EXPECT_THAT(printed, HasSubstr("is the hull of what no view saw"));
+  EXPECT_THAT(printed, HasSubstr("is the hull of what no ray met"));
   EXPECT_THAT(printed.substr(printed.find("Surface of the occ")), Not(HasSubstr("watertight")));
   EXPECT_EQ(found["surface_map"]["closed"], true) << "where no view has looked, too";
   EXPECT_EQ(found["surface_map"]["watertight"], false);

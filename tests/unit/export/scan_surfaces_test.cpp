@@ -248,11 +248,11 @@ TEST_F(ScanSurfaceFiles, OfWhollySeenAndOfWhollyUnseenOnesThereIsOneStl) {
 TEST(ScanSurfaces, AreCalledWatertightOnlyIfAllWasSeen) {
   EXPECT_EQ(closedness(strip(10).surface, {}), "watertight, all of it seen: 400.0 cm²");
   EXPECT_EQ(closedness(strip(8).surface, {}),
-            "closed, 75 % of it was seen: 300.0 cm² seen, 100.0 cm² is the hull of what no view saw");
+            "closed, 75 % of it was seen: 300.0 cm² seen, 100.0 cm² is the hull of what no ray met");
   EXPECT_EQ(closedness(strip(4).surface, {}),
-            "closed, but only 25 % of it was seen: 100.0 cm² seen, 300.0 cm² is the hull of what no view saw");
+            "closed, but only 25 % of it was seen: 100.0 cm² seen, 300.0 cm² is the hull of what no ray met");
   EXPECT_EQ(closedness(strip(0).surface, {}),
-            "closed, but only 0 % of it was seen: 0.0 cm² seen, 400.0 cm² is the hull of what no view saw");
+            "closed, but only 0 % of it was seen: 0.0 cm² seen, 400.0 cm² is the hull of what no ray met");
   ScanSurface s = strip(10);
   s.openings = boundary_loops(s.surface.mesh);
   EXPECT_THAT(summary(s), HasSubstr("8 triangles, 1 opening, 1 m around"));
