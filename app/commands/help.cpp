@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/man_page.hpp"
@@ -13,7 +14,9 @@
 #include "app/commands/shell_completion.hpp"
 #include "core/config/configuration.hpp"
 #include "core/config/known_objects.hpp"
+#include "core/export/export_kind.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/gibbs/test_problems.hpp"
 #include "core/setting/section_of.hpp"
 #include "core/setting/setting.hpp"
 #include "ui/demo/demo_window.hpp"
@@ -41,16 +44,33 @@ void print_topics() {
 
 void print_markdown(const std::string& text) { fmt::print("{}", plain_text(parse_markdown(text), terminal_width())); }
 
-/// A page, the options of a subcommand, or what a setting is, or a group of them.
+/// The rows of the table of the window's commands, by their names.
+std::map<std::string, std::string> window_commands() {
+  std::map<std::string, std::string> rows;
+  std::istringstream table(demo_commands());
+  const std::string begin = "| `";
+  for (std::string row; std::getline(table, row);)
+    if (row.starts_with(begin))
+      rows[row.substr(begin.size(), row.find_first_of(" `", begin.size()) - begin.size())] = row;
+  return rows;
+}
+
+/// A page, the options of a subcommand, what a setting is, or a group of them, or a command of the window.
 void print_topic(const std::string& topic, const CLI::App& program) {
   auto known = manual_topics();
   if (std::ranges::find(known, topic) != known.end())
     return print_markdown(read_manual_page(topic).text + "\n\n" + settings_page(topic));
   for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == topic) return fmt::print("{}", command->help());
+    if (command->get_name() == topic) return fmt::print("{}", command->help("nextview"));
     known.push_back(command->get_name());
   }
   if (const std::string page = settings_page(topic); !page.empty()) return print_markdown(page);
+  for (const auto& [name, row] : window_commands()) {
+    if (name == topic)
+      return print_markdown("| command of the window | key | does |\n|---|---|---|\n" + row +
+                            "\n\nMore of them: `nextview help commands`.\n");
+    known.push_back(name);
+  }
   const bool is_key = topic.find('.') != topic.npos;
   Configuration configuration;
   for (const Setting& setting : settings(configuration)) {
@@ -69,11 +89,46 @@ void write_pages(const std::filesystem::path& folder, const CLI::App& program) {
     write_file(folder / (topic + ".md"), with_tables(read_manual_page(topic).text, program));
 }
 
-/// What commands take beside files, for the shell to complete.
-std::map<std::string, std::vector<std::string>> names_taken() {
+/// The files of settings that come with the program in one of its folders, by their names.
+std::vector<std::string> names_in(const char* folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(assets_folder() / folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+std::vector<std::string> help_topics(const CLI::App& program) {
+  std::vector<std::string> topics = manual_topics();
+  for (const CLI::App* command : program.get_subcommands({})) topics.push_back(command->get_name());
+  Configuration configuration;
+  for (const Setting& setting : settings(configuration)) topics.push_back(setting.key);
+  for (const auto& [name, row] : window_commands()) topics.push_back(name);
+  return topics;
+}
+
+/// What commands and options take beside files, for the shell to complete.
+std::map<std::string, std::vector<std::string>> names_taken(const CLI::App& program) {
   const std::vector<std::string> objects(known_objects().begin(), known_objects().end());
-  return {{"help", manual_topics()}, {"demo", demo_names()}, {"figure", figure_names()},
-          {"scan", objects},         {"window", objects},    {"calibrate", objects}};
+  const std::vector<std::string> sensors = names_in("sensors");
+  std::vector<std::string> problems = {"list"}, exports;
+  for (const TestProblem& problem : test_problems()) problems.emplace_back(problem.name);
+  for (const ExportEntry& entry : export_entries()) exports.emplace_back(entry.name);
+  return {{"help", help_topics(program)},
+          {"demo", demo_names()},
+          {"figure", figure_names()},
+          {"scan", objects},
+          {"window", objects},
+          {"calibrate", objects},
+          {"study", names_in("studies")},
+          {"export", exports},
+          {"--problem", problems},
+          {"--sensor", sensors},
+          {"--sensor.preset", sensors},
+          {"--config", names_in("configurations")},
+          {"--layers", {"object", "cloud", "map", "views", "rays", "region"}}};
 }
 
 }  // namespace
@@ -85,8 +140,10 @@ void add_help_command(CLI::App& program) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* app = program.add_subcommand("help", "Print the manual: its topics, the page of one, or what a setting is");
-  app->add_option("TOPIC", a->topic,
-                  "a page of the manual, a command, a setting, or a group of settings; without one, what there is");
+  app->add_option(
+      "TOPIC", a->topic,
+      "a page of the manual, a command, a setting, a group of settings, or a command of the window; without one, "
+      "what there is");
   app->add_option("--write", a->folder,
                   "writes all pages into this folder, with the tables that are made from the program's declarations "
                   "made anew: what developers do after they changed one")
@@ -100,7 +157,7 @@ void add_help_command(CLI::App& program) {
     else if (a->man_page)
       fmt::print("{}", man_page(program));
     else if (a->completion)
-      fmt::print("{}", bash_completion(program, names_taken()));
+      fmt::print("{}", bash_completion(program, names_taken(program)));
     else if (a->topic.empty())
       print_topics();
     else

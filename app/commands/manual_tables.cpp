@@ -29,7 +29,9 @@ std::string first_upper(std::string text) {
 std::string values_of(const Setting& setting) {
   if (const auto* choice = std::get_if<Setting::Choice>(&setting.value))
     return fmt::format("{}", fmt::join(choice->names, ", "));
-  return setting.bounds ? setting.bounds->text(setting.unit) : setting.unit;
+  if (setting.bounds) return setting.bounds->text(setting.unit);
+  const bool is_list = std::holds_alternative<std::string*>(setting.value) && !setting.unit.empty();
+  return is_list ? fmt::format("numbers [{}]", setting.unit) : setting.unit;
 }
 
 /// A table a group of keys: "sensor.", "map.", …; those without a group first. Of all keys, or of those that are asked

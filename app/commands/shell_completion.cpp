@@ -71,7 +71,11 @@ std::string bash_completion(const CLI::App& program, const std::map<std::string,
     // The window is also no command.
     of_commands += "  " + when({name == "window" ? "window | ''" : name}, long_options(*command));
   }
-  for (const auto& [command, words] : names) of_names += "  " + when({command}, words);
+  for (const auto& [taker, words] : names)
+    if (taker.starts_with("--"))
+      values += when({taker}, words);
+    else
+      of_names += "  " + when({taker}, words);
   of_names += "  " + when({"''"}, commands);
   for (const auto& [words, options] : options_by_choices(program)) values += when(options, words);
   return fmt::format(script, fmt::join(commands, " | "), values, of_commands, of_names);

@@ -78,7 +78,8 @@ TEST(Manual, IsPrintedByTopicAndKnowsTheNearest) {
     EXPECT_EQ(text.find("**"), text.npos) << topic << " has emphasis left";
   }
   EXPECT_THAT(nextview("help planning").out, HasSubstr("How the next view is chosen\n==="));
-  EXPECT_THAT(nextview("help scan").out, HasSubstr("--resume"));
+  EXPECT_THAT(nextview("help scan").out, AllOf(HasSubstr("nextview scan [OPTIONS]"), HasSubstr("--resume")));
+  EXPECT_THAT(nextview("help take-view").out, AllOf(HasSubstr("take-view [CANDIDATE]"), HasSubstr("help commands")));
   const Result wrong = nextview("help planing");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("there is no topic 'planing'; did you mean 'planning'?"));
@@ -92,6 +93,7 @@ TEST(Manual, SaysWhatASettingIs) {
   EXPECT_THAT(one.out, HasSubstr("0.3")) << "its default";
   EXPECT_THAT(group.out, AllOf(HasSubstr("planner.cost_weight"), HasSubstr("planner.ray_columns")));
   EXPECT_THAT(group.out, Not(HasSubstr("map.hit")));
+  EXPECT_THAT(nextview("help map.region").out, HasSubstr("numbers [m]"));
   EXPECT_THAT(nextview("help seed").out, HasSubstr("seed of everything random"));
   const Result wrong = nextview("help planner.cost");
   EXPECT_EQ(wrong.exit_code, 2);
@@ -120,7 +122,14 @@ TEST(Manual, TheShellCompletesWhatACommandTakes) {
   EXPECT_EQ(completed("nextview figure rep", 2), "report\n");
   EXPECT_EQ(completed("nextview demo to", 2), "tour\n");
   EXPECT_EQ(completed("nextview scan gear", 2), "gearbox\n");
-  EXPECT_EQ(completed("nextview help plann", 2), "planning\n");
+  EXPECT_EQ(completed("nextview help planni", 2), "planning\n");
+  EXPECT_EQ(completed("nextview help planner.cost", 2), "planner.cost_weight\n");
+  EXPECT_EQ(completed("nextview study smo", 2), "smoke\n");
+  EXPECT_EQ(completed("nextview export out clo", 3), "cloud\n");
+  EXPECT_EQ(completed("nextview posterior --problem corr", 3), "corridor\n");
+  EXPECT_EQ(completed("nextview scan --sensor narr", 3), "narrow\n");
+  EXPECT_EQ(completed("nextview scan --config calib", 3), "calibrated\n");
+  EXPECT_EQ(completed("nextview export out picture a.png --layers obj", 6), "object\n");
   EXPECT_EQ(completed("nextview scan --resu", 2), "--resume\n");
   EXPECT_EQ(completed("nextview scan gearbox --gibbs.sampler alg", 4), "algorithm1\n");
   EXPECT_EQ(completed("nextview refine scan_", 2), "\n") << "bash completes files";
