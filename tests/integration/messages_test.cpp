@@ -140,7 +140,7 @@ TEST_F(Messages, AWarningOutOfAFileIsQuoted) {
   const std::string scene = write("s.txt", "param b\x1b[1m 1\nscan 0 0 0 0 0 0 1 1\n0 0 0.3\nview 0 0 0 0 0 0 1\n");
   const Result run = nextview("score --gain occlusion-aware --scene " + scene);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, ::testing::StartsWith(scene + ": parameter b\\x1b[1m has no meaning here and is ignored; did"));
+  EXPECT_THAT(run.err, ::testing::StartsWith(scene + ": parameter b\\x1b[1m has no meaning here and is ignored\n"));
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
