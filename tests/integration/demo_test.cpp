@@ -199,6 +199,52 @@ TEST_F(Demos, WhatOneEndsWithStaysUntilTheNextObject) {
   EXPECT_EQ(user.window().state().history.lines.back(), "cloud-colour single") << "a recording has it, too";
 }
 
+TEST_F(Demos, OnlyOneWithCaptionsHasRoomForThem) {
+  for (const bool captioned : {false, true}) {
+    User user(tiny_scan(), 320, 180, 0.25);
+    user.window().play_demo(demo(captioned ? "wait 0.5\ncaption \"one\" 0.2\nwait 100\n" : "wait 100\n").calls);
+    const auto has_room = [&] {
+      for (int i = 0; i < 5; ++i) user.window().draw(0.01);
+      return !user.window().layout().captions.empty();
+    };
+    EXPECT_EQ(has_room(), captioned);
+    user.type(Key::space);
+    EXPECT_TRUE(has_room()) << "for what the keys do while it is paused";
+    user.type(Key::space);
+    EXPECT_EQ(has_room(), captioned);
+  }
+}
+
+TEST_F(Demos, AFileThatIsOpenedIsPlayed) {
+  User user(tiny_scan(), 320, 180, 0.25);
+  user.drop(demo("open box\nstep\n").file);
+  user.wait();
+  EXPECT_EQ(user.session().object_name, "box");
+  EXPECT_EQ(user.session().records.size(), 1u);
+  EXPECT_FALSE(user.window().state().presentation.demo);
+}
+
+TEST_F(Demos, WhatOneBorrowsOfTheUserIsGivenBack) {
+  User user(tiny_scan(), 320, 180, 0.25);
+  const WindowPreferences own{1.25, true, true, {200, 300, 150}};
+  user.window().set_preferences(own);
+  user.run("cloud-colour height\ntoggle-orthographic\n");
+  user.window().play_demo(
+      demo("open box\ntext-size bigger\npanel-sizes 150 150 150\ncloud-colour view\nwait 0.5\n").calls);
+  const WindowState& state = user.window().state();
+  EXPECT_FALSE(state.dark || state.guide_open || state.orthographic) << "it is played in a window as it is at first";
+  EXPECT_EQ(user.window().preferences(), own) << "and the window may be closed meanwhile";
+  user.wait();
+  EXPECT_LT(user.window().seconds_to_next_frame(), 0.1) << "that it has ended is seen without a hand";
+  user.window().draw(0.1);
+  ASSERT_FALSE(state.presentation.demo);
+  EXPECT_EQ((WindowPreferences{state.text_scale, state.guide_open, state.dark, state.place_sizes}), own);
+  EXPECT_TRUE(state.orthographic);
+  user.run("open sphere\n");
+  EXPECT_EQ(state.layers.cloud_colouring, CloudColouring::by_height);
+  EXPECT_EQ(user.window().preferences(), own);
+}
+
 TEST_F(Demos, MistakesNameTheirLine) {
   const std::string file = (folder_ / "demo.nextview").string();
   EXPECT_EQ(error_of("wait 1\nwiat 1\n"), file + ":2: there is no command 'wiat'; did you mean 'wait'?");

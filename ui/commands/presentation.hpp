@@ -32,9 +32,10 @@ struct CameraFlight {
 /// What a demo shows beside the session, by its own time: that passes only while a line of it waits (command::wait),
 /// or when no script is left. So what is seen depends neither on the clock nor on how long something computes.
 struct Presentation {
-  bool demo = false;    ///< a demo is played: it has the keyboard and the pointer, until the operator takes over
-  double time = 0;      ///< that has passed [s]
-  bool paused = false;  ///< by the operator
+  bool demo = false;       ///< a demo is played: it has the keyboard and the pointer, until the operator takes over
+  bool captioned = false;  ///< it has captions: there is room for them from its begin on
+  double time = 0;         ///< that has passed [s]
+  bool paused = false;     ///< by the operator
   std::optional<ShownText> caption, leaving_caption, title, highlight;
   std::deque<CameraFlight> flights;  ///< one after the other
   double hold = 0;                   ///< for how long the script still waits [s]

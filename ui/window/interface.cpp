@@ -77,11 +77,7 @@ void Interface::stop_recording() {
   CommandTarget target{parts_->worker, parts_->state, *parts_->news.snapshot, parts_->news.progress};
   if (parts_->state.recording) execute(command::record_stop(), target);
 }
-void Interface::play_demo(std::vector<CommandCall> calls) {
-  parts_->state.guide_open = false;
-  parts_->state.presentation.demo = true;
-  run_script(std::move(calls));
-}
+void Interface::play_demo(std::vector<CommandCall> calls) { parts_->begin_demo(std::move(calls)); }
 bool Interface::script_is_done() const { return parts_->script.done() || parts_->state.quit; }
 ScriptPlayer& Interface::script() { return parts_->script; }
 void Interface::ask_to_quit() {
@@ -98,13 +94,21 @@ bool Interface::wants_to_quit() const {
   const auto& picture = parts_->state.picture;  // that is asked for is still drawn, but for a turntable's many
   return parts_->state.quit && (!picture || picture->of == PictureRequest::Of::turntable);
 }
-void Interface::set_text_scale(double scale) { parts_->state.text_scale = scale; }
+void Interface::set_preferences(const WindowPreferences& wanted) {
+  WindowState& state = parts_->state;
+  state.text_scale = wanted.text_scale;
+  state.guide_open = wanted.guide;
+  state.dark = wanted.dark;
+  state.place_sizes = wanted.place_sizes;
+}
+WindowPreferences Interface::preferences() const {
+  const WindowState& own = parts_->state.presentation.demo ? parts_->before_demo : parts_->state;
+  return {own.text_scale, own.guide_open, own.dark, own.place_sizes};
+}
 void Interface::show_guide(bool show) { parts_->state.guide_open = show; }
 void Interface::set_last_session(std::optional<EarlierSession> session) {
   parts_->state.last_session = std::move(session);
 }
-void Interface::set_dark(bool dark) { parts_->state.dark = dark; }
-void Interface::set_place_sizes(const PlaceSizes& sizes) { parts_->state.place_sizes = sizes; }
 const Layout& Interface::layout() const { return parts_->layout; }
 const WindowState& Interface::state() const { return parts_->state; }
 SceneView& Interface::scene() { return parts_->view; }
@@ -120,7 +124,7 @@ double Interface::seconds_to_next_frame() const {
   const bool time_passes = shown.is_moving() && !shown.paused && p.at_rest();
   if (time_passes && (!p.rested || (shown.due > 0 && shown.holds()))) return 0.0;
   double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
-  if (time_passes) wait = std::min(wait, frame_time);
+  if (time_passes || (shown.demo && p.script.done())) wait = std::min(wait, frame_time);
   if (p.scene_waits) wait = std::min(wait, scene_wait);
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;

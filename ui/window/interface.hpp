@@ -9,6 +9,7 @@
 #include "ui/window/clipboard.hpp"
 #include "ui/window/input.hpp"
 #include "ui/window/scene_view.hpp"
+#include "ui/window/window_preferences.hpp"
 #include "ui/workbench/inspection_worker.hpp"
 #include "ui/workbench/session_worker.hpp"
 
@@ -66,13 +67,13 @@ class Interface {
   /// That waits for an answer; empty if none does.
   std::string question() const;
   bool wants_to_quit() const;
-  /// Of text and controls, beside the display's.
-  void set_text_scale(double scale);
+  /// What was kept of the window before: to be told before a demo is played.
+  void set_preferences(const WindowPreferences& preferences);
+  /// To be kept for the next window. While a demo plays, those that it gives back at its end.
+  WindowPreferences preferences() const;
   void show_guide(bool show);
   /// Shows with the guide what was scanned last, to go on with it.
   void set_last_session(std::optional<EarlierSession> session);
-  void set_dark(bool dark);
-  void set_place_sizes(const PlaceSizes& sizes);
   /// "Nextview - gearbox - view 3 of 20"
   std::string title() const;
   /// What is shown; tests look here for where things are.

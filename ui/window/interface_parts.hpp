@@ -80,6 +80,7 @@ struct Interface::Parts {
   double motion_began = 0;                         ///< in the operator's time [s]
   bool dragged = false;                            ///< by the pointer, since it was at rest
   std::optional<CameraCourse> course;              ///< of the flight that is under way
+  WindowState before_demo;                         ///< of the last demo: what it borrows is given back
   bool layers_are_of_demo = false;                 ///< which has ended, and whose object is still there
   bool rested = false;                             ///< nothing ran at the begin of the last frame
   DrawingQuality quality = DrawingQuality::still;  ///< that the scene is drawn with
@@ -101,6 +102,8 @@ struct Interface::Parts {
   void pass_time(double seconds);
   void fly(double seconds);
   std::vector<InputEvent> input_beside_demo(const std::vector<InputEvent>& events);
+  void begin_demo(std::vector<CommandCall> calls);
+  void give_back();
   void take_over();
   void leave_layers_of_demo();
   void play(const std::string& demo);

@@ -1,6 +1,11 @@
 // A demo in the window: its time, its camera, and who has the keyboard meanwhile.
+#include <algorithm>
+#include <utility>
+
+#include "ui/commands/demo_commands.hpp"
 #include "ui/commands/demo_file.hpp"
 #include "ui/commands/layer_commands.hpp"
+#include "ui/commands/scene_commands.hpp"
 #include "ui/commands/window_commands.hpp"
 #include "ui/window/interface_parts.hpp"
 
@@ -70,21 +75,47 @@ std::vector<InputEvent> Interface::Parts::input_beside_demo(const std::vector<In
   return left;
 }
 
+/// With the window as it is at first, whatever its user likes.
+void Interface::Parts::begin_demo(std::vector<CommandCall> calls) {
+  before_demo = std::exchange(state, {});
+  state.history = before_demo.history;
+  state.text_scale = before_demo.text_scale;
+  state.full_screen = before_demo.full_screen;
+  state.guide_open = false;
+  state.presentation.demo = true;
+  state.presentation.captioned =
+      std::ranges::any_of(calls, [](const CommandCall& call) { return call.command == &command::caption; });
+  script.add(std::move(calls));
+}
+
+/// What is the user's own, and kept for the next start, comes back. What a recording can say, it is told.
+void Interface::Parts::give_back() {
+  state.text_scale = before_demo.text_scale;
+  state.guide_open = before_demo.guide_open;
+  state.last_session = before_demo.last_session;
+  if (state.dark != before_demo.dark) do_call(command::dark());
+  if (state.orthographic != before_demo.orthographic) do_call(command::toggle_orthographic());
+  const auto& [left, right, lower] = before_demo.place_sizes;
+  if (state.place_sizes != before_demo.place_sizes) do_call(command::panel_sizes(left, right, lower));
+}
+
 /// What a demo leaves away comes back by commands, as a recording needs them, too; also where it ends by itself.
 void Interface::Parts::take_over() {
   script.stop();
   state.presentation = {};
   course.reset();
   layers_are_of_demo = true;
+  give_back();
   if (state.panels_hidden) do_call(command::hide_panels());
   if (!state.layers.legends) do_call(command::toggle_legends());
   if (!state.layers.views) do_call(command::toggle_views());
   if (!state.layers.rays) do_call(command::toggle_rays());
 }
 
-/// What a demo ended with stays in sight as long as its object is there; who opens the next one begins as usual.
+/// What a demo ended with stays in sight as long as its object is there; who opens the next one has the
+/// layers from before it.
 void Interface::Parts::leave_layers_of_demo() {
-  const LayerChoice usual;
+  const LayerChoice& usual = before_demo.layers;
   const LayerChoice& now = state.layers;
   const auto set_back = [&](const CommandOf<>& toggle, bool LayerChoice::*shown) {
     if (now.*shown != usual.*shown) do_call(toggle());
@@ -109,17 +140,11 @@ void Interface::Parts::play(const std::string& demo) {
     configuration.object = news.snapshot->configuration.object;
     worker.post(request::Load{configuration});
   }
-  WindowState first;
-  first.text_scale = state.text_scale;
-  first.full_screen = state.full_screen;
-  first.guide_open = false;
-  first.presentation.demo = true;
-  state = std::move(first);
   recorder.begin_with_nothing();
   course.reset();
   layers_are_of_demo = false;
   script.stop();
-  script.add(std::move(calls));
+  begin_demo(std::move(calls));
 }
 
 }  // namespace nextview

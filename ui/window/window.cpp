@@ -259,19 +259,15 @@ int run_window(const Configuration& configuration, const Script& script, const W
     interface.offer(*unfinished);
   if (start.offer) interface.set_last_session(last_session(state_folder()));
   if (!start.record.empty()) interface.record(start.record);
+  const WindowPreferences before = read_preferences(state_folder());
+  interface.set_preferences(before);
+  if (!script.calls.empty()) interface.show_guide(false);
   script.demo ? interface.play_demo(script.calls) : interface.run_script(script.calls);
   prepare(target.handle(), interface);
-  const WindowPreferences before = read_preferences(state_folder());
-  interface.set_text_scale(before.text_scale);
-  interface.set_dark(before.dark);
-  interface.set_place_sizes(before.place_sizes);
-  interface.show_guide(before.guide && script.calls.empty());
   run(target, interface, [&] { return script.stop_on_error && errors.any(); });
   interface.stop_recording();
-  const WindowPreferences after{interface.state().text_scale,
-                                script.calls.empty() ? interface.state().guide_open : before.guide,
-                                script.calls.empty() ? interface.state().dark : before.dark,
-                                script.calls.empty() ? interface.state().place_sizes : before.place_sizes};
+  WindowPreferences after = interface.preferences();
+  if (!script.calls.empty()) after = {after.text_scale, before.guide, before.dark, before.place_sizes};
   if (after != before) keep_preferences(state_folder(), after);
   if (!script.stop_on_error || !errors.any()) interface.script().give_up("not done: the program ended before");
   return errors.any() ? exit_not_done : 0;
