@@ -254,6 +254,7 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
     control.progress(0.1 + 0.9 * fraction, what);
   };
   refinement_->refine(probabilities(session_->map().voxels()), 0, progress, control.stop);
+  if (snapshot_->gibbs) throw_if_stopped(control.stop);  // a few sweeps are no match for the map that is there
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
   gibbs_ = next.gibbs;

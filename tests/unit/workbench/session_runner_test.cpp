@@ -129,6 +129,21 @@ TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
   EXPECT_EQ(now().gibbs->views, 3u);
 }
 
+TEST_F(SessionRunnerTest, ACancelledRefinementKeepsTheMapThatIsThere) {
+  runner_.load(small_scan(), job_control());
+  steps(1);
+  runner_.refine(2, 30, job_control());
+  const auto before = runner_.snapshot();
+  for (const auto& [chains, sweeps] : {std::pair{2, 30}, {1, 100'000}}) {
+    std::stop_source stop;
+    SessionRunner::JobControl stopping = job_control();
+    stopping.stop = stop.get_token();
+    stopping.sampler = [&](const SamplerDiagnostics&) { stop.request_stop(); };
+    EXPECT_THROW(runner_.refine(chains, sweeps, stopping), Stopped);
+    EXPECT_EQ(runner_.snapshot(), before);
+  }
+}
+
 TEST_F(SessionRunnerTest, ARefinementThatIsCancelledWhileItMergesEndsAtOnce) {
   runner_.load(small_scan(), job_control());
   steps(3);
