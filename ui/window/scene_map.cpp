@@ -49,9 +49,9 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
 
 void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice) {
   const auto values = chosen_values(s, choice);
-  const bool needs_values =
-      choice.colouring == VoxelColouring::by_difference || choice.colouring == VoxelColouring::by_error;
-  const auto colouring = needs_values && values.empty() ? VoxelColouring::by_class : choice.colouring;
+  const auto wanted = chosen_colouring(s, choice);
+  const bool is_unknown = wanted == VoxelColouring::by_error && values.empty();
+  const auto colouring = is_unknown ? VoxelColouring::by_class : wanted;
   const auto faces = std::exchange(faces_, nullptr);
   const auto voxels = chosen_voxels(s, choice.map);
   const bool anew = std::exchange(voxels_are_old_, false);

@@ -10,7 +10,6 @@ namespace {
 
 std::vector<float> differences(const SessionSnapshot& s) {
   std::vector<float> values(s.voxels->size(), std::numeric_limits<float>::quiet_NaN());
-  if (!s.gibbs) return values;
   const std::vector<Voxel>& gibbs = *s.gibbs->voxels;
   for (std::size_t v = 0; v < values.size(); ++v)
     if (gibbs[v].measured) values[v] = gibbs[v].probability - (*s.voxels)[v].probability;
@@ -31,9 +30,15 @@ std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) { 
 
 VoxelBricks chosen_bricks(const SessionSnapshot& s, MapChoice map) { return chosen(s, map).bricks(s.grid.size); }
 
+VoxelColouring chosen_colouring(const SessionSnapshot& s, const LayerChoice& choice) {
+  const bool is_missing = choice.colouring == VoxelColouring::by_difference && !s.gibbs;
+  return is_missing ? VoxelColouring::by_probability : choice.colouring;
+}
+
 std::vector<float> chosen_values(const SessionSnapshot& s, const LayerChoice& choice) {
-  if (choice.colouring == VoxelColouring::by_difference) return differences(s);
-  if (choice.colouring != VoxelColouring::by_error || !s.truth) return {};
+  const VoxelColouring colouring = chosen_colouring(s, choice);
+  if (colouring == VoxelColouring::by_difference) return differences(s);
+  if (colouring != VoxelColouring::by_error || !s.truth) return {};
   return voxel_errors(probabilities(chosen_voxels(s, choice.map)), *s.truth, TruthConvention::touch);
 }
 
