@@ -11,6 +11,11 @@
 
 namespace nextview {
 
+bool Shortcut::is_with(bool control_held, bool shift_held) const {
+  const bool shift_counts = control && std::isalpha(static_cast<int>(key));
+  return control == control_held && (!shift_counts || shift == shift_held);
+}
+
 std::string Shortcut::text() const {
   const auto code = static_cast<int>(key);
   const std::string name = key == Key::space       ? "Space"
@@ -23,7 +28,7 @@ std::string Shortcut::text() const {
                            : key == Key::down      ? "Down"
                            : key >= Key::f1        ? fmt::format("F{}", code - static_cast<int>(Key::f1) + 1)
                                                    : std::string(1, static_cast<char>(code));
-  return control ? "Ctrl+" + name : name;
+  return (control ? "Ctrl+" : "") + std::string(shift ? "Shift+" : "") + name;
 }
 
 std::string CommandCall::text() const {

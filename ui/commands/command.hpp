@@ -37,7 +37,10 @@ struct Shortcut {
   Key key;
   bool control = false;
   std::vector<std::string> values = {};  ///< of its call, as a script has them
+  bool shift = false;                    ///< counts of letters with Control alone: + is Shift and = on many keyboards
 
+  /// Whether the key is meant, with these two held.
+  bool is_with(bool control_held, bool shift_held) const;
   std::string text() const;  ///< "Ctrl+P"
 };
 

@@ -175,7 +175,7 @@ const CommandOf<> command::redo{{"redo",
                                  "Scan",
                                  "Redo",
                                  "Does again what was undone.",
-                                 {{key('Y'), true}},
+                                 {{key('Y'), true}, {key('Z'), true, {}, true}},
                                  [](const CommandState& t) {
                                    if (t.window.selections.can_redo(moment(t))) return std::string();
                                    return t.session.can_redo ? needs_rest(t) : "there is nothing to redo";

@@ -77,13 +77,13 @@ bool moves_focus(Key which) {
 
 /// What several commands share (play and pause) is done by the one that can be; if none can, the first says why.
 void obey_shortcuts(const PanelContext& context) {
-  const bool control = ImGui::GetIO().KeyCtrl;
+  const bool control = ImGui::GetIO().KeyCtrl, shift = ImGui::GetIO().KeyShift;
   const bool focus_is_shown = ImGui::GetIO().NavVisible;
   const Command* refused = nullptr;
   for (const Command& command : commands()) {
     for (const Shortcut& shortcut : command.shortcuts()) {
       const bool repeats = command.adds_up && !shortcut.values.empty();
-      if (shortcut.control != control || !pressed(shortcut.key, repeats)) continue;
+      if (!shortcut.is_with(control, shift) || !pressed(shortcut.key, repeats)) continue;
       if (focus_is_shown && !control && moves_focus(shortcut.key)) continue;
       if (!command.available(context.state())) {
         if (!refused) refused = &command;

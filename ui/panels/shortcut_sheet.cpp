@@ -96,9 +96,9 @@ void draw_shortcut_sheet(const PanelContext& context, const Rectangle& window) {
                    ImGuiWindowFlags_HorizontalScrollbar);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::PushFont(style.small);
-  constexpr std::array widths = {300.0f, 360.0f, 370.0f};
-  const int columns = window.width > style.px(1080)  ? 3
-                      : window.width > style.px(720) ? 2
+  constexpr std::array widths = {345.0f, 360.0f, 370.0f};
+  const int columns = window.width > style.px(1120)  ? 3
+                      : window.width > style.px(750) ? 2
                                                      : 1;  // the rest goes beneath
   if (ImGui::BeginTable("sheet", columns, ImGuiTableFlags_SizingFixedFit)) {
     for (int c = 0; c < columns; ++c)

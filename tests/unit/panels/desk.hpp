@@ -60,9 +60,11 @@ class Desk {
     queue_.push(input::KeyChange{key, true});
     queue_.push(input::KeyChange{key, false});
   }
-  void type_with(Key key, bool control) {
+  void type_with(Key key, bool control, bool shift = false) {
     if (control) queue_.push(input::KeyChange{Key::control, true});
+    if (shift) queue_.push(input::KeyChange{Key::shift, true});
     type(key);
+    if (shift) queue_.push(input::KeyChange{Key::shift, false});
     if (control) queue_.push(input::KeyChange{Key::control, false});
   }
   void write(const std::string& text) {

@@ -62,7 +62,7 @@ TEST(Front, NoShortcutFiresWhileAMenuIsOpen) {
     for (const Shortcut& shortcut : command.shortcuts()) {
       if (shortcut.key == Key::escape) continue;
       if (open_popups() == 0) open_menu(desk);
-      desk.type_with(shortcut.key, shortcut.control);
+      desk.type_with(shortcut.key, shortcut.control, shortcut.shift);
       EXPECT_THAT(names(desk.frames()), IsEmpty()) << shortcut.text();
     }
 }

@@ -164,7 +164,7 @@ TEST(Reach, EveryKeyDoesItsCommand) {
       const ImGuiIO& io = ImGui::GetIO();
       EXPECT_FALSE(io.WantTextInput);
       std::set<std::string> reached;
-      desk.type_with(shortcut.key, shortcut.control);
+      desk.type_with(shortcut.key, shortcut.control, shortcut.shift);
       note(desk.frames(), reached);
       EXPECT_EQ(reached, std::set<std::string>{command.name}) << shortcut.text();
       desk.window = before;
