@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> scan_graphs = {".graph", ".log"};
 constexpr std::array<std::string_view, 3> others = {".toml", ".png", ".pcd"};
+constexpr std::array<std::string_view, 2> maps = {".ot", ".bt"};
 
 template <std::size_t N>
 bool ends_in_one_of(const std::array<std::string_view, N>& endings, const std::filesystem::path& file) {
@@ -47,6 +48,9 @@ Configuration with_input(Configuration configuration, const std::filesystem::pat
     if (text.empty()) throw std::runtime_error(input.string() + ": is a picture that carries no settings of Nextview");
     return configuration_of(text, input);
   }
+  if (input.extension() == ".nextview")
+    throw std::runtime_error(input.string() +
+                             ": is a demo: `nextview demo` plays it, and in the window Demo > Play another");
   forget_fitted(configuration);
   configuration.recorded.folder = configuration.recorded.truth = configuration.recorded.start = "";
   if (is_recording(input))
@@ -72,7 +76,7 @@ Configuration with_next_input(Configuration configuration, const std::filesystem
 
 std::string not_an_input(const std::filesystem::path& file) {
   const std::filesystem::path unpacked = without_gz(file);
-  if (is_scan_file(file) || ends_in_one_of(others, unpacked)) return "";
+  if (is_scan_file(file) || ends_in_one_of(maps, file) || ends_in_one_of(others, unpacked)) return "";
   return not_a_mesh_type(lower_case_extension(unpacked));
 }
 

@@ -75,6 +75,8 @@ std::vector<std::string> demo_names() {
   return names;
 }
 
+bool is_demo_file(const fs::path& file) { return file.extension() == ending; }
+
 Demo read_demo(const std::string& file_or_name, const fs::path& folder) {
   Demo demo{file_of(file_or_name), {}};
   try {
@@ -85,7 +87,9 @@ Demo read_demo(const std::string& file_or_name, const fs::path& folder) {
     throw at_its_place(demo.file, error.what());
   }
   for (CommandCall& call : demo.calls) try {
-      if (call.command == &command::play_demo) throw std::invalid_argument("play-demo: a demo plays no other");
+      const bool opens_demo = call.command == &command::open && is_demo_file(call.values().front());
+      if (call.command == &command::play_demo || opens_demo)
+        throw std::invalid_argument(call.command->name + ": a demo plays no other");
       if (std::string_view(call.command->name) == "connect")
         throw std::invalid_argument("connect: a demo starts no program");
       if (call.command->writes) call = below(call, folder);

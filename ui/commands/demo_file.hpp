@@ -17,6 +17,9 @@ struct Demo {
 /// Of the demos that come with the program.
 std::vector<std::string> demo_names();
 
+/// Whether a file is one, by its ending.
+bool is_demo_file(const std::filesystem::path& file);
+
 /// Of a file, or one of those that come with the program by its name. What it writes goes below `folder`, and without
 /// one it may write nothing. @throws std::runtime_error in one line, "FILE:LINE: reason" where a line is wrong.
 Demo read_demo(const std::string& file_or_name, const std::filesystem::path& folder = {});

@@ -11,6 +11,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/setting/quantity.hpp"
 #include "ui/commands/command_target.hpp"
+#include "ui/commands/demo_file.hpp"
 #include "ui/commands/needs.hpp"
 
 namespace nextview {
@@ -104,6 +105,7 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
 /// The settings of a file start the scan over as any other does; another object, everybody knows, takes its place.
 CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std::string>& values) {
   const std::filesystem::path file = values.at(0);
+  if (is_demo_file(file)) return command::play_demo.question(t, values);
   if (carries_settings(file)) {
     try {
       with_next_input(t.session.configuration, file).validate();
@@ -113,6 +115,11 @@ CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std:
     }
   }
   return {what_is_lost(t, true), "Open"};
+}
+
+void open_file(CommandTarget& t, const std::string& file) {
+  if (is_demo_file(file)) return execute(command::play_demo(file), t);
+  t.worker.post(request::OpenFile{file});
 }
 
 std::string reset_settings_why_not(const CommandState& t) {
@@ -130,15 +137,15 @@ const CommandOf<std::string> command::open{
      "File",
      "Open an object, scans, a map…",
      "Scans another object (a mesh file or a known name), goes through recorded scans (a folder, .graph, .log, .txt), "
-     "goes on with a session (its folder), shows a map (.ot, .bt), or takes the settings of a .toml file or of a "
-     "picture (.png) that carries them.",
+     "goes on with a session (its folder), shows a map (.ot, .bt), takes the settings of a .toml file or of a picture "
+     "(.png) that carries them, or plays a demo (.nextview).",
      {{key('O'), true}},
      {},
      {},
      false,
      ask_before_opening},
     argument::file("file", "a mesh file, a known object, recorded scans, a map, or a .toml file", objects),
-    [](CommandTarget& t, const std::string& file) { t.worker.post(request::OpenFile{file}); }};
+    open_file};
 
 const CommandOf<std::string, std::string> command::set{
     {"set",

@@ -33,7 +33,7 @@ const CommandOf<std::optional<std::string>> command::play_demo{
          [](const CommandState& t, const auto&) {
            return CommandQuestion{what_is_lost(t, false), "Play"};
          }},
-    argument::optional(argument::text("demo", "its name or file", [](const SessionSnapshot&) { return demo_names(); })),
+    argument::optional(argument::file("demo", "its name or file", [](const SessionSnapshot&) { return demo_names(); })),
     [](CommandTarget& t, const std::optional<std::string>& demo) {
       const std::string wanted = demo.value_or(first_demo);
       require_data(read_demo(wanted));  // what is wrong with it ends nothing

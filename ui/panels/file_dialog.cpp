@@ -12,7 +12,9 @@
 #include "core/session/recent_files.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/demo_file.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/recording_commands.hpp"
 #include "ui/commands/window_commands.hpp"
 
 namespace nextview {
@@ -56,7 +58,8 @@ void FileDialog::follow(ImGuiInputTextCallbackData& field) {
 
 void FileDialog::begin(const PanelContext& context, const Command& command) {
   command_ = command.name;
-  to_read_ = &command == &command::open;
+  to_read_ = !command.writes;
+  plays_ = &command == &command::play_demo;
   recent_ = recent_files(state_folder());
   chosen_ = 0;
   opened_ = true;
@@ -88,7 +91,7 @@ void FileDialog::call(const PanelContext& context, const Command& command, const
 void FileDialog::accept(const PanelContext& context, const Command& command, const fs::path& file) {
   std::error_code ignored;
   const bool is_folder = fs::is_directory(file, ignored);
-  const bool looked_into = is_folder && (to_read_ ? !has_journal(file) : !names_folder(command));
+  const bool looked_into = is_folder && (plays_ || (to_read_ ? !has_journal(file) : !names_folder(command)));
   if (looked_into) {
     look_into(file);
     return write("");
@@ -102,7 +105,8 @@ void FileDialog::accept(const PanelContext& context, const Command& command, con
     return;
   }
   if (to_read_ && !is_there(file)) {  // what was written stays, to be mended
-    problem_ = fmt::format("{}: there is no such file, nor an object of this name.", file.filename().string());
+    problem_ = fmt::format("{}: there is no such file, nor {} of this name.", file.filename().string(),
+                           plays_ ? "a demo" : "an object");
     return;
   }
   if (to_read_) {
@@ -141,9 +145,11 @@ void FileDialog::draw_places(const PanelContext& context, const Command& command
   draw_place("Whole disk", "/");
   if (to_read_) {
     ImGui::Spacing();
-    ImGui::TextDisabled("Objects");
+    ImGui::TextDisabled(plays_ ? "Demos" : "Objects");
     for (const std::string& object : command.arguments().front().choices(context.snapshot))
       if (ImGui::Selectable(object.c_str())) call(context, command, object);
+  }
+  if (to_read_ && !plays_) {
     if (!recent_.empty()) {
       ImGui::Spacing();
       ImGui::TextDisabled("Recent");
@@ -171,7 +177,8 @@ void FileDialog::draw_entries(const PanelContext& context, const Command& comman
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const std::string name = entry.name + (entry.is_folder && !entry.is_session ? "/" : "");
-    const bool of_no_use = to_read_ && !entry.not_opened.empty();  // who takes it all the same is told why
+    const std::string reason = why_not(entry);
+    const bool of_no_use = !reason.empty();  // who takes it all the same is told why
     if (of_no_use) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     if (ImGui::Selectable(name.c_str(), i == chosen_,
                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
@@ -180,7 +187,7 @@ void FileDialog::draw_entries(const PanelContext& context, const Command& comman
       if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accepted = browser_.folder() / entry.name;
     }
     if (of_no_use) ImGui::PopStyleColor();
-    if (of_no_use) tooltip(entry.not_opened);
+    if (of_no_use) tooltip(reason);
     if (i == chosen_ && scroll_) ImGui::SetScrollHereY();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", entry.is_session  ? "session"
@@ -204,11 +211,17 @@ void FileDialog::obey_keys(const PanelContext& context, const Command& command) 
   if (pressed(Key::enter)) accept_written(context, command);
 }
 
+std::string FileDialog::why_not(const FolderEntry& entry) const {
+  if (!to_read_ || entry.is_folder) return "";
+  if (!plays_) return is_demo_file(entry.name) ? "" : entry.not_opened;
+  return is_demo_file(entry.name) ? "" : "no demo: those end in .nextview";
+}
+
 /// Names are parts of what is there while a file is looked for; what cannot be opened comes last.
 std::vector<std::size_t> FileDialog::shown() const {
   std::vector<std::size_t> found = browser_.matching(to_read_ ? written_ : "");
   if (to_read_)
-    std::ranges::stable_partition(found, [&](std::size_t i) { return browser_.entries()[i].not_opened.empty(); });
+    std::ranges::stable_partition(found, [&](std::size_t i) { return why_not(browser_.entries()[i]).empty(); });
   return found;
 }
 
@@ -249,9 +262,9 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
     replaced_.clear();
     problem_.clear();
   }
-  const char* const does = !replaced_.empty() ? "Replace it" : to_read_ ? "Open" : "Write";
+  const char* const does = !replaced_.empty() ? "Replace it" : plays_ ? "Play" : to_read_ ? "Open" : "Write";
   if (icon_button(style, Icon::none, does, true)) accept_written(context, command);
-  if (to_read_) {
+  if (to_read_ && !plays_) {
     ImGui::SameLine();
     if (icon_button(style, Icon::none, "Open this folder")) call(context, command, browser_.folder().string());
     tooltip("Goes through the recorded scans that lie in it, or goes on with the session that it is.");
@@ -277,7 +290,7 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   ImGui::Begin("File", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoNav);
-  std::string title = command.text;
+  std::string title = plays_ ? "Play a demo" : command.text;
   if (title.ends_with("…")) title.resize(title.size() - std::string("…").size());
   heading(style, title.c_str());
   draw_path();

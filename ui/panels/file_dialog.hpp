@@ -28,7 +28,8 @@ class FileDialog {
   void accept(const PanelContext& context, const Command& command, const std::filesystem::path& file);
   /// With what is written, or else what is chosen.
   void accept_written(const PanelContext& context, const Command& command);
-  std::vector<std::size_t> shown() const;  ///< places in the browser's entries
+  std::string why_not(const FolderEntry& entry) const;  ///< it is of no use for the command; empty: it may be
+  std::vector<std::size_t> shown() const;               ///< places in the browser's entries
   void write(std::string text);
   void follow(ImGuiInputTextCallbackData& field);
 
@@ -38,7 +39,7 @@ class FileDialog {
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
   std::string problem_;             ///< why what is written will not do
   std::size_t chosen_ = 0;          ///< among those that match
-  bool to_read_ = true, scroll_ = false;
+  bool to_read_ = true, plays_ = false, scroll_ = false;
   bool opened_ = false;                             ///< just now: what is proposed can be written over
   bool entered_ = false;                            ///< the folder that was written, and nothing was done since
   std::filesystem::path last_read_, last_written_;  ///< folders that were used last

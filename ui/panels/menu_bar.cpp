@@ -12,6 +12,7 @@
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/recording_commands.hpp"
 #include "ui/commands/scene_commands.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -39,12 +40,14 @@ void draw_cameras(const PanelContext& context) {
   ImGui::EndMenu();
 }
 
-/// Those that come with the program.
+/// Those that come with the program, and others' files.
 void draw_demos(const PanelContext& context) {
   if (!ImGui::BeginMenu("Play another")) return;
   const bool can = command::play_demo.available(context.state());
   for (const std::string& demo : demo_names())
     if (ImGui::MenuItem(demo.c_str(), nullptr, false, can)) context.post(command::play_demo(demo));
+  ImGui::Separator();
+  if (ImGui::MenuItem("A file…", nullptr, false, can)) context.post(command::file_dialog(command::play_demo.name));
   ImGui::EndMenu();
 }
 

@@ -44,7 +44,7 @@ void PanelContext::invoke(const Command& command) const {
     };
     return post({&command, refuse, [] { return std::vector<std::string>(); }});
   }
-  if (command.takes_file()) return post(command::file_dialog(command.name));
+  if (command.takes_file() && !command.needs_no_value()) return post(command::file_dialog(command.name));
   post(command.needs_no_value() ? command.read({}) : command::palette(command.name + " "));
 }
 

@@ -76,6 +76,7 @@ TEST_F(DemoFiles, SayWhatTheyNeedAtTheBeginOfALine) {
 
 TEST_F(DemoFiles, PlayNoOtherAndStartNoProgram) {
   EXPECT_EQ(error_of("step\nplay-demo tour\n"), "2: play-demo: a demo plays no other");
+  EXPECT_EQ(error_of("open other.nextview\n"), "1: open: a demo plays no other");
   EXPECT_EQ(error_of("connect \"rm -r\"\n"), "1: connect: a demo starts no program");
 }
 

@@ -55,12 +55,21 @@ TEST(WithNextInput, TakesNoUnitFromTheFileBefore) {
 
 TEST(NotAnInput, GoesByTheName) {
   for (const char* name : {"part.stl", "PART.STL", "a/part.ply.gz", "cloud.pcd", "cloud.pcd.gz", "scan.graph",
-                           "scan.log", "scene.txt", "scene.txt.gz", "mine.toml", "figure.png"})
+                           "scan.log", "scene.txt", "scene.txt.gz", "mine.toml", "figure.png", "map.ot", "map.bt"})
     EXPECT_EQ(not_an_input(name), "") << name;
   EXPECT_THAT(not_an_input("part.step"), testing::HasSubstr("export it as STL"));
   EXPECT_THAT(not_an_input("about.pdf"), testing::HasSubstr("'.pdf'"));
   EXPECT_THAT(not_an_input("scan.graph.gz"), testing::HasSubstr("'.graph'")) << "is read as it is";
   EXPECT_NE(not_an_input("README"), "");
+}
+
+TEST(WithInput, SaysWhatPlaysADemo) {
+  try {
+    with_input({}, "mine.nextview");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("mine.nextview: is a demo: `nextview demo` plays it"));
+  }
 }
 
 TEST(SetUnlessGiven, LeavesWhatSomeoneWants) {

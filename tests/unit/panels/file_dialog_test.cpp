@@ -196,6 +196,19 @@ TEST_F(FileDialogTest, AnObjectThatComesWithTheProgramIsOpenedByItsName) {
   EXPECT_EQ(done(), "open sphere");
 }
 
+TEST_F(FileDialogTest, ADemosFileIsPlayed) {
+  std::ofstream(folder_ / "parts/bracket.nextview") << "step\n";
+  begin("play-demo");
+  desk_.type(Key::enter);
+  desk_.frames();
+  EXPECT_THAT(read("File"), testing::HasSubstr("Play a demo"));
+  desk_.write("bracket");  // of two the one that is a demo
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "play-demo " + quoted(path("parts/bracket.nextview")));
+  EXPECT_FALSE(is_open());
+}
+
 TEST_F(FileDialogTest, WhereNothingCouldBeWrittenIsNotProposedAgain) {
   const auto export_to = [&](const std::string& file) {
     begin("export-cloud");
