@@ -117,6 +117,7 @@ void Palette::run(const PanelContext& context) {
     context.post(std::move(call));
   } catch (const std::invalid_argument& error) {
     error_ = error.what();
+    put_ = true;  // to be mended
   }
 }
 
@@ -149,7 +150,10 @@ void Palette::draw_commands(const PanelContext& context) {
     put(command.needs_no_value() ? command.name : command.name + " ");
     if (command.needs_no_value()) run(context);
   }
-  if (found.empty()) ImGui::TextDisabled("No command is called that.");
+  if (found.empty()) {
+    ImGui::TextDisabled("No command is called that.");
+    put_ |= enter;  // ImGui leaves the text
+  }
   ImGui::EndChild();
 }
 

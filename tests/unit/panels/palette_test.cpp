@@ -60,6 +60,19 @@ TEST(Palette, EnterTakesTheValueThatArrowsChose) {
   EXPECT_THAT(done.back(), ::testing::StartsWith("panel "));
 }
 
+TEST(Palette, WhatIsWrongCanBeMendedAfterEnter) {
+  for (const auto& [begun, better] : {std::pair{"undox", "undo"}, {"select-view x", "select-view 0"}}) {
+    OpenPalette desk(begun);
+    desk.type(Key::enter);
+    EXPECT_THAT(desk.frames(), IsEmpty());
+    desk.type(Key::backspace);
+    if (better != std::string("undo")) desk.write("0");
+    desk.frames();
+    desk.type(Key::enter);
+    EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", better));
+  }
+}
+
 TEST(Palette, EnterRunsWhatWasTypedWhileNoValueIsChosen) {
   OpenPalette desk("set seed 7");
   desk.type(Key::enter);
