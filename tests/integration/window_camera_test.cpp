@@ -152,7 +152,7 @@ TEST_F(WindowCamera, WhatWasMeasuredIsLegibleBesideTheLegends) {
     user_.run(fmt::format("measure\nmeasure-point {0} {1} {2}\nmeasure-point {0} {1} {2}\n", point.x(), point.y(),
                           point.z()));
     const int red = count(user_.look(), scene().rectangle(), theme::chosen);
-    user_.run("measure\n");
+    user_.run("measure bore\nmeasure\n");  // no more
     return red - count(user_.look(), scene().rectangle(), theme::chosen);
   };
   const int far = measured(400), near = measured(20);

@@ -10,6 +10,8 @@ void switch_measuring(CommandTarget& t, const std::optional<MeasureKind>& kind) 
   std::optional<Measurement>& measurement = t.window.measurement;
   if (kind || !measurement)
     measurement = Measurement{kind.value_or(MeasureKind::distance), {}};
+  else if (measurement->complete())
+    measurement->points.clear();
   else if (measurement->points.empty() && measurement->kind == MeasureKind::distance)
     measurement->kind = MeasureKind::plane;
   else if (measurement->points.empty() && measurement->kind == MeasureKind::plane)
@@ -36,7 +38,8 @@ const CommandOf<std::optional<MeasureKind>> command::measure{
      "Select",
      "Measure",
      "Measures between points that are clicked: a distance, the distance of a point to a plane through three, or the "
-     "diameter of a bore by three points of its rim. Again, before a click: the next of these; after it: no more.",
+     "diameter of a bore by three points of its rim. Again, before a click: the next of these; once it is measured: "
+     "another; else no more.",
      {{key('M')}},
      needs_session,
      [](const WindowState& w) { return w.measurement.has_value(); }},

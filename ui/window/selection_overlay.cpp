@@ -155,7 +155,8 @@ void draw_measurement(SceneView& view, const PanelContext& context, const Measur
     if (const auto place = view.project(point)) list.AddCircleFilled(at(*place), style.px(4), colour);
   const Rectangle& r = view.rectangle();
   const ImVec2 corner(float(r.x) + style.px(14), float(r.y + r.height) - style.px(92));
-  if (!measurement.complete()) return draw_label(style, corner, measure_hint(measurement), theme::chosen);
+  if (!measurement.complete())
+    return draw_label(style, corner, measure_hint(measurement), theme::chosen, &view.beside_legends()[0]);
   const auto sum = std::accumulate(measurement.points.begin(), measurement.points.end(), Vector3(Vector3::Zero()));
   const auto middle = view.project(sum / double(measurement.points.size()));
   const Rectangle beside = view.beside_legends()[0];  // what lies beneath them is not seen

@@ -115,6 +115,10 @@ TEST_F(WantedOfTheWindow, MeasuresPointByPointAndBeginsAgain) {
   EXPECT_EQ(error_of("measure-point 1 2 3"), "no error");
   EXPECT_EQ(error_of("measure"), "no error");
   EXPECT_FALSE(window_.measurement) << "after a click: no more";
+  for (const char* line : {"measure plane", "measure-point 1 2 3", "measure-point 2 2 3", "measure-point 1 3 3",
+                           "measure-point 1 2 4", "measure"})
+    EXPECT_EQ(error_of(line), "no error") << line;
+  EXPECT_EQ(window_.measurement, (Measurement{MeasureKind::plane, {}})) << "once it is measured: another";
 }
 
 TEST_F(WantedOfTheWindow, AssertionsHoldOnTheirSideOfANumberAndAtIt) {
