@@ -33,10 +33,11 @@ std::string scanned(const SessionSnapshot& s) {
 
 /// In the unit that the scene's labels have, so that a caliper can be held beside it.
 std::string coordinates(const Vector3& point) {
-  const double scale = point.cwiseAbs().maxCoeff() < 1.0 ? 1e3 : 1.0;
-  return scale == 1.0
-             ? fmt::format("x {:.3f}  y {:.3f}  z {:.3f} m", point.x(), point.y(), point.z())
-             : fmt::format("x {:.1f}  y {:.1f}  z {:.1f} mm", scale * point.x(), scale * point.y(), scale * point.z());
+  const bool in_millimetres = point.cwiseAbs().maxCoeff() < 1.0;
+  const double steps = in_millimetres ? 1e4 : 1e3;          // a metre
+  const Vector3 p = (steps * point).array().round() + 0.0;  // 0 has no sign
+  return in_millimetres ? fmt::format("x {:.1f}  y {:.1f}  z {:.1f} mm", p.x() / 10, p.y() / 10, p.z() / 10)
+                        : fmt::format("x {:.3f}  y {:.3f}  z {:.3f} m", p.x() / 1e3, p.y() / 1e3, p.z() / 1e3);
 }
 
 /// What failed last, until it is clicked or something else was done.

@@ -153,6 +153,8 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   EXPECT_THAT(status(), HasSubstr("x 12.5  y -200.0  z 310.0 mm"));
   desk_.window.pointed_at = Vector3(1.25, -0.2, 0.31);
   EXPECT_THAT(status(), HasSubstr("x 1.250  y -0.200  z 0.310 m"));
+  desk_.window.pointed_at = Vector3(0.0125, -1e-5, -0.0);
+  EXPECT_THAT(status(), HasSubstr("x 12.5  y 0.0  z 0.0 mm")) << "0 has no sign";
   scan_->message = "it went wrong";
   scan_->failures = 1;
   EXPECT_EQ(status(), "it went wrong");
