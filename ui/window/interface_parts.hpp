@@ -97,7 +97,10 @@ struct Interface::Parts {
   }
   bool works() const;
   bool at_rest() const;
-  bool shows_captions() const { return state.presentation.demo || state.presentation.caption; }
+  bool shows_captions() const {
+    const Presentation& p = state.presentation;
+    return p.captioned || p.caption || p.paused;
+  }
   bool script_may_go_on() const;
   void pass_time(double seconds);
   void fly(double seconds);
