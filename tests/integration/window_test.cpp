@@ -43,6 +43,11 @@ TEST(Window, PlaysUntilTheScanIsFinished) {
   EXPECT_EQ(user.session().records.size(), 5u) << "nothing is done behind a question";
   user.type(Key::enter);
   user.wait();
+  EXPECT_EQ(user.session().records.size(), 5u) << "Enter alone loses nothing";
+  user.type(key('R'));
+  user.wait();
+  user.window().ask(parse_call("answer \"Start over\""));
+  user.wait();
   EXPECT_TRUE(user.session().records.empty());
 }
 

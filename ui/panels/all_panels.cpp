@@ -97,11 +97,11 @@ void obey_shortcuts(const PanelContext& context) {
   if (refused) context.invoke(*refused);
 }
 
-/// The first answer is the one that stands out, the last one the cautious one.
+/// The last answer is the cautious one: Enter gives it where the first one costs something.
 void obey_answers(const PanelContext& context) {
   const std::vector<std::string>& answers = context.progress.answers;
   if (pressed(Key::escape)) context.post(command::answer(answers.back()));
-  if (pressed(Key::enter)) context.post(command::answer(answers.front()));
+  if (pressed(Key::enter)) context.post(command::answer(context.progress.costs ? answers.back() : answers.front()));
 }
 
 }  // namespace

@@ -30,6 +30,14 @@ void draw_colours(const PanelContext& context, const DoubtfulScan& scan) {
   ImGui::PopFont();
 }
 
+/// What an answer does, and its key.
+std::string help_of(const WorkerProgress& progress, std::size_t answer) {
+  const bool is_last = answer + 1 == progress.answers.size(), is_usual = progress.costs ? is_last : answer == 0;
+  const std::string key = is_usual && is_last ? "Enter, Esc" : is_usual ? "Enter" : is_last ? "Esc" : "";
+  if (answer >= progress.effects.size()) return key;
+  return progress.effects[answer] + (key.empty() ? "" : " [" + key + "]");
+}
+
 }  // namespace
 
 void draw_question(const PanelContext& context, const Rectangle& scene) {
@@ -54,8 +62,9 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     const Icon icon = i + 1 == answers.size() ? Icon::cancel : i == 0 ? Icon::play : Icon::none;
-    if (icon_button(style, icon, answers[i].c_str(), i == 0)) context.post(command::answer(answers[i]));
-    tooltip(i == 0 ? "Enter" : i + 1 == answers.size() ? "Esc" : "");
+    const bool is_usual = i == (context.progress.costs ? answers.size() - 1 : 0);
+    if (icon_button(style, icon, answers[i].c_str(), is_usual)) context.post(command::answer(answers[i]));
+    tooltip(help_of(context.progress, i));
   }
   ImGui::End();
   ImGui::PopStyleVar(3);

@@ -22,6 +22,8 @@ WorkerProgress AskedCall::with_question(WorkerProgress progress) const {
   if (!call_ || !progress.question.empty()) return progress;
   progress.question = question_.text;
   progress.answers = {question_.confirm, "Cancel"};
+  progress.effects.clear();
+  progress.costs = true;
   return progress;
 }
 

@@ -151,6 +151,8 @@ struct WorkerProgress {
   std::string what;
   std::string question;                               ///< that the job waits for an answer to; empty: it does not
   std::vector<std::string> answers;                   ///< that there are, the last one the cautious one
+  std::vector<std::string> effects;                   ///< what each of them does; empty: their names say it
+  bool costs = false;                                 ///< what the first of them does: Enter gives the last one
   std::shared_ptr<const DoubtfulScan> doubtful;       ///< that the question is about; null if it is about another thing
   std::size_t waiting = 0;                            ///< requests behind it
   std::optional<double> seconds_left;                 ///< of the job, as it has gone so far; whole seconds

@@ -69,7 +69,7 @@ class SessionWorker {
   SessionRunner::JobControl job_control();
   void show_meanwhile();
   std::string ask(std::string question, std::vector<std::string> answers,
-                  std::shared_ptr<const DoubtfulScan> about = nullptr);
+                  std::shared_ptr<const DoubtfulScan> about = nullptr, std::vector<std::string> effects = {});
   void offer(const EarlierSession& session);
   Session::Verdict judge(const Acquired& acquired, const std::string& reason);
   ScannerWishes scanner_wishes(const request::Connect& request);

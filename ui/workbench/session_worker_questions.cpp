@@ -22,12 +22,13 @@ void SessionWorker::answer(const std::string& text) {
 
 /// Waits for the answer; what cancels the job gives the last one.
 std::string SessionWorker::ask(std::string question, std::vector<std::string> answers,
-                               std::shared_ptr<const DoubtfulScan> about) {
+                               std::shared_ptr<const DoubtfulScan> about, std::vector<std::string> effects) {
   const std::string cautious = answers.back();
   std::unique_lock lock(mutex_);
   progress_.question = std::move(question);
   progress_.answers = std::move(answers);
   progress_.doubtful = std::move(about);
+  progress_.effects = std::move(effects);
   answer_.reset();
   lock.unlock();
   news();
@@ -35,6 +36,7 @@ std::string SessionWorker::ask(std::string question, std::vector<std::string> an
   wake_.wait(lock, job_.get_token(), [&] { return answer_.has_value(); });
   progress_.question.clear();
   progress_.doubtful.reset();
+  progress_.effects.clear();
   return std::exchange(answer_, std::nullopt).value_or(cautious);
 }
 
@@ -46,7 +48,9 @@ const std::vector<std::string>& SessionWorker::offer_answers() {
 void SessionWorker::offer(const EarlierSession& session) {
   const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
                                            counted(session.views, "view"));
-  const std::string answer = ask(question, offer_answers());
+  const std::string answer = ask(question, offer_answers(), nullptr,
+                                 {"Opens it where it ended", "Opens nothing; it stays kept, and Open recent has it",
+                                  "Opens nothing, and asks again at the next start"});
   if (answer == "Go on") runner_.open(session.folder, job_control());
   if (answer == "Begin anew") close_session(session.folder);
 }

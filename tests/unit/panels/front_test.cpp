@@ -84,8 +84,28 @@ TEST(Front, AQuestionIsAnsweredFirst) {
   }
   desk.type(Key::enter);
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer \"Start over\""});
+  desk.progress.costs = true;
+  desk.type(Key::enter);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"}) << "who is in a hurry loses nothing";
   desk.type(Key::escape);
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
+}
+
+TEST(Front, WhatAnAnswerDoesIsToldWithItsKey) {
+  Desk desk;
+  desk.progress.question = "Go on with it?";
+  desk.progress.answers = {"Go on", "Begin anew", "Ask later"};
+  desk.progress.effects = {"Opens it", "It stays kept", "Asks again"};
+  desk.frames();
+  for (const auto& [answer, does] :
+       {std::pair{"Go on", "Opens it [Enter]"}, {"Begin anew", "It stays kept"}, {"Ask later", "Asks again [Esc]"}}) {
+    const auto all = seen_texts();
+    const SeenText* const button = find_text(all, answer, "Question");
+    ASSERT_TRUE(button) << answer;
+    desk.move(button->from.x, button->middle());
+    for (int frame = 0; frame < 40; ++frame) desk.frame();
+    EXPECT_EQ(read_tooltip(), does);
+  }
 }
 
 /// The palette lies over the question: whoever closes it has not answered.
