@@ -104,7 +104,10 @@ void draw_menu_bar(const PanelContext& context, const Rectangle& rectangle) {
   ImGui::PopStyleVar(2);
   if (!ImGui::BeginMenuBar()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(10), style.px(8)));
+  const float below = float(rectangle.y + rectangle.height);
   for (const std::string& menu : menus()) {
+    // What is too long scrolls: it would open above, with its first item beneath the pointer.
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, ImGui::GetIO().DisplaySize.y - below - style.px(2)});
     if (!ImGui::BeginMenu(menu.c_str())) continue;
     draw_menu(context, menu);
     ImGui::EndMenu();

@@ -85,6 +85,30 @@ TEST(Reach, EveryCommandByMouseThroughTheMenu) {
   }
 }
 
+/// A second click hits the menu's name, and no item of it.
+TEST(Reach, MenusOpenBeneathTheBarHoweverLowTheWindow) {
+  for (const int height : {480, 360}) {
+    Desk desk(640, height);
+    open_all_ways(desk);
+    desk.frames();
+    const double bar = desk.layout().menu.height;
+    std::set<float> menus;
+    for (double x = 10; x < 640; x += 15) {
+      desk.click(x, bar / 2);
+      desk.frames();
+      const ImGuiWindow* const menu = open_menu();
+      if (!menu) continue;
+      menus.insert(menu->Pos.x);
+      EXPECT_GE(menu->Pos.y, bar - 3) << x;
+      EXPECT_LE(menu->Rect().Max.y, height) << x;
+      desk.click(x, bar / 2);
+      desk.frames();
+      EXPECT_FALSE(open_menu()) << x;
+    }
+    EXPECT_EQ(menus.size(), nextview::menus().size());
+  }
+}
+
 std::string valid_value(const Argument& argument, const SessionSnapshot& snapshot) {
   if (argument.choices) return argument.choices(snapshot).front();
   if (argument.kind == Argument::Kind::text) return "0.5";
