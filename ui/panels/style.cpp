@@ -64,8 +64,8 @@ void set_colours(bool dark) {
       {ImGuiCol_HeaderActive, selected},
       {ImGuiCol_Separator, theme::hairline},
       {ImGuiCol_MenuBarBg, theme::paper},
-      {ImGuiCol_SliderGrab, mix(accent, theme::paper, 0.45)},
-      {ImGuiCol_SliderGrabActive, accent},
+      {ImGuiCol_SliderGrab, mix(accent, theme::paper, 0.7)},  // the value stands on it
+      {ImGuiCol_SliderGrabActive, mix(accent, theme::paper, 0.55)},
       {ImGuiCol_PlotHistogram, accent},
       {ImGuiCol_TableHeaderBg, theme::sky},
       {ImGuiCol_TableBorderStrong, theme::hairline},
