@@ -24,9 +24,10 @@ void add_point(CommandTarget& t, double x, double y, double z) {
   Measurement& measurement = *t.window.measurement;
   if (measurement.complete()) measurement.points.clear();
   measurement.points.emplace_back(x, y, z);
-  if (measurement.complete())
-    t.worker.log().add(LogEntry::Level::success,
-                       measured_text(measurement, measured_circle(measurement, t.session.cloud->points)));
+  if (!measurement.complete()) return;
+  const auto circle = measured_circle(measurement, t.session.cloud->points);
+  const auto level = circle && circle->doubtful ? LogEntry::Level::warning : LogEntry::Level::success;
+  t.worker.log().add(level, measured_text(measurement, circle));
 }
 
 ArgumentOf<double> metres(const char* name) { return argument::number(name, "[m]", -1000, 1000); }

@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <bitset>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace nextview {
@@ -15,6 +17,9 @@ constexpr double nearby = 2.3;  // points that are looked at
 constexpr double face_inside = 0.9, face_outside = 1.1, face_ends = 2.0;
 constexpr double wall_begins = 0.3, wall_ends = 1.0;  // in depth
 constexpr double far_off = 0.3, near_off = 0.05;      // points of the wall from the cylinder: first, and at least
+constexpr double largest_residual = 0.08;             // of a wall; what is no cylinder has a tenth and more
+constexpr double largest_sheet_residual = 0.045;      // points all over the band that is looked at have 0.058
+constexpr double least_covered = 1.0 / 3.0;           // of its round
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 
@@ -56,6 +61,23 @@ bool face_is_outside(const FittedCircle& circle, const std::vector<Vector3>& poi
   return balance >= 0;
 }
 
+/// Whether the face ends at the rim: on one side of it there are few points, for its area.
+bool ends_at_rim(const FittedCircle& circle, const std::vector<Vector3>& points) {
+  constexpr double inner = 0.8, outer_begins = 1.2, outer_ends = 1.8, thick = 0.15, few = 0.4;
+  const Frame frame(circle);
+  double within = 0.0, without = 0.0;
+  for (const Vector3& point : points) {
+    const Beside p = frame(point);
+    const double across = p.across / circle.radius;
+    if (std::abs(p.along) > thick * circle.radius) continue;
+    within += across < inner;
+    without += across > outer_begins && across < outer_ends;
+  }
+  within /= inner * inner;
+  without /= outer_ends * outer_ends - outer_begins * outer_begins;
+  return std::min(within, without) <= few * std::max(within, without);
+}
+
 /// The circle in the plane of the face; as it was where none is.
 FittedCircle laid_on_face(const FittedCircle& picked, const std::vector<Vector3>& points) {
   const bool outside = face_is_outside(picked, points);
@@ -93,6 +115,26 @@ double median_size(std::vector<double> values) {
   return *middle;
 }
 
+/// Whether a point is of the wall on one side of the face, and no farther from the cylinder than `reach`.
+bool is_of_wall(const Beside& p, double radius, double picked_radius, double side, double reach) {
+  const double depth = side * p.along / picked_radius;
+  return depth >= wall_begins && depth <= wall_ends && std::abs(p.across - radius) < reach;
+}
+
+/// Beside which share of the round there are points of the wall.
+double covered_share(const FittedCircle& rim, const std::vector<Vector3>& points, double picked_radius, double side,
+                     double reach) {
+  std::bitset<36> sectors;
+  const Frame frame(rim);
+  for (const Vector3& point : points) {
+    const Beside p = frame(point);
+    if (!is_of_wall(p, rim.radius, picked_radius, side, reach)) continue;
+    const double turn = 0.5 + std::atan2(p.outward.y(), p.outward.x()) / (2.0 * std::numbers::pi);
+    sectors.set(std::min(std::size_t(turn * double(sectors.size())), sectors.size() - 1));
+  }
+  return double(sectors.count()) / double(sectors.size());
+}
+
 /// The rim of the cylinder through the points on one side of the face (1 or -1): centre, axis and radius by
 /// Gauss-Newton, with Tukey's weights. Its residual is that of the points near it.
 std::optional<FittedCircle> rim_of_wall(const FittedCircle& start, const std::vector<Vector3>& points, double side) {
@@ -105,8 +147,8 @@ std::optional<FittedCircle> rim_of_wall(const FittedCircle& start, const std::ve
     std::vector<double> errors;
     for (const Vector3& point : points) {
       const Beside p = frame(point);
-      const double depth = side * p.along / start.radius, error = p.across - rim.radius;
-      if (depth < wall_begins || depth > wall_ends || std::abs(error) >= reach) continue;
+      if (!is_of_wall(p, rim.radius, start.radius, side, reach)) continue;
+      const double error = p.across - rim.radius;
       const double weight = std::pow(1.0 - error * error / (reach * reach), 2);
       Vector5 slope;
       slope << p.outward, p.along * p.outward, 1.0;
@@ -128,6 +170,8 @@ std::optional<FittedCircle> rim_of_wall(const FittedCircle& start, const std::ve
     rim.points = errors.size();
     rim.residual = std::sqrt(squares / double(rim.points));
   }
+  rim.doubtful = rim.residual > largest_residual * rim.radius ||
+                 covered_share(rim, points, start.radius, side, reach) < least_covered;
   return rim;
 }
 
@@ -159,6 +203,7 @@ FittedCircle rim_of_sheet(const FittedCircle& start, const std::vector<Vector3>&
     rim.points = count;
     rim.residual = std::sqrt(squares / double(count));
   }
+  rim.doubtful = rim.residual > largest_sheet_residual * rim.radius;
   return rim;
 }
 
@@ -176,10 +221,15 @@ FittedCircle fitted(const FittedCircle& circle, std::span<const Eigen::Vector3f>
   const std::vector<Vector3> points = points_near(circle, cloud);
   const FittedCircle on_face = laid_on_face(circle, points);
   const auto above = rim_of_wall(on_face, points, 1.0), below = rim_of_wall(on_face, points, -1.0);
-  if (above && below) return above->residual < below->residual ? *above : *below;
-  if (above || below) return above ? *above : *below;
-  const FittedCircle sheet = rim_of_sheet(on_face, points);
-  return sheet.points > 0 ? sheet : circle;
+  FittedCircle rim = circle;
+  if (above && below)
+    rim = above->residual < below->residual ? *above : *below;
+  else if (above || below)
+    rim = above ? *above : *below;
+  else if (const FittedCircle sheet = rim_of_sheet(on_face, points); sheet.points > 0)
+    rim = sheet;
+  rim.doubtful |= rim.points > 0 && !ends_at_rim(on_face, points);
+  return rim;
 }
 
 }  // namespace nextview

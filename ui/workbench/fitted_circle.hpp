@@ -12,6 +12,7 @@ struct FittedCircle {
   double radius = 0.0;                                          ///< [m]
   double residual = 0.0;   ///< root mean square distance of the points to it, across its axis [m]
   std::size_t points = 0;  ///< that it was fitted to; 0: it goes through the three that were picked
+  bool doubtful = false;   ///< the points around it know of no such rim
 };
 
 /// The circle through three points; none if they lie on a line.
@@ -21,6 +22,8 @@ std::optional<FittedCircle> circle_through(const Vector3& a, const Vector3& b, c
 /// as a cylinder through the wall that begins there, from a third of the radius to a whole one deep. Points of the face
 /// have no part in that. Where there is no such wall (a hole in a sheet), as wide as what lies within a tenth of the
 /// rim. As it was if fewer than twenty points tell.
+/// It is doubtful if the face goes on across the rim, if the wall's points lie far off the cylinder, or beside less
+/// than a third of its round.
 FittedCircle fitted(const FittedCircle& circle, std::span<const Eigen::Vector3f> cloud);
 
 }  // namespace nextview

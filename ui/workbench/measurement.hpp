@@ -29,7 +29,8 @@ struct Measurement {
 /// The rim of a bore that is measured, fitted to what was measured around it; none of anything else, or where the
 /// points lie on a line.
 std::optional<FittedCircle> measured_circle(const Measurement& measurement, std::span<const Eigen::Vector3f> cloud);
-/// "Distance 120.3 mm (dx 120, dy 0.5, dz -8.2 mm)". @pre measurement.complete(), `circle` is its measured_circle
+/// "Distance 120.3 mm (dx 120, dy 0.5, dz -8.2 mm)"; of what is doubtful, that it is. @pre measurement.complete(),
+/// `circle` is its measured_circle
 std::string measured_text(const Measurement& measurement, const std::optional<FittedCircle>& circle);
 /// What to pick next: "Click the second point".
 std::string measure_hint(const Measurement& measurement);

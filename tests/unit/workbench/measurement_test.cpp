@@ -60,6 +60,7 @@ TEST(Measurement, ABoreIsFittedToTheCloudOfItsWall) {
     EXPECT_GT(std::abs(picked->radius - 0.02), 0.0003) << "the picks are too good for this test";
     const FittedCircle fit = fitted(*picked, cloud);
     EXPECT_GT(fit.points, 200u);
+    EXPECT_FALSE(fit.doubtful);
     EXPECT_NEAR(fit.radius, 0.02, 0.0001);
     EXPECT_NEAR(fit.residual, 0.0003, 0.00015);
     EXPECT_LT((fit.centre - Vector3(0.1, 0.2, 0.3)).norm(), 0.0003) << "in the plane of the face";
@@ -80,6 +81,7 @@ TEST(Measurement, APinIsFittedToTheCloudOfItsWall) {
     }
   const auto picked = circle_through(on_rim(0.0195, 0.3), on_rim(0.0198, 1.9), on_rim(0.0193, 3.6));
   const FittedCircle fit = fitted(*picked, cloud);
+  EXPECT_FALSE(fit.doubtful);
   EXPECT_NEAR(fit.radius, 0.02, 0.00005);
   EXPECT_LT((fit.centre - Vector3(0.1, 0.2, 0.3)).norm(), 0.0002);
 }
@@ -88,8 +90,29 @@ TEST(Measurement, APinIsFittedToTheCloudOfItsWall) {
 TEST(Measurement, AHoleInASheetIsAsWideAsWhatLiesAroundItsRim) {
   const auto picked = circle_through(on_rim(0.0210, 0.3), on_rim(0.0195, 1.9), on_rim(0.0205, 3.6));
   const FittedCircle fit = fitted(*picked, cloud_of_bore(0.002));
+  EXPECT_FALSE(fit.doubtful);
   EXPECT_GT(fit.points, 50u);
   EXPECT_NEAR(fit.radius, 0.02, 0.001);
+}
+
+/// Three clicks on a face, and over an edge: a circle goes through them, but there is none.
+TEST(Measurement, WhatIsNoBoreIsDoubtful) {
+  std::vector<Eigen::Vector3f> face, edge;
+  for (int i = 0; i < 200; ++i)
+    for (int k = 0; k < 200; ++k) {
+      face.emplace_back(0.0005f * float(i), 0.0005f * float(k), 0.0f);
+      if (i < 100) edge.push_back(face.back());
+      if (i < 100) edge.emplace_back(0.05f, 0.0005f * float(k), -0.0005f * float(i));
+    }
+  const Measurement on_face{MeasureKind::bore, {{0.04, 0.05, 0}, {0.06, 0.05, 0}, {0.05, 0.062, 0}}};
+  const auto none = measured_circle(on_face, face);
+  ASSERT_TRUE(none);
+  EXPECT_TRUE(none->doubtful) << 1e3 * none->radius;
+  EXPECT_THAT(measured_text(on_face, none), StartsWith("No rim is found there: a circle of "));
+  const Measurement over_edge{MeasureKind::bore, {{0.04, 0.05, 0}, {0.05, 0.055, -0.002}, {0.045, 0.062, 0}}};
+  const auto bent = measured_circle(over_edge, edge);
+  ASSERT_TRUE(bent);
+  EXPECT_TRUE(bent->points == 0 || bent->doubtful) << bent->points << " " << 1e3 * bent->radius;
 }
 
 TEST(Measurement, IsToldInWords) {
