@@ -13,6 +13,7 @@
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/demo_file.hpp"
 #include "ui/commands/needs.hpp"
+#include "ui/commands/recording_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -52,9 +53,20 @@ void change_setting(CommandTarget& target, const std::string& key, const Configu
   target.worker.post(request::Load{wanted});
 }
 
+/// Fields show millimetres where a script has metres: a length with its unit is right in both.
+void require_length(const Setting& wanted, const std::string& text) {
+  double ignored = 0.0;
+  const bool is_length = wanted.unit == "m" && std::holds_alternative<double*>(wanted.value);
+  if (is_length && text.find(',') == text.npos && !read_quantity(text, wanted.unit, ignored))
+    throw std::invalid_argument(
+        fmt::format("{} takes a length with its unit, such as 5 mm, not '{}'", shown_name(wanted), text));
+}
+
 void set_as_text(CommandTarget& target, const std::string& key, const std::string& text) {
   Configuration configuration = target.session.configuration;
-  give(configuration, key, text, shown_name(setting(configuration, key)));
+  const Setting wanted = setting(configuration, key);
+  require_length(wanted, text);
+  give(configuration, key, text, shown_name(wanted));
   change_setting(target, key, configuration);
 }
 

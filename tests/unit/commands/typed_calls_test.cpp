@@ -88,6 +88,12 @@ TEST_F(TypedCallsOnAWindow, WhatIsOutOfRangeIsRefusedAsInAScript) {
   EXPECT_EQ(error_of(command::refine(65, 20)), "refine: CHAINS must be a whole number from 1 to 64, not '65'");
 }
 
+TEST_F(TypedCallsOnAWindow, ALengthThatIsNoneIsAskedForWithAUnit) {
+  EXPECT_EQ(error_of(command::set("map.resolution", "abc")),
+            "Voxel (map.resolution) takes a length with its unit, such as 5 mm, not 'abc'");
+  EXPECT_THAT(error_of(command::set("map.resolution", "0,5 mm")), testing::HasSubstr("did you mean '0.5 mm'?"));
+}
+
 TEST(Set, GivesOneSettingAndNoOther) {
   SessionWorker worker;
   WindowState window;
