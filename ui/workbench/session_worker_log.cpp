@@ -84,6 +84,16 @@ void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
   log.add(Level::warning, fmt::format("{}: {}", map, d.warning));
 }
 
+/// A scan that was finished is not any more: what ends it now.
+std::string going_on(const SessionSnapshot& now) {
+  const TerminationConfig& limits = now.configuration.termination;
+  const int left = limits.views - int(now.records.size());
+  std::string text = "The scan goes on";
+  if (limits.limits_views()) text += fmt::format(" for {} at most", counted(std::size_t(left), "more view"));
+  if (limits.surface_left == 0.0) text += ", however little surface is left";
+  return text + "; undo brings the limits back";
+}
+
 }  // namespace
 
 void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
@@ -102,7 +112,7 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   } else if (is<request::SetTermination>(request)) {
     if (s.finished != before.finished)
       log_.add(s.finished.empty() ? Level::note : Level::success,
-               s.finished.empty() ? "The scan goes on" : "The scan is finished: " + s.finished);
+               s.finished.empty() ? going_on(s) : "The scan is finished: " + s.finished);
   } else if (is<request::SetPlanning>(request)) {
     if (!s.records.empty()) log_.add(Level::note, "The candidates are ranked anew; the scan stays");
   } else if (s.scanner_lost && !before.scanner_lost) {

@@ -112,6 +112,11 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
   EXPECT_EQ(worker.snapshot()->finished, "");
   EXPECT_EQ(worker.snapshot()->records.size(), 2u)
       << "it goes on, and nothing starts over; " << worker.snapshot()->message;
+  const auto log = *worker.log().entries();
+  EXPECT_TRUE(std::ranges::any_of(log, [](const LogEntry& e) {
+    return e.text ==
+           "The scan goes on for 20 more views at most, however little surface is left; undo brings the limits back";
+  }));
   scripted.run("play");
   EXPECT_EQ(worker.snapshot()->records.size(), 6u) << "the start view and all candidates";
   EXPECT_EQ(worker.snapshot()->finished, "no candidate view is left");
