@@ -33,6 +33,18 @@ TEST(Window, WorksAtAnySize) {
   }
 }
 
+/// Who enlarges text keeps Step, Play and Undo, and has it larger in a larger window.
+TEST(Window, TextGrowsAsFarAsTheControlBarHasRoom) {
+  for (const auto& [width, height] : {std::pair{640, 480}, {480, 360}, {1280, 800}}) {
+    User user(tiny_scan(), width, height);
+    const double usual = user.window().layout().control_bar.height;
+    for (int i = 0; i < 5; ++i) user.run("text-size bigger\n");
+    const double bar = user.window().layout().control_bar.height;
+    EXPECT_GT(bar, 1.2 * usual) << width;
+    EXPECT_LE(bar / usual * 332, width);
+  }
+}
+
 TEST(Window, PanelsNeverOverlap) {
   for (const auto& [width, height, scale, open] : {std::tuple{1200, 720, 1.0, Side::right},
                                                    {1280, 800, 1.0, Side::left},

@@ -23,6 +23,11 @@ Viewport Rectangle::in(int surface_width, int surface_height) const {
   return {x / surface_width, 1 - (y + height) / surface_height, (x + width) / surface_width, 1 - y / surface_height};
 }
 
+double Layout::largest_scale(int w, int h) {
+  constexpr double narrowest = 332;  // of the control bar's buttons
+  return std::min(w / narrowest, h / (menu_height + bar_height + status_height + min_middle + 6 * gap));
+}
+
 Layout::Layout(int w, int h, double scale, Side open, const PlaceSizes& sizes) : width(w), height(h), open_(open) {
   const auto px = [&](double length) { return std::round(length * scale); };
   menu = {0, 0, width, std::min(px(menu_height), height)};

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "ui/commands/command_target.hpp"
@@ -51,21 +52,27 @@ void Interface::Parts::take_input() {
   }
 }
 
+/// As large as its user wants text, but where the control bar would have no room any more.
+double Interface::Parts::scale() const {
+  const double largest = Layout::largest_scale(target.width(), target.height());
+  return std::min(display_scale * state.text_scale, std::max(display_scale, largest));
+}
+
 void Interface::Parts::follow_scale() {
-  const double scale = display_scale * state.text_scale;
+  const double wanted = scale();
   host.set_dark(state.dark);
-  if (float(scale) == host.style().scale) return;
-  host.set_scale(scale);
+  if (float(wanted) == host.style().scale) return;
+  host.set_scale(wanted);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
-  view.set_scale(scale);
-  compared.set_scale(scale);
+  view.set_scale(wanted);
+  compared.set_scale(wanted);
   layout.width = 0;  // it is old
   scene_is_old = true;
 }
 
 bool Interface::Parts::layout_is_old() const {
-  return float(display_scale * state.text_scale) != host.style().scale || layout_hidden != state.panels_hidden ||
+  return float(scale()) != host.style().scale || layout_hidden != state.panels_hidden ||
          layout.captions.empty() == shows_captions() || layout.width != target.width() ||
          layout.height != target.height() || layout_open != state.open || layout_sizes != state.place_sizes;
 }

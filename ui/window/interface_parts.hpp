@@ -115,6 +115,8 @@ struct Interface::Parts {
   void record_drag();
   void take_news();
   void take_input();
+  /// Pixels of the window a pixel of the design.
+  double scale() const;
   bool layout_is_old() const;
   void follow_scale();
   void follow_size();
