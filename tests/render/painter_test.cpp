@@ -98,6 +98,19 @@ TEST(Painter, ARangeAroundNothingSaysWhereThatIs) {
   EXPECT_EQ(middle_of(0.0, 1.0), 0);
 }
 
+/// Its ends' names leave the 0 between them alone, however long they are.
+TEST(Painter, ARangeIsAsWideAsItsEndsNamesNeed) {
+  const Legend legend{"", {}, Legend::Range{ColourMap::deviation(), -0.03, 0.03, "", "inside", "outside"}};
+  int middle = 0;
+  const Image page = page_of([&](Painter& painter) {
+    middle = 20 + int(painter.legend_width(legend)) / 2;
+    painter.legend(20, 100, legend);
+  });
+  EXPECT_GT(ink(page, middle - 4, 8), 0);
+  EXPECT_EQ(ink(page, middle - 12, 7), 0);
+  EXPECT_EQ(ink(page, middle + 5, 7), 0);
+}
+
 TEST(Painter, StripesLieOnTheirSwatchAndNowhereElse) {
   Legend legend{"", {{"name", {1.0, 0.9, 0.2}}}, {}};
   const auto draw = [&] { return page_of([&](Painter& painter) { painter.legend(20, 100, legend); }); };

@@ -89,9 +89,21 @@ void Painter::lock(double x, double y) {
   line(x + 1.25, y + body + shackle, x + lock_width - 1.25, y + body + shackle, 1.5, theme::soft_ink);
 }
 
+/// As wide as usual, or as the names of its ends need beside each other and the 0 between them.
+double Painter::bar_width(const Legend::Range& range) {
+  const auto& [map, low, high, unit, low_name, high_name] = range;
+  constexpr double gap = 10.0;
+  const double left = text_width(named(range_end(low, high - low), low_name), theme::small_text),
+               right = text_width(named(range_end(high, high - low), high_name), theme::small_text);
+  const bool has_middle = low < 0.0 && low == -high;
+  const double names = has_middle ? 2 * std::max(left, right) + text_width("0", theme::small_text) + gap : left + right;
+  return std::max(usual_legend_width, std::ceil(names + gap));
+}
+
 double Painter::legend_width(const Legend& legend) {
   const double title = text_width(title_of(legend), theme::small_text, TextWeight::semi_bold);
-  double width = std::max(usual_legend_width, title + (legend.locked ? lock_gap + lock_width : 0.0));
+  const double bar = legend.range ? bar_width(*legend.range) : usual_legend_width;
+  double width = std::max(bar, title + (legend.locked ? lock_gap + lock_width : 0.0));
   for (const Legend::Swatch& swatch : legend.swatches) {
     width = std::max(width, swatch_size + 8 + text_width(swatch.name, theme::small_text));
   }
@@ -123,17 +135,17 @@ double Painter::legend(double x, double y, const Legend& legend) {
   }
   if (legend.range) {
     at -= bar_height + 5;
-    for (int i = 0; i < int(usual_legend_width); ++i) {
-      fill(x + i, at, 1, bar_height, legend.range->map.at(i / (usual_legend_width - 1)), 1.0);
+    const double width = bar_width(*legend.range);
+    for (int i = 0; i < int(width); ++i) {
+      fill(x + i, at, 1, bar_height, legend.range->map.at(i / (width - 1)), 1.0);
     }
-    frame(x, at, usual_legend_width, bar_height, theme::soft_ink);
+    frame(x, at, width, bar_height, theme::soft_ink);
     at -= legend_line - 2;
     const auto& [map, low, high, unit, low_name, high_name] = *legend.range;
     text(x, at, named(range_end(low, high - low), low_name), theme::small_text, theme::soft_ink);
     if (low < 0.0 && low == -high)
-      text(x + 0.5 * usual_legend_width, at, "0", theme::small_text, theme::soft_ink, TextWeight::regular,
-           TextAlign::centre);
-    text(x + usual_legend_width, at, named(range_end(high, high - low), high_name), theme::small_text, theme::soft_ink,
+      text(x + 0.5 * width, at, "0", theme::small_text, theme::soft_ink, TextWeight::regular, TextAlign::centre);
+    text(x + width, at, named(range_end(high, high - low), high_name), theme::small_text, theme::soft_ink,
          TextWeight::regular, TextAlign::right);
   }
   return legend_height(legend);

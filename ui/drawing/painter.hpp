@@ -32,6 +32,7 @@ class Painter {
   /// Draws a legend whose upper left corner is (x, y); returns its height.
   double legend(double x, double y, const Legend& legend);
   double legend_width(const Legend& legend);
+  double bar_width(const Legend::Range& range);
   static double legend_height(const Legend& legend);
 
  private:
