@@ -62,6 +62,16 @@ TEST_F(WindowExport, TheSurfaceIsThatOfTheMapThatIsShownAlsoWhereViewsArePlanned
   EXPECT_EQ(read_file(file("gibbs.ply")) == read_file(file("conventional.ply")), false);
 }
 
+TEST_F(WindowExport, TheSurfaceIsTheOneThatIsShown) {
+  User user(small_scan());
+  user.run("step\nstep\nexport-surface " + file("usual.ply") + "\nexport-surface " + file("map.ply") +
+           " map\nexport-surface " + file("cloud.ply") + " cloud\ntoggle-surface\nsurface-of cloud\nexport-surface " +
+           file("shown.ply") + "\n");
+  EXPECT_EQ(read_file(file("usual.ply")) == read_file(file("map.ply")), true);
+  EXPECT_EQ(read_file(file("shown.ply")) == read_file(file("cloud.ply")), true);
+  EXPECT_EQ(read_file(file("cloud.ply")) == read_file(file("map.ply")), false);
+}
+
 TEST_F(WindowExport, WithoutAGibbsMapThereIsNoneToExport) {
   User user(small_scan());
   user.run("step\nexport-map " + file("none.ot") + " gibbs\n");

@@ -56,6 +56,24 @@ TEST_F(WindowSection, CutsTheObjectWhereItIsSaidAndHatchesTheInside) {
   EXPECT_LT(hatched(middle, 0, 1e9), 100);
 }
 
+TEST_F(WindowSection, ThroughAGhostOnePointsAtWhatWasMeasured) {
+  user_.run("step\nlook-from 25 30\nobject-style ghost\n");
+  const Eigen::Vector2d middle = pixel_of({0, 0, 0});
+  const auto off_cloud = [&] {
+    const Vector3 point = scene().surface_point(middle.x(), middle.y()).value();
+    double least = 1.0;
+    for (const Eigen::Vector3f& p : user_.session().cloud->points)
+      least = std::min(least, (p.cast<double>() - point).norm());
+    return least;
+  };
+  if (!state().layers.cloud) user_.run("toggle-cloud\n");
+  EXPECT_LT(off_cloud(), 1e-6);
+  user_.run("object-style solid\n");
+  EXPECT_GT(off_cloud(), 1e-6) << "of the true surface";
+  user_.run("object-style ghost\ntoggle-cloud\n");
+  EXPECT_GT(off_cloud(), 1e-6) << "nothing else is there to be pointed at";
+}
+
 TEST_F(WindowSection, WhatIsCutOffIsNotPicked) {
   user_.run("look-from 0 0\n");
   const Eigen::Vector2d middle = pixel_of({0, 0, 0});

@@ -34,7 +34,7 @@ std::string measured_text(const Measurement& m, const std::optional<FittedCircle
     return fmt::format("Distance to the plane {}", precise(std::abs(plane->normal.dot(m.points[3] - plane->centre))));
   if (circle->points == 0) return fmt::format("Diameter {} through the three points", precise(2 * circle->radius));
   if (circle->doubtful)
-    return fmt::format("No rim is found there: a circle of {} has its {} points {} off", precise(2 * circle->radius),
+    return fmt::format("No clear rim there: a circle of {} has its {} points {} off", precise(2 * circle->radius),
                        circle->points, length_text(circle->residual));
   return fmt::format("Diameter {}, fitted to {} points with a residual of {}", precise(2 * circle->radius),
                      circle->points, length_text(circle->residual));

@@ -108,7 +108,7 @@ TEST(Measurement, WhatIsNoBoreIsDoubtful) {
   const auto none = measured_circle(on_face, face);
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->doubtful) << 1e3 * none->radius;
-  EXPECT_THAT(measured_text(on_face, none), StartsWith("No rim is found there: a circle of "));
+  EXPECT_THAT(measured_text(on_face, none), StartsWith("No clear rim there: a circle of "));
   const Measurement over_edge{MeasureKind::bore, {{0.04, 0.05, 0}, {0.05, 0.055, -0.002}, {0.045, 0.062, 0}}};
   const auto bent = measured_circle(over_edge, edge);
   ASSERT_TRUE(bent);
