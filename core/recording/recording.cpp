@@ -53,9 +53,7 @@ class Survey {
     const double apart = cameras.diagonal().norm(), range = unit * ranges_ / double(points_);
     if (!(apart > too_many * range)) return "";
     return fmt::format(
-        "the cameras stand {:.3g} m apart and see {:.3g} m far on average: are their poses in millimetres? They must "
-        "be "
-        "in metres",
+        "the cameras stand {:.3g} m apart and see {:.3g} m far on average: are their poses in millimetres, not metres?",
         apart, range);
   }
 

@@ -120,7 +120,7 @@ TEST(FramePoses, InMillimetresAreDoubted) {
     pose.translation() *= 1000.0;
     folder.write(fmt::format("frame-{:06}.pose.txt", 9 + i), matrix(pose));
   }
-  EXPECT_THAT(open_recording(folder / "").guessed, Contains(HasSubstr("are their poses in millimetres?")));
+  EXPECT_THAT(open_recording(folder / "").guessed, Contains(HasSubstr("are their poses in millimetres, not metres?")));
 }
 
 TEST(GuessedDataset, RealNumbersAreMetres) {
