@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 namespace nextview {
+
 void SlantFit::add(const ShownByViews& shown) {
   const NewSurfaceField field(shown.evidence, model_);
   const auto areas = [&](const SurfaceSlant& slant) {

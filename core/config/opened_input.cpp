@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::array<std::string_view, 2> scan_graphs = {".graph", ".log"};
 constexpr std::array<std::string_view, 3> others = {".toml", ".png", ".pcd"};
-constexpr std::array<std::string_view, 2> maps = {".ot", ".bt"};
 
 template <std::size_t N>
 bool ends_in_one_of(const std::array<std::string_view, N>& endings, const std::filesystem::path& file) {
@@ -74,9 +73,11 @@ Configuration with_next_input(Configuration configuration, const std::filesystem
   return with_input(std::move(configuration), input);
 }
 
+bool is_map(const std::filesystem::path& file) { return file.extension() == ".ot" || file.extension() == ".bt"; }
+
 std::string not_an_input(const std::filesystem::path& file) {
   const std::filesystem::path unpacked = without_gz(file);
-  if (is_scan_file(file) || ends_in_one_of(maps, file) || ends_in_one_of(others, unpacked)) return "";
+  if (is_scan_file(file) || is_map(file) || ends_in_one_of(others, unpacked)) return "";
   return not_a_mesh_type(lower_case_extension(unpacked));
 }
 

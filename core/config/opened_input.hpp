@@ -15,6 +15,9 @@ Configuration with_input(Configuration configuration, const std::filesystem::pat
 /// The file holds settings, not what is scanned.
 bool carries_settings(const std::filesystem::path& file);
 
+/// Whether this is the name of an octree's file.
+bool is_map(const std::filesystem::path& file);
+
 /// The same after another object: what was set of that one's file, its unit and its axis upwards, holds of no other.
 Configuration with_next_input(Configuration configuration, const std::filesystem::path& input);
 

@@ -10,8 +10,8 @@ std::vector<Setting> settings(MapConfig& c) {
       {"map.resolution", "m", "voxel edge", &c.resolution, from_to(1e-5, 1)},
       {"map.region_edge", "m", "edge of the region of interest around the object", &c.region_edge, from_to(1e-3, 1000)},
       {"map.region", "m",
-       "region of interest as a box, x y z of two opposite corners; empty: a cube of region_edge around the "
-       "object",
+       "region of interest as a box, x y z of two opposite corners; "
+       "empty: a cube of region_edge around the object",
        &c.region},
       {"map.remove_planes", "", "of an unknown object, whose first scan says where it is: leave ground and walls out",
        &c.remove_planes},

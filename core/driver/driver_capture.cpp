@@ -59,16 +59,21 @@ std::vector<Vector3> points_of_ply(const fs::path& file) {
 /// Millimetres that were taken for metres would be a scan of what is not there.
 void require_unit(const fs::path& file, const Capture& capture) {
   constexpr double by_far = 10.0;
-  std::vector<double> ranges;
+  std::size_t ranges = 0, too_far = 0;
+  double largest = 0.0;
+  const auto look_at = [&](double range) {
+    if (!std::isfinite(range)) return;
+    ++ranges;
+    too_far += range > by_far * capture.max_range;
+    largest = std::max(largest, range);
+  };
   if (const auto* points = std::get_if<std::vector<Vector3>>(&capture.measured))
-    for (const Vector3& point : *points) ranges.push_back(point.norm());
+    for (const Vector3& point : *points) look_at(point.norm());
   else
-    for (const float range : std::get<DepthImage>(capture.measured).range)
-      if (std::isfinite(range)) ranges.push_back(double(range));
-  const auto too_far = std::ranges::count_if(ranges, [&](double r) { return r > by_far * capture.max_range; });
-  if (2 * std::size_t(too_far) > ranges.size())
-    refuse(file, fmt::format("ranges up to {:.3g} m, but hello says max_range {:.3g} m: are they millimetres?",
-                             std::ranges::max(ranges), capture.max_range));
+    for (const float range : std::get<DepthImage>(capture.measured).range) look_at(double(range));
+  if (2 * too_far > ranges)
+    refuse(file, fmt::format("ranges up to {:.3g} m, but hello says max_range {:.3g} m: are they millimetres?", largest,
+                             capture.max_range));
 }
 
 bool is_empty(const std::variant<DepthImage, std::vector<Vector3>>& measured) {

@@ -46,8 +46,8 @@ ScanSurface scan_surface(const ReconstructionInput& input, SurfaceSource source,
                          const std::stop_token& stop = {});
 
 /// For people, how far it is closed, and how much of it was seen: "watertight, all of it seen: 0.785 m²"; "closed, but
-/// only 21 % of it was seen: 0.061 m² seen, 0.226 m² is the hull of what no ray met"; "3 openings, the
-/// longest …". A surface is called watertight only if all of it was seen.
+/// only 21 % of it was seen: 0.061 m² seen, 0.226 m² is the hull of what no ray met"; "3 openings, the longest …". A
+/// surface is called watertight only if all of it was seen.
 std::string closedness(const Surface& surface, std::span<const BoundaryLoop> openings);
 /// For people: "of the point cloud: 728818 triangles, 12 openings, …", with the distance to the truth if it is known.
 std::string summary(const ScanSurface& surface);

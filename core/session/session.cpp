@@ -6,6 +6,7 @@
 
 #include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
+#include "core/config/opened_input.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/planner/look_ahead_planner.hpp"
 #include "core/progress/stopped.hpp"

@@ -11,8 +11,6 @@
 
 namespace nextview {
 
-bool is_map(const std::filesystem::path& file) { return file.extension() == ".ot" || file.extension() == ".bt"; }
-
 std::shared_ptr<const OccupancyMap> read_start_map(Configuration& c) {
   auto map = std::make_shared<const OccupancyMap>(read_octree(c.map.start, c.map.model));
   const double resolution = map->grid().resolution;

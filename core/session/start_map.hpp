@@ -7,9 +7,6 @@
 
 namespace nextview {
 
-/// Whether this is the name of an octree's file.
-bool is_map(const std::filesystem::path& file);
-
 /// The octree that a scan begins with (map.start). A resolution that was not given is the file's.
 /// @throws std::runtime_error naming the file; std::invalid_argument if another resolution was given
 std::shared_ptr<const OccupancyMap> read_start_map(Configuration& configuration);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/session/start_map.hpp"
+#include "core/config/opened_input.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/needs.hpp"
 

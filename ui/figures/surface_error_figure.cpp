@@ -7,9 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/gain/new_surface_model.hpp"
-#include "core/setting/area_text.hpp"
 #include "core/setting/percent_text.hpp"
+#include "core/surface/seen_part.hpp"
 #include "ui/charts/curve_plot.hpp"
 #include "ui/figures/surface_views.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
@@ -151,9 +150,8 @@ CurvePlot distance_plot(const SurfaceError& error) {
 }
 
 std::string seen_share(double seen, double unseen) {
-  const double larger = square_centimetres_of_a_square_metre * std::max(seen, unseen);
-  const auto text = [&](double area) { return area_text(square_centimetres_of_a_square_metre * area, larger); };
-  return fmt::format("{} seen, {} not", text(seen), text(unseen));
+  const SeenArea area{seen, unseen};
+  return fmt::format("{} seen, {} not", area.text(seen), area.text(unseen));
 }
 
 /// How many there are stands where other numbers have their names.

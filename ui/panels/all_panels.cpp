@@ -97,11 +97,10 @@ void obey_shortcuts(const PanelContext& context) {
   if (refused) context.invoke(*refused);
 }
 
-/// The last answer is the cautious one: Enter gives it where the first one costs something.
 void obey_answers(const PanelContext& context) {
   const std::vector<std::string>& answers = context.progress.answers;
   if (pressed(Key::escape)) context.post(command::answer(answers.back()));
-  if (pressed(Key::enter)) context.post(command::answer(context.progress.costs ? answers.back() : answers.front()));
+  if (pressed(Key::enter)) context.post(command::answer(answers[context.progress.usual_answer()]));
 }
 
 }  // namespace

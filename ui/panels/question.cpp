@@ -32,7 +32,7 @@ void draw_colours(const PanelContext& context, const DoubtfulScan& scan) {
 
 /// What an answer does, and its key.
 std::string help_of(const WorkerProgress& progress, std::size_t answer) {
-  const bool is_last = answer + 1 == progress.answers.size(), is_usual = progress.costs ? is_last : answer == 0;
+  const bool is_last = answer + 1 == progress.answers.size(), is_usual = answer == progress.usual_answer();
   const std::string key = is_usual && is_last ? "Enter, Esc" : is_usual ? "Enter" : is_last ? "Esc" : "";
   if (answer >= progress.effects.size()) return key;
   return progress.effects[answer] + (key.empty() ? "" : " [" + key + "]");
@@ -62,7 +62,7 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     const Icon icon = i + 1 == answers.size() ? Icon::cancel : i == 0 ? Icon::play : Icon::none;
-    const bool is_usual = i == (context.progress.costs ? answers.size() - 1 : 0);
+    const bool is_usual = i == context.progress.usual_answer();
     if (icon_button(style, icon, answers[i].c_str(), is_usual)) context.post(command::answer(answers[i]));
     tooltip(help_of(context.progress, i));
   }

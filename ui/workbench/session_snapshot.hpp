@@ -152,13 +152,16 @@ struct WorkerProgress {
   std::string question;                               ///< that the job waits for an answer to; empty: it does not
   std::vector<std::string> answers;                   ///< that there are, the last one the cautious one
   std::vector<std::string> effects;                   ///< what each of them does; empty: their names say it
-  bool costs = false;                                 ///< what the first of them does: Enter gives the last one
+  bool costs = false;                                 ///< what the first of them does
   std::shared_ptr<const DoubtfulScan> doubtful;       ///< that the question is about; null if it is about another thing
   std::size_t waiting = 0;                            ///< requests behind it
   std::optional<double> seconds_left;                 ///< of the job, as it has gone so far; whole seconds
   double pause_between_views = 0.0;                   ///< while playing [s]
   std::shared_ptr<const SamplerDiagnostics> sampler;  ///< of the refinement that runs, up to now
 
+  /// That stands out, and Enter gives: the first one, or the cautious one where that costs something. @pre there are
+  /// any
+  std::size_t usual_answer() const { return costs ? answers.size() - 1 : 0; }
   bool operator==(const WorkerProgress&) const = default;
 };
 
