@@ -51,6 +51,7 @@ int end(int exit_code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
   // An earlier flush has failed and not said why; the next byte fails likewise.
   if (errno == 0 && ::write(STDOUT_FILENO, "\n", 1) == 1) return fail("standard output: a part of it is lost");
+  if (errno == EPIPE) return exit_code;  // `| head -3` has read what it wants
   return fail(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
@@ -109,7 +110,8 @@ int run(int argc, char** argv) {
 
 int nextview::run_program(int argc, char** argv) {
   open_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error as a full disk is
+  std::signal(SIGPIPE, [](int) {});  // a reader that has gone is EPIPE; programs that are started have the default
+  std::signal(SIGXFSZ, SIG_IGN);     // a file that grows beyond `ulimit -f` is an error as a full disk is
   end_on_interrupt();
   try {
     prepare_for_scarcity();
@@ -124,7 +126,8 @@ int nextview::run_program(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
-    return std::ferror(stdout) ? end(exit_bad_input) : fail(error.what());
+    const bool is_unread = error.code() == std::errc::broken_pipe;
+    return std::ferror(stdout) ? end(is_unread ? 0 : exit_bad_input) : fail(error.what());
   } catch (const std::exception& error) {
     return fail(error.what());
   }

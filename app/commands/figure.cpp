@@ -56,7 +56,7 @@ void write_drawing(const FigureArguments& a, const std::string& name, const Vect
   about["configuration"] = configuration;
   write_file(out / (name + ".json"), json_text(about, 2) + "\n");
   fmt::print("{}.png,{} .json\n", name, drawing.is_vector() ? " .svg," : "");
-  std::fflush(stdout);
+  flush_output();
 }
 
 void write_time_table(const fs::path& study, const fs::path& out) {

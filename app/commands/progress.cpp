@@ -1,9 +1,12 @@
 #include "app/commands/progress.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -61,6 +64,17 @@ bool StopOnInterrupt::asked() const { return interrupted; }
 
 StopOnInterrupt::~StopOnInterrupt() {
   for (std::size_t i = 0; i < stop_signals.size(); ++i) ::sigaction(stop_signals[i], &previous_[i], nullptr);
+}
+
+void flush_output() {
+  if (std::fflush(stdout) == 0 || errno != EPIPE) return;
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {  // `2>&1 | head -3` has both end there
+    pollfd reader{stream, 0, 0};
+    if (::poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0) ::dup2(nowhere, stream);
+  }
+  ::close(nowhere);
+  std::clearerr(stdout);
 }
 
 ProgressLine::ProgressLine() : visible_(::isatty(STDERR_FILENO)) {}

@@ -30,6 +30,10 @@ class StopOnInterrupt {
   std::jthread watcher_;
 };
 
+/// Shows at once what has been printed to standard output. Where nobody reads it any more (`| head -3`), what follows
+/// goes nowhere, and the run goes on to its end.
+void flush_output();
+
 /// A line on a terminal that tells what is going on; nothing where errors go to a file.
 class ProgressLine {
  public:

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "app/commands/progress.hpp"
 #include "app/commands/shell_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/counted.hpp"
@@ -116,7 +117,7 @@ void print_step(const Session& session, const StepRecord& r) {
   if (r.hits == 0) fmt::print("       ! no pixel met a surface\n");
   if (!r.ranking.reason.empty()) fmt::print("       next: {}\n", r.ranking.reason);
   if (!r.ranking.degenerate.empty()) fmt::print("       ! no ranking: {}\n", r.ranking.degenerate);
-  std::fflush(stdout);
+  flush_output();
 }
 
 void print_end(const Session& session, const std::string& failure) {

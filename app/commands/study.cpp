@@ -59,7 +59,7 @@ void print_run(std::size_t number, const StudyRun& run, const RunResult& result,
                            : value                 ? fmt::format("{} {:.4g}", main_measure(run.part), value->value)
                                                    : "done";
   fmt::print("{:>6}  {}: {} ({:.1f} s)\n", number, printable(run.text()), printable(what), seconds.total);
-  std::fflush(stdout);
+  flush_output();
 }
 
 /// Returns the exit code.

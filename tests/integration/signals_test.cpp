@@ -76,6 +76,29 @@ TEST_F(Signals, WhatHasNothingToKeepEndsWithTheSameCode) {
   }
 }
 
+// `nextview scan … | head -3`
+TEST_F(Signals, AScanWhoseOutputNobodyReadsGoesOnToItsEnd) {
+  const std::string unread = "bash -c 'set -o pipefail; \"$0\" \"$@\" 2>&1 | head -1'";
+  const Result run = nextview_behind(unread, scan(8));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1) << run.out;
+  EXPECT_EQ(run.err, "");
+  const std::string steps = read_file(in("out/steps.csv"));
+  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 9);
+  EXPECT_EQ(nextview("scan --no-pictures --no-surfaces --resume " + in("out")).exit_code, 0);  // its session is whole
+}
+
+TEST_F(Signals, ATableThatNobodyReadsToItsEndEndsQuietly) {
+  std::ofstream scene(in("scene.txt"));
+  scene << "scan 0 0 0 0 0 0 1 1\n0 0 0.3\n";
+  for (int view = 0; view < 40'000; ++view) scene << "view 0 0 0 0 0 0 1\n";  // more than is held back
+  scene.close();
+  const Result run = nextview_behind("bash -c 'set -o pipefail; \"$0\" \"$@\" | head -1'",
+                                     "score --gain unobserved-voxel --csv - --scene " + in("scene.txt"));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+}
+
 // To stop in good order it would have to wait until somebody reads from the pipe.
 TEST_F(Signals, ASecondOneEndsAtOnce) {
   ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
