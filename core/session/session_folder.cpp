@@ -128,6 +128,7 @@ bool SessionFolder::step(Session& session, const Progress& progress, const std::
     }
   };
   const auto accept = [&](const Acquired& acquired) {
+    if (pending_) write([&] { withdraw(); });
     JournalStep& step = add_step(choice, acquired);
     write([&] {
       out_->claim(fmt::format("{}/{}", scans_name, capture_name(acquired.capture, step.number)));
@@ -137,12 +138,7 @@ bool SessionFolder::step(Session& session, const Progress& progress, const std::
     return true;
   };
   const bool taken = session.step(progress, stop, accept);
-  if (!pending_) return taken;
-  if (!taken) {
-    write([&] { withdraw(); });
-    pending_.reset();
-    return false;
-  }
+  if (!taken || !pending_) return taken;
   const std::uint32_t number = *std::exchange(pending_, std::nullopt);
   branches_.add_step(number, line_.empty() ? 0 : line_.back());
   line_.push_back(number);

@@ -34,8 +34,9 @@ class SessionFolder {
   static SessionFolder in_memory(const Session& session, const SavedSession* saved = nullptr);
 
   /// Session::step, with the capture kept before it is absorbed. Where it cannot be, the view is not taken, or with
-  /// `not_kept` it is, and from there on the session is in memory alone. @throws as Session::step; std::runtime_error
-  /// naming the file
+  /// `not_kept` it is, and from there on the session is in memory alone. One that was stopped after its capture is the
+  /// last view in the folder all the same, so that who goes on has it, until stand_at() or another step says otherwise.
+  /// @throws as Session::step; std::runtime_error naming the file
   bool step(Session& session, const Progress& progress = {}, const std::stop_token& stop = {},
             const NotKept& not_kept = {});
   /// The session has been put where its views were these.

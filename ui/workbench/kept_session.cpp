@@ -51,7 +51,9 @@ void KeptSession::begin(const Session& session) {
 bool KeptSession::step(Session& session, const Progress& progress, const std::stop_token& stop) {
   closed_ = false;
   begin(session);
-  return folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); });
+  if (folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); })) return true;
+  follow(session, folder_->line(), folder_->branches());  // as the window shows it: without the view
+  return false;
 }
 
 void KeptSession::follow(const Session& session, const SessionFolder::Line& line, const Branches& branches) {

@@ -37,6 +37,14 @@ class SessionFolderTest : public testing::Test {
     if (notices) *notices = saved.notices;
     return session;
   }
+  /// A step that is stopped when its capture is kept.
+  static bool stopped_step(SessionFolder& folder, Session& session) {
+    std::stop_source stop;
+    const Progress stops = [&](double fraction, std::string_view) {
+      if (fraction > 0.3) stop.request_stop();
+    };
+    return folder.step(session, stops, stop.get_token());
+  }
   TemporaryFolder folder_;
 };
 
@@ -115,18 +123,40 @@ TEST_F(SessionFolderTest, AViewThatWasCapturedAndNotAbsorbedIsTakenThen) {
   expect_same(*whole, *again());
 }
 
-TEST_F(SessionFolderTest, AViewThatWasCancelledIsNot) {
+TEST_F(SessionFolderTest, AViewThatWasStoppedAfterItsCaptureIsTakenByWhoGoesOn) {
+  const auto whole = scan(2);
+  fs::remove_all(path());
   Session session(small_scan());
   {
     SessionFolder folder = begin(session);
     ASSERT_TRUE(folder.step(session));
-    std::stop_source stop;
-    const Progress cancels = [&](double fraction, std::string_view) {
-      if (fraction > 0.3) stop.request_stop();
-    };
-    EXPECT_FALSE(folder.step(session, cancels, stop.get_token()));
+    EXPECT_FALSE(stopped_step(folder, session));
+    folder.close();
+  }
+  expect_same(*whole, *again());
+}
+
+TEST_F(SessionFolderTest, AViewThatWasCancelledIsNotWhereTheSessionStandsWithoutIt) {
+  Session session(small_scan());
+  {
+    SessionFolder folder = begin(session);
+    ASSERT_TRUE(folder.step(session));
+    EXPECT_FALSE(stopped_step(folder, session));
+    folder.stand_at(folder.line());
   }
   expect_same(session, *again());
+}
+
+TEST_F(SessionFolderTest, AViewThatWasStoppedIsNoBranchOfTheOneThatIsTakenInstead) {
+  Session session(small_scan());
+  {
+    SessionFolder folder = begin(session);
+    ASSERT_TRUE(folder.step(session));
+    EXPECT_FALSE(stopped_step(folder, session));
+    ASSERT_TRUE(folder.step(session));
+  }
+  expect_same(session, *again());
+  EXPECT_EQ(read_journal(path()).branches.all.size(), 1u);
 }
 
 TEST_F(SessionFolderTest, StandsWhereItWentBackTo) {
