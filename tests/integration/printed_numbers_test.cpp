@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -141,12 +142,13 @@ TEST_F(PrintedNumbers, ScoresAreRankedAsTheirNumbersSay) {
                                  "view -0.2 0 0.1 0 0 0 1\nview 0 0 0.3 0 0 0 1\nview 0.1 0.1 0 0 0 0 1\n");
   const Table scores = read_table(run("score --scene " + in("wall.txt") + " --csv -"));
   const std::string out = run("score --scene " + in("wall.txt"));
-  for (const std::string gain : {"occlusion-aware", "unobserved-voxel", "proximity-count", "combined"}) {
+  for (const auto& [gain, unit] : std::map<std::string, std::string>{
+           {"occlusion-aware", "[nats]"}, {"unobserved-voxel", "[nats]"}, {"new-surface", "[cm²]"}, {"combined", ""}}) {
     std::vector<std::size_t> order;
     for (std::size_t v = 0; v < scores.size(); ++v) order.push_back(v);
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return std::stod(scores[a].at(gain)) > std::stod(scores[b].at(gain)); });
-    const auto words = behind(out, gain);
+    const auto words = behind(out, unit.empty() ? gain : gain + " " + unit);
     for (std::size_t i = 0; i < 5; ++i) {
       EXPECT_EQ(words.at(2 * i), fmt::format("{}:", order[i])) << gain;
       EXPECT_EQ(words.at(2 * i + 1), fmt::format("{:.6g}", std::stod(scores[order[i]].at(gain)))) << gain;
