@@ -75,6 +75,19 @@ int print_summary(const StudySummary& summary, const fs::path& out) {
   return summary.failed > 0 ? exit_bad_input : 0;
 }
 
+/// Likewise: what failed is told now, for the summary comes with the merge.
+int print_shard(const StudyKeys& keys, const StudyFolder& folder, const StudyShare& share) {
+  std::vector<std::size_t> failed;
+  for (std::size_t number = 1; number <= keys.keys.size(); ++number)
+    if (share.takes(number) && !folder.result(keys.keys[number - 1]).failure.empty()) failed.push_back(number);
+  if (!failed.empty())
+    fmt::print(stderr, "warning: of the runs of this shard {} came to nothing: {}\n", failed.size(),
+               fmt::join(failed, ", "));
+  fmt::print("Shard {} of {} is done. When all are: nextview study --merge DIR… --out DIR\n", share.shard,
+             share.shards);
+  return failed.empty() ? 0 : exit_bad_input;
+}
+
 /// A file, or one of those that come with the program by its name: "smoke", "assets/studies/smoke.toml".
 fs::path study_file(const std::string& wanted) {
   if (is_there(wanted)) return wanted;
@@ -101,11 +114,7 @@ int run_file(const StudyArguments& a) {
     throw;
   }
   progress.clear();
-  if (share.shards > 1) {
-    fmt::print("Shard {} of {} is done. When all are: nextview study --merge DIR… --out DIR\n", share.shard,
-               share.shards);
-    return 0;
-  }
+  if (share.shards > 1) return print_shard(keys, folder, share);
   return print_summary(summarise(study, keys.keys, {&folder, 1}, share.range, folder.path()), folder.path());
 }
 
