@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 
 #include "core/file/counted.hpp"
 #include "core/file/read_file.hpp"
+#include "core/journal/capture_file.hpp"
 #include "core/results/manifest.hpp"
 #include "core/session/scan_loop.hpp"
 
@@ -18,6 +20,13 @@ namespace {
 /// What says which scans are taken, as long as none was rejected for it. The mode says where they lie.
 bool is_registration_limit(std::string_view key) {
   return key.starts_with("registration.max_") || key == "registration.beyond_limits";
+}
+
+/// Whether its results are there, and are not those of one that was stopped.
+bool has_ended(const std::filesystem::path& folder) {
+  if (!is_there(folder / "metrics.json")) return false;
+  const auto metrics = nlohmann::json::parse(read_file(folder / "metrics.json"), nullptr, false);
+  return metrics.is_object() && metrics.contains("finished") && metrics["finished"] != "";
 }
 
 }  // namespace
@@ -59,6 +68,23 @@ void require_no_earlier_end(const Session& session, const SavedSession& saved) {
         "{}: by these settings it would have ended after {} of its {} views: {}; give others of termination.*",
         saved.folder.string(), views, records.size(), reason));
   }
+}
+
+void require_captures_of_results(const SavedSession& saved) {
+  if (!saved.journal || !has_ended(saved.folder)) return;
+  std::vector<std::string> lost;
+  for (const JournalStep& step : saved.journal->line()) {
+    try {
+      read_capture(step, saved.folder);
+    } catch (const CaptureLost& error) {
+      lost.emplace_back(error.what());
+    }
+  }
+  if (lost.empty()) return;
+  throw std::runtime_error(fmt::format(
+      "{}{}; the scan had ended, and its results stay as they are. To go on without it, let the scan end later, by "
+      "--views or another of termination.*",
+      lost.front(), lost.size() == 1 ? "" : fmt::format(", and {} more are lost", lost.size() - 1)));
 }
 
 bool has_files(const std::filesystem::path& folder, bool pictures, bool surfaces) {

@@ -177,6 +177,7 @@ int begin(const ScanArguments& arguments) {
 int resume(const ScanArguments& arguments) {
   SavedSession saved = read_session(arguments.resume);
   const bool has_changed = adopt_changes(arguments.options, saved);
+  if (!has_changed) require_captures_of_results(saved);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Configuration& c = saved.configuration;

@@ -194,6 +194,22 @@ TEST_F(SessionFolders, AFinishedOneThatIsWholeIsNotGoneThroughAgain) {
   EXPECT_TRUE(fs::exists(in("out/step_01.png"))) << "it had been made without pictures";
 }
 
+TEST_F(SessionFolders, AFinishedOneThatLostACaptureKeepsItsResults) {
+  ASSERT_EQ(nextview("scan box --views 3 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  for (const char* damaged : {"out/state", "out/scans/0002.npy"}) {
+    std::string bytes = read_file(in(damaged));
+    bytes[bytes.size() / 2] ^= 1;
+    write_file(in(damaged), bytes);
+  }
+  const auto before = contents("out");
+  const std::string again = "scan --resume " + in("out") + " --no-pictures --no-surfaces";
+  expect_refused(again, "scans/0002.npy: is not what was captured: it is damaged, or was changed; the scan had ended");
+  EXPECT_EQ(contents("out"), before);
+  const Result on = nextview(again + " --views 4");
+  EXPECT_EQ(on.exit_code, 0);
+  EXPECT_THAT(on.err, HasSubstr("a view is left out"));
+}
+
 TEST_F(SessionFolders, MayNotEndEarlierThanItHas) {
   ASSERT_EQ(
       nextview("scan box --views 3 --termination.surface_left 0 " + camera + quick + "--out " + in("out")).exit_code,
