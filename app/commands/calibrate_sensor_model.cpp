@@ -12,6 +12,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/offline/map_calibration.hpp"
+#include "core/progress/part.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/saved_session.hpp"
 #include "core/session/session_parts.hpp"
@@ -46,7 +47,9 @@ void add_examples(const CalibrateArguments& arguments, const std::string& input,
     examples.push_back({recorded_job(input, arguments.options, arguments.range_scans, progress, stop), held_out});
     return;
   }
-  for (const int count : arguments.views) {
+  for (std::size_t k = 0; k < arguments.views.size(); ++k) {
+    const int count = arguments.views[k];
+    const auto done = [&](std::size_t jobs) { return double(jobs) / double(arguments.views.size()); };
     Configuration configuration = arguments.options.configuration();
     configuration.object.file = input;
     Configuration fitted = configuration;
@@ -54,8 +57,9 @@ void add_examples(const CalibrateArguments& arguments, const std::string& input,
     CandidateViewsConfig around = fitted.views;
     around.layout = ViewLayout::fibonacci;
     around.count = count;
-    CalibrationExample example{
-        refinement_job(configuration, candidate_views(around, view_target(fitted)), progress, stop), held_out};
+    CalibrationExample example{refinement_job(configuration, candidate_views(around, view_target(fitted)),
+                                              part(progress, done(k), done(k + 1)), stop),
+                               held_out};
     example.job.name = fs::path(input).stem().string();
     examples.push_back(std::move(example));
   }
@@ -149,15 +153,23 @@ int fit_sensor_model(const CalibrateArguments& arguments) {
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::vector<CalibrationExample> examples;
+  constexpr double of_examples = 0.3;
+  std::size_t begun = 0;
+  const auto of_next = [&] {
+    const double each = of_examples / double(arguments.fitted.size() + held_out.size());
+    const double begin = each * double(begun++);
+    return part(progress, begin, begin + each);
+  };
   for (const std::string& input : arguments.fitted)
-    add_examples(arguments, input, false, examples, progress, stop.token());
-  for (const std::string& input : held_out) add_examples(arguments, input, true, examples, progress, stop.token());
+    add_examples(arguments, input, false, examples, of_next(), stop.token());
+  for (const std::string& input : held_out) add_examples(arguments, input, true, examples, of_next(), stop.token());
   progress.clear();
   OutputFolder out = output_folder(arguments, examples);
   const MadeFolder made = out.make();
   const double resolution = examples.front().job.grid.resolution;
   const Configuration configuration = examples.front().job.configuration;
-  const MapCalibration calibration = calibrate_map(std::move(examples), arguments.config, progress, stop.token());
+  const MapCalibration calibration =
+      calibrate_map(std::move(examples), arguments.config, part(progress, of_examples, 1.0), stop.token());
   progress.clear();
   print(calibration);
   out.begin("calibrate");

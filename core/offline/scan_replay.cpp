@@ -8,6 +8,7 @@
 #include "core/mesh/mesh_file.hpp"
 #include "core/mesh/parts.hpp"
 #include "core/offline/refinement.hpp"
+#include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/object_mesh.hpp"
@@ -75,14 +76,15 @@ KeptScans kept_scans(const fs::path& folder, const Configuration& c, const std::
 /// A scan that went through recorded data.
 RefinementJob recorded_job(Configuration c, const fs::path& folder, const Progress& progress,
                            const std::stop_token& stop) {
-  const auto source = open_configured_recording(c, progress, stop);
+  const auto source = open_configured_recording(c, part(progress, 0.0, 0.5), stop);
   RefinementJob job = job_of(c, source->describe().camera);
   job.name = recording_name(c.recorded.folder);
   job.candidates = poses_of(source->describe().frames);
   if (has_journal(folder))
     job.scans = kept_scans(folder, c, stop).scans;
   else
-    job.scans = take_scans(*source, frames_listed(folder / "views.csv", *source), &c.cloud, progress, stop);
+    job.scans =
+        take_scans(*source, frames_listed(folder / "views.csv", *source), &c.cloud, part(progress, 0.5, 1.0), stop);
   return job;
 }
 
@@ -107,11 +109,12 @@ RefinementJob simulated_job(const Configuration& c, const ConfiguredObject& conf
   if (mesh->cloud_points > 0) job.notices.push_back(cloud_note(*mesh));
   job.candidates = candidate_views(c.views, view_target(c));
   SimulatedSource source(world, c.seed);
-  job.scans = scans.empty() ? take_scans(source, views_at(views), &c.cloud, progress, stop) : std::move(scans);
+  job.scans =
+      scans.empty() ? take_scans(source, views_at(views), &c.cloud, part(progress, 0.0, 0.5), stop) : std::move(scans);
   const KnownObject known(mesh->surroundings(), evaluation_samples(c, mesh->mesh),
                           std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera, job.candidates,
                           job.grid, c.evaluation.d_reg, stop);
-  known.sight(progress, stop);
+  known.sight(part(progress, 0.5, 1.0), stop);
   EvaluationState evaluation = known.nothing_seen();
   for (std::size_t k = 0; k < views.size(); ++k) known.add_view(evaluation, views[k], job.scans[k].hits, stop);
   job.truth = RefinementTruth{std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),

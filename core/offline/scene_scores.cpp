@@ -11,6 +11,7 @@
 #include "core/offline/refinement.hpp"
 #include "core/offline/scene_parameters.hpp"
 #include "core/planner/policy.hpp"
+#include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 
 namespace nextview {
@@ -53,7 +54,7 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
                         std::stop_token stop) {
   if (scene.views.empty()) throw std::invalid_argument("the scene has no candidate views (`view` lines)");
   const SceneParameters parameters = scene_parameters(scene, warn);
-  const Knowledge known = scanned(scene, parameters, semantics, progress, stop);
+  const Knowledge known = scanned(scene, parameters, semantics, part(progress, 0.0, 0.2), stop);
   const auto rays = planning_rays(known, parameters.map.max_ray_depth);
   const double reach = occlusion_reach(parameters.map.occlusion_distance, parameters.map.resolution);
   const std::vector<View> candidates = views_at(scene.views);
@@ -73,7 +74,7 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
       scores.gains.push_back(name);
     }
   }
-  if (progress) progress(0.0, "scoring the candidate views");
+  if (progress) progress(0.2, "scoring the candidate views");
   scores.views = score_views(*rays, scene.views, parameters.rays, gains, {semantics, reach}, stop);
   throw_if_stopped(stop);
   std::vector<std::size_t> all(scene.views.size());
@@ -87,7 +88,7 @@ SceneScores score_scene(const RecordedScene& scene, Semantics semantics, std::sp
       throw std::invalid_argument(
           fmt::format("the gain {} has published semantics only: the reference code knows no Gibbs map", planner.gain));
     if (on_posterior && !refined) {
-      refined = with_posterior(known, scene, progress, stop);
+      refined = with_posterior(known, scene, part(progress, 0.3, 1.0), stop);
       refined_rays = planning_rays(*refined, parameters.map.max_ray_depth);
     }
     const PlanningState state{planner,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/progress/part.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/session/session.hpp"
 #include "core/session/session_folder.hpp"
@@ -12,9 +13,12 @@ namespace {
 
 /// Takes the views. @throws Stopped
 void take_views(Session& session, SessionFolder* folder, const Progress& progress, const std::stop_token& stop) {
+  const double most = session.configuration().termination.views;
   while (session.finished().empty()) {
     throw_if_stopped(stop);
-    const bool taken = folder ? folder->step(session, progress, stop) : session.step(progress, stop);
+    const auto views = double(session.records().size());
+    const Progress of_view = part(progress, views / most, (views + 1.0) / most);
+    const bool taken = folder ? folder->step(session, of_view, stop) : session.step(of_view, stop);
     if (!taken) throw Stopped();
   }
   if (!folder) return;
@@ -82,10 +86,10 @@ void require_hits(const Session& session) {
 RunResult perform_plan(const Configuration& configuration, RunSeconds& seconds,
                        const std::optional<std::filesystem::path>& session_folder, const Progress& progress,
                        const std::stop_token& stop) {
-  Session session(configuration, progress, stop);
+  Session session(configuration, part(progress, 0.0, 0.1), stop);
   std::optional<SessionFolder> folder;
   if (session_folder) folder = SessionFolder::begin(OutputFolder(*session_folder, {}), session);
-  take_views(session, folder ? &*folder : nullptr, progress, stop);
+  take_views(session, folder ? &*folder : nullptr, part(progress, 0.1, 1.0), stop);
   for (const StepRecord& r : session.records()) {
     seconds.stages.sense += r.seconds.sense;
     seconds.stages.clean += r.seconds.clean;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/progress/stopped.hpp"
@@ -63,6 +64,16 @@ TEST(SceneScores, NeedViewsAndGainsThatThereAre) {
   const std::vector<std::string> names = {"occlusion-aware"};
   EXPECT_THROW(score_scene(blind, Semantics::published, names), std::invalid_argument);
   EXPECT_THROW(scored({"no such gain"}), std::invalid_argument);
+}
+
+TEST(SceneScores, ProgressNeverGoesBack) {
+  std::vector<double> fractions;
+  const Progress hears = [&](double fraction, std::string_view) { fractions.push_back(fraction); };
+  const std::vector<std::string> names = {"occlusion-aware", "gibbs"};
+  score_scene(wall(), Semantics::published, names, {}, hears);
+  ASSERT_GT(fractions.size(), 4u);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_LE(fractions.back(), 1.0);
 }
 
 TEST(SceneScores, ObeyAStop) {

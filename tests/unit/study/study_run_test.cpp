@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/offline/refinement.hpp"
 #include "core/session/session.hpp"
 #include "core/study/run_result.hpp"
@@ -40,6 +42,18 @@ class StudyRuns : public testing::Test {
   TemporaryFolder folder_;
   Study study_ = read_study(folder_.write("study.toml", text));
 };
+
+TEST_F(StudyRuns, ProgressNeverGoesBack) {
+  for (const std::size_t i : {0u, 2u, 3u}) {  // a plan, a conventional map and a Gibbs map
+    std::vector<double> fractions;
+    RunSeconds seconds;
+    perform(study_, study_.run(i), seconds, {},
+            [&](double fraction, std::string_view) { fractions.push_back(fraction); });
+    ASSERT_GT(fractions.size(), 3u) << i;
+    EXPECT_TRUE(std::ranges::is_sorted(fractions)) << i << ": " << testing::PrintToString(fractions);
+    EXPECT_LE(fractions.back(), 1.0) << i;
+  }
+}
 
 TEST_F(StudyRuns, APlanIsAScan) {
   const RunResult result = run(0);
