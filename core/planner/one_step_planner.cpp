@@ -79,15 +79,20 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
 }
 
 /// " About 12 % of the surface is left: 7 views, 5.12 m." Proven to be the fewest: "7 views (no fewer do), 5.12 m."
-std::string outlook(const Valuation& valuation, const PlanningState& state) {
+/// Where the scan ends before: "7 views, 5.12 m; the limit of 25 views leaves 3."
+std::string outlook(const Valuation& valuation, const PlanningState& state, std::size_t most_views) {
   const std::string left = fmt::format(" About {} of the surface is left", percent_text(*valuation.surface_left));
   if (valuation.remaining.empty() || state.taken.empty()) return left + ".";
   std::vector<Vector3> stops;
   for (const std::size_t v : valuation.remaining) stops.push_back(state.candidates[v].T_world_camera.translation());
   const std::size_t count = stops.size();
   const char* fewest = valuation.remaining_is_fewest && count > 1 ? " (no fewer do)" : "";
-  return left + fmt::format(": {} view{}{}, {}.", count, count == 1 ? "" : "s", fewest,
-                            length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))));
+  const std::size_t open = most_views - std::min(most_views, state.taken.size());
+  const std::string limit =
+      open > 0 && open < count ? fmt::format("; the limit of {} views leaves {}", most_views, open) : "";
+  return left + fmt::format(": {} view{}{}, {}{}.", count, count == 1 ? "" : "s", fewest,
+                            length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))),
+                            limit);
 }
 
 /// What it changed that scans are to be registered; empty if nothing.
@@ -123,7 +128,7 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
     ranking.reason = reason(*policy_, state, candidates, choice.candidate, by.scan_seconds.has_value());
     ranking.reason += choice.because + for_overlap(candidates, choice.candidate);
   }
-  if (ranking.best && valuation.surface_left) ranking.reason += outlook(valuation, state);
+  if (ranking.best && valuation.surface_left) ranking.reason += outlook(valuation, state, setup.most_views);
   return {std::move(candidates), std::move(ranking), valuation.surface_left};
 }
 

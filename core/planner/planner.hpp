@@ -22,6 +22,7 @@ struct PlanningSetup {
   const TrueSurface* true_surface;         ///< null where it is not known, not evaluated, or not asked for by needs()
   double negligible_share = 0.005;         ///< of the surface: for less no view is worth it (termination.surface_left)
   const RayBundle* fine_bundle = nullptr;  ///< that scores the best views again; null: none does
+  std::size_t most_views = 10'000;         ///< so many end the scan (termination.views)
 };
 
 /// What a planner made of the candidates: each with its gain and utility, and which is best.

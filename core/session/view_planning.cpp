@@ -48,7 +48,8 @@ struct PlanningInput {
               scan.bundle,
               nullptr,
               scan.configuration.termination.surface_left,
-              scan.fine_bundle.directions.empty() ? nullptr : &scan.fine_bundle} {
+              scan.fine_bundle.directions.empty() ? nullptr : &scan.fine_bundle,
+              std::size_t(scan.configuration.termination.views)} {
     if (scan.recorded)
       surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
                                                                scan.recorded->seen(frames_taken(state.known)));

@@ -24,7 +24,8 @@ struct GivenValues : Policy {
 };
 
 Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candidates, const PlannerConfig& config = {},
-               std::optional<double> surface_left = {}, const std::vector<std::size_t>& remaining = {}) {
+               std::optional<double> surface_left = {}, const std::vector<std::size_t>& remaining = {},
+               std::size_t most_views = 100) {
   const RayBundle bundle;
   auto policy = std::make_unique<GivenValues>(values);
   policy->left = surface_left, policy->remaining = remaining;
@@ -33,7 +34,10 @@ Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candida
   for (std::size_t v = 0; v < views.size(); ++v) views[v].T_world_camera.translation().x() = double(v);
   Knowledge known;
   known.taken.emplace_back();  // at the origin
-  return planner.plan({config, 1, 60.0, 4.0, bundle, nullptr}, known, views, std::move(candidates), {}).ranking;
+  return planner
+      .plan({config, 1, 60.0, 4.0, bundle, nullptr, 0.005, nullptr, most_views}, known, views, std::move(candidates),
+            {})
+      .ranking;
 }
 
 Candidate at(double metres, bool available = true) { return {available, 0.0, metres, 0.0}; }
@@ -73,6 +77,16 @@ TEST(Reason, SaysWhichWayTheRestWouldTake) {
               HasSubstr(" About 10 % of the surface is left: 2 views, 3 m."));
   EXPECT_THAT(ranked({0, 10, 20, 30}, all, {}, 0.004, {2}).reason,
               HasSubstr(" About 0.4 % of the surface is left: 1 view, 2 m."));
+}
+
+TEST(Reason, SaysWhereTheLimitOfViewsEndsTheScanBefore) {
+  const std::vector<Candidate> all = {at(0, false), at(1), at(2), at(3)};
+  const auto reason = [&](std::size_t most_views) {  // one is taken
+    return ranked({0, 10, 20, 30}, all, {}, 0.1, {3, 1}, most_views).reason;
+  };
+  EXPECT_THAT(reason(2), HasSubstr(" is left: 2 views, 3 m; the limit of 2 views leaves 1."));
+  EXPECT_THAT(reason(3), HasSubstr(" is left: 2 views, 3 m.")) << "all of them are within it";
+  EXPECT_THAT(reason(1), HasSubstr(" is left: 2 views, 3 m.")) << "it has ended, and says so itself";
 }
 
 TEST(Reason, SaysWhoIsPassedOverForRegistration) {
