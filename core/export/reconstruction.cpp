@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/file/counted.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/surface/map_surface.hpp"
@@ -67,6 +68,7 @@ void examine(ScanSurface& found, const ReconstructionInput& input, const std::op
   // Made for voxels of 10 mm; of a smaller part, or a larger one, others say as much.
   for (double& threshold : options.thresholds) threshold *= input.grid.resolution / 0.01;
   if (input.on_ground) options.ground = input.true_mesh->bounding_box().min().z();
+  found.truth_is_open = topology(*input.true_mesh).boundary_edges > 0;
   found.surface_error = surface_error(found.surface, *truth, *input.samples, input.visible, options);
 }
 
@@ -121,8 +123,9 @@ std::string summary(const ScanSurface& s) {
   std::string text = fmt::format("of {}: {}, {}", s.source, counted(s.surface.mesh.triangles.size(), "triangle"),
                                  closedness(s.surface, s.openings));
   if (!s.surface_error) return text;
-  return text + fmt::format("; 95 % of what was seen within {} of the true surface",
-                            length_text(s.surface_error->percentile_95));
+  return text + fmt::format("; 95 % of what was seen within {} of the true surface{}",
+                            length_text(s.surface_error->percentile_95),
+                            s.truth_is_open ? ", whose mesh is not closed: which side of it is a guess" : "");
 }
 
 }  // namespace nextview

@@ -23,6 +23,7 @@ struct ScanSurface {
   Surface surface;
   std::vector<BoundaryLoop> openings;
   std::optional<SurfaceError> surface_error;  ///< if the true surface is known and something of it was seen
+  bool truth_is_open = false;                 ///< its mesh has borders: what lies inside of it is a guess
 };
 
 /// What surfaces are made of, and compared with.

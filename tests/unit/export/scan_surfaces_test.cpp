@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/own_folder.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "core/surface/map_surface.hpp"
 #include "core/view/candidate_views.hpp"
@@ -94,6 +95,26 @@ TEST(ScanSurfaces, OfARefinementLieOnTheObject) {
   EXPECT_EQ(surfaces[1].name, "surface_cloud");
   expect_near_the_sphere(surfaces[0], 0.5 * c.map.resolution);
   expect_near_the_sphere(surfaces[1], 0.002);
+}
+
+TEST(ScanSurfaces, SayWhereTheTrueMeshHasNoInside) {
+  const OwnFolder own;
+  const std::filesystem::path folder = own.path();
+  write_file(folder / "corner.ply",  // three sides of a box
+             "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+             "0 0 0\n0.5 0 0\n0.5 0.5 0\n0 0.5 0\n0 0 0.5\n0.5 0 0.5\n0 0.5 0.5\n"
+             "4 0 1 2 3\n4 0 1 5 4\n4 0 3 6 4\n");
+  Configuration c = small_scan();
+  for (const std::string& object : {c.object.file, (folder / "corner.ply").string()}) {
+    c.object.file = object;
+    Session session(c);
+    session.step();
+    for (const ScanSurface& s : scan_surfaces(session))
+      EXPECT_EQ(summary(s).ends_with(", whose mesh is not closed: which side of it is a guess"),
+                object.ends_with("corner.ply"))
+          << summary(s);
+  }
 }
 
 TEST(ScanSurfaces, BeforeTheFirstStepThereAreReasons) {
