@@ -71,8 +71,10 @@ void list_images(const DescribedDataset& dataset, Recording& recording) {
   place_frames(recording, find_poses(dataset.folder, files, d), d.offset());
 }
 
-std::vector<Vector3> cloud_points(const fs::path& file, double unit, PoseAxes axes) {
-  const PointCloud cloud = read_cloud_file(file).points;
+std::vector<Vector3> cloud_points(const fs::path& file, double unit, PoseAxes axes,
+                                  std::atomic<std::size_t>& all_left_out) {
+  const auto [cloud, viewpoint, left_out] = read_cloud_file(file);
+  all_left_out += left_out;
   const Eigen::Matrix3d to_camera =
       axes == PoseAxes::body ? Eigen::Matrix3d(camera_in_body().linear().transpose()) : Eigen::Matrix3d::Identity();
   std::vector<Vector3> points;
@@ -98,7 +100,9 @@ void list_clouds(const DescribedDataset& dataset, double unit, Recording& record
     recording.files.push_back(frame.file);
     recording.frames.push_back(
         {frame.name, Pose::Identity(),
-         [file = frame.file, unit, axes = d.pose_axes]() -> Measured { return cloud_points(file, unit, axes); }});
+         [file = frame.file, unit, axes = d.pose_axes, left_out = recording.left_out]() -> Measured {
+           return cloud_points(file, unit, axes, *left_out);
+         }});
   }
   FramePoses poses = d.poses.empty() ? viewpoints(files, d.pose_axes) : find_poses(dataset.folder, files, d);
   for (auto& pose : poses.T_world_camera)

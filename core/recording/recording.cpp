@@ -9,6 +9,7 @@
 #include "core/file/counted.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/recording/cloud_camera.hpp"
+#include "core/recording/cloud_file.hpp"
 #include "core/recording/recorded_frames.hpp"
 
 namespace nextview {
@@ -125,11 +126,13 @@ Recording open_recording(const fs::path& path, const RecordingOptions& options, 
   const Survey found = survey(path, recording, progress, stop);
   constexpr double longest_in_metres = 10.0;  // as of objects
   const bool is_guess = description.format == RecordingFormat::clouds && description.unit == CloudUnit::automatic;
+  const std::size_t left_out = *recording.left_out;
   const bool in_mm = is_guess && found.longest_side() > longest_in_metres;
   if (in_mm) recording = list_frames(dataset, options, unit_length(CloudUnit::mm));
   if (is_guess)
     recording.guessed.push_back(fmt::format("the clouds' unit is taken as {}, for they span {:.4g} (unit overrules it)",
                                             in_mm ? "mm" : "m", found.longest_side()));
+  if (left_out > 0) recording.guessed.push_back("clouds of " + points_text(found.points(), left_out));
   found.tell(recording, in_mm ? unit_length(CloudUnit::mm) : 1.0);
   return recording;
 }

@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <atomic>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -34,8 +36,10 @@ struct Recording {
   std::optional<Eigen::AlignedBox3d> region = {};  ///< of interest, as the recording itself says [m, world]
   std::vector<RecordedFrame> frames;               ///< at least one
   std::size_t points = 0;                          ///< that all frames measured
-  std::vector<std::string> guessed = {};           ///< what was guessed, a line each, for people
-  std::vector<std::filesystem::path> files = {};   ///< that it was read from, frames among them
+  /// Points that are not finite, of all clouds that have been read, each time.
+  std::shared_ptr<std::atomic<std::size_t>> left_out = std::make_shared<std::atomic<std::size_t>>(0);
+  std::vector<std::string> guessed = {};          ///< what was guessed, a line each, for people
+  std::vector<std::filesystem::path> files = {};  ///< that it was read from, frames among them
 };
 
 struct RecordingOptions {

@@ -157,7 +157,9 @@ TEST(Recording, PcdsWithTheirOwnViewpoint) {
                     "HEIGHT 1\nVIEWPOINT {} {} {} {:.17g} {:.17g} {:.17g} {:.17g}\nPOINTS 13\nDATA {}\n{}",
                     t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z(), i == 0 ? "ascii" : "binary", data));
   }
-  expect_walls(open_recording(folder / ""));
+  const Recording recording = open_recording(folder / "");
+  expect_walls(recording);
+  EXPECT_THAT(recording.guessed, testing::Contains("clouds of 36 points (3 that are not finite left out)"));
 }
 
 TEST(Recording, RaysBehindTheCameraAreSaid) {
