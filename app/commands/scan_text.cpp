@@ -95,16 +95,16 @@ void print_head(const Session& session) {
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
              "new", "coverage", "entropy", "log loss", "seconds");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "cm²",
-             session.recording() ? "% shown" : "% visible", "kbit", "nats*", "");
+             session.recording() ? "% shown" : "% visible", "Mbit", "nats*", "");
 }
 
 void print_step(const Session& session, const StepRecord& r) {
   const StageSeconds& s = r.seconds;
   std::string gain = fmt::format("{:.5g}", r.gain);
   if (!r.gain_unit.empty() && r.gain_unit != session.planner().unit()) gain += " " + r.gain_unit;
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9.1f} {:>9} {:>8.2f}\n", r.step,
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9.3f} {:>9} {:>8.2f}\n", r.step,
              r.view < 0 ? "start" : fmt::format("{}", r.view), gain, short_text(r.motion.distance), r.hits,
-             short_text(r.new_surface), coverage_text(session, r), r.entropy / 1e3,
+             short_text(r.new_surface), coverage_text(session, r), r.entropy / 1e6,
              session.known_object() ? fmt::format("{:.3f}", r.quality_near_surface.log_loss) : "-",
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);
   if (r.refinement) {

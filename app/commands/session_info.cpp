@@ -5,6 +5,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/journal/journal.hpp"
+#include "core/setting/entropy_text.hpp"
 
 namespace nextview {
 namespace {
@@ -18,7 +19,7 @@ std::string outcome_text(const JournalStep& last) {
   std::string text;
   if (value("coverage_visible") > 0)
     text += fmt::format(", {:.1f} % of visible surface", 100 * value("coverage_visible"));
-  if (value("entropy") > 0) text += fmt::format(", entropy {:.1f} kbit", value("entropy") / 1e3);
+  if (value("entropy") > 0) text += ", entropy " + entropy_text(value("entropy"));
   return text;
 }
 

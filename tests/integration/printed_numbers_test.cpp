@@ -68,7 +68,7 @@ class PrintedNumbers : public ::testing::Test {
   const TemporaryFolder folder_;
 };
 
-// step, view, gain, moved [m], hits, new [voxels], coverage [% visible], entropy [kbit], log loss [nats], seconds
+// step, view, gain, moved [m], hits, new [voxels], coverage [% visible], entropy [Mbit], log loss [nats], seconds
 TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
   // By this gain the two coverages differ at every step, so that they cannot be mixed up.
   const std::string out = run(quick + "--gain proximity-count --out " + in("out"));
@@ -85,7 +85,7 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
                                                steps[i].at("hits"),
                                                short_text(cell("new_surface[cm²]")),
                                                fmt::format("{:.1f}", 100.0 * cell("coverage_visible@5mm")),
-                                               fmt::format("{:.1f}", cell("entropy[bits]") / 1e3),
+                                               fmt::format("{:.3f}", cell("entropy[bits]") / 1e6),
                                                fmt::format("{:.3f}", cell("log_loss_near_surface[nats]"))};
     ASSERT_EQ(rows[i].size(), expected.size() + 1) << "and the seconds";
     EXPECT_EQ(std::vector(rows[i].begin(), rows[i].end() - 1), expected);

@@ -7,6 +7,7 @@
 
 #include "core/file/counted.hpp"
 #include "core/setting/area_text.hpp"
+#include "core/setting/entropy_text.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/commands/branch_commands.hpp"
 
@@ -90,10 +91,8 @@ std::vector<Difference> differences(const SessionSnapshot& here, const SessionSn
     const auto& left = s.records.back().surface_left;
     return left ? percent(*left) : std::string("not predicted");
   });
-  add("entropy, unmeasured (Eq. 18)",
-      [](const SessionSnapshot& s) { return fmt::format("{:.3f} Mbit", s.records.back().entropy / 1e6); });
-  add("entropy, total ΣH(p)",
-      [](const SessionSnapshot& s) { return fmt::format("{:.3f} Mbit", s.records.back().total_entropy / 1e6); });
+  add("entropy, unmeasured (Eq. 18)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().entropy); });
+  add("entropy, total ΣH(p)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().total_entropy); });
   add("path", [](const SessionSnapshot& s) { return length_text(path_of(s.records)); });
   add("time of the robot", [](const SessionSnapshot& s) { return fmt::format("{:.0f} s", motion_seconds(s.records)); });
   return result;

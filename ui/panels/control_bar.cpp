@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/setting/entropy_text.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/scanner_commands.hpp"
 
@@ -160,7 +161,7 @@ float draw_figures(const PanelContext& context, float least, float right, float 
                                            "can see.");
   }
   const double bits = any ? s.records.back().entropy : s.setup->start_entropy.unmeasured;
-  right = draw_figure(context, least, right, y, fmt::format("{:.3f} Mbit", bits / 1e6), "entropy",
+  right = draw_figure(context, least, right, y, entropy_text(bits), "entropy",
                       "Of the region: a bit for each voxel that nothing was measured in (Eq. 18).");
   const TerminationConfig& limits = s.configuration.termination;
   std::string taken = fmt::format("{}", s.records.size());

@@ -59,10 +59,10 @@ StudyChart entropy_by_view(const SummaryTable& table, const Look& look) {
   constexpr double height = 440;
   VectorDrawing drawing(760, height * double(settings.size()), look);
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    Plot plot = courses(table, settings[i], "entropy[bits]", 1e3);
+    Plot plot = courses(table, settings[i], "entropy[bits]", 1e6);
     plot.title = "Entropy of the map (Eq. 18): " + scope(table, settings[i], "entropy[bits]");
     plot.x_label = "views";
-    plot.y_label = "entropy [kbit]";
+    plot.y_label = "entropy [Mbit]";
     draw_plot(drawing, {0, height * double(i), 760, height}, plot);
   }
   return drawing;
