@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/cloud/evenly_kept.hpp"
 #include "core/mesh/surface_samples.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -64,9 +65,7 @@ class SurfacePoints {
 
 std::vector<Vector3> thinned(const PointCloud& points, std::size_t count) {
   std::vector<Vector3> some;
-  const double stride = std::max(1.0, double(points.size()) / double(count));
-  for (double at = 0.0; at < double(points.size()); at += stride)
-    some.push_back(points[std::size_t(at)].cast<double>());
+  for (const Eigen::Vector3f& point : evenly_kept(points, count)) some.push_back(point.cast<double>());
   return some;
 }
 

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/cloud/evenly_kept.hpp"
 #include "core/progress/stopped.hpp"
 
 namespace nextview {
@@ -65,14 +66,6 @@ class Target {
   mutable std::vector<int> indices_ = std::vector<int>(neighbours_tried);
   mutable std::vector<float> squared_ = std::vector<float>(neighbours_tried);
 };
-
-/// A scan's points, evenly left out down to `max_registered_points`.
-std::vector<OrientedPoint> fewer(const std::vector<OrientedPoint>& points) {
-  std::vector<OrientedPoint> kept;
-  const double stride = std::max(1.0, double(points.size()) / double(max_registered_points));
-  for (double i = 0.0; i < double(points.size()); i += stride) kept.push_back(points[std::size_t(i)]);
-  return kept;
-}
 
 /// The scan's middle, and how far its points lie from there (root mean square): with it, turns count as lengths.
 struct Extent {
@@ -234,7 +227,7 @@ ScanRegistration register_scan(const Scan& scan, std::span<const std::shared_ptr
                                const RegistrationLimits& limits, RegistrationTarget& target,
                                const std::stop_token& stop) {
   ScanRegistration found;
-  const auto points = fewer(oriented_points(scan, limits.spacing, stop));
+  const auto points = evenly_kept(oriented_points(scan, limits.spacing, stop), max_registered_points);
   if (points.size() < min_registered_points) {
     found.why_not = fmt::format("the scan has too few points with neighbours within {:.3g} m", limits.spacing);
     return found;

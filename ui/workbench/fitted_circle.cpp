@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/cloud/evenly_kept.hpp"
+
 namespace nextview {
 namespace {
 
@@ -44,10 +46,7 @@ std::vector<Vector3> points_near(const FittedCircle& circle, std::span<const Eig
   std::vector<Vector3> near;
   for (const Eigen::Vector3f& p : cloud)
     if ((p.cast<double>() - circle.centre).norm() < nearby * circle.radius) near.push_back(p.cast<double>());
-  const double stride = std::max(1.0, double(near.size()) / double(most_points));
-  std::vector<Vector3> some;
-  for (double i = 0.0; i < double(near.size()); i += stride) some.push_back(near[std::size_t(i)]);
-  return some;
+  return evenly_kept(near, most_points);
 }
 
 /// On which side of the rim the face is that it lies in: without for a bore, within for a pin.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloud/evenly_kept.hpp"
 #include "core/gibbs/full_conditional.hpp"
 #include "core/session/scan_loop.hpp"
 #include "ui/workbench/depth_cells.hpp"
@@ -13,13 +14,6 @@ namespace {
 
 constexpr int expected_columns = 128;          ///< of the picture of a view
 constexpr std::size_t max_rays_per_view = 60;  ///< through a voxel: more would only hide each other
-
-std::vector<VoxelRay> thinned(const std::vector<VoxelRay>& rays) {
-  const std::size_t stride = std::max<std::size_t>(1, (rays.size() + max_rays_per_view - 1) / max_rays_per_view);
-  std::vector<VoxelRay> result;
-  for (std::size_t i = 0; i < rays.size(); i += stride) result.push_back(rays[i]);
-  return result;
-}
 
 /// Its level after each sweep, if the sampler kept it.
 std::vector<std::vector<std::uint8_t>> trace_of(const GibbsPosterior& posterior, std::uint32_t voxel) {
@@ -81,7 +75,8 @@ VoxelInspection Inspector::inspect_voxel(const SessionSnapshot& s, std::uint32_t
   VoxelInspection result;
   result.voxel = voxel;
   result.history = voxel_history(s.grid, s.configuration.map.model, s.scans, voxel);
-  for (const auto& scan : s.scans) result.rays.push_back(thinned(rays_through(s.grid, *scan, voxel)));
+  for (const auto& scan : s.scans)
+    result.rays.push_back(evenly_kept(rays_through(s.grid, *scan, voxel), max_rays_per_view));
   if (s.gibbs && !s.gibbs->posterior->states.empty()) {
     result.conditional = full_conditional(s.grid, *s.gibbs->measurements, s.gibbs->config.model, s.gibbs->config.prior,
                                           s.gibbs->posterior->states.front(), voxel);
