@@ -98,7 +98,7 @@ const CommandOf<> command::go_on{
       const int allowed = t.session.configuration.termination.views, more = TerminationConfig().views;
       beyond.views = std::max(allowed, std::min(int(t.session.records.size()) + more, TerminationConfig::max_views));
       t.worker.post(request::SetTermination{beyond});
-      t.worker.post(request::Step{});
+      t.worker.post(request::Step{.with_last = true});
     }};
 
 const CommandOf<> command::pause{

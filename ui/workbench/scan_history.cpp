@@ -39,6 +39,12 @@ void ScanHistory::push(HistoryEntry before, const ScanState* now, std::size_t li
   keep_within(limit, now);
 }
 
+HistoryEntry ScanHistory::take_last() {
+  HistoryEntry last = std::move(undo_.back());
+  undo_.pop_back();
+  return last;
+}
+
 void ScanHistory::forget_choices() {
   while (!undo_.empty() && undo_.back().is_choice) undo_.pop_back();
 }

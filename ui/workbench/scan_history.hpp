@@ -46,6 +46,8 @@ class ScanHistory {
   /// Something has changed: `before` can be gone back to. What was undone is forgotten. `limit` in bytes; `now` keeps
   /// its maps.
   void push(HistoryEntry before, const ScanState* now, std::size_t limit);
+  /// Forgets the last change, which becomes part of the next one; it began here. @pre can_undo()
+  HistoryEntry take_last();
   /// Those since the last change of another kind: a view was taken, and undoing it leaves the choice to the planner.
   void forget_choices();
   /// Goes back, or forward; `now` is where the way back then leads. The entry has its maps.

@@ -51,7 +51,9 @@ struct SetPlanning {
 };
 /// Starts over with the same configuration.
 struct Reset {};
-struct Step {};
+struct Step {
+  bool with_last = false;  ///< undone together with the change before it
+};
 /// Steps until the scan is finished or paused.
 struct Play {};
 /// The step that runs is still finished.

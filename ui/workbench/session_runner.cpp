@@ -125,7 +125,7 @@ void SessionRunner::show_next() {
   publish(std::move(next));
 }
 
-void SessionRunner::step(const JobControl& control, const Session::Judge& judge) {
+void SessionRunner::step(const JobControl& control, const Session::Judge& judge, bool with_last) {
   if (!can_step()) return;
   session_->set_judge(judge);
   HistoryEntry before = now();
@@ -133,6 +133,7 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge)
     if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
     return;
   }
+  if (with_last && history_.can_undo()) before = history_.take_last();
   before.chosen.reset();
   history_.forget_choices();
   seen_ = std::make_shared<SeenSurface>(*seen_);  // the stand before keeps its own

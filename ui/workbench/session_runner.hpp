@@ -52,8 +52,9 @@ class SessionRunner {
   /// Other views are ranked, or by another planner, from here on; the scan stays. @throws as Session::set_planning
   void set_planning(const PlanningConfig& planning, const JobControl& control);
   /// Nothing without a session that can step.
-  /// `judge` is asked of a scan that does not fit those before it (Session::Judge).
-  void step(const JobControl& control, const Session::Judge& judge = {});
+  /// `judge` is asked of a scan that does not fit those before it (Session::Judge). `with_last`: one undo takes back
+  /// this and the change before it.
+  void step(const JobControl& control, const Session::Judge& judge = {}, bool with_last = false);
   void take_view(std::size_t candidate);
   void take_custom_view(const Pose& T_world_camera);
   void undo(const JobControl& control);

@@ -117,6 +117,12 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
     return e.text ==
            "The scan goes on for 20 more views at most, however little surface is left; undo brings the limits back";
   }));
+  scripted.run("undo");
+  EXPECT_EQ(worker.snapshot()->records.size(), 1u) << "the view and the limits are one change";
+  EXPECT_NE(worker.snapshot()->finished, "");
+  scripted.run("redo");
+  EXPECT_EQ(worker.snapshot()->finished, "");
+  EXPECT_EQ(worker.snapshot()->records.size(), 2u);
   scripted.run("play");
   EXPECT_EQ(worker.snapshot()->records.size(), 6u) << "the start view and all candidates";
   EXPECT_EQ(worker.snapshot()->finished, "no candidate view is left");
