@@ -7,8 +7,11 @@
 #include <optional>
 #include <sstream>
 
+#include "core/config/configuration.hpp"
 #include "core/file/lower_case.hpp"
+#include "core/setting/quantity.hpp"
 #include "ui/commands/command_list.hpp"
+#include "ui/commands/file_commands.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/commands/window_commands.hpp"
 
@@ -56,6 +59,18 @@ std::vector<std::string> values_at_end(const std::string& text, const Command& c
 std::string with_value(const std::string& text, const Command& command, const std::string& value) {
   const bool is_last = values_before_last(text) + 1 >= command.arguments().size();
   return text.substr(0, text.rfind(' ') + 1) + value + (is_last ? "" : " ");
+}
+
+/// A script's lengths are metres, the field beside the palette shows millimetres: who types says which.
+void require_unit(const std::vector<std::string>& key_and_value) {
+  Configuration configuration;
+  auto all = settings(configuration);
+  const Setting& setting = find_setting(all, key_and_value.at(0));
+  const std::string& text = key_and_value.at(1);
+  double number = 0.0;
+  const bool is_length = setting.unit == "m" && std::holds_alternative<double*>(setting.value);
+  if (is_length && read_quantity(text, "", number) && number != 0.0)
+    throw std::invalid_argument(fmt::format("{0} needs its unit: {1}mm, or {1}m?", setting.key, text));
 }
 
 }  // namespace
@@ -113,6 +128,7 @@ void Palette::run(const PanelContext& context) {
     const Command& command = *call.command;
     const std::string reason = command.why_not_now(context.state());
     if (!reason.empty()) throw std::invalid_argument(reason);
+    if (&command == &command::set) require_unit(call.values());
     if (&command != &command::palette) context.post(command::palette());  // before a demo, which begins without it
     context.post(std::move(call));
   } catch (const std::invalid_argument& error) {

@@ -79,5 +79,15 @@ TEST(Palette, EnterRunsWhatWasTypedWhileNoValueIsChosen) {
   EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "set seed 7"));
 }
 
+TEST(Palette, ALengthNeedsItsUnit) {
+  OpenPalette desk("set map.resolution 5");
+  desk.type(Key::enter);
+  EXPECT_THAT(desk.frames(), IsEmpty()) << "metres for a script, millimetres for the field";
+  desk.write("mm");
+  desk.frames();
+  desk.type(Key::enter);
+  EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "set map.resolution 5mm"));
+}
+
 }  // namespace
 }  // namespace nextview
