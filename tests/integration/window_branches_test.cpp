@@ -119,8 +119,9 @@ TEST_F(WindowBranches, TheReconstructedSurfaceIsNotCompared) {
   user_.wait();
   EXPECT_FALSE(layers.surface);
   EXPECT_THAT(user_.worker().log().entries()->back().text, HasSubstr("stop comparing first"));
-  user_.run("stop-comparing\ntoggle-surface\n");
-  EXPECT_TRUE(layers.surface);
+  user_.run("stop-comparing\n");
+  EXPECT_TRUE(layers.surface) << "it was shown before";
+  EXPECT_FALSE(layers.octree);
 }
 
 TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {

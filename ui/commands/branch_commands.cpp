@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "ui/commands/command_target.hpp"
-#include "ui/commands/layer_commands.hpp"
 #include "ui/commands/needs.hpp"
 
 namespace nextview {
@@ -134,7 +133,6 @@ const CommandOf<std::string> command::compare{
      needs_other_branch},
     branch_name("its name", other_branches),
     [](CommandTarget& t, const std::string& name) {
-      if (t.window.layers.surface) execute(command::toggle_surface(), t);  // which only one of the two would have
       t.worker.post(request::Compare{name});
       t.window.bring_to_front(panel_name::comparison);
     }};

@@ -70,17 +70,7 @@ CommandOf<> toggle_surface_alone(const std::string& what, const std::string& wor
            {{key(letter)}},
            std::move(why_not),
            [shown](const WindowState& w) { return w.layers.*shown; }},
-          [shown](CommandTarget& t) {
-            LayerChoice& layers = t.window.layers;
-            const bool now = !(layers.*shown), none_before = !layers.missed && !layers.surface;
-            if (none_before) layers.cloud_before = layers.cloud, layers.octree_before = layers.octree;
-            layers.missed = layers.surface = false;
-            layers.*shown = now;
-            if (now)
-              layers.cloud = layers.octree = false;
-            else if (!layers.cloud && !layers.octree)  // what was switched on meanwhile stays
-              layers.cloud = layers.cloud_before, layers.octree = layers.octree_before;
-          }};
+          [shown](CommandTarget& t) { t.window.layers.show_alone(shown, !(t.window.layers.*shown)); }};
 }
 
 void move_slice(CommandTarget& t, double position, std::optional<double> thickness) {

@@ -116,6 +116,7 @@ void Interface::Parts::follow_session() {
       state.layers.voxels.slice.reset();
     }
   }
+  state.layers.follow_comparison(s.compared != nullptr);
   if (state.selection.view.kind == ViewSelection::Kind::taken && state.selection.view.index >= s.records.size())
     state.selection.view = {};
 }

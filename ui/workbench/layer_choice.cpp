@@ -1,5 +1,7 @@
 #include "ui/workbench/layer_choice.hpp"
 
+#include <utility>
+
 namespace nextview {
 
 LayerChoice LayerChoice::of_second() const {
@@ -14,6 +16,25 @@ LayerChoice LayerChoice::of_second() const {
   if (second == SecondView::object) other.object_style = MeshStyle::solid;
   other.views = other.rays = other.region = false;
   return other;
+}
+
+void LayerChoice::show_alone(bool LayerChoice::*which, bool shown) {
+  if (!missed && !surface) cloud_before = cloud, octree_before = octree;
+  missed = surface = false;
+  this->*which = shown;
+  if (shown)
+    cloud = octree = false;
+  else if (!cloud && !octree)  // what was switched on meanwhile stays
+    cloud = cloud_before, octree = octree_before;
+}
+
+void LayerChoice::follow_comparison(bool compared) {
+  if (compared && surface) {
+    show_alone(&LayerChoice::surface, false);
+    surface_aside = true;
+  } else if (!compared && std::exchange(surface_aside, false)) {
+    show_alone(&LayerChoice::surface, true);
+  }
 }
 
 }  // namespace nextview

@@ -24,6 +24,7 @@ struct LayerChoice {
   bool region = false, missed = false;
   bool surface = false;                             ///< reconstructed
   bool cloud_before = false, octree_before = true;  ///< what these two put aside, as it would hide them
+  bool surface_aside = false;                       ///< the surface was shown before two branches were compared
   bool all_candidates = false;                      ///< not only the best ones
   bool legends = true;
   MeshStyle object_style = MeshStyle::ghost;
@@ -43,6 +44,10 @@ struct LayerChoice {
     filter.section = section;
     return filter;
   }
+  /// Shows or hides the surface or the missed one, without what would hide it.
+  void show_alone(bool LayerChoice::*which, bool shown);
+  /// The surface would be one branch's only: it is put aside while two are compared.
+  void follow_comparison(bool compared);
   /// What the second scene shows of it.
   LayerChoice of_second() const;
 };
