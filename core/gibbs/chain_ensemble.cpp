@@ -66,17 +66,15 @@ void ChainEnsemble::begin_mean(int sweeps) {
   });
 }
 
-void ChainEnsemble::sweep(int count, bool into_mean) {
+void ChainEnsemble::sweep(bool into_mean) {
   tbb::parallel_for(0, config_.chains, [&](int c) {
-    for (int k = 0; k < count; ++k) {
-      if (into_mean)
-        sweep_into_mean(c);
-      else
-        diagnostics_.changed_voxels[c].push_back(chains_[c]->sweep(nullptr));
-      diagnostics_.log_posterior[c].push_back(chains_[c]->log_posterior());
-    }
+    if (into_mean)
+      sweep_into_mean(c);
+    else
+      diagnostics_.changed_voxels[c].push_back(chains_[c]->sweep(nullptr));
+    diagnostics_.log_posterior[c].push_back(chains_[c]->log_posterior());
   });
-  diagnostics_.sweeps += count;
+  ++diagnostics_.sweeps;
 }
 
 void ChainEnsemble::sweep_into_mean(int c) {

@@ -20,7 +20,7 @@ class ChainEnsemble {
   /// Starts a new mean, over the next `sweeps` sweeps or more: what was before becomes burn-in.
   void begin_mean(int sweeps);
   /// Sweeps of all chains side by side, a thread a chain.
-  void sweep(int count, bool into_mean);
+  void sweep(bool into_mean);
   /// Fills in the diagnostics of the mean.
   void diagnose();
   /// Whether the mean's beginning was unlike its end when it was diagnosed: the start is still felt.

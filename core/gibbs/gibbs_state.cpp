@@ -36,7 +36,7 @@ void GibbsState::add(const Scan& scan) {
 }
 
 /// The lists of all rays: the latest with what was added since, if they are of the rays that this posterior knows.
-std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model) const {
+std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model, const std::stop_token& stop) const {
   std::unique_ptr<RayLists> lists;
   {
     const std::scoped_lock lock(latest_lists_->mutex);
@@ -44,11 +44,11 @@ std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model
     if (latest_lists_->measurements != refined_) lists = nullptr;
   }
   try {
-    if (lists && measurements_ != refined_) lists->append(measurements_->after(*refined_));
+    if (lists && measurements_ != refined_) lists->append(measurements_->after(*refined_), stop);
   } catch (const OutOfMemory&) {  // to grow they are there twice for a moment
     lists = nullptr;
   }
-  if (!lists) return std::make_unique<RayLists>(posterior_->grid, *measurements_, model);
+  if (!lists) return std::make_unique<RayLists>(posterior_->grid, *measurements_, model, stop);
   lists->set_independence(model.independence);
   return lists;
 }
@@ -56,7 +56,7 @@ std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model
 void GibbsState::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
                         std::stop_token stop) {
   PosteriorSamplerConfig config = config_;
-  config.seed += refinements_++ << 32;  // other numbers than the last time
+  config.seed += refinements_ << 32;  // other numbers than the last time
   config.until_stationary = sweeps == 0;
   if (sweeps > 0) config.sweeps = sweeps;
   config.burn_in = std::min(config.burn_in, config.sweeps / 2);
@@ -64,7 +64,7 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   double build_seconds = 0.0;
   std::unique_ptr<RayLists> lists = [&] {
     const Stopwatch watch(build_seconds);
-    return take_lists(with_independence(config.model, *measurements_, posterior_->grid));
+    return take_lists(with_independence(config.model, *measurements_, posterior_->grid), stop);
   }();
   const bool grows = sweeps > 0 && !refined_->rays.empty() && refined_ != measurements_ &&
                      config.updated == UpdatedVoxels::occupied_and_free;
@@ -77,6 +77,7 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   voxels_ = VoxelBricks(posterior->grid.size, posterior->voxels(classes_));
   posterior_ = std::move(posterior);
   refined_ = measurements_;
+  ++refinements_;
   if (sweeps == 0 || stop.stop_requested() || lists->bytes() > most_kept) return;
   const std::scoped_lock lock(latest_lists_->mutex);
   latest_lists_->measurements = refined_;

@@ -21,7 +21,7 @@ class GibbsState {
   /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps: if views were added since the
   /// last refinement, so many sweeps are of what they may change (WarmStart::kept). `conventional` is where the first
   /// refinement may start. After a requested stop it holds the posterior as far as it was sampled, which says so, and
-  /// can be refined on.
+  /// can be refined on. @throws Stopped before the first sweep, and what `progress` throws; then it is as it was.
   void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
 
   /// Unmeasured before the first refinement.
@@ -46,7 +46,7 @@ class GibbsState {
     std::shared_ptr<const RangeMeasurements> measurements;  ///< that they are of
     std::unique_ptr<RayLists> lists;
   };
-  std::unique_ptr<RayLists> take_lists(const ForwardSensorModel& model) const;
+  std::unique_ptr<RayLists> take_lists(const ForwardSensorModel& model, const std::stop_token& stop) const;
 
   PosteriorSamplerConfig config_;
   InverseSensorModel classes_;

@@ -59,10 +59,11 @@ class Schedule {
   }
 
   void sweep(int count, bool into_mean) {
-    for (int done = 0; done < count; done += sweeps_between_reports) {
-      if (stop_.stop_requested() && (!into_mean || done >= sweeps_of_r_hat)) return;
-      report();
-      chains_.sweep(std::min(sweeps_between_reports, count - done), into_mean);
+    for (int done = 0; done < count; ++done) {
+      const bool stops = stop_.stop_requested();
+      if (stops && (!into_mean || done >= sweeps_of_r_hat)) return;
+      if (stops || done % sweeps_between_reports == 0) report();
+      chains_.sweep(into_mean);
     }
   }
 

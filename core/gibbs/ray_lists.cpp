@@ -14,6 +14,7 @@
 #include "core/gibbs/optical_depth.hpp"
 #include "core/map/traversal.hpp"
 #include "core/memory/available_memory.hpp"
+#include "core/progress/stopped.hpp"
 
 namespace nextview {
 namespace {
@@ -54,16 +55,17 @@ void RayLists::require_holdable(const VoxelGrid& grid) {
 
 double RayLists::chord(std::uint32_t code) { return code * longest_chord / (chord_codes - 1); }
 
-RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model)
+RayLists::RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model,
+                   const std::stop_token& stop)
     : grid_(grid), measurements_{measurements.max_range, {}, {}}, model_(model) {
   model_.validate();
   require_holdable(grid_);
   incidences_begin_.assign(1, 0);
   front_.begin = near_.begin = std::vector<std::uint32_t>(grid_.voxel_count() + 1);
-  append(measurements);
+  append(measurements, stop);
 }
 
-void RayLists::append(const RangeMeasurements& measurements) {
+void RayLists::append(const RangeMeasurements& measurements, const std::stop_token& stop) {
   const std::size_t first = take_rays(measurements), added = rays() - first;
   incidences_begin_.resize(rays() + 1);
   constexpr std::size_t many = 100'000;  // fewer are counted before more threads have cleared their counts
@@ -72,10 +74,10 @@ void RayLists::append(const RangeMeasurements& measurements) {
     blocks[b].first_ray = static_cast<std::uint32_t>(first + added * b / blocks.size());
     blocks[b].last_ray = static_cast<std::uint32_t>(first + added * (b + 1) / blocks.size());
   }
-  tbb::parallel_for_each(blocks, [this](Block& block) { count(block); });
+  tbb::parallel_for_each(blocks, [&](Block& block) { count(block, stop); });
   for (std::size_t ray = first; ray < rays(); ++ray) incidences_begin_[ray + 1] += incidences_begin_[ray];
   lay_out(blocks);
-  tbb::parallel_for_each(blocks, [this](Block& block) { fill(block); });
+  tbb::parallel_for_each(blocks, [&](Block& block) { fill(block, stop); });
 }
 
 std::size_t RayLists::bytes() const {
@@ -130,10 +132,11 @@ void RayLists::walk(std::uint32_t ray, Front on_front, Near on_near) const {
                     });
 }
 
-void RayLists::count(Block& block) {
+void RayLists::count(Block& block, const std::stop_token& stop) {
   block.front.assign(grid_.voxel_count(), 0);
   block.near.assign(grid_.voxel_count(), 0);
   for (std::uint32_t ray = block.first_ray; ray < block.last_ray; ++ray) {
+    throw_if_stopped(stop);
     std::uint32_t incidences = 0;
     walk(
         ray, [&](std::uint32_t voxel, std::uint32_t) { ++block.front[voxel]; },
@@ -197,8 +200,9 @@ void RayLists::lay_out(std::vector<Block>& blocks) {
   incidences_.resize(near.total);
 }
 
-void RayLists::fill(Block& block) {
+void RayLists::fill(Block& block, const std::stop_token& stop) {
   for (std::uint32_t ray = block.first_ray; ray < block.last_ray; ++ray) {
+    throw_if_stopped(stop);
     std::uint32_t incidence = incidences_begin_[ray];
     walk(
         ray,

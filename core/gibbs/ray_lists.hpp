@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/gibbs/forward_sensor_model.hpp"
@@ -42,12 +43,13 @@ class RayLists {
   static double chord(std::uint32_t code);  ///< [voxel edges]
 
   /// The lists hold the rays that enter the grid, in their order: neighbours in an image stay neighbours in memory.
-  /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists).
-  RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model);
+  /// @throws std::invalid_argument if there are too many rays or voxels to hold (8 GiB of lists); Stopped
+  RayLists(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model,
+           const std::stop_token& stop = {});
   /// Adds rays of more origins and the same maximum range: as if all had been listed together. Takes the memory of both
   /// lists for a moment.
-  /// @throws std::invalid_argument as the constructor; the lists may not be used any more then.
-  void append(const RangeMeasurements& measurements);
+  /// @throws as the constructor; the lists may not be used any more then.
+  void append(const RangeMeasurements& measurements, const std::stop_token& stop = {});
 
   /// @throws std::invalid_argument if the grid has too many voxels, or is too long.
   static void require_holdable(const VoxelGrid& grid);
@@ -121,13 +123,13 @@ class RayLists {
   template <class Front, class Near>
   void walk(std::uint32_t ray, Front on_front, Near on_near) const;
   std::size_t take_rays(const RangeMeasurements& measurements);
-  void count(Block& block);
+  void count(Block& block, const std::stop_token& stop);
   template <class Entry>
   static Places place(const ByVoxel<Entry>& lists, std::vector<Block>& blocks,
                       std::vector<std::uint32_t> Block::*counts);
   void lay_out(std::vector<Block>& blocks);
   void require_memory_for(std::size_t front, std::size_t near) const;
-  void fill(Block& block);
+  void fill(Block& block, const std::stop_token& stop);
   Place place_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;
   float open_value_of(const RangeMeasurement& ray) const;
   float incidence_value_of(const RangeMeasurement& ray, const VoxelSegment& segment) const;

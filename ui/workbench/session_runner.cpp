@@ -250,12 +250,15 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
     refinement_->add(*scans[refined_scans_.size()]);
     refined_scans_.push_back(scans[refined_scans_.size()]);
   }
+  const bool is_there = snapshot_->gibbs != nullptr;
   const auto progress = [&](double fraction, std::string_view what, const SamplerDiagnostics& so_far) {
+    // Before the first mean there is nothing to keep, and a few sweeps are no match for a map that is there.
+    if (is_there || so_far.informed_voxels == 0) throw_if_stopped(control.stop);
     control.sampler(so_far);
     control.progress(0.1 + 0.9 * fraction, what);
   };
   refinement_->refine(probabilities(session_->map().voxels()), 0, progress, control.stop);
-  if (snapshot_->gibbs) throw_if_stopped(control.stop);  // a few sweeps are no match for the map that is there
+  if (is_there) throw_if_stopped(control.stop);
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
   gibbs_ = next.gibbs;

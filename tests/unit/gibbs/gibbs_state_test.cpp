@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/progress/stopped.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -59,6 +60,14 @@ TEST(GibbsState, AStopAtAnyMomentLeavesThePosteriorSoFar) {
     const auto stop_there = [&](double, std::string_view, const SamplerDiagnostics&) {
       if (calls++ == moment) stop.request_stop();
     };
+    if (moment == 0) {  // while the rays are listed: there is nothing yet
+      EXPECT_THROW(refinement.refine({}, 24, stop_there, stop.get_token()), Stopped);
+      refinement.refine({}, 24, {}, {});
+      GibbsState whole = fresh;
+      whole.refine({}, 24, {}, {});
+      EXPECT_EQ(refinement.posterior().occupied, whole.posterior().occupied) << "it is as if it had never been asked";
+      continue;
+    }
     refinement.refine({}, 24, stop_there, stop.get_token());
     expect_consistent(refinement);
     const SamplerDiagnostics& d = refinement.posterior().diagnostics;

@@ -111,7 +111,9 @@ TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
   std::stop_source stop;
   SessionRunner::JobControl stopping = job_control();
   stopping.stop = stop.get_token();
-  stopping.sampler = [&](const SamplerDiagnostics&) { stop.request_stop(); };
+  stopping.sampler = [&](const SamplerDiagnostics& so_far) {
+    if (so_far.informed_voxels > 0) stop.request_stop();
+  };
   runner_.refine(2, 100'000, stopping);
   ASSERT_NE(now().gibbs, nullptr);
   EXPECT_LT(now().gibbs->posterior->diagnostics.sweeps, 1000);
@@ -127,6 +129,24 @@ TEST_F(SessionRunnerTest, ACancelledRefinementCanGoOn) {
   EXPECT_EQ(runner_.snapshot(), before);
   runner_.refine(2, 30, job_control());
   EXPECT_EQ(now().gibbs->views, 3u);
+}
+
+/// Of fine voxels each sweep takes seconds.
+TEST_F(SessionRunnerTest, ARefinementThatIsCancelledBeforeItsFirstMeanMakesNoMoreSweeps) {
+  runner_.load(small_scan(), job_control());
+  steps(2);
+  for (const int last : {0, 1}) {
+    std::stop_source stop;
+    int sweeps = 0;
+    SessionRunner::JobControl stopping = job_control();
+    stopping.stop = stop.get_token();
+    stopping.sampler = [&](const SamplerDiagnostics& so_far) {
+      if ((sweeps = so_far.sweeps) >= last) stop.request_stop();
+    };
+    EXPECT_THROW(runner_.refine(2, 100'000, stopping), Stopped);
+    EXPECT_EQ(now().gibbs, nullptr) << "there is nothing to keep yet";
+    EXPECT_LE(sweeps, last + 4) << "that is how often it tells";
+  }
 }
 
 TEST_F(SessionRunnerTest, ACancelledRefinementKeepsTheMapThatIsThere) {

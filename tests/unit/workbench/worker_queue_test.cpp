@@ -129,10 +129,8 @@ TEST_F(WorkerQueue, ARefinementIsHeldAndCancelled) {
   wait_until_idle();
   EXPECT_EQ(worker_.progress(), WorkerProgress{});
   EXPECT_EQ(now()->records.size(), 1u);
-  ASSERT_NE(now()->gibbs, nullptr);
-  const int sweeps = now()->gibbs->posterior->diagnostics.sweeps;
-  EXPECT_LT(sweeps, 1000);
-  EXPECT_EQ(last_entry().text, "Cancelled: the Gibbs map of 1 view keeps its " + std::to_string(sweeps) + " sweeps");
+  EXPECT_EQ(now()->gibbs, nullptr) << "nothing was sampled yet";
+  EXPECT_EQ(last_entry().text, "Cancelled");
   EXPECT_EQ(last_entry().level, LogEntry::Level::note) << "it is what was asked for";
 }
 
