@@ -8,6 +8,7 @@
 #include <ctime>
 #include <vector>
 
+#include "core/file/counted.hpp"
 #include "core/journal/journal.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/recent_files.hpp"
@@ -67,6 +68,31 @@ std::string name_of(const fs::path& state, const fs::path& folder) {
   return has_time ? name.substr(time_length + 1) : name;
 }
 
+EarlierSession earlier_session_of(const fs::path& state, const fs::path& folder, const Journal& journal) {
+  EarlierSession session{folder, name_of(state, folder)};
+  const std::vector<JournalStep> line = journal.line();
+  session.views = line.size();
+  const auto time = fs::last_write_time(folder / journal_name);
+  session.time = std::chrono::system_clock::to_time_t(std::chrono::file_clock::to_sys(time));
+  if (line.empty()) return session;
+  const auto& outcome = line.back().outcome;
+  if (const auto found = outcome.find("coverage_visible"); found != outcome.end()) session.coverage = found->second;
+  return session;
+}
+
+/// "today 14:05", "yesterday 9:05", "2026-01-31 14:05".
+std::string day_and_time(std::time_t time, std::time_t now) {
+  const std::tm then = fmt::localtime(time);
+  const std::string day = fmt::format("{:%Y-%m-%d}", then);
+  std::tm before = fmt::localtime(now);
+  const bool today = day == fmt::format("{:%Y-%m-%d}", before);
+  --before.tm_mday;
+  before.tm_isdst = -1;
+  std::mktime(&before);  // whatever is before the first
+  const bool yesterday = day == fmt::format("{:%Y-%m-%d}", before);
+  return fmt::format("{} {:%H:%M}", today ? "today" : yesterday ? "yesterday" : day, then);
+}
+
 /// The first of these that has views, is wanted, and that no program writes.
 template <class Wanted>
 std::optional<EarlierSession> first_session(const fs::path& state, const std::vector<fs::path>& folders,
@@ -75,8 +101,8 @@ std::optional<EarlierSession> first_session(const fs::path& state, const std::ve
     try {
       Journal journal;
       { const JournalWriter lock = JournalWriter::go_on(folder, journal); }
-      const std::size_t views = journal.line().size();
-      if (views > 0 && wanted(journal)) return EarlierSession{folder, name_of(state, folder), views};
+      const EarlierSession session = earlier_session_of(state, folder, journal);
+      if (session.views > 0 && wanted(journal)) return session;
     } catch (const std::runtime_error&) {  // in use, or damaged
     }
   }
@@ -84,6 +110,11 @@ std::optional<EarlierSession> first_session(const fs::path& state, const std::ve
 }
 
 }  // namespace
+
+std::string EarlierSession::summary(std::time_t now) const {
+  const std::string covered = coverage ? fmt::format(", {:.1f} %", 100 * *coverage) : "";
+  return fmt::format("{}{}, {}", counted(views, "view"), covered, day_and_time(time, now));
+}
 
 fs::path state_folder() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state && fs::path(state).is_absolute())
@@ -96,6 +127,15 @@ fs::path untitled_folder(const fs::path& state, const std::string& name) {
   const std::vector<fs::path> sessions = untitled_sessions(state);
   for (std::size_t k = kept_sessions - 1; k < sessions.size(); ++k) remove_session(sessions[k]);
   return free_folder(state / fmt::format("{} {}", time_after(sessions), plain(name)));
+}
+
+std::optional<EarlierSession> earlier_session(const fs::path& state, const fs::path& folder) {
+  if (!has_journal(folder)) return std::nullopt;
+  try {
+    return earlier_session_of(state, folder, read_journal(folder));
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 std::optional<EarlierSession> unfinished_session(const fs::path& state) {

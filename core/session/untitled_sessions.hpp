@@ -1,4 +1,5 @@
 #pragma once
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,11 @@ struct EarlierSession {
   std::filesystem::path folder;
   std::string name;  ///< for people: "gearbox"
   std::size_t views = 0;
+  std::optional<double> coverage = {};  ///< of the visible surface, where that is known
+  std::time_t time = 0;                 ///< of its last change
+
+  /// For people, as of a moment: "17 views, 98.2 %, today 14:05".
+  std::string summary(std::time_t now = std::time(nullptr)) const;
 };
 
 /// Sessions that no one gave a folder: $XDG_STATE_HOME/nextview, or ~/.local/state/nextview. Empty if there is no home.
@@ -17,6 +23,9 @@ std::filesystem::path state_folder();
 /// A folder in there for a session of this name, by the time; it is not made. What is older than the ten newest goes,
 /// unless another program writes it.
 std::filesystem::path untitled_folder(const std::filesystem::path& state, const std::string& name);
+/// What is known of the session in a folder, also if a program writes it; none if it cannot be read. `state`:
+/// state_folder().
+std::optional<EarlierSession> earlier_session(const std::filesystem::path& state, const std::filesystem::path& folder);
 /// The newest session there, or of those opened from elsewhere, that nobody closed: what wrote it was ended.
 std::optional<EarlierSession> unfinished_session(const std::filesystem::path& state);
 /// The session that was opened or left last, wherever it is.

@@ -9,7 +9,6 @@
 #include "ui/commands/window_commands.hpp"
 #include "ui/panels/control_bar.hpp"
 #include "ui/panels/guide.hpp"
-#include "ui/panels/menu_bar.hpp"
 #include "ui/panels/question.hpp"
 #include "ui/panels/shortcut_sheet.hpp"
 #include "ui/panels/status_line.hpp"
@@ -44,7 +43,7 @@ void AllPanels::draw_side(const PanelContext& context, Side side, const Rectangl
 }
 
 void AllPanels::draw(const PanelContext& context, const Layout& layout, std::size_t log_count, double seconds) {
-  if (!layout.menu.empty()) draw_menu_bar(context, layout.menu);
+  if (!layout.menu.empty()) draw_menu_bar(context, layout.menu, recent_);
   if (!layout.control_bar.empty()) draw_control_bar(context, layout.control_bar);
   for (const Side side : {Side::left, Side::right, Side::bottom})
     draw_side(context, side, layout.of(side), layout.is_open(side));

@@ -6,6 +6,7 @@
 
 #include "ui/panels/file_dialog.hpp"
 #include "ui/panels/manual_sheet.hpp"
+#include "ui/panels/menu_bar.hpp"
 #include "ui/panels/notifications.hpp"
 #include "ui/panels/palette.hpp"
 #include "ui/panels/panel_table.hpp"
@@ -35,6 +36,7 @@ class AllPanels {
   Palette palette_;
   FileDialog file_dialog_;
   ManualSheet manual_;
+  RecentMenu recent_;
   Notifications notifications_;
   std::string in_front_;  ///< the title of the panel that was brought there last, in the last frame
   int popups_ = 0;        ///< menus and lists that were open in the last frame; Escape has closed one since, maybe

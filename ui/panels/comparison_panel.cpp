@@ -41,6 +41,13 @@ void add_settings(std::vector<Difference>& result, const SessionSnapshot& here, 
     if (ours[i].text() != theirs[i].text()) result.push_back({ours[i].key, ours[i].text(), theirs[i].text()});
 }
 
+/// "17 views, 98.2 %".
+std::string summary(const SessionSnapshot& s, const std::vector<const TimelineStep*>& line) {
+  const std::string views = counted(line.size(), "view");
+  const bool covers = s.is_evaluated() && !line.empty() && line.back()->record;
+  return covers ? fmt::format("{}, {:.1f} %", views, 100 * line.back()->record->coverage_visible) : views;
+}
+
 /// The choice of the branch, to begin with.
 void draw_choice(const PanelContext& context) {
   const auto& timeline = context.snapshot.timeline;
@@ -55,6 +62,8 @@ void draw_choice(const PanelContext& context) {
     if (ImGui::Selectable("##branch")) context.post(command::compare(branch.name));
     ImGui::SameLine(context.style.px(16));
     ImGui::TextUnformatted(branch.name.c_str());  // which may have what means something in a label
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", summary(context.snapshot, timeline->line(branch)).c_str());
     ImGui::PopID();
   }
 }

@@ -1,8 +1,5 @@
 #include "ui/panels/guide.hpp"
 
-#include <fmt/format.h>
-
-#include "core/file/counted.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -32,11 +29,11 @@ void draw_steps(const PanelContext& context) {
 
 /// Who scanned yesterday goes on where that ended.
 void draw_last_session(const PanelContext& context, const EarlierSession& last) {
-  const std::string views = counted(last.views, "view");
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(("Go on with ,   " + views).c_str()).x;
-  const std::string label = fmt::format("Go on with {}, {}", shortened(last.name, room), views);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Go on with   ").x;
+  const std::string label = "Go on with " + shortened(last.name, room);
   if (icon_button(context.style, Icon::none, label.c_str())) context.post(command::open(last.folder.string()));
   tooltip("The last scan: " + last.folder.string());
+  small_text(context.style, last.summary());
 }
 
 }  // namespace

@@ -17,17 +17,18 @@
 namespace nextview {
 namespace {
 
-/// What was opened last.
-void draw_recent(const PanelContext& context) {
+/// What was opened last, with what there is to tell of the sessions among them.
+void draw_recent(const PanelContext& context, RecentMenu& recent) {
   if (!ImGui::BeginMenu("Open recent")) return;
-  const std::vector<std::filesystem::path> recent = recent_files(state_folder());
-  for (const std::filesystem::path& file : recent) {
+  if (ImGui::IsWindowAppearing()) recent.read();
+  for (const RecentMenu::Entry& entry : recent.entries) {
     const bool can = command::open.available(context.state());
-    if (ImGui::MenuItem(fmt::format("{}##{}", file.filename().string(), file.string()).c_str(), nullptr, false, can))
-      context.post(command::open(file.string()));
-    tooltip(file.string());
+    if (ImGui::MenuItem(fmt::format("{}##{}", entry.name, entry.file.string()).c_str(), entry.summary.c_str(), false,
+                        can))
+      context.post(command::open(entry.file.string()));
+    tooltip(entry.file.string());
   }
-  if (recent.empty()) ImGui::TextDisabled("Nothing was opened yet.");
+  if (recent.entries.empty()) ImGui::TextDisabled("Nothing was opened yet.");
   ImGui::EndMenu();
 }
 
@@ -78,7 +79,7 @@ constexpr std::array group_begins = {"set",
                                      "orbit",
                                      "wait"};
 
-void draw_menu(const PanelContext& context, const std::string& menu) {
+void draw_menu(const PanelContext& context, const std::string& menu, RecentMenu& recent) {
   bool any = false;
   for (const Command& command : commands()) {
     if (command.menu != menu || &command == &command::file_dialog) continue;  // which the File menu's commands open
@@ -88,7 +89,7 @@ void draw_menu(const PanelContext& context, const std::string& menu) {
     if (ImGui::MenuItem(command.text.c_str(), command.keys().c_str(), on, command.available(context.state())))
       context.invoke(command);
     tooltip(help_of(context, command));
-    if (&command == &command::open) draw_recent(context);
+    if (&command == &command::open) draw_recent(context, recent);
     if (&command == &command::remove_camera) draw_cameras(context);
     if (&command == &command::play_demo) draw_demos(context);
   }
@@ -96,7 +97,15 @@ void draw_menu(const PanelContext& context, const std::string& menu) {
 
 }  // namespace
 
-void draw_menu_bar(const PanelContext& context, const Rectangle& rectangle) {
+void RecentMenu::read() {
+  entries.clear();
+  for (const std::filesystem::path& file : recent_files(state_folder())) {
+    const std::optional<EarlierSession> session = earlier_session(state_folder(), file);
+    entries.push_back({file, session ? session->name : file.filename().string(), session ? session->summary() : ""});
+  }
+}
+
+void draw_menu_bar(const PanelContext& context, const Rectangle& rectangle, RecentMenu& recent) {
   const Style& style = context.style;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(style.px(8), style.px(5)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(6), 0));
@@ -109,7 +118,7 @@ void draw_menu_bar(const PanelContext& context, const Rectangle& rectangle) {
     // What is too long scrolls: it would open above, with its first item beneath the pointer.
     ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, ImGui::GetIO().DisplaySize.y - below - style.px(2)});
     if (!ImGui::BeginMenu(menu.c_str())) continue;
-    draw_menu(context, menu);
+    draw_menu(context, menu, recent);
     ImGui::EndMenu();
   }
   ImGui::PopStyleVar();

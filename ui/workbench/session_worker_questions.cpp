@@ -46,8 +46,8 @@ const std::vector<std::string>& SessionWorker::offer_answers() {
 }
 
 void SessionWorker::offer(const EarlierSession& session) {
-  const std::string question = fmt::format("The session of {} with {} was not closed. Go on with it?", session.name,
-                                           counted(session.views, "view"));
+  const std::string question =
+      fmt::format("The session of {} ({}) was not closed. Go on with it?", session.name, session.summary());
   const std::string answer = ask(question, offer_answers(), nullptr,
                                  {"Opens it where it ended", "Opens nothing; it stays kept, and Open recent has it",
                                   "Opens nothing, and asks again at the next start"});

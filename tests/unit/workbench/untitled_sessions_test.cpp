@@ -63,7 +63,7 @@ TEST_F(UntitledSessions, WhatNobodyClosedIsOfferedOnce) {
     worker.post(request::OfferSession{*found});
     std::unique_lock lock(mutex);
     while (worker.progress().question.empty()) news.wait_for(lock, std::chrono::milliseconds(20));
-    EXPECT_THAT(worker.progress().question, HasSubstr("box with 2 views was not closed"));
+    EXPECT_THAT(worker.progress().question, HasSubstr("box (2 views, "));
     worker.answer(answer);
     while (worker.progress().busy) news.wait_for(lock, std::chrono::milliseconds(20));
     EXPECT_EQ(worker.snapshot()->records.size(), std::string(answer) == "Go on" ? 2u : 0u);
@@ -90,6 +90,28 @@ TEST_F(UntitledSessions, TheLastThatWasLeftIsFoundTheNextDay) {
   EXPECT_FALSE(unfinished_session(state()));
   fs::remove_all(last->folder);
   EXPECT_EQ(last_session(state()).value().views, 3u);
+}
+
+TEST_F(UntitledSessions, AreKnownByTheirViewsCoverageAndTime) {
+  auto one = runner();
+  one->load(small_scan(), job_control());
+  steps(*one, 2);
+  const std::optional<EarlierSession> known = earlier_session(state(), kept().front());
+  ASSERT_TRUE(known) << "though it is in use";
+  EXPECT_EQ(known->name, "sphere");
+  EXPECT_EQ(known->coverage, one->snapshot()->records.back().coverage_visible);
+  EXPECT_NEAR(double(known->time), double(std::time(nullptr)), 60.0);
+  EXPECT_FALSE(earlier_session(state(), folder_));
+  std::tm day{};
+  ASSERT_NE(::strptime("2026-03-01 14:05", "%Y-%m-%d %H:%M", &day), nullptr);
+  day.tm_isdst = -1;
+  const std::time_t time = std::mktime(&day);
+  const EarlierSession session{"", "", 17, 0.9816, time};
+  constexpr std::time_t of_a_day = 24 * 3600;
+  EXPECT_EQ(session.summary(time + 3600), "17 views, 98.2 %, today 14:05");
+  EXPECT_EQ(session.summary(time + of_a_day), "17 views, 98.2 %, yesterday 14:05");
+  EXPECT_EQ(session.summary(time + 3 * of_a_day), "17 views, 98.2 %, 2026-03-01 14:05");
+  EXPECT_EQ((EarlierSession{"", "", 1, {}, time}.summary(time)), "1 view, today 14:05");
 }
 
 TEST_F(UntitledSessions, OneThatWasOpenedElsewhereIsOfferedToo) {
