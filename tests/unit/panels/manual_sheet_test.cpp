@@ -40,6 +40,38 @@ TEST(ManualSheet, EveryPageIsDrawnAtAnySizeOfTheWindow) {
   }
 }
 
+TEST(ManualSheet, FindsPagesHeadingsAndTextAndGoesFromHitToHit) {
+  Desk desk;
+  open_at(desk, "start");
+  click_on(desk, "Search", "Manual");
+  desk.write("TERMINATION.surface_left");
+  desk.frames();
+  EXPECT_THAT(read(), testing::HasSubstr("Enter: the first"));
+  EXPECT_EQ(desk.window.manual, "start") << "nothing is turned over while one writes";
+  std::set<std::string> pages;
+  for (int k = 0; k < 8; ++k) {
+    desk.type(Key::enter);
+    desk.frames();
+    pages.insert(*desk.window.manual);
+  }
+  EXPECT_GT(pages.size(), 1u);
+  EXPECT_TRUE(pages.contains("settings")) << testing::PrintToString(pages);
+  desk.write("zzz");
+  desk.frames();
+  EXPECT_THAT(read(), testing::HasSubstr("does not say this"));
+}
+
+TEST(ManualSheet, HeadingsAreFoundFirst) {
+  const std::vector<ParsedPage> pages{
+      {{"a", "A", ""}, parse_markdown("# A\n\nOf the noise there is much to say here.\n")},
+      {{"b", "B", ""}, parse_markdown("# B\n\nLess of noise.\n\n## Noise\n\n| noise | x |\n|---|---|\n| 1 | 2 |\n")}};
+  std::vector<std::string> found;
+  for (const ManualHit& hit : find_in_manual(pages, "noise")) found.push_back(pages[hit.page].page.topic + hit.excerpt);
+  EXPECT_THAT(found, testing::ElementsAre("bNoise", "bLess of noise.", "bnoise  x",
+                                          "aOf the noise there is much to say here."));
+  EXPECT_TRUE(find_in_manual(pages, "").empty());
+}
+
 TEST(ManualSheet, NoOtherKeyDoesAnythingBehindIt) {
   Desk desk;
   open_at(desk, "start");
