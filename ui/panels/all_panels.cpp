@@ -52,12 +52,13 @@ void AllPanels::draw(const PanelContext& context, const Layout& layout, std::siz
   const Rectangle beneath_menu{0, layout.menu.height, layout.menu.width, layout.height - layout.menu.height};
   const bool is_narrow = layout.scene.width < context.style.px(420);
   const Rectangle& front = is_narrow ? beneath_menu : layout.scene;
-  Rectangle beside_controls = front;  // Step and Play stay in reach, whatever is told
-  if (is_narrow) {
-    beside_controls.y += layout.control_bar.height;
-    beside_controls.height -= layout.control_bar.height;
+  // Where nothing is clicked, as far as there is such a place: tabs, Step and Play stay in reach, whatever is told.
+  Rectangle told = layout.scene;
+  if (told.width < context.style.px(120)) {
+    const double top = layout.control_bar.y + layout.control_bar.height;
+    told = {0, top, layout.menu.width, layout.height - top};
   }
-  if (!context.window.presentation.demo) notifications_.draw(context, beside_controls, log_count, seconds);
+  if (!context.window.presentation.demo) notifications_.draw(context, told, log_count, seconds);
   if (!layout.scene.empty()) draw_guide(context, layout.scene);
   draw_question(context, front);
   draw_shortcut_sheet(context, {0, 0, layout.menu.width, layout.height});

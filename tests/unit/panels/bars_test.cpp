@@ -219,7 +219,7 @@ TEST_F(Bars, ANotificationGoesOnceItIsNoNews) {
   EXPECT_EQ(seen_in("Notifications"), "the next one is small");
 }
 
-TEST(Notifications, InANarrowWindowStepAndPlayStayInReach) {
+TEST(Notifications, InANarrowWindowStepPlayAndTabsStayInReach) {
   for (const auto& [width, height] : {std::pair{640, 480}, {1000, 700}, {1280, 800}}) {
     Desk desk(width, height);
     desk.snapshot = made_scan();
@@ -230,6 +230,7 @@ TEST(Notifications, InANarrowWindowStepAndPlayStayInReach) {
     ASSERT_TRUE(notes && notes->WasActive);
     const Rectangle& bar = desk.layout().control_bar;
     EXPECT_GE(notes->Pos.y, bar.y + bar.height) << width;
+    EXPECT_LE(notes->Pos.x + notes->Size.x, desk.layout().right.x) << width;
   }
 }
 
