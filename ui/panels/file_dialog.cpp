@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/file/read_file.hpp"
@@ -13,6 +14,7 @@
 #include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/demo_file.hpp"
+#include "ui/commands/export_commands.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/recording_commands.hpp"
 #include "ui/commands/window_commands.hpp"
@@ -28,6 +30,19 @@ bool names_folder(const Command& command) { return command.arguments().front().n
 fs::path with_ending(fs::path file, const fs::path& proposed) {
   if (!file.has_extension()) file += proposed.extension();
   return file;
+}
+
+/// Where the origin of what a command writes is; of pictures and curves there is none.
+std::string coordinates_of(const Command& command, const SessionSnapshot& s) {
+  if (!(s.setup && s.loaded())) return "";
+  const std::array<const Command*, 5> in_space{&command::export_scan, &command::export_cloud, &command::export_map,
+                                               &command::export_surface, &command::export_views};
+  if (std::ranges::find(in_space, &command) == in_space.end()) return "";
+  if (s.live) return "In metres, in the coordinates of the scanner.";
+  if (s.is_recording()) return "In metres, in the coordinates of the recording.";
+  return s.configuration.object.centred
+             ? "In metres, z up, the object's middle in the origin (object.centred = false: that of its file)."
+             : "In metres, z up, the origin that of the object's file.";
 }
 
 int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
@@ -63,6 +78,7 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   recent_ = recent_files(state_folder());
   chosen_ = 0;
   opened_ = true;
+  coordinates_ = coordinates_of(command, context.snapshot);
   write("");
   // Where something could not be written is not proposed again.
   if (is_there(wanted_) && context.snapshot.failures == failures_) last_written_ = wanted_.parent_path();
@@ -243,6 +259,7 @@ void FileDialog::accept_written(const PanelContext& context, const Command& comm
 
 void FileDialog::draw_field(const PanelContext& context, const Command& command) {
   const Style& style = context.style;
+  if (!coordinates_.empty()) small_text(style, coordinates_);
   if (!replaced_.empty())
     small_text(style, fmt::format("{} is there already.", fs::path(replaced_).filename().string()), theme::chosen);
   if (!problem_.empty()) small_text(style, problem_, theme::chosen);
@@ -295,7 +312,8 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   heading(style, title.c_str());
   draw_path();
   const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) +
-                     (replaced_.empty() && problem_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
+                     (replaced_.empty() && problem_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing()) +
+                     (coordinates_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
   const float height = std::max(ImGui::GetContentRegionAvail().y - rest, style.px(40));
   ImGui::BeginChild("places", {std::min(style.px(150), 0.3f * size.x), height});
   draw_places(context, command);

@@ -38,6 +38,7 @@ class FileDialog {
   std::vector<std::filesystem::path> recent_;
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
   std::string problem_;             ///< why what is written will not do
+  std::string coordinates_;         ///< of what will be written; empty: it has none
   std::size_t chosen_ = 0;          ///< among those that match
   bool to_read_ = true, plays_ = false, scroll_ = false;
   bool opened_ = false;                             ///< just now: what is proposed can be written over

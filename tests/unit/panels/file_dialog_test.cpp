@@ -5,6 +5,7 @@
 
 #include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/panels/desk.hpp"
+#include "tests/unit/panels/made_scan.hpp"
 #include "tests/unit/panels/seen.hpp"
 #include "ui/commands/script.hpp"
 
@@ -113,6 +114,21 @@ TEST_F(FileDialogTest, EscapeClosesItAndNothingElse) {
   EXPECT_EQ(done(), "");
   EXPECT_FALSE(is_open());
   EXPECT_EQ(desk_.window.selection, selected);
+}
+
+TEST_F(FileDialogTest, SaysInWhichCoordinatesItWrites) {
+  auto scan = std::make_shared<SessionSnapshot>(*made_scan());
+  for (const bool centred : {true, false}) {
+    scan->configuration.object.centred = centred;
+    desk_.snapshot = std::make_shared<const SessionSnapshot>(*scan);
+    begin("export-surface");
+    EXPECT_THAT(read("File"), testing::HasSubstr(centred ? "the object's middle in the origin"
+                                                         : "the origin that of the object's file"));
+    desk_.type(Key::escape);
+    desk_.frames();
+  }
+  begin("export-picture");
+  EXPECT_THAT(read("File"), testing::Not(testing::HasSubstr("In metres")));
 }
 
 TEST_F(FileDialogTest, NothingIsReplacedUnasked) {
