@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/layers/views_layer.hpp"
@@ -134,33 +133,59 @@ void draw_ray(SceneView& view, const PanelContext& context, std::size_t index) {
     draw_label(context.style, at(*place), fmt::format("ray {}", index), theme::chosen);
 }
 
-/// The points that were picked, what lies between them, and what to click next.
+using Polyline = std::vector<Vector3>;
+
+Polyline rim_of(const FittedCircle& circle) {
+  constexpr int sides = 72;
+  const Vector3 u = circle.radius * circle.normal.unitOrthogonal(), v = circle.normal.cross(u);
+  Polyline rim;
+  for (int k = 0; k <= sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    rim.emplace_back(circle.centre + std::cos(angle) * u + std::sin(angle) * v);
+  }
+  return rim;
+}
+
+/// What is measured comes last: the rim, or the way between two points, or from a plane to a point.
+std::vector<Polyline> measured_lines(const Measurement& measurement, const std::optional<FittedCircle>& circle) {
+  const Polyline& p = measurement.points;
+  if (circle) return {rim_of(*circle)};
+  const bool has_plane = measurement.kind == MeasureKind::plane && measurement.complete();
+  const auto plane = has_plane ? circle_through(p[0], p[1], p[2]) : std::nullopt;
+  if (!plane) return {p};
+  const Vector3 foot = p[3] - plane->normal.dot(p[3] - plane->centre) * plane->normal;
+  return {{p[0], p[1], p[2], p[0]}, {foot, p[3]}};
+}
+
+/// Where the label's line begins: on the rim at its upper right, or in the middle of what is measured.
+std::optional<Eigen::Vector2d> label_place(SceneView& view, const Polyline& measured, bool is_rim) {
+  if (!is_rim) return view.project(0.5 * (measured.front() + measured.back()));
+  std::optional<Eigen::Vector2d> place;
+  for (const Vector3& point : measured)
+    if (const auto p = view.project(point); p && (!place || p->x() - p->y() > place->x() - place->y())) place = p;
+  return place;
+}
+
+/// The points that were picked, what is measured by them, and what to click next.
 void draw_measurement(SceneView& view, const PanelContext& context, const Measurement& measurement) {
   const Style& style = context.style;
   const auto circle = measured_circle(measurement, context.snapshot.cloud->points);
   const ImU32 colour = to_imgui_u32(theme::chosen);
-  for (std::size_t i = 1; i < measurement.points.size(); ++i)
-    draw_segment(view, measurement.points[i - 1], measurement.points[i], colour, style.px(2));
-  if (circle) {
-    const Vector3 u = circle->radius * circle->normal.unitOrthogonal(), v = circle->normal.cross(u);
-    constexpr int sides = 72;
-    const auto on = [&](int k) -> Vector3 {
-      const double angle = 2 * std::numbers::pi * k / sides;
-      return circle->centre + std::cos(angle) * u + std::sin(angle) * v;
-    };
-    for (int k = 0; k < sides; ++k) draw_segment(view, on(k), on(k + 1), colour, style.px(2));
-  }
+  const std::vector<Polyline> lines = measured_lines(measurement, circle);
+  for (const Polyline& line : lines)
+    for (std::size_t i = 1; i < line.size(); ++i) draw_segment(view, line[i - 1], line[i], colour, style.px(2));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const Vector3& point : measurement.points)
     if (const auto place = view.project(point)) list.AddCircleFilled(at(*place), style.px(4), colour);
   const Rectangle& r = view.rectangle();
   const ImVec2 corner(float(r.x) + style.px(14), float(r.y + r.height) - style.px(92));
-  if (!measurement.complete())
-    return draw_label(style, corner, measure_hint(measurement), theme::chosen, &view.beside_legends()[0]);
-  const auto sum = std::accumulate(measurement.points.begin(), measurement.points.end(), Vector3(Vector3::Zero()));
-  const auto middle = view.project(sum / double(measurement.points.size()));
   const Rectangle beside = view.beside_legends()[0];  // what lies beneath them is not seen
-  draw_label(style, middle ? at(*middle) : corner, measured_text(measurement, circle), theme::chosen, &beside);
+  const auto place = measurement.complete() ? label_place(view, lines.back(), circle.has_value()) : std::nullopt;
+  const std::string text = measurement.complete() ? measured_text(measurement, circle) : measure_hint(measurement);
+  if (place)
+    draw_led_label(style, at(*place), text, theme::chosen, beside);
+  else
+    draw_label(style, corner, text, theme::chosen, &beside);
 }
 
 void draw_all(SceneView& view, const PanelContext& context) {
