@@ -158,6 +158,13 @@ TEST_F(WindowBranches, QuitAsksWhereViewsAreKeptNowhere) {
   other.wait();
   EXPECT_FALSE(other.window().wants_to_quit());
   EXPECT_THAT(other.window().question(), HasSubstr("The view is kept nowhere"));
+  other.window().ask(command::answer("Export…"));
+  other.wait();
+  EXPECT_EQ(other.window().state().file_for, "export") << "it is offered at once";
+  other.type(Key::escape);
+  other.wait();
+  other.window().ask_to_quit();
+  other.wait();
   other.type(Key::escape);
   other.wait();
   EXPECT_FALSE(other.window().wants_to_quit());

@@ -63,6 +63,9 @@ class Shortcuts {
 struct CommandQuestion {
   std::string text;     ///< what it costs, and whether; empty: nothing is asked
   std::string confirm;  ///< the answer by which it is done: "Start over"
+  /// Another answer, "Export…", and what is done by it; empty: there is none.
+  std::string other = {};
+  std::optional<CommandCall> instead = {};
 };
 
 /// What people see of a command, and when it can be done.

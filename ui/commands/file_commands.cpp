@@ -14,6 +14,7 @@
 #include "ui/commands/demo_file.hpp"
 #include "ui/commands/needs.hpp"
 #include "ui/commands/recording_commands.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -129,6 +130,14 @@ CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std:
   return {what_is_lost(t, true), "Open"};
 }
 
+CommandQuestion ask_before_quitting(const CommandState& t, const std::vector<std::string>&) {
+  CommandQuestion question{what_is_lost(t, false), "Quit"};
+  if (t.session.kept || t.session.records.empty()) return question;
+  question.other = "Export…";
+  question.instead = command::file_dialog(command::export_scan.name);
+  return question;
+}
+
 void open_file(CommandTarget& t, const std::string& file) {
   if (is_demo_file(file)) return execute(command::play_demo(file), t);
   t.worker.post(request::OpenFile{file});
@@ -227,17 +236,8 @@ const CommandOf<std::string> command::save_script{
       t.worker.log().add(LogEntry::Level::success, "Script written to " + file);
     }};
 
-const CommandOf<> command::quit{{"quit",
-                                 "File",
-                                 "Quit",
-                                 "Closes the window.",
-                                 {{key('Q'), true}},
-                                 {},
-                                 {},
-                                 false,
-                                 [](const CommandState& t, const auto&) {
-                                   return CommandQuestion{what_is_lost(t, false), "Quit"};
-                                 }},
-                                [](CommandTarget& t) { t.window.quit = true; }};
+const CommandOf<> command::quit{
+    {"quit", "File", "Quit", "Closes the window.", {{key('Q'), true}}, {}, {}, false, ask_before_quitting},
+    [](CommandTarget& t) { t.window.quit = true; }};
 
 }  // namespace nextview

@@ -63,6 +63,7 @@ void draw_last_step(const PanelContext& context, float width, float y) {
   std::string left = last_step(s, !context.window.presentation.demo);
   if (const auto& recording = context.window.recording)
     left = fmt::format("Recording {} · {}", std::filesystem::path(recording->file).filename().string(), left);
+  if (s.keeping_fails) left = "Nothing is kept: Ctrl+E exports · " + left;
   const bool room_for_both = style.px(14 + 24) + ImGui::CalcTextSize(left.c_str()).x < right_x;
   ImGui::TextDisabled("%s", shortened(left, width - style.px(28)).c_str());
   if (!room_for_both) return;

@@ -15,13 +15,15 @@ bool AskedCall::asks(const CommandCall& call, const CommandState& state) {
 
 std::optional<CommandCall> AskedCall::answered(const std::string& answer) {
   auto call = std::exchange(call_, std::nullopt);
-  return answer == question_.confirm ? call : std::nullopt;
+  if (answer == question_.confirm) return call;
+  return answer == question_.other ? question_.instead : std::nullopt;
 }
 
 WorkerProgress AskedCall::with_question(WorkerProgress progress) const {
   if (!call_ || !progress.question.empty()) return progress;
   progress.question = question_.text;
   progress.answers = {question_.confirm, "Cancel"};
+  if (!question_.other.empty()) progress.answers.insert(progress.answers.begin() + 1, question_.other);
   progress.effects.clear();
   progress.costs = true;
   return progress;

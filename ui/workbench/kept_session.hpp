@@ -17,7 +17,8 @@ class KeptSession {
   using Notice = std::function<void(const std::string&)>;
 
   /// Below `state`, in a folder that is made with the first view; an empty path: nowhere.
-  KeptSession(std::filesystem::path state, Notice notice) : state_(std::move(state)), notice_(std::move(notice)) {}
+  KeptSession(std::filesystem::path state, Notice notice)
+      : state_(std::move(state)), wanted_(!state_.empty()), notice_(std::move(notice)) {}
   /// In the folder that it was opened from.
   KeptSession(SessionFolder folder, Notice notice);
   ~KeptSession() { close(nullptr); }
@@ -43,6 +44,8 @@ class KeptSession {
   void set_cameras(std::vector<CameraBookmark> cameras);
   /// Null if it is kept nowhere.
   SessionFolder* folder() { return folder_ && folder_->keeps() ? &*folder_ : nullptr; }
+  /// It was to be kept, and what is done to it is in memory alone.
+  bool fails() const { return wanted_ && folder_ && !folder_->keeps(); }
   bool is_in(const std::filesystem::path& folder) const {
     return folder_ && folder_->keeps() && same_file(folder_->path(), folder);
   }
@@ -57,6 +60,7 @@ class KeptSession {
   void write_cameras();
 
   std::filesystem::path state_;
+  bool wanted_ = true;  ///< somewhere
   std::optional<SessionFolder> folder_;
   bool closed_ = false;
   std::vector<CameraBookmark> cameras_;

@@ -46,6 +46,7 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   const bool is_there = snapshot.compared && tree_ && tree_->branches.has(snapshot.compared->branch);
   if (!is_there || snapshot.compared->branch == tree_->branches.current().name) snapshot.compared = nullptr;
   snapshot.kept = kept_ && kept_->folder();
+  snapshot.keeping_fails = kept_ && kept_->fails();
   // Also where the session stands elsewhere: the map comes back with its views.
   const bool is_of_this = session_ && !gibbs_scans_.empty() && !session_->scans().empty() &&
                           gibbs_scans_.front() == session_->scans().front();

@@ -116,6 +116,7 @@ struct SessionSnapshot {
   std::shared_ptr<const Timeline> timeline;    ///< null without a session
   std::shared_ptr<const Comparison> compared;  ///< null if the session is shown alone
   bool kept = false;                           ///< what was taken is in a folder
+  bool keeping_fails = false;                  ///< it was to be, and is in memory alone
   std::size_t gibbs_lost = 0;                  ///< views of this scan's Gibbs map that is in no folder; 0: none is
   std::shared_ptr<const std::vector<CameraBookmark>> cameras;  ///< to look at the scene from; may be null
 

@@ -172,6 +172,12 @@ TEST_F(Bars, TheStatusLineSaysThatARecordingRuns) {
   EXPECT_THAT(status(), HasSubstr("Recording mine.nextview · View 2: "));
 }
 
+TEST_F(Bars, TheStatusLineSaysThatNothingIsKept) {
+  EXPECT_THAT(status(), testing::Not(HasSubstr("kept")));
+  scan_->keeping_fails = true;
+  EXPECT_THAT(status(), HasSubstr("Nothing is kept: Ctrl+E exports · View 2: "));
+}
+
 TEST_F(Bars, TheLogHasAllAndNotificationsWhatMatters) {
   desk_.window.bring_to_front("log");
   desk_.frames();

@@ -56,6 +56,8 @@ TEST_F(KeptSessionTest, ASecondProgramShowsItAndSaysThatNothingIsKept) {
   EXPECT_THAT(notices_, testing::ElementsAre(StartsWith(kept().front().string() + ": another program")));
   steps(*second, 1);
   EXPECT_EQ(second->snapshot()->records.size(), 3u);
+  EXPECT_TRUE(second->snapshot()->keeping_fails);
+  EXPECT_FALSE(first->snapshot()->keeping_fails);
   EXPECT_EQ(first->snapshot()->records.size(), 2u);
   EXPECT_EQ(read_journal(kept().front()).line().size(), 2u);
   EXPECT_EQ(kept().size(), 1u);
