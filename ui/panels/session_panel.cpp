@@ -25,12 +25,14 @@ std::vector<std::string> sensor_presets() {
   return names;
 }
 
+constexpr float field_at = 92;  ///< from the panel's left [px]
+
 /// A label at the left, and room for a control and the way back to the default.
 void label(const PanelContext& context, const std::string& text, const std::string& help) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   tooltip(help);
-  ImGui::SameLine(context.style.px(92));
+  ImGui::SameLine(context.style.px(field_at));
   ImGui::SetNextItemWidth(-context.style.px(22));
 }
 
@@ -135,12 +137,14 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
     if (!setting.key.starts_with(group + ".")) continue;
     const bool shows_unit = setting.unit == "m" && std::holds_alternative<double*>(setting.value);
     const std::string unit = setting.unit.empty() || shows_unit ? "" : " [" + setting.unit + "]";
-    const bool narrow = setting.label().size() + unit.size() > 14;
+    const std::string name = setting.label() + unit;
+    const float end = ImGui::GetCursorPosX() + ImGui::CalcTextSize(name.c_str()).x;
+    const bool narrow = end + context.style.px(4) > context.style.px(field_at);
     if (narrow) {  // the name has a line of its own
-      ImGui::TextUnformatted((setting.label() + unit).c_str());
+      ImGui::TextUnformatted(name.c_str());
       tooltip(setting.key + ": " + setting_help(setting));
     }
-    draw_setting(context, setting, narrow ? "" : (setting.label() + unit).c_str());
+    draw_setting(context, setting, narrow ? "" : name.c_str());
     if (setting.key == "map.region") command_button(context, command::edit_region, Icon::none, "Drag it in the scene");
   }
   ImGui::PopID();

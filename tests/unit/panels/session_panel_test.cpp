@@ -77,6 +77,34 @@ TEST_F(SessionPanelTest, AllOthersAreInGroupsThatOpen) {
   EXPECT_THAT(lines, testing::Contains("voxel range segment"));
 }
 
+TEST(SessionPanelFields, CoverNoName) {
+  Desk desk(1280, 3600);
+  desk.snapshot = made_scan();
+  desk.frames();
+  for (const char* group : {"Evaluation", "Termination", "Gibbs sampler", "Planner", "Candidate views", "Map", "Cloud",
+                            "Sensor", "Object"}) {  // from below, as each moves those beneath it
+    const auto all = seen_texts();
+    const SeenText* title = nullptr;
+    for (const SeenText& text : all)
+      if (text.window == "Session" && text.text == group) title = &text;  // the last one: fields are called so, too
+    ASSERT_NE(title, nullptr) << group;
+    desk.click(title->from.x + 2, title->middle());
+    desk.frames();
+  }
+  const auto all = seen_texts();
+  const float fields = float(desk.layout().left.x) + 92;
+  std::size_t names = 0;
+  for (const SeenText& name : all) {
+    if (name.window != "Session" || name.from.x >= fields) continue;
+    ++names;
+    const auto is_its_value = [&](const SeenText& value) {
+      return value.window == "Session" && value.from.x >= fields && std::abs(value.middle() - name.middle()) < 4;
+    };
+    EXPECT_TRUE(name.to.x <= fields || std::ranges::none_of(all, is_its_value)) << name.text;
+  }
+  EXPECT_GT(names, 60u);
+}
+
 TEST_F(SessionPanelTest, AChoiceIsSetToo) {
   desk_.frames();
   click_on(desk_, "occlusion-aware", "Session");
