@@ -6,6 +6,7 @@
 #include "tests/integration/user.hpp"
 #include "tests/integration/window_pixels.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/scanner_commands.hpp"
 
 namespace nextview {
 namespace {

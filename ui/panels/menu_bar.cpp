@@ -95,6 +95,22 @@ void draw_menu(const PanelContext& context, const std::string& menu, RecentMenu&
   }
 }
 
+constexpr const char* more = "More";  // the menu of those that have no room beside the others
+
+/// How many menus have room beside each other, with one more for the rest if not all do.
+std::ptrdiff_t fitting(const std::vector<std::string>& menus, float width) {
+  const auto needed = [](const std::string& menu) {
+    return ImGui::CalcTextSize(menu.c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x;
+  };
+  float all = 0;
+  for (const std::string& menu : menus) all += needed(menu);
+  if (all <= width) return std::ssize(menus);
+  float taken = needed(more);
+  std::ptrdiff_t count = 0;
+  while (count < std::ssize(menus) && (taken += needed(menus[std::size_t(count)])) <= width) ++count;
+  return count;
+}
+
 }  // namespace
 
 void RecentMenu::read() {
@@ -114,11 +130,21 @@ void draw_menu_bar(const PanelContext& context, const Rectangle& rectangle, Rece
   if (!ImGui::BeginMenuBar()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.px(10), style.px(8)));
   const float below = float(rectangle.y + rectangle.height);
-  for (const std::string& menu : menus()) {
-    // What is too long scrolls: it would open above, with its first item beneath the pointer.
+  // What is too long scrolls: it would open above, with its first item beneath the pointer.
+  const auto begin_menu = [&](const std::string& name) {
     ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, ImGui::GetIO().DisplaySize.y - below - style.px(2)});
-    if (!ImGui::BeginMenu(menu.c_str())) continue;
+    return ImGui::BeginMenu(name.c_str());
+  };
+  const auto draw = [&](const std::string& menu) {
+    if (!begin_menu(menu)) return;
     draw_menu(context, menu, recent);
+    ImGui::EndMenu();
+  };
+  const std::vector<std::string> all = menus();
+  const auto beside = all.begin() + fitting(all, float(rectangle.width) - style.px(12));
+  std::for_each(all.begin(), beside, draw);
+  if (beside != all.end() && begin_menu(more)) {
+    std::for_each(beside, all.end(), draw);
     ImGui::EndMenu();
   }
   ImGui::PopStyleVar();

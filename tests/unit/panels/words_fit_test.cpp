@@ -125,6 +125,21 @@ TEST_P(WordsFit, InEveryMenu) {
   EXPECT_GE(seen.size(), 1u);
 }
 
+TEST(Menus, AreAllReachedHoweverLargeTextIs) {
+  for (const double scale : {1.0, 1.5, 1.9}) {
+    Desk desk(640, 480, scale);
+    desk.frames();
+    std::string seen = read("Menu");
+    EXPECT_EQ(seen.find("More") == seen.npos, scale == 1.0) << scale;
+    if (scale > 1.0) {
+      click_on(desk, "More", "Menu");
+      desk.frames();
+      seen = read();
+    }
+    for (const std::string& menu : menus()) EXPECT_THAT(seen, testing::HasSubstr(menu)) << scale;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, WordsFit,
                          testing::Values(std::tuple(640, 480, 1.0), std::tuple(1280, 800, 1.0),
                                          std::tuple(3840, 2160, 2.0)));
