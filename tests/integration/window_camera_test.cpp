@@ -107,6 +107,30 @@ TEST_F(WindowCamera, ADoubleClickBringsAPointToTheMiddle) {
   EXPECT_LT((pixel_of(scene().pivot()) - middle_of_scene).norm(), 1.0);
 }
 
+/// A part whose sides fill what the legends leave; with legends, in half of the scene, and without legends.
+TEST(WindowFraming, TheAxesStandFreeOfThePartFromEverySide) {
+  Configuration box = small_scan();
+  box.object.file = "box";
+  User user(box);
+  user.run("step\nstep\n");
+  SceneView& scene = user.window().scene();
+  for (const std::string with : {"second-view none", "second-view cloud", "second-view none\ntoggle-legends"}) {
+    user.run(with + "\n");
+    for (const char* side : {"front", "right", "back", "left", "top", "bottom", "usual"}) {
+      user.run(fmt::format("standard-view {}\n", side));
+      const Rectangle& r = scene.rectangle();
+      int covered = 0;
+      for (const Eigen::Vector3f& vertex : user.session().mesh->vertices)
+        if (const auto p = scene.project(vertex.cast<double>()))
+          covered += p->x() < r.x + 94 && p->y() > r.y + r.height - 90;
+      EXPECT_EQ(covered, 0) << side << ", " << with;
+    }
+    const double legends = scene.beside_legends()[1].width;
+    EXPECT_EQ(legends > 100, !with.ends_with("legends")) << with;
+    EXPECT_LT(legends, 0.7 * scene.rectangle().width) << with;
+  }
+}
+
 TEST_F(WindowCamera, ArrowsTurnAndFComesBack) {
   const Image framed = user_.look();
   const Pose before = scene().camera_pose();

@@ -138,13 +138,23 @@ TEST(CameraFraming, PointsInTheUpperRightAreSeen) {
   const Eigen::Matrix3d R = look_at({0, -1, 0}, Vector3::Zero()).linear();  // x right, z up in the picture
   const auto clear = [&](const Vector3& a, const Vector3& b) {
     const double angle = 2 * std::atan(0.5);  // the picture is 1 m high where the points are
-    return clears_upper_right(R, {0, -1, 0}, angle, 1.0, {0.7, 0.7}, std::vector{a, b});
+    return clears_corner(R, {0, -1, 0}, angle, 1.0, {0.7, 0.7}, std::vector{a, b});
   };
   EXPECT_TRUE(clear({0.15, 0, 0.4}, {-0.4, 0, -0.4})) << "left of it";
   EXPECT_TRUE(clear({0.4, 0, 0.15}, {-0.4, 0, -0.4})) << "beneath it";
   EXPECT_TRUE(clear({0.15, 0, 0.22}, {0.22, 0, 0.15})) << "around its corner";
   EXPECT_FALSE(clear({0.3, 0, 0.3}, {-0.4, 0, -0.4})) << "in it";
   EXPECT_FALSE(clear({0.1, 0, 0.45}, {0.45, 0, 0.1})) << "the way between the points crosses it";
+}
+
+TEST(CameraFraming, PointsInTheLowerLeftAreSeen) {
+  const Eigen::Matrix3d R = look_at({0, -1, 0}, Vector3::Zero()).linear();
+  const auto clear = [&](const Vector3& a, const Vector3& b) {
+    return clears_corner(R, {0, -1, 0}, 2 * std::atan(0.5), 1.0, {0.3, 0.3}, std::vector{a, b}, true);
+  };
+  EXPECT_TRUE(clear({-0.15, 0, -0.4}, {0.4, 0, 0.4})) << "right of it";
+  EXPECT_TRUE(clear({-0.4, 0, -0.15}, {0.4, 0, 0.4})) << "above it";
+  EXPECT_FALSE(clear({-0.3, 0, -0.3}, {0.4, 0, 0.4})) << "in it";
 }
 
 TEST(ColourMaps, LightnessChangesEvenly) {

@@ -70,16 +70,17 @@ Vector3 frame_points(const Eigen::Matrix3d& R_world_camera, double vertical_angl
   return R_world_camera * Vector3(x.position(depth), y.position(depth), depth);
 }
 
-bool clears_upper_right(const Eigen::Matrix3d& R_world_camera, const Vector3& position, double vertical_angle,
-                        double aspect, const Eigen::Vector2d& corner, std::span<const Vector3> points) {
+bool clears_corner(const Eigen::Matrix3d& R_world_camera, const Vector3& position, double vertical_angle, double aspect,
+                   const Eigen::Vector2d& corner, std::span<const Vector3> points, bool lower_left) {
+  const double outwards = lower_left ? -1 : 1;
   const double vertical = std::tan(vertical_angle / 2);
   std::vector<Eigen::Vector2d> from_corner;
   for (const Vector3& point : points) {
     const Vector3 p = R_world_camera.transpose() * (point - position);
-    from_corner.emplace_back(0.5 + 0.5 * p.x() / (p.z() * vertical * aspect) - corner.x(),
-                             0.5 - 0.5 * p.y() / (p.z() * vertical) - corner.y());
+    from_corner.emplace_back(outwards * (0.5 + 0.5 * p.x() / (p.z() * vertical * aspect) - corner.x()),
+                             outwards * (0.5 - 0.5 * p.y() / (p.z() * vertical) - corner.y()));
   }
-  // Clear if a straight line through the corner has all points on its lower left.
+  // Clear if a straight line through the corner has all points on its far side.
   constexpr int directions = 16;
   for (int i = 0; i <= directions; ++i) {
     const double angle = i * std::numbers::pi / 2 / directions;

@@ -24,8 +24,9 @@ Vector3 frame_points(const Eigen::Matrix3d& R_world_camera, double vertical_angl
                      const FrameMargins& margins, std::span<const Vector3> points);
 
 /// Whether a camera there shows all points (and what lies between them) clear of the rectangle between `corner` and the
-/// upper right corner of the viewport; `corner` in shares of the viewport from the lower left.
-bool clears_upper_right(const Eigen::Matrix3d& R_world_camera, const Vector3& position, double vertical_angle,
-                        double aspect, const Eigen::Vector2d& corner, std::span<const Vector3> points);
+/// upper right corner of the viewport, or with `lower_left` that one; `corner` in shares of the viewport from the lower
+/// left.
+bool clears_corner(const Eigen::Matrix3d& R_world_camera, const Vector3& position, double vertical_angle, double aspect,
+                   const Eigen::Vector2d& corner, std::span<const Vector3> points, bool lower_left = false);
 
 }  // namespace nextview

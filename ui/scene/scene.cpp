@@ -45,6 +45,8 @@ void renew_lights(vtkObject* renderer, unsigned long, void*, void*) {
   while (vtkLight* light = lights.GetNextItem()) light->Modified();
 }
 
+constexpr double widest_in_window = 236.0;  // "measured but unknown, p ≥ 0.5", which comes with the first view [px]
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 }  // namespace
@@ -162,15 +164,20 @@ void Scene::set_quality(DrawingQuality quality) {
 void Scene::set_backed(bool backed) { overlay_->item->backed = backed; }
 Eigen::Vector2d Scene::legends_reach() const { return overlay_->item->legends_reach(); }
 
-/// In a narrower window they would cover most of the scene.
-bool Scene::has_room_for_legends() const {
-  return renderer_->GetSize()[0] / overlay_->item->scale >= 2 * (usual_legend_width + 36);
+/// Of legends in a window: smaller in a narrow scene, which they would cover; 0: they would even so.
+double Scene::legend_size() const {
+  constexpr double small = 0.8;
+  const double width = renderer_->GetSize()[0] / overlay_->item->scale;
+  if (!overlay_->item->backed || width >= 2 * (usual_legend_width + 36)) return 1.0;
+  return width >= 1.25 * small * (widest_in_window + 36) ? small : 0.0;
 }
 
 void Scene::annotate() {
   overlay_->item->legends.clear();
   overlay_->item->labels.clear();
-  const bool legends = legends_ && (!overlay_->item->backed || has_room_for_legends());
+  const double size = legend_size();
+  const bool legends = legends_ && size > 0;
+  if (legends) overlay_->item->legend_size = size;
   for (const Layer* layer : layers()) {
     if (!layer->visible()) continue;
     overlay_->item->labels.insert(overlay_->item->labels.end(), layer->labels().begin(), layer->labels().end());
@@ -180,10 +187,11 @@ void Scene::annotate() {
   if (overlay_->item->backed) drop_legends_without_room();
 }
 
-/// In a low window: those of candidates first, of voxels last.
+/// In a low window: those of candidates first, of voxels last; in a narrow one beneath them is the object.
 void Scene::drop_legends_without_room() {
   constexpr double foot = 56.0;  // [px] for axes and scale bar
-  const double room = renderer_->GetSize()[1] / overlay_->item->scale - foot;
+  const double height = renderer_->GetSize()[1] / overlay_->item->scale;
+  const double room = overlay_->item->legend_size < 1 ? 0.4 * height : height - foot;
   std::vector<Legend>& legends = overlay_->item->legends;
   while (!legends.empty() && overlay_->item->legends_height() > room) legends.erase(legends.begin());
 }
@@ -204,8 +212,15 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
   const SceneOverlay& overlay = *overlay_->item;
   const double width = std::max(renderer_->GetSize()[0], 1) / overlay.scale;  // [px] of the design, as the margins
   const double height = std::max(renderer_->GetSize()[1], 1) / overlay.scale;
-  const auto framed = [&](const FrameMargins& margins) {
-    return frame_points(R_world_camera, radians(vertical_angle), width / height, margins, points);
+  const double aspect = width / height, angle = radians(vertical_angle);
+  const Eigen::Vector2d axes = overlay.axes_size().cwiseQuotient(Eigen::Vector2d(width, height));
+  const auto framed = [&](FrameMargins margins) {
+    const Vector3 position = frame_points(R_world_camera, angle, aspect, margins, points);
+    const bool clear =
+        !overlay.backed || !overlay.axes || clears_corner(R_world_camera, position, angle, aspect, axes, points, true);
+    if (clear || margins.bottom >= axes.y()) return position;
+    margins.bottom = std::min(axes.y(), 0.45);
+    return frame_points(R_world_camera, angle, aspect, margins, points);
   };
   const auto share = [](double margin, double whole) { return std::min(margin / whole, 0.25); };  // some is left
   const double foot = tight_ ? 20.0 : 44.0;  // [px] for axes and scale bar
@@ -213,19 +228,16 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
                              std::min(std::max(foot, covered_below_) / height, 0.45),
                              share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
-  const bool to_come = overlay.backed && legends_ && has_room_for_legends();
+  const bool to_come = overlay.backed && legends_ && legend_size() > 0;
   if (overlay.legends.empty() && !to_come) return middle;
   FrameMargins beside = centred, beneath = centred;
-  constexpr double widest_in_window = 236.0;  // "measured but unknown, p ≥ 0.5", which comes with the first view
-  const double legends_width = overlay.backed ? widest_in_window : usual_legend_width;
+  const double legends_width = overlay.backed ? legend_size() * widest_in_window : usual_legend_width;
   beside.right = std::min((legends_width + 36) / width, 0.5);
   // In a window more legends come as the scan goes on.
-  const double legends_height = std::max(overlay.legends_height(), overlay.backed ? 260.0 : 0.0);
-  beneath.top = std::clamp(legends_height / height, centred.top, 0.5);
-  if (clears_upper_right(R_world_camera, middle, radians(vertical_angle), width / height,
-                         {1 - beside.right, 1 - beneath.top}, points)) {
-    return middle;
-  }
+  const bool usual = legend_size() == 1;  // in a narrow scene the part has room before they have
+  const double legends_height = std::max(overlay.legends_height(), overlay.backed && usual ? 260.0 : 0.0);
+  beneath.top = std::clamp(legends_height / height, centred.top, usual ? 0.5 : 0.3);
+  if (clears_corner(R_world_camera, middle, angle, aspect, {1 - beside.right, 1 - beneath.top}, points)) return middle;
   const Vector3 left = framed(beside), lower = framed(beneath), forward = R_world_camera.col(2);
   return forward.dot(left) > forward.dot(lower) ? left : lower;
 }

@@ -113,7 +113,7 @@ class Scene {
 
  private:
   std::array<Layer*, 10> layers() const;  ///< in the order of their legends
-  bool has_room_for_legends() const;
+  double legend_size() const;
   void drop_legends_without_room();
   void scale_layers();
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;

@@ -170,37 +170,44 @@ void paint_label(Painter& painter, vtkRenderer& renderer, double scale, const La
 
 vtkStandardNewMacro(SceneOverlay);
 
+/// Beneath the caption where that may reach them.
+double SceneOverlay::legends_begin() const { return margin + (legend_size < 1 && !caption.empty() ? 24 : 0); }
+
 double SceneOverlay::legends_height() const {
-  double height = margin;
-  for (const Legend& legend : legends) height += Painter::legend_height(legend) + legend_gap;
+  double height = legends_begin();
+  for (const Legend& legend : legends) height += legend_size * (Painter::legend_height(legend) + legend_gap);
   return height;
 }
+
+Eigen::Vector2d SceneOverlay::axes_size() const { return corner_size(true, false); }
 
 bool SceneOverlay::Paint(vtkContext2D* context) {
   Painter painter(*context, scale, dark);
   const Eigen::Vector2d size = picture_size(*renderer, scale);
+  Painter legend_painter(*context, scale * legend_size, dark);
   double width = 0;
-  for (const Legend& legend : legends) width = std::max(width, painter.legend_width(legend));
+  for (const Legend& legend : legends) width = std::max(width, legend_size * legend_painter.legend_width(legend));
   legends_reach_ = legends.empty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(margin + width + 10, legends_height() - 4);
   if (backed && !legends.empty())
-    painter.box(size.x() - legends_reach_.x(), size.y() - legends_reach_.y(), width + 20, legends_height() - margin + 4,
-                theme::sky, backing_opacity);
+    painter.box(size.x() - legends_reach_.x(), size.y() - legends_reach_.y(), width + 20,
+                legends_height() - legends_begin() + 4, theme::sky, backing_opacity);
   if (axes) paint_axes(painter, *renderer->GetActiveCamera());
   if (scale_bar) paint_scale_bar(painter, *renderer, scale, scale_reference, backed);
   const double left = size.x() - margin - width;
   std::vector<Eigen::AlignedBox2d> taken;  // by what labels must not cover
-  double y = size.y() - margin;
+  double y = size.y() - legends_begin();
   for (const Legend& legend : legends) {
-    const double height = Painter::legend_height(legend);
+    const double height = legend_size * Painter::legend_height(legend);
     taken.emplace_back(Eigen::Vector2d(left - 8, y - height - 4), Eigen::Vector2d(size.x(), y));
-    y -= height + legend_gap;
+    y -= height + legend_size * legend_gap;
   }
   if (axes || scale_bar) taken.emplace_back(Eigen::Vector2d(0, 0), corner_size(axes, scale_bar));
   for (const Label& label : labels) paint_label(painter, *renderer, scale, label, taken);
   if (!caption.empty())
     painter.text(margin, size.y() - margin - 18, caption, theme::caption, theme::ink, TextWeight::semi_bold);
-  y = size.y() - margin;
-  for (const Legend& legend : legends) y -= painter.legend(left, y, legend) + legend_gap;
+  y = size.y() - legends_begin();
+  for (const Legend& legend : legends)
+    y -= legend_size * (legend_painter.legend(left / legend_size, y / legend_size, legend) + legend_gap);
   return true;
 }
 

@@ -21,6 +21,8 @@ class SceneOverlay : public vtkContextItem {
   vtkTypeMacro(SceneOverlay, vtkContextItem)
 
       double legends_height() const;  ///< from the upper border [px at scale 1]
+  double legends_begin() const;       ///< likewise
+  Eigen::Vector2d axes_size() const;  ///< of the lower left corner that the axes take [px at scale 1]
   bool Paint(vtkContext2D* context) override;
 
   vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
@@ -28,6 +30,7 @@ class SceneOverlay : public vtkContextItem {
   bool dark = false;                          ///< on dark paper
   std::string caption;                        ///< upper left
   std::vector<Legend> legends;                ///< upper right, from top to bottom
+  double legend_size = 1.0;                   ///< of what they usually are
   std::vector<Label> labels;                  ///< beside their places
   Vector3 scale_reference = Vector3::Zero();  ///< where the scale bar is true [m, world]
   bool axes = true, scale_bar = true;
