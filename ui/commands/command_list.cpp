@@ -41,7 +41,7 @@ std::span<const std::reference_wrapper<const Command>> commands() {
       section_axis, section_at, flip_section, second_view,
       // Layers
       toggle_object, toggle_cloud, toggle_octree, toggle_views, toggle_rays, toggle_region, edit_region, toggle_missed,
-      toggle_surface, toggle_candidates, toggle_legends, object_style, surface_source, surface_colour, cloud_colour,
+      toggle_candidates, toggle_surface, toggle_legends, object_style, surface_source, surface_colour, cloud_colour,
       voxel_map, voxel_colour, toggle_occupied, toggle_unknown, toggle_free, toggle_uncertain, threshold,
       uncertain_from, slice_axis, slice_at, lock_ranges,
       // Window
