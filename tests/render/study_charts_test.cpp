@@ -2,10 +2,13 @@
 #include "ui/report/study_charts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <set>
 
+#include "core/planner/policy.hpp"
 #include "core/study/summary_table.hpp"
 #include "tests/render/render_test.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
@@ -13,7 +16,10 @@
 namespace nextview {
 namespace {
 
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 const SummaryTable& own_study() {
   static const SummaryTable table(std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets" / "studies" / "nextview");
@@ -56,6 +62,52 @@ std::string title_of_maps(int objects_of_nine) {
 TEST(StudyCharts, AreOfTheMostViewsUnderWhichAllWasTried) {
   EXPECT_THAT(title_of_maps(3), HasSubstr("9 views"));
   for (const int objects : {0, 1, 2}) EXPECT_THAT(title_of_maps(objects), HasSubstr("6 views")) << objects;
+}
+
+/// A chart of a summary that is made up: rows "object,sensor,views,method,measure,at,runs,mean,spread".
+std::string chart(const std::string& name, const std::vector<std::string>& rows) {
+  const TemporaryFolder folder;
+  std::string text = "part,block,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
+  for (const std::string& row : rows) text += "planning,1," + row + ",,1-2,00aa,\n";
+  folder.write("summary.csv", text);
+  const auto figures = study_figures();
+  const auto drawing =
+      std::ranges::find(figures, name, &StudyFigure::name)->draw(SummaryTable(folder / ""), Look::light());
+  return drawing ? drawing->svg() : "";
+}
+
+/// The colours of the names at the curves' ends.
+std::vector<std::string> colours_of(const std::string& svg, const std::vector<std::string>& methods) {
+  std::vector<std::string> colours;
+  for (const std::string& method : methods) {
+    const std::size_t name = svg.find(">" + method + "<");
+    const std::size_t fill = svg.rfind("fill=\"", name);
+    colours.push_back(name == std::string::npos ? "" : svg.substr(fill + 6, 7));
+  }
+  return colours;
+}
+
+std::vector<std::string> courses_of(const std::vector<std::string>& methods) {
+  std::vector<std::string> rows;
+  for (const std::string& method : methods)
+    for (const int view : {1, 2})
+      rows.push_back(fmt::format("(mean),paper,2,{},coverage[%],{},2,{},1.5", method, view, 40 * view));
+  return rows;
+}
+
+TEST(StudyCharts, TellPlansOfAStudysOwnApart) {
+  const std::vector<std::string> few = {"careful", "eager", "random"};
+  const auto colours = colours_of(chart("coverage_by_view", courses_of(few)), few);
+  EXPECT_EQ(std::set(colours.begin(), colours.end()).size(), 3u) << fmt::format("{}", fmt::join(colours, " "));
+  EXPECT_THAT(colours, Not(Contains("#5b6675"))) << "grey";
+}
+
+TEST(StudyCharts, OfManyPlansShowTheStudysOwnInColours) {
+  std::vector<std::string> many = policy_names();
+  many.insert(many.end(), {"careful", "eager"});
+  const std::string svg = chart("coverage_by_view", courses_of(many));
+  EXPECT_THAT(colours_of(svg, {"careful", "eager"}), Not(Contains("#5b6675")));
+  EXPECT_THAT(colours_of(svg, {"farthest"}), ElementsAre("#5b6675"));
 }
 
 TEST(Drawings, FitInTheMiddleOfAPage) {

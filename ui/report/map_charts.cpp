@@ -120,18 +120,20 @@ StudyChart reliability(const SummaryTable& table, const Look& look) {
   // Bins are told of the mean over objects alone; the main measure has the objects.
   const auto setting = maps_setting(table, main_measure(StudyPart::maps));
   if (!setting || table.methods(*setting, "reliability_true").empty()) return std::nullopt;
-  Plot plot;
+  Plot plot = courses(table, *setting, "reliability_true", 0.01);
+  plot.whole_x = false;
   plot.title = fmt::format("Reliability near the surface: {}, {} views",
                            scope(table, *setting, main_measure(StudyPart::maps)), setting->views);
   plot.x_label = "probability that the map says [%]";
   plot.y_label = "voxels that the surface touches [%]";
   plot.diagonal = true;
   plot.x_low = 0.0, plot.x_high = 100.0, plot.y_low = 0.0, plot.y_high = 100.0;
-  for (const std::string& method : table.methods(*setting, "reliability_true")) {
-    PlotSeries series = series_of(table.course(*setting, mean_object, method, "reliability_true"), method, false);
-    const auto said = table.course(*setting, mean_object, method, "reliability_said");
-    for (std::size_t i = 0; i < series.x.size(); ++i) series.x[i] = 100.0 * said.at(i).mean, series.y[i] *= 100.0;
-    plot.series.push_back(std::move(series));
+  const std::vector<std::string> methods = table.methods(*setting, "reliability_true");
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const auto said = table.course(*setting, mean_object, methods[m], "reliability_said");
+    PlotSeries& series = plot.series[m];
+    for (std::size_t i = 0; i < series.x.size(); ++i) series.x[i] = 100.0 * said.at(i).mean;
+    series.spread.clear();
   }
   return one_plot(plot, look, 520);
 }

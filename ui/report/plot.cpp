@@ -112,7 +112,7 @@ void draw_names(VectorDrawing& d, const DrawingArea& inner, const Plot& plot, co
     d.line({{axes.x(name.series->x.back()) + 3, name.wanted},
             {inner.right() + leaders_room - 6, name.y},
             {inner.right() + leaders_room, name.y}},
-           mix(d.look().paper, colour, 0.4), 1.0);
+           mix(d.look().paper, colour, 0.4), 1.0, name.series->dashed);
     d.dot(axes.x(name.series->x.back()), name.wanted, 2.5, colour);
     const bool is_background = name.series->colour == theme::muted;  // its line may be faint, its name may not
     d.text(inner.right() + leaders_room + 5, name.y + 4, name.series->name, theme::small_text,

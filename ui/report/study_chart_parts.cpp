@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 #include "core/file/counted.hpp"
+#include "core/planner/policy.hpp"
 
 namespace nextview {
 namespace {
 
-/// A method that its plot is about is drawn in a colour of its own and stronger than the others.
+/// A method that plots are often about has a colour of its own, and may be stronger than the others. Of those that
+/// share a colour the first has it.
 struct Style {
-  const char* method;
+  std::string_view method;
   std::size_t colour;
   bool strong;
 };
@@ -26,6 +29,20 @@ constexpr Style styles[] = {{"new-surface", 0, true},
                             {"calibrated", 2, true},
                             {"average-entropy", 3, false},
                             {"average_entropy_eq13", 3, false}};
+
+const Style* style_of(const std::string& method) {
+  const auto found = std::ranges::find(styles, std::string_view(method), &Style::method);
+  return found == std::end(styles) ? nullptr : found;
+}
+
+/// Which has this colour where several would.
+const Style* first_of(std::size_t colour, const std::vector<std::string>& methods) {
+  return std::ranges::find_if(styles, [&](const Style& style) {
+    return style.colour == colour && std::ranges::count(methods, style.method) > 0;
+  });
+}
+
+bool comes_with_the_program(const std::string& method) { return std::ranges::count(policy_names(), method) > 0; }
 
 }  // namespace
 
@@ -42,32 +59,49 @@ std::optional<StudySetting> main_setting(const SummaryTable& table, StudyPart pa
   return all.empty() ? std::nullopt : std::optional(all.front());
 }
 
-PlotSeries series_of(const std::vector<SummaryTable::Point>& points, const std::string& method, bool with_spread) {
-  PlotSeries series;
-  series.name = in_words(method);
-  series.colour = theme::muted;
-  series.thickness = 1.5;
-  for (const Style& style : styles)
-    if (method == style.method)
-      series.colour = theme::series[style.colour], series.thickness = style.strong ? 2.5 : 2.0;
-  if (method == "oracle") series.colour = theme::ink, series.dashed = true;
-  for (const auto& point : points) {
-    series.x.push_back(point.at);
-    series.y.push_back(point.mean);
-    if (with_spread && series.thickness > 2.0) series.spread.push_back(point.spread);
+std::vector<PlotSeries> curves_of(const std::vector<std::string>& methods) {
+  std::vector<PlotSeries> curves;
+  std::vector<std::size_t> others;                 // that have no colour yet
+  std::vector<std::pair<std::size_t, bool>> left;  // colours, and whether they are dashed
+  for (const bool dashed : {false, true})
+    for (std::size_t colour = 0; colour < theme::series.size(); ++colour) left.emplace_back(colour, dashed);
+  for (const std::string& method : methods) {
+    PlotSeries& curve = curves.emplace_back();
+    curve.name = in_words(method);
+    const Style* style = style_of(method);
+    curve.thickness = !style ? 1.5 : style->strong ? 2.5 : 2.0;
+    if (method == "oracle")
+      curve.colour = theme::ink, curve.dashed = true;
+    else if (style && first_of(style->colour, methods) == style)
+      curve.colour = theme::series[style->colour], std::erase(left, std::pair(style->colour, false));
+    else
+      curve.colour = theme::muted, others.push_back(curves.size() - 1);
   }
-  return series;
+  if (others.size() > left.size()) std::erase_if(others, [&](auto i) { return comes_with_the_program(methods[i]); });
+  for (std::size_t i = 0; i < std::min(others.size(), left.size()); ++i) {
+    PlotSeries& curve = curves[others[i]];
+    curve.colour = theme::series[left[i].first];
+    curve.dashed = left[i].second;
+    curve.thickness = std::max(curve.thickness, 2.0);
+  }
+  return curves;
 }
 
 /// A measure over what it is at, a curve a method.
 Plot courses(const SummaryTable& table, const StudySetting& setting, const std::string& measure, double unit) {
+  constexpr std::size_t most_bands =
+      4;  // that can be told apart; where there are more curves, the strong ones have them
+  const std::vector<std::string> methods = table.methods(setting, measure);
   Plot plot;
   plot.whole_x = true;
-  for (const std::string& method : table.methods(setting, measure)) {
-    PlotSeries series = series_of(table.course(setting, mean_object, method, measure), method, true);
-    for (double& y : series.y) y /= unit;
-    for (double& spread : series.spread) spread /= unit;
-    plot.series.push_back(std::move(series));
+  plot.series = curves_of(methods);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    PlotSeries& series = plot.series[i];
+    for (const auto& point : table.course(setting, mean_object, methods[i], measure)) {
+      series.x.push_back(point.at);
+      series.y.push_back(point.mean / unit);
+      if (methods.size() <= most_bands || series.thickness > 2.0) series.spread.push_back(point.spread / unit);
+    }
   }
   return plot;
 }

@@ -14,8 +14,9 @@ using StudyChart = std::optional<VectorDrawing>;  ///< none: the study has nothi
 
 /// What most methods are compared under.
 std::optional<StudySetting> main_setting(const SummaryTable& table, StudyPart part, const std::string& measure);
-/// A method that plots are about has a colour of its own and is stronger than the others, which are grey.
-PlotSeries series_of(const std::vector<SummaryTable::Point>& points, const std::string& method, bool with_spread);
+/// A curve a method, without its points. What plots are often about has a colour of its own, others have those that are
+/// left, dashed ones last. Where these do not do for all, what comes with the program is grey, the study's own is not.
+std::vector<PlotSeries> curves_of(const std::vector<std::string>& methods);
 /// A measure over what it is at, a curve a method; `unit`: that it is shown in.
 Plot courses(const SummaryTable& table, const StudySetting& setting, const std::string& measure, double unit = 1.0);
 /// "mean of 8 objects, clean"

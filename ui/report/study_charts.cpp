@@ -41,8 +41,7 @@ std::span<const StudyFigure> study_figures() {
   static const std::vector<StudyFigure> all = {
       {"coverage_by_view",
        "Share of the visible surface with a point within d_reg, after each view; the mean over objects, start views "
-       "and "
-       "seeds. Bands: standard deviation over the objects.",
+       "and seeds. Bands: standard deviation over the objects.",
        coverage_by_view},
       {"coverage_by_path", "The same against the mean path of the camera at each view.", coverage_by_path},
       {"coverage_by_time",
