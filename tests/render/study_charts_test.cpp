@@ -110,6 +110,18 @@ TEST(StudyCharts, OfManyPlansShowTheStudysOwnInColours) {
   EXPECT_THAT(colours_of(svg, {"farthest"}), ElementsAre("#5b6675"));
 }
 
+TEST(StudyCharts, OfPredictionsAreOfEveryPlanThatPredictsNewSurface) {
+  std::vector<std::string> rows;
+  for (const char* method : {"careful", "eager"})
+    for (const char* measure : {"predicted_gain[cm²]", "new_surface[cm²]"})
+      rows.push_back(fmt::format("box,paper,2,{},{},2,2,40,1.5", method, measure));
+  const std::string both = chart("predicted_and_seen", rows);
+  EXPECT_THAT(colours_of(both, {"careful", "eager"}), ElementsAre("#1f5fa8", "#d1401f"));
+  EXPECT_THAT(both, HasSubstr("predicted, and seen"));
+  rows.resize(2);
+  EXPECT_THAT(chart("predicted_and_seen", rows), HasSubstr("predicted by careful, and seen"));
+}
+
 TEST(Drawings, FitInTheMiddleOfAPage) {
   VectorDrawing drawing(100, 50, Look::light());
   drawing.box(0, 0, 100, 50, theme::chosen);

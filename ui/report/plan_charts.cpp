@@ -101,26 +101,32 @@ StudyChart coverage_by_object(const SummaryTable& table, const Look& look) {
   return by_object(table, look, *setting, "mean_coverage[%]", plot);
 }
 
-/// Each object's means, view by view.
+/// Each object's means, view by view, of every plan that predicts new surface.
 StudyChart predicted_and_seen(const SummaryTable& table, const Look& look) {
   const std::string predicted = "predicted_gain[cm²]", seen = "new_surface[cm²]";
   const auto setting = main_setting(table, StudyPart::planning, predicted);
   if (!setting) return std::nullopt;
+  const std::vector<std::string> methods = table.methods(*setting, predicted);
   Plot plot;
-  plot.title = "New surface of a view: predicted by new-surface, and seen";
+  plot.title = methods.size() > 1
+                   ? "New surface of a view: predicted, and seen"
+                   : fmt::format("New surface of a view: predicted by {}, and seen", in_words(methods.front()));
   plot.x_label = "predicted [cm²]";
   plot.y_label = "seen [cm²]";
   plot.diagonal = true;
   plot.x_low = 0.0;
-  PlotSeries points;
-  points.joined = false;
-  for (const std::string& object : table.objects(*setting, predicted)) {
-    const auto seen_course = table.course(*setting, object, "new-surface", seen);
-    for (const auto& point : table.course(*setting, object, "new-surface", predicted))
-      for (const auto& other : seen_course)
-        if (other.at == point.at) points.x.push_back(point.mean), points.y.push_back(other.mean);
+  plot.series = curves_of(methods);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    PlotSeries& points = plot.series[m];
+    points.joined = false;
+    if (methods.size() == 1) points.name.clear();  // the title has it
+    for (const std::string& object : table.objects(*setting, predicted)) {
+      const auto seen_course = table.course(*setting, object, methods[m], seen);
+      for (const auto& point : table.course(*setting, object, methods[m], predicted))
+        for (const auto& other : seen_course)
+          if (other.at == point.at) points.x.push_back(point.mean), points.y.push_back(other.mean);
+    }
   }
-  plot.series.push_back(std::move(points));
   return one_plot(plot, look, 480);
 }
 

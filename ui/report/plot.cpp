@@ -93,7 +93,7 @@ void draw_series(VectorDrawing& d, const PlotSeries& s, const Axes& axes) {
     d.line(std::move(points), colour, s.thickness, s.dashed);
 }
 
-/// At the right end of each curve, moved apart where they are near each other.
+/// At the right end of each curve, moved apart where they are near each other; of dots at the top, with one beside it.
 void draw_names(VectorDrawing& d, const DrawingArea& inner, const Plot& plot, const Axes& axes) {
   struct Name {
     const PlotSeries* series;
@@ -101,7 +101,10 @@ void draw_names(VectorDrawing& d, const DrawingArea& inner, const Plot& plot, co
   };
   std::vector<Name> names;
   for (const PlotSeries& s : plot.series)
-    if (!s.x.empty() && !s.name.empty()) names.push_back({&s, axes.y(s.y.back()), axes.y(s.y.back())});
+    if (!s.x.empty() && !s.name.empty()) {
+      const double end = s.joined ? axes.y(s.y.back()) : inner.top + 4;
+      names.push_back({&s, end, end});
+    }
   std::ranges::stable_sort(names, {}, &Name::wanted);
   for (std::size_t i = 1; i < names.size(); ++i) names[i].y = std::max(names[i].y, names[i - 1].y + name_distance);
   double lowest = inner.bottom() + 4;
@@ -109,11 +112,15 @@ void draw_names(VectorDrawing& d, const DrawingArea& inner, const Plot& plot, co
     names[i].y = std::min(names[i].y, lowest);
   for (const Name& name : names) {
     const Colour colour = d.look().on_paper(name.series->colour);
-    d.line({{axes.x(name.series->x.back()) + 3, name.wanted},
-            {inner.right() + leaders_room - 6, name.y},
-            {inner.right() + leaders_room, name.y}},
-           mix(d.look().paper, colour, 0.4), 1.0, name.series->dashed);
-    d.dot(axes.x(name.series->x.back()), name.wanted, 2.5, colour);
+    if (name.series->joined) {
+      d.line({{axes.x(name.series->x.back()) + 3, name.wanted},
+              {inner.right() + leaders_room - 6, name.y},
+              {inner.right() + leaders_room, name.y}},
+             mix(d.look().paper, colour, 0.4), 1.0, name.series->dashed);
+      d.dot(axes.x(name.series->x.back()), name.wanted, 2.5, colour);
+    } else {
+      d.dot(inner.right() + leaders_room - 5, name.y, 3.0, colour);
+    }
     const bool is_background = name.series->colour == theme::muted;  // its line may be faint, its name may not
     d.text(inner.right() + leaders_room + 5, name.y + 4, name.series->name, theme::small_text,
            is_background ? d.look().soft_ink : colour, TextAlign::left, name.series->thickness > 2.0);

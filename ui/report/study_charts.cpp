@@ -59,8 +59,8 @@ std::span<const StudyFigure> study_figures() {
        "Fig. 7c: entropy of the maximum-likelihood map (Eq. 18) after each view; the mean over objects.",
        entropy_by_view},
       {"predicted_and_seen",
-       "New surface that the default gain predicts of the view it takes, and what that view shows first; a dot an "
-       "object and view.",
+       "New surface that a plan predicts of the view it takes, and what that view shows first; a dot an object and "
+       "view, the mean over start views and seeds. On the diagonal the prediction is right.",
        predicted_and_seen},
       {"divergence_by_object",
        "Fig. 7a: D_KL(p || q) to the truth over all voxels that a noise-free ray visits (Eqs. 15-16; q clamped to "
