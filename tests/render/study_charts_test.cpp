@@ -95,6 +95,11 @@ std::vector<std::string> courses_of(const std::vector<std::string>& methods) {
   return rows;
 }
 
+TEST(StudyCharts, HaveCaptionsThatNeedNoOther) {
+  for (const StudyFigure& figure : study_figures())
+    EXPECT_THAT(figure.caption, Not(HasSubstr("he same"))) << figure.name;
+}
+
 TEST(StudyCharts, TellPlansOfAStudysOwnApart) {
   const std::vector<std::string> few = {"careful", "eager", "random"};
   const auto colours = colours_of(chart("coverage_by_view", courses_of(few)), few);

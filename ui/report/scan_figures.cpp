@@ -11,8 +11,7 @@ std::span<const ScanFigure> scan_figures() {
       {"data_flow", "Fig. 3: what flows from room to room of the program in a step of Algorithm 2.", data_flow_figure},
       {"scene_and_octree",
        "Fig. 2: the object in the scene with the sensor that is about to look at it, and the octree of what was seen "
-       "so "
-       "far.",
+       "so far.",
        scene_and_octree_figure},
       {"candidate_views",
        "Fig. 4: all candidate views, coloured by how the planner first ranked them, and the views taken, numbered in "
@@ -24,8 +23,8 @@ std::span<const ScanFigure> scan_figures() {
        strategy_figure},
       {"maps",
        "Fig. 6: each object, its conventional octree, the octree of the Gibbs map of the same scans, and the aligned "
-       "cloud; beneath, the opening that is next to 20 mm wide, magnified."
-       " Blue: occupied; orange: measured, and still unknown.",
+       "cloud; beneath, of an object whose openings are known, the one that is nearest to 20 mm wide, magnified. "
+       "Blue: occupied; orange: measured, and still unknown.",
        maps_figure},
       {"gain_agreement",
        "Spearman's rank correlation between what gains say of the candidates on the same map, after a third of the "

@@ -41,11 +41,16 @@ std::span<const StudyFigure> study_figures() {
   static const std::vector<StudyFigure> all = {
       {"coverage_by_view",
        "Share of the visible surface with a point within d_reg, after each view; the mean over objects, start views "
-       "and seeds. Bands: standard deviation over the objects.",
+       "and seeds. Bands, if any: standard deviation over the objects.",
        coverage_by_view},
-      {"coverage_by_path", "The same against the mean path of the camera at each view.", coverage_by_path},
+      {"coverage_by_path",
+       "Share of the visible surface with a point within d_reg, against the mean path of the camera at each view; the "
+       "mean over objects, start views and seeds.",
+       coverage_by_path},
       {"coverage_by_time",
-       "The same against the seconds that moves and scans take; what planning takes is not in them.", coverage_by_time},
+       "Share of the visible surface with a point within d_reg, against the seconds that moves and scans take, without "
+       "those of planning; the mean over objects, start views and seeds.",
+       coverage_by_time},
       {"coverage_by_object",
        "Fig. 7b: mean over the views of the share of the visible surface that is covered, by policy and object.",
        coverage_by_object},
@@ -68,12 +73,16 @@ std::span<const StudyFigure> study_figures() {
        divergence_by_object},
       {"log_loss_by_object", "Log loss of each map near the surface, where its quality is decided.",
        log_loss_by_object},
-      {"log_loss_by_sensor", "The same by the noise and the field of view of the camera.", log_loss_by_sensor},
+      {"log_loss_by_sensor", "Log loss of each map near the surface by the noise and the field of view of the camera.",
+       log_loss_by_sensor},
       {"openings_by_width",
        "Rows of slots and bores that a line passes through in the map, by the opening's width, and rows called open "
        "through solid wall beside them.",
        openings_by_width},
-      {"openings_by_sensor", "Open rows by the noise and the field of view of the camera.", openings_by_sensor},
+      {"openings_by_sensor",
+       "Rows of slots and bores that a line passes through in the map, by the noise and the field of view of the "
+       "camera.",
+       openings_by_sensor},
       {"reliability",
        "How many of the voxels to which a map gives a probability the surface does touch; on the diagonal it is right.",
        reliability},
