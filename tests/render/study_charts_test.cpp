@@ -65,10 +65,10 @@ TEST(StudyCharts, AreOfTheMostViewsUnderWhichAllWasTried) {
 }
 
 /// A chart of a summary that is made up: rows "object,sensor,views,method,measure,at,runs,mean,spread".
-std::string chart(const std::string& name, const std::vector<std::string>& rows) {
+std::string chart(const std::string& name, const std::vector<std::string>& rows, const std::string& part = "planning") {
   const TemporaryFolder folder;
   std::string text = "part,block,object,sensor,views,method,measure,at,runs,mean,spread,better,of_runs,hash,note\n";
-  for (const std::string& row : rows) text += "planning,1," + row + ",,1-2,00aa,\n";
+  for (const std::string& row : rows) text += part + ",1," + row + ",,1-2,00aa,\n";
   folder.write("summary.csv", text);
   const auto figures = study_figures();
   const auto drawing =
@@ -98,6 +98,11 @@ std::vector<std::string> courses_of(const std::vector<std::string>& methods) {
 TEST(StudyCharts, HaveCaptionsThatNeedNoOther) {
   for (const StudyFigure& figure : study_figures())
     EXPECT_THAT(figure.caption, Not(HasSubstr("he same"))) << figure.name;
+}
+
+TEST(StudyCharts, SayInWordsWhatTheyAreOf) {
+  const std::string svg = chart("divergence_by_object", {"box,noise_5mm,1,gibbs,d_kl[nats],0,2,40,1.5"}, "maps");
+  EXPECT_THAT(svg, HasSubstr("1 view, noise 5mm"));
 }
 
 TEST(StudyCharts, TellPlansOfAStudysOwnApart) {

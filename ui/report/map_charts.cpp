@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/file/counted.hpp"
 #include "ui/report/study_chart_parts.hpp"
 
 namespace nextview {
@@ -21,6 +22,11 @@ std::optional<StudySetting> maps_setting(const SummaryTable& table, const std::s
   return *std::ranges::max_element(all, {}, &StudySetting::views);
 }
 
+std::string views_of(const StudySetting& setting) { return counted(std::size_t(setting.views), "view"); }
+std::string views_and_sensor(const StudySetting& setting) {
+  return views_of(setting) + ", " + in_words(setting.sensor);
+}
+
 /// A row a map, a column a sensor, each the mean over the objects.
 StudyChart by_sensor(const SummaryTable& table, const Look& look, const std::string& measure, MatrixPlot plot) {
   // Those of one block and number of views, under which most sensors and maps were tried.
@@ -31,7 +37,7 @@ StudyChart by_sensor(const SummaryTable& table, const Look& look, const std::str
   const auto most = std::ranges::max_element(together, {}, [&](const auto& entry) {
     return entry.second.size() * table.methods(entry.second.front(), measure).size();
   });
-  plot.title += fmt::format(", {} views", most->first.second);
+  plot.title += ", " + counted(std::size_t(most->first.second), "view");
   for (const StudySetting& setting : most->second) {
     plot.columns.push_back(in_words(setting.sensor));
     for (const std::string& method : table.methods(setting, measure))
@@ -57,8 +63,7 @@ StudyChart divergence_by_object(const SummaryTable& table, const Look& look) {
   const auto setting = maps_setting(table, "d_kl[nats]");
   if (!setting) return std::nullopt;
   MatrixPlot plot;
-  plot.title =
-      fmt::format("D_KL to the truth over all visited voxels, {} views, {} [knats]", setting->views, setting->sensor);
+  plot.title = fmt::format("D_KL to the truth over all visited voxels, {} [knats]", views_and_sensor(*setting));
   plot.note = "darker: less, better";
   plot.digits = 0;
   plot.dark_is_high = false;
@@ -69,8 +74,7 @@ StudyChart log_loss_by_object(const SummaryTable& table, const Look& look) {
   const auto setting = maps_setting(table, "log_loss_near_surface[nats]");
   if (!setting) return std::nullopt;
   MatrixPlot plot;
-  plot.title = fmt::format("Log loss within 3 voxels of the surface, {} views, {} [nats per voxel]", setting->views,
-                           setting->sensor);
+  plot.title = fmt::format("Log loss within 3 voxels of the surface, {} [nats per voxel]", views_and_sensor(*setting));
   plot.note = "darker: less, better. Truth: the surface touches the voxel";
   plot.digits = 3;
   plot.dark_is_high = false;
@@ -107,7 +111,7 @@ StudyChart openings_by_width(const SummaryTable& table, const Look& look) {
     Plot plot = courses(table, *setting, measures[i].first);
     for (PlotSeries& series : plot.series) series.spread.clear();
     plot.title =
-        fmt::format("{}: {}, {} views", measures[i].second, scope(table, *setting, measures[i].first), setting->views);
+        fmt::format("{}: {}, {}", measures[i].second, scope(table, *setting, measures[i].first), views_of(*setting));
     plot.x_label = "width [mm]";
     plot.y_label = "rows [%]";
     plot.y_high = i == 0 ? std::optional(100.0) : std::nullopt;
@@ -122,8 +126,8 @@ StudyChart reliability(const SummaryTable& table, const Look& look) {
   if (!setting || table.methods(*setting, "reliability_true").empty()) return std::nullopt;
   Plot plot = courses(table, *setting, "reliability_true", 0.01);
   plot.whole_x = false;
-  plot.title = fmt::format("Reliability near the surface: {}, {} views",
-                           scope(table, *setting, main_measure(StudyPart::maps)), setting->views);
+  plot.title = fmt::format("Reliability near the surface: {}, {}",
+                           scope(table, *setting, main_measure(StudyPart::maps)), views_of(*setting));
   plot.x_label = "probability that the map says [%]";
   plot.y_label = "voxels that the surface touches [%]";
   plot.diagonal = true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/file/counted.hpp"
 #include "ui/report/study_chart_parts.hpp"
 
 namespace nextview {
@@ -96,7 +97,8 @@ StudyChart coverage_by_object(const SummaryTable& table, const Look& look) {
   const auto setting = main_setting(table, StudyPart::planning, "mean_coverage[%]");
   if (!setting) return std::nullopt;
   MatrixPlot plot;
-  plot.title = fmt::format("Mean coverage of the visible surface over {} views [%]", setting->views);
+  plot.title =
+      fmt::format("Mean coverage of the visible surface over {} [%]", counted(std::size_t(setting->views), "view"));
   plot.note = "darker: more";
   return by_object(table, look, *setting, "mean_coverage[%]", plot);
 }
