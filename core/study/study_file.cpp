@@ -75,25 +75,24 @@ class StudyReader {
     auto& variants = of == "sensor" ? study_.sensors : of == "policy" ? study_.policies : study_.maps;
     for (const auto& [key, node] : table) {
       StudyVariant variant;
-      toml::table rest = table_of(node, std::string(key.str()));
-      if (const toml::node* configuration = rest.get("config")) {
-        if (of == "sensor")
-          throw failure(*configuration, "'config' is of policies and maps; a sensor has sensor.preset");
-        variant.configuration = beside_study(file_, text_of(*configuration, "config"));
-        rest.erase("config");
-      }
-      if (const toml::node* kind = rest.get("kind"); kind && of == "map") {
-        variant.kind = one_of(*kind, "kind", known_maps());
-        rest.erase("kind");
-      }
-      variant.settings = settings_of(rest, "");
+      const toml::table& of_variant = table_of(node, std::string(key.str()));
+      const toml::node* configuration = of_variant.get("config");
+      const toml::node* kind = of == "map" ? of_variant.get("kind") : nullptr;
+      if (configuration && of == "sensor")
+        throw failure(*configuration, "'config' is of policies and maps; a sensor has sensor.preset");
+      if (configuration) variant.configuration = beside_study(file_, text_of(*configuration, "config"));
+      if (kind) variant.kind = one_of(*kind, "kind", known_maps());
+      variant.settings = settings_of(of_variant, "", {configuration, kind});
       variants[std::string(key.str())] = std::move(variant);
     }
   }
 
-  std::vector<GivenSetting> settings_of(const toml::table& table, const std::string& prefix) const {
+  /// Of all but some nodes. They are not taken out of a copy of the table: copies do not know their lines.
+  std::vector<GivenSetting> settings_of(const toml::table& table, const std::string& prefix,
+                                        const std::vector<const toml::node*>& but = {}) const {
     std::vector<GivenSetting> all;
     for (const auto& [name, node] : table) {
+      if (std::ranges::find(but, &node) != but.end()) continue;
       const std::string key = prefix + std::string(name.str());
       if (const auto* section = node.as_table(); section && prefix.empty()) {
         const auto more = settings_of(*section, key + ".");

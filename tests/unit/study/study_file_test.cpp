@@ -113,6 +113,8 @@ TEST_F(StudyFile, SaysWhereItIsWrong) {
   expect(block + "[settings]\nsensor.width = -3\n", ":5: ", "must be");
   expect(block + "[settings]\nsensor.width = \"wide\"\n", ":5: ", "takes a whole number");
   expect(block + "[settings]\nseed = 3\n", ":5: ", "no setting of a study");
+  expect(block + "[policy.mine]\nconfig = \"paper\"\ngain = \"random\"\n", ":6: ", "did you mean 'planner.gain'?");
+  expect(block + "sensors = [\"mine\"]\n[sensor.mine]\nsensor.width = -3\n", ":6: ", "must be");
   expect(block + "polices = []\n", ":4: ", "did you mean");
   expect("[[planning]]\nobjects = [\"box\"]\npolicies = [\"randm\"]\n", ":3: ", "did you mean 'random'?");
   expect("[[maps]]\nobjects = [\"box\"]\nmaps = [\"octmap\"]\n", ":3: ", "did you mean 'octomap'?");
