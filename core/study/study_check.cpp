@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::size_t most_runs = 100'000'000;
 
+/// What stands twice, for people; empty if nothing does.
+template <class Value>
+std::string twice(std::vector<Value> values) {
+  std::ranges::sort(values);
+  const auto found = std::ranges::adjacent_find(values);
+  return found == values.end() ? "" : fmt::format("{}", *found);
+}
+
 void complete_block(StudyBlock& block) {
   const char* methods = block.part == StudyPart::planning ? "policies" : "maps";
   const auto require = [&](bool good, const std::string& what) {
@@ -19,17 +27,18 @@ void complete_block(StudyBlock& block) {
     return std::ranges::find(block.methods, method) != block.methods.end();
   };
   require(!block.objects.empty(), "a block needs 'objects'");
-  const auto twice = [](std::vector<std::string> names) {
-    std::ranges::sort(names);
-    const auto found = std::ranges::adjacent_find(names);
-    return found == names.end() ? "" : *found;
-  };
   std::vector<std::string> labels;
   for (const std::string& object : block.objects) labels.push_back(object_label(object));
-  const std::string label = twice(labels), method = twice(block.methods);
+  const std::string label = twice(labels);
   require(label.empty(),
           fmt::format("two objects are called '{}': what is told of them by name would be one's", label));
-  require(method.empty(), fmt::format("'{}' stands twice in '{}': it would count twice", method, methods));
+  const auto once = [&](const auto& values, const char* key) {
+    const std::string value = twice(values);
+    require(value.empty(), fmt::format("'{}' stands twice in '{}': it would count twice", value, key));
+  };
+  once(block.methods, methods);
+  once(block.sensors, "sensors"), once(block.views, "views");
+  once(block.starts, "starts"), once(block.seeds, "seeds");
   require(!block.methods.empty(), fmt::format("a block needs '{}'", methods));
   require(block.reference.empty() || has(block.reference),
           fmt::format("the reference, '{}', is none of the block's {}", block.reference, methods));

@@ -129,6 +129,8 @@ TEST_F(StudyFile, SaysWhereItIsWrong) {
          ":1: ", "two objects are called 'part'");
   expect("[[planning]]\nobjects = [\"box\"]\npolicies = [\"random\", \"random\"]\n",
          ":1: ", "'random' stands twice in 'policies'");
+  expect(block + "seeds = [1, 2, 1]\n", ":1: ", "'1' stands twice in 'seeds'");
+  expect(block + "starts = [[30, 20], [30, 20]]\n", ":1: ", "'30 20' stands twice in 'starts'");
 }
 
 TEST_F(StudyFile, AKeyFollowsFromWhatMakesTheResultAndFromNothingElse) {
