@@ -24,15 +24,20 @@ Configuration small_scan() {
   return c;
 }
 
-std::vector<ReportScan> scans() {
-  std::vector<ReportScan> scans(1);
-  ReportScan& scan = scans.front();
-  scan.session = std::make_unique<Session>(small_scan());
+ReportScan scan_of(const Configuration& configuration) {
+  ReportScan scan;
+  scan.session = std::make_unique<Session>(configuration);
   while (scan.session->finished().empty()) {
     scan.session->step();
     scan.states.push_back(scan.session->state());
   }
   scan.name = scan.session->name();
+  return scan;
+}
+
+std::vector<ReportScan> scans() {
+  std::vector<ReportScan> scans;
+  ReportScan& scan = scans.emplace_back(scan_of(small_scan()));
   scan.maps = [&session = *scan.session] {
     std::vector<Pose> views;
     for (const StepRecord& record : session.records()) views.push_back(record.T_world_camera);
@@ -52,6 +57,17 @@ TEST(Figures, OfScans) {
   for (const ScanFigure& figure : scan_figures())
     if (figure.name == "data_flow" || figure.name == "strategy" || figure.name == "sensor")
       expect_screenshot("figure_" + figure.name + "_dark", figure.draw(all, dark).image());
+}
+
+TEST(Figures, OfTheSensorAreOfTheScansOwn) {
+  Configuration c = small_scan();
+  c.sensor.range_noise = 0.005;
+  c.termination.views = 1;
+  std::vector<ReportScan> scans;
+  scans.push_back(scan_of(c));
+  const std::string svg = sensor_figure(scans, {Look::light(), 1.0, {}}).svg();
+  for (const char* text : {"σ = 5 mm, voxels", "σ_φ = 0.18°", ">875<", ">900<", ">925<", ">80<"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
 TEST(ScenePanels, AreFramedByTheCloudWhereTheObjectIsNotKnown) {
