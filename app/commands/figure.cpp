@@ -51,7 +51,7 @@ void write_drawing(const FigureArguments& a, const std::string& name, const Vect
   const fs::path out = a.out;
   const Image image =
       a.size.empty() ? drawing.image(a.dpi / design_dpi) : drawing.image(picture_size(a.size, "--size"));
-  write_png(image, out / (name + ".png"), configuration);
+  write_png(image, out / (name + ".png"), configuration, a.dpi);
   if (drawing.is_vector()) write_file(out / (name + ".svg"), drawing.svg());
   about["configuration"] = configuration;
   write_file(out / (name + ".json"), json_text(about, 2) + "\n");

@@ -5,6 +5,9 @@
 
 #include <fstream>
 
+#include "core/file/png_text.hpp"
+#include "core/file/read_file.hpp"
+
 namespace nextview {
 namespace {
 
@@ -62,6 +65,20 @@ TEST_F(PngFile, KeepsEveryPixel) {
   write_png(image, file);
   EXPECT_EQ(read_png(file), image);
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+}
+
+TEST_F(PngFile, SaysHowManyPixelsAnInchHas) {
+  const auto resolution = [&] {
+    const std::string bytes = read_file(file, 1 << 20);
+    const std::size_t at = bytes.find("pHYs");
+    return at == std::string::npos ? "" : bytes.substr(at + 4, 9);
+  };
+  write_png(grey(33, 7), file);
+  EXPECT_EQ(resolution(), "");
+  write_png(grey(33, 7), file, "seed = 1", 300.0);
+  EXPECT_EQ(resolution(), std::string("\0\0\x2e\x23\0\0\x2e\x23\1", 9)) << "11811 pixels a metre";
+  EXPECT_EQ(read_png(file), grey(33, 7));
+  EXPECT_EQ(png_configuration(file), "seed = 1");
 }
 
 TEST_F(PngFile, ErrorsNameTheFile) {

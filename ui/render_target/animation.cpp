@@ -1,7 +1,6 @@
 #include "ui/render_target/animation.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "core/file/atomic_file.hpp"
+#include "ui/render_target/png_chunk.hpp"
 
 namespace nextview {
 namespace {
@@ -16,23 +16,10 @@ namespace {
 constexpr std::size_t signature_size = 8;
 constexpr int longest = 65535;  // that a picture can be shown for, in two bytes
 
-/// Most significant byte first, as all of PNG's.
-std::string bytes_of(std::uint32_t number, int count = 4) {
-  std::string bytes;
-  for (int shift = 8 * (count - 1); shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 255);
-  return bytes;
-}
-
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
   for (const char byte : bytes.substr(at, 4)) number = number << 8 | static_cast<unsigned char>(byte);
   return number;
-}
-
-std::string chunk(std::string content) {
-  const auto length = std::uint32_t(content.size() - 4);  // its name stands before it
-  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(content.data()), content.size());
-  return bytes_of(length) + std::move(content) + bytes_of(std::uint32_t(crc));
 }
 
 /// What all chunks of this name in a PNG hold.
@@ -98,17 +85,17 @@ void Animation::add(const Image& picture) {
 void Animation::write(const std::filesystem::path& file) const {
   if (changes_.empty()) throw std::runtime_error(fmt::format("{}: the animation has no pictures", file.string()));
   const std::string frame = png_bytes(last_, {}, 3);
-  std::string png = frame.substr(0, signature_size) + chunk("IHDR" + contents(frame, "IHDR")) +
-                    chunk("acTL" + bytes_of(std::uint32_t(changes_.size())) + bytes_of(0));  // 0: over and over
+  std::string png = frame.substr(0, signature_size) + png_chunk("IHDR" + contents(frame, "IHDR")) +
+                    png_chunk("acTL" + png_number(std::uint32_t(changes_.size())) + png_number(0));  // 0: over and over
   std::uint32_t number = 0;
   for (const Change& c : changes_) {
-    std::string control = "fcTL" + bytes_of(number++);
-    for (const int length : {c.width, c.height, c.x, c.y}) control += bytes_of(std::uint32_t(length));
-    control += bytes_of(std::uint32_t(c.shown), 2) + bytes_of(std::uint32_t(pictures_per_second_), 2);
-    png += chunk(control + bytes_of(0, 2));  // it stays, and takes the place of what was there
-    png += chunk(number == 1 ? "IDAT" + c.pixels : "fdAT" + bytes_of(number++) + c.pixels);
+    std::string control = "fcTL" + png_number(number++);
+    for (const int length : {c.width, c.height, c.x, c.y}) control += png_number(std::uint32_t(length));
+    control += png_number(std::uint32_t(c.shown), 2) + png_number(std::uint32_t(pictures_per_second_), 2);
+    png += png_chunk(control + png_number(0, 2));  // it stays, and takes the place of what was there
+    png += png_chunk(number == 1 ? "IDAT" + c.pixels : "fdAT" + png_number(number++) + c.pixels);
   }
-  write_file(file, png + chunk("IEND"));
+  write_file(file, png + png_chunk("IEND"));
 }
 
 }  // namespace nextview

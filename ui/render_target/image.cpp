@@ -8,11 +8,13 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/png_text.hpp"
+#include "ui/render_target/png_chunk.hpp"
 
 namespace nextview {
 namespace {
@@ -27,6 +29,14 @@ vtkNew<vtkImageData> to_vtk(const Image& image, int channels) {
     for (int x = 0; x < image.width; ++x)
       target = std::copy_n(&image.rgba[(std::size_t(y) * image.width + x) * 4], channels, target);
   return result;
+}
+
+constexpr std::size_t end_of_header = 33;  // signature and first chunk, IHDR [bytes]
+
+/// VTK's writer does not write it.
+std::string resolution_chunk(double dpi) {
+  const std::string pixels_per_metre = png_number(std::uint32_t(std::lround(dpi / 0.0254)));
+  return png_chunk("pHYs" + pixels_per_metre + pixels_per_metre + png_number(1, 1));  // 1: the unit is the metre
 }
 
 }  // namespace
@@ -52,9 +62,11 @@ std::string png_bytes(const Image& image, const std::string& configuration, int 
   return {reinterpret_cast<const char*>(bytes->GetPointer(0)), std::size_t(bytes->GetNumberOfValues())};
 }
 
-void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration) {
+void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration, double dpi) {
   if (image.rgba.empty()) throw std::runtime_error(fmt::format("{}: the picture is empty", file.string()));
-  write_file(file, png_bytes(image, configuration));
+  std::string bytes = png_bytes(image, configuration);
+  if (dpi > 0.0) bytes.insert(end_of_header, resolution_chunk(dpi));
+  write_file(file, bytes);
 }
 
 Image read_png(const std::filesystem::path& file) {

@@ -22,9 +22,10 @@ Image side_by_side(const Image& left, const Image& right);
 std::string png_bytes(const Image& image, const std::string& configuration = {}, int channels = 4);
 
 /// Atomic (AtomicFile). The same picture gives the same bytes. It carries the text of a configuration file, if one is
-/// given (png_configuration finds it again).
+/// given (png_configuration finds it again), and how large it is meant to be, if `dpi` is over 0.
 /// @throws std::runtime_error naming the file and the reason.
-void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration = {});
+void write_png(const Image& image, const std::filesystem::path& file, const std::string& configuration = {},
+               double dpi = 0.0);
 
 /// @throws std::runtime_error naming the file and the reason: missing, not a PNG picture, truncated.
 Image read_png(const std::filesystem::path& file);
