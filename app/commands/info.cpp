@@ -8,6 +8,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/session_info.hpp"
+#include "app/commands/study_info.hpp"
 #include "core/cloud/point_cloud.hpp"
 #include "core/cloud/range_scan_folder.hpp"
 #include "core/config/configuration_text.hpp"
@@ -117,13 +118,19 @@ std::string configuration_info(const fs::path& file) {
   return text;
 }
 
+bool is_study_text(const std::string& toml) {
+  return toml.find("[[planning]]") != toml.npos || toml.find("[[maps]]") != toml.npos;
+}
+
 std::string picture_info(const fs::path& file) {
   const PngInfo info = read_png_info(file);
   const std::string text = png_configuration(file);
   const std::string size = fmt::format("{} x {} pixels", info.width, info.height);
   if (text.empty()) return fmt::format("a picture of {}; it carries no settings", size);
-  configuration_of(text, file);  // it is one
-  std::string lines = fmt::format("a picture of {} by Nextview, with the settings that it shows:", size);
+  const bool is_of_study = is_study_text(text);
+  if (!is_of_study) configuration_of(text, file);  // it is one
+  std::string lines =
+      fmt::format("a picture of {} by Nextview, with the {} that it shows:", size, is_of_study ? "study" : "settings");
   std::istringstream toml(text);
   for (std::string line; std::getline(toml, line);)
     if (!line.empty()) lines += "\n  " + printable(line);
@@ -188,6 +195,7 @@ std::string range_scans_info(const fs::path& folder) {
 }
 
 std::string folder_info(const fs::path& folder) {
+  if (const auto study = study_contents(folder)) return study_info(folder, *study);
   if (const auto manifest = read_manifest(folder)) return results_info(folder, *manifest);
   const bool stanford =
       describe_dataset(folder).description.format == RecordingFormat::stanford && !is_there(folder / "dataset.toml");
@@ -209,8 +217,7 @@ std::string text_info(const fs::path& path) {
 
 std::string toml_info(const fs::path& path) {
   const std::string text = read_file(path, std::uintmax_t{1} << 20);
-  const bool is_study = text.find("[[planning]]") != text.npos || text.find("[[maps]]") != text.npos;
-  if (!is_study) return configuration_info(path);
+  if (!is_study_text(text)) return configuration_info(path);
   const std::size_t runs = read_study(path).size();
   return fmt::format("a study of {}: nextview study {} --out DIR", counted(runs, "run"), printable(path.string()));
 }

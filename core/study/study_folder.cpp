@@ -5,6 +5,7 @@
 #include <sys/file.h>
 
 #include <cerrno>
+#include <sstream>
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
@@ -40,6 +41,10 @@ bool is_study(const fs::path& folder) {
   } catch (const std::exception&) {
     return false;
   }
+}
+
+fs::path run_file(const fs::path& folder, const std::string& key) {
+  return folder / "runs" / key.substr(0, 2) / (key + ".json");
 }
 
 void require_suitable(const fs::path& folder, const StudyTexts& study, bool resume) {
@@ -103,6 +108,19 @@ StudyFolder::StudyFolder(const fs::path& path, const StudyTexts& study, bool res
   }
 }
 
+std::optional<StudyContents> study_contents(const fs::path& folder) {
+  if (!is_study(folder)) return std::nullopt;
+  StudyContents contents;
+  const Json json = parse_json<Json>(read_file(folder / study_json_name));
+  contents.name = json.at("study").get<std::string>();
+  for (const auto& [object, input] : json.at("objects").items())
+    contents.objects.push_back(fmt::format("{} ({})", object, input.get<std::string>()));
+  std::istringstream keys(text_if_there(folder / study_keys_name));
+  for (std::string key; std::getline(keys, key); ++contents.runs) contents.done += is_there(run_file(folder, key));
+  contents.has_summary = is_there(folder / "summary.csv");
+  return contents;
+}
+
 StudyFolder StudyFolder::open(const fs::path& folder) {
   if (!is_study(folder) || !is_there(folder / study_keys_name))
     throw std::runtime_error(fmt::format("{}: is no folder of a study", folder.string()));
@@ -117,9 +135,7 @@ void StudyFolder::lock() {
         fmt::format("{}: another program runs this study there; shards need a folder each", folder_.string()));
 }
 
-fs::path StudyFolder::file_of(const std::string& key) const {
-  return folder_ / "runs" / key.substr(0, 2) / (key + ".json");
-}
+fs::path StudyFolder::file_of(const std::string& key) const { return run_file(folder_, key); }
 
 bool StudyFolder::has(const std::string& key) const {
   std::error_code ignored;

@@ -71,6 +71,16 @@ class StudyFolder {
   Descriptor lock_;
 };
 
+/// What a study's folder has by now. It may be written meanwhile.
+struct StudyContents {
+  std::string name;
+  std::size_t runs = 0, done = 0;    ///< done: here; a merged study has none of its own
+  std::vector<std::string> objects;  ///< "part.stl (1234 bytes, crc32 0badcafe)"
+  bool has_summary = false;
+};
+/// Nothing if it is no study's folder.
+std::optional<StudyContents> study_contents(const std::filesystem::path& folder);
+
 /// The header of timings.csv.
 extern const char* const timing_columns;
 

@@ -15,6 +15,7 @@ namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr const char* tiny = R"(
@@ -80,6 +81,10 @@ TEST_F(StudyCommand, ABrokenObjectIsReportedAndTheOthersGoOn) {
   EXPECT_THAT(csv, HasSubstr("broken.ply"));
   EXPECT_THAT(csv, HasSubstr("planning,1,box,default,3,random,mean_coverage[%],0,2,"));
   EXPECT_THAT(csv, HasSubstr("planning,1,(mean),default,3,random,mean_coverage[%],0,2,"));  // of two objects
+  const Result info = nextview("info " + quoted("out"));
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("the study 'study' of 14 runs, with its summary: nextview figure report --study"));
+  EXPECT_THAT(info.out, HasSubstr("\n  box ("));
 }
 
 TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
@@ -235,6 +240,10 @@ TEST(Study, TheSmokeStudyRuns) {
     EXPECT_TRUE(fs::exists(folder.path() / "figures" / chart)) << chart;
   EXPECT_FALSE(fs::exists(folder.path() / "figures" / "strategy.svg"));  // it is of pixels
   EXPECT_TRUE(fs::exists(folder.path() / "figures" / "table_1.tex"));
+  const Result info =
+      nextview(fmt::format("info '{0}/coverage_by_view.png' '{0}/strategy.png'", (folder.path() / "figures").string()));
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, AllOf(HasSubstr("with the study that it shows:"), HasSubstr("with the settings that it")));
   EXPECT_THAT(read_file(folder.path() / "figures" / "report.html"), HasSubstr("<h1>Study smoke</h1>"));
   const Result refused =
       nextview(fmt::format("figure all --study '{0}' --out '{0}'", (folder.path() / "out").string()));
