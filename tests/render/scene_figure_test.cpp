@@ -71,6 +71,25 @@ TEST(SceneFigure, NothingIsCutOffAsItTurns) {
   }
 }
 
+TEST(SceneFigure, KeepsClearOfTheLegendsThatItHasAndOfNoOthers) {
+  StepPicture picture;
+  picture.grid = {0.1, {-5, -5, -5}, {10, 10, 10}};
+  picture.voxels.assign(picture.grid.voxel_count(), {0.97f, 0.1f, VoxelClass::occupied, true});
+  picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
+  SceneLayers layers;
+  layers.cloud = layers.views = layers.rays = layers.region = layers.object = false;
+  const Image image = SceneFigure(picture, layers, {440, 360}, 1.0).draw({}, false);
+  Eigen::AlignedBox2i blue;
+  for (int y = 90; y < image.height; ++y)  // below the legend, whose swatch is blue, too
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* pixel = &image.rgba[(std::size_t(y) * image.width + x) * 4];
+      if (pixel[2] > pixel[0] + 40) blue.extend(Eigen::Vector2i(x, y));
+    }
+  ASSERT_FALSE(blue.isEmpty());
+  EXPECT_NEAR(blue.center().x(), image.width / 2, 20);
+  EXPECT_GT(blue.sizes().maxCoeff(), image.height / 2);
+}
+
 TEST(SceneFigure, ATurnGoesAroundTheRegionsMiddleCounterClockwise) {
   Turntable table(box({0.3, 0, 0}, {0.05, 0.05, 0.05}));
   std::vector<Eigen::AlignedBox2i> at;  // x points right at first

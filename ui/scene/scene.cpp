@@ -228,14 +228,13 @@ Vector3 Scene::camera_position(const Eigen::Matrix3d& R_world_camera, std::span<
                              std::min(std::max(foot, covered_below_) / height, 0.45),
                              share(overlay.caption.empty() ? 24 : 46, height)};
   Vector3 middle = framed(centred);
-  const bool to_come = overlay.backed && legends_ && legend_size() > 0;
+  const bool to_come = legends_to_come_ && legends_ && legend_size() > 0;
   if (overlay.legends.empty() && !to_come) return middle;
   FrameMargins beside = centred, beneath = centred;
   const double legends_width = overlay.backed ? legend_size() * widest_in_window : usual_legend_width;
   beside.right = std::min((legends_width + 36) / width, 0.5);
-  // In a window more legends come as the scan goes on.
-  const bool usual = legend_size() == 1;  // in a narrow scene the part has room before they have
-  const double legends_height = std::max(overlay.legends_height(), overlay.backed && usual ? 260.0 : 0.0);
+  const bool usual = legend_size() == 1;  // in a narrow scene the part has room before legends have
+  const double legends_height = std::max(overlay.legends_height(), to_come && usual ? 260.0 : 0.0);
   beneath.top = std::clamp(legends_height / height, centred.top, usual ? 0.5 : 0.3);
   if (clears_corner(R_world_camera, middle, angle, aspect, {1 - beside.right, 1 - beneath.top}, points)) return middle;
   const Vector3 left = framed(beside), lower = framed(beneath), forward = R_world_camera.col(2);

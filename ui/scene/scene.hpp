@@ -79,6 +79,8 @@ class Scene {
   void set_backed(bool backed);
   /// Whether the layers' legends are shown, from the next annotate() on; they are unless told otherwise.
   void set_legends(bool legends) { legends_ = legends; }
+  /// Whether framing leaves room for more legends, which come as a scan goes on; it does not unless told otherwise.
+  void set_legends_to_come(bool to_come) { legends_to_come_ = to_come; }
   /// So far from the upper right corner the legends reached in the last drawing [px of the design].
   Eigen::Vector2d legends_reach() const;
 
@@ -119,6 +121,7 @@ class Scene {
   Vector3 camera_position(const Eigen::Matrix3d& R_world_camera, std::span<const Vector3> points) const;
 
   struct Overlay;
+  bool legends_to_come_ = false;
   bool legends_ = true, tight_ = false;
   DrawingQuality quality_ = DrawingQuality::still;
   bool software_ = false;     ///< a processor draws

@@ -59,6 +59,7 @@ SceneView::SceneView(RenderTarget& target, double scale) : target_(target), scal
   scene_.attach(target);
   scene_.set_scale(scale);
   scene_.set_backed(true);
+  scene_.set_legends_to_come(true);
 }
 
 void SceneView::set_scale(double scale) { scene_.set_scale(scale_ = scale); }
