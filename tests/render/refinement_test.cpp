@@ -75,6 +75,22 @@ TEST(Figures, Refinement) {
 
 TEST(Figures, SensorModels) { expect_screenshot("sensor_models", draw_sensor_model_figure({})); }
 
+TEST(SensorModelFigure, ShowsThePeaksOfASmallPartsModels) {
+  SensorModelPicture small;
+  small.model.sigma = 0.00005;
+  small.resolution = 0.0002, small.surface = 0.0216, small.max_range = 0.036;
+  const Image image = draw_sensor_model_figure(small);
+  const auto has_curve = [&](int x, int top, int bottom) {
+    for (int y = top; y < bottom; ++y) {
+      const std::uint8_t* pixel = &image.rgba[(std::size_t(y) * image.width + x) * 4];
+      if (pixel[2] > pixel[0] + 80) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(has_curve(230, 160, 340)) << "paper, in the middle of the voxel";
+  EXPECT_TRUE(has_curve(230, 450, 632)) << "beam";
+}
+
 TEST(RefinementFigure, NeedsNoTruthAndNoChains) {
   RefinementPicture picture;
   picture.grid = {0.01, {0, 0, 0}, {30, 20, 10}};

@@ -101,7 +101,8 @@ void paint_part(Painter& painter, const Frame& frame, const CurvePlot::Part& par
   const double to = frame.x(std::min(part.to, frame.plot().x_high));
   if (to <= from) return;
   painter.box(from, frame.area().bottom, to - from, frame.area().height, theme::sky);
-  painter.text(from + 6, frame.area().top() - 20, part.name, theme::small_text, theme::soft_ink);
+  const double base = part.is_named_below ? frame.area().bottom + 6 : frame.area().top() - 20;
+  painter.text(from + 6, base, part.name, theme::small_text, theme::soft_ink);
 }
 
 void paint_bar(Painter& painter, const Frame& frame, const CurvePlot::Bar& bar) {

@@ -25,10 +25,11 @@ struct CurvePlot {
   double names_width = 0.0;  ///< the curves' names stand in a column so wide beside the plot [px]; 0: in rows above it
   std::vector<Curve> curves;
 
-  /// A part of the x axis that is tinted, its name at the top.
+  /// A part of the x axis that is tinted, its name at the top, or where curves are there at the bottom.
   struct Part {
     double from, to;
     std::string name;
+    bool is_named_below = false;
   };
   std::vector<Part> parts;
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/setting/length_text.hpp"
 #include "ui/charts/curve_plot.hpp"
 
 namespace nextview {
@@ -71,13 +72,15 @@ class Ray {
   std::uint32_t surface_ = 0;
 };
 
+constexpr double mm_per_m = 1e3;  // ranges are drawn in mm
+
 Curve curve_of(const Ray& ray, int level, const std::string& name, const Colour& colour, const CurvePlot& plot) {
   constexpr int steps = 600;
   Curve curve{name, {}, {}, {}, colour};
   for (int i = 0; i <= steps; ++i) {
     const double z = plot.x_low + (plot.x_high - plot.x_low) * i / steps;
     curve.x.push_back(z);
-    curve.y.push_back(std::exp(ray.log_range(level, z)));
+    curve.y.push_back(std::exp(ray.log_range(level, z / mm_per_m)));
   }
   return curve;
 }
@@ -99,21 +102,26 @@ std::vector<std::string> sums(const Ray& ray, int level, const std::string& sum_
           fmt::format("beyond range: {}{}", value, unit)};
 }
 
+/// The next power of ten over the densest range of all: that of Eq. 1 where it expects the range.
+double above_all_densities(const ForwardSensorModel& model) {
+  return std::pow(10.0, std::ceil(-std::log10(model.sigma * std::sqrt(2.0 * std::numbers::pi))));
+}
+
 CurvePlot plot_of(const Ray& ray, const std::string& title, const std::string& remark, const std::string& y_label,
                   double y_high) {
   CurvePlot plot;
   plot.title = title;
   plot.remark = remark;
-  plot.x_label = "range z [m]";
+  plot.x_label = "range z [mm]";
   plot.y_label = y_label;
   const double resolution = ray.exit() - ray.enter();
-  plot.x_low = ray.enter() - 2.0 * resolution;
-  plot.x_high = ray.exit() + 2.0 * resolution;
+  plot.x_low = mm_per_m * (ray.enter() - 2.0 * resolution);
+  plot.x_high = mm_per_m * (ray.exit() + 2.0 * resolution);
   plot.logarithmic_y = true;
   plot.y_low = 1e-3;
   plot.y_high = y_high;
   plot.names_width = 188;
-  plot.parts = {{ray.enter(), ray.exit(), "voxel"}};
+  plot.parts = {{mm_per_m * ray.enter(), mm_per_m * ray.exit(), "voxel", true}};
   return plot;
 }
 
@@ -121,7 +129,7 @@ CurvePlot plot_of(const Ray& ray, const std::string& title, const std::string& r
 CurvePlot first_hit_plot(const Ray& ray, CurvePlot plot, const std::string& sum_unit, const std::string& unit) {
   plot.curves = {curve_of(ray, 1, "occupied", theme::series[0], plot), curve_of(ray, 0, "free", theme::region, plot)};
   plot.curves[0].details = sums(ray, 1, sum_unit, unit);
-  plot.curves[1].details = {fmt::format("expects z = {:g} m:", ray.max_range()), "below the axis here"};
+  plot.curves[1].details = {fmt::format("expects z = {}:", length_text(ray.max_range())), "below the axis here"};
   return plot;
 }
 
@@ -141,13 +149,15 @@ CurvePlot mixture_plot(const Ray& ray, CurvePlot plot) {
 std::array<CurvePlot, 4> plots_of(const SensorModelPicture& picture) {
   const Ray paper(picture, ForwardModel::paper), cone(picture, ForwardModel::cone), beam(picture, ForwardModel::beam),
       attenuation(picture, ForwardModel::attenuation);
+  const double high = above_all_densities(picture.model);
   const std::string density = "p(z) [1/m]", proper = "a density: all ranges and beyond range add up to 1";
-  return {first_hit_plot(paper, plot_of(paper, "paper (Eq. 1)", "a density without a floor for outliers", density, 1e3),
-                         "", " /m"),
-          first_hit_plot(cone, plot_of(cone, "cone (Eq. 2)", "no density: 0.5 far behind the voxel", "p(z)", 1e1), " m",
-                         ""),
-          mixture_plot(beam, plot_of(beam, "beam", proper, density, 1e3)),
-          mixture_plot(attenuation, plot_of(attenuation, "attenuation", proper, density, 1e3))};
+  return {
+      first_hit_plot(paper, plot_of(paper, "paper (Eq. 1)", "a density without a floor for outliers", density, high),
+                     "", " /m"),
+      first_hit_plot(cone, plot_of(cone, "cone (Eq. 2)", "no density: 0.5 far behind the voxel", "p(z)", 1e1), " m",
+                     ""),
+      mixture_plot(beam, plot_of(beam, "beam", proper, density, high)),
+      mixture_plot(attenuation, plot_of(attenuation, "attenuation", proper, density, high))};
 }
 
 void check(const SensorModelPicture& picture) {
@@ -166,10 +176,10 @@ Image draw_sensor_model_figure(const SensorModelPicture& picture, int width, int
   const std::string remark =
       fmt::format("σ = {:g} mm, voxels of {:g} mm", 1e3 * picture.model.sigma, 1e3 * picture.resolution);
   const std::string caption = fmt::format(
-      "What each model says of a range z when the first occupied voxel on the ray begins at {0:g} m: as it is, not "
-      "normalised. All ranges: its integral from 0 to {1:g} m. Beyond range: what it gives to no return (paper and "
-      "cone: p({1:g} m), our reading).",
-      picture.surface, picture.max_range);
+      "What each model says of a range z when the first occupied voxel on the ray begins at {0}: as it is, not "
+      "normalised. All ranges: its integral from 0 to {1}. Beyond range: what it gives to no return (paper and "
+      "cone: p({1}), our reading).",
+      length_text(picture.surface), length_text(picture.max_range));
   return draw_page(width, height, [&](vtkContext2D& context) {
     Painter painter(context);
     const double top = height - paint_title(painter, width, height, "Forward sensor models", remark, caption);
