@@ -159,6 +159,9 @@ TEST(ObjectLengths, TheRegionLiesAroundAnObjectThatStaysWhereItIs) {
 TEST(ObjectLengths, AsText) {
   EXPECT_EQ(length_text(0.0915), "91.5 mm");
   EXPECT_EQ(length_text(1.5), "1.5 m");
+  EXPECT_EQ(length_text(999.4), "999 m");
+  EXPECT_EQ(length_text(999.6), "1000 m");
+  EXPECT_EQ(length_text(1553.2), "1553 m");
   EXPECT_EQ(length_text(0.99949), "999 mm");
   EXPECT_EQ(length_text(0.99951), "1 m") << "not 1e+03 mm";
   EXPECT_EQ(percent_text(0.0045), "0.45 %");
