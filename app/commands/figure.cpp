@@ -13,6 +13,7 @@
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/made_folder.hpp"
+#include "core/study/study_folder.hpp"
 #include "ui/report/scan_figures.hpp"
 #include "ui/report/study_charts.hpp"
 #include "ui/report/study_report.hpp"
@@ -73,7 +74,8 @@ void write_figure(const FigureArguments& a, const StudyFigure& figure, const Sum
                   const fs::path& study) {
   const auto drawing = figure.draw(table, look_of(a));
   if (!drawing && a.name != "all")
-    throw std::invalid_argument(fmt::format("{}: the study has nothing that {} shows", study.string(), figure.name));
+    throw std::invalid_argument(fmt::format("{}: the study has nothing that {} shows, which needs {}", study.string(),
+                                            figure.name, figure.needs));
   if (!drawing) return;
   write_drawing(a, figure.name, *drawing,
                 {{"figure", figure.name},
@@ -160,6 +162,9 @@ void check(const FigureArguments& a) {
   if (!a.sessions.empty() && std::ranges::none_of(scan_figures(), is_scene))
     throw std::invalid_argument(
         fmt::format("figure {}: is one of a study (--study DIR), not of '{}'", a.name, a.sessions.front()));
+  for (const std::string& session : a.sessions)
+    if (study_contents(session))
+      throw std::invalid_argument(fmt::format("{0}: is the folder of a study, which is given as --study {0}", session));
   if (!a.size.empty()) picture_size(a.size, "--size");
 }
 

@@ -85,6 +85,12 @@ TEST_F(StudyCommand, ABrokenObjectIsReportedAndTheOthersGoOn) {
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_THAT(info.out, HasSubstr("the study 'study' of 14 runs, with its summary: nextview figure report --study"));
   EXPECT_THAT(info.out, HasSubstr("\n  box ("));
+  const Result lacks = nextview(fmt::format("figure gap_closed --study {} --out {}", quoted("out"), quoted("figures")));
+  EXPECT_EQ(lacks.exit_code, 2);
+  EXPECT_THAT(lacks.err, HasSubstr("nothing that gap_closed shows, which needs the policies random and oracle"));
+  const Result is_study = nextview(fmt::format("figure all {} --out {}", quoted("out"), quoted("figures")));
+  EXPECT_EQ(is_study.exit_code, 2);
+  EXPECT_THAT(is_study.err, HasSubstr("is the folder of a study, which is given as --study"));
 }
 
 TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {

@@ -42,54 +42,54 @@ std::span<const StudyFigure> study_figures() {
       {"coverage_by_view",
        "Share of the visible surface with a point within d_reg, after each view; the mean over objects, start views "
        "and seeds. Bands, if any: standard deviation over the objects.",
-       coverage_by_view},
+       "policies", coverage_by_view},
       {"coverage_by_path",
        "Share of the visible surface with a point within d_reg, against the mean path of the camera at each view; the "
        "mean over objects, start views and seeds.",
-       coverage_by_path},
+       "policies", coverage_by_path},
       {"coverage_by_time",
        "Share of the visible surface with a point within d_reg, against the seconds that moves and scans take, without "
        "those of planning; the mean over objects, start views and seeds.",
-       coverage_by_time},
+       "policies", coverage_by_time},
       {"coverage_by_object",
        "Fig. 7b: mean over the views of the share of the visible surface that is covered, by policy and object.",
-       coverage_by_object},
+       "policies", coverage_by_object},
       {"gap_closed",
        "Where each plan stands between random views (0) and a greedy oracle that knows the mesh (1), by the mean "
        "coverage; means over objects first. Over 1 is a camera that is coarse beside d_reg: the oracle takes no "
        "account of "
        "gaps between points.",
-       gap_closed},
+       "the policies random and oracle, and another", gap_closed},
       {"entropy_by_view",
-       "Fig. 7c: entropy of the maximum-likelihood map (Eq. 18) after each view; the mean over objects.",
+       "Fig. 7c: entropy of the maximum-likelihood map (Eq. 18) after each view; the mean over objects.", "policies",
        entropy_by_view},
       {"predicted_and_seen",
        "New surface that a plan predicts of the view it takes, and what that view shows first; a dot an object and "
        "view, the mean over start views and seeds. On the diagonal the prediction is right.",
-       predicted_and_seen},
+       "a policy that predicts new surface, as new-surface does", predicted_and_seen},
       {"divergence_by_object",
        "Fig. 7a: D_KL(p || q) to the truth over all voxels that a noise-free ray visits (Eqs. 15-16; q clamped to "
        "1e-3).",
-       divergence_by_object},
-      {"log_loss_by_object", "Log loss of each map near the surface, where its quality is decided.",
+       "maps", divergence_by_object},
+      {"log_loss_by_object", "Log loss of each map near the surface, where its quality is decided.", "maps",
        log_loss_by_object},
       {"log_loss_by_sensor", "Log loss of each map near the surface by the noise and the field of view of the camera.",
-       log_loss_by_sensor},
+       "maps", log_loss_by_sensor},
       {"openings_by_width",
        "Rows of slots and bores that a line passes through in the map, by the opening's width, and rows called open "
        "through solid wall beside them.",
-       openings_by_width},
+       "maps of an object whose openings are known, as slotted_plate", openings_by_width},
       {"openings_by_sensor",
        "Rows of slots and bores that a line passes through in the map, by the noise and the field of view of the "
        "camera.",
-       openings_by_sensor},
+       "maps of an object whose openings are known, as slotted_plate", openings_by_sensor},
       {"reliability",
        "How many of the voxels to which a map gives a probability the surface does touch; on the diagonal it is right.",
-       reliability},
+       "maps", reliability},
       {"stationarity",
        "Gibbs chains from several starts and with several priors: how far the log-posterior is from where it ends, and "
        "what each sweep still changes of the running mean.",
-       stationarity},
+       "a map gibbs", stationarity},
   };
   return all;
 }
