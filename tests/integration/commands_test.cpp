@@ -195,8 +195,7 @@ TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
   walk(user, endless_refinement);
   const auto log = *user.worker().log().entries();
   expect_words_for_people(log);
-  const auto cancelled = [](const LogEntry& e) { return e.text.starts_with("Cancelled: the Gibbs map of 2 views"); };
-  EXPECT_EQ(std::count_if(log.begin(), log.end(), cancelled), 1);
+  EXPECT_EQ(std::ranges::count(log, "Cancelled", &LogEntry::text), 1);
 }
 
 TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {

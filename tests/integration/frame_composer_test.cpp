@@ -127,8 +127,8 @@ TEST_F(Comparison, DrawsOnlyWhatIsNew) {
   user_.wait();
   EXPECT_FALSE(user_.window().draw(frame)) << "nothing happened";
   const Rectangle& panel = layout_.right;
-  hover(panel.x + 100, panel.y + 106);
-  user_.move(panel.x + 100, panel.y + 106 + 42);
+  hover(panel.x + 100, panel.y + 190);
+  user_.move(panel.x + 100, panel.y + 190 + 42);
   EXPECT_TRUE(user_.window().draw(frame));
   EXPECT_LT(user_.window().pixels_drawn(), pixels() / 2) << "another row is lit";
   user_.wait();
