@@ -1,5 +1,6 @@
 // A program of someone else's: a scan with a robot, a source and a planner of its own. Usage: consumer MESH
 #include <cstdio>
+#include <exception>
 
 #include "core/session/session.hpp"
 using namespace nextview;
@@ -28,7 +29,7 @@ struct NearestFirst : Planner {
   }
 };
 
-int main(int, char** argv) {
+int main(int, char** argv) try {
   const Configuration configuration{.object = {.file = argv[1]}};
   const auto object = std::make_shared<PlacedMesh>(load_placed_mesh(argv[1], {configuration.object.longest_side}));
   const auto world = std::make_shared<SimulatedWorld>(object, configuration.sensor);
@@ -37,4 +38,7 @@ int main(int, char** argv) {
                                   std::make_unique<NearestFirst>()});
   for (int step = 0; step < 2; ++step) session.step();
   std::printf("%zu views, %.2f of the surface covered\n", session.records().size(), session.records().back().coverage);
+} catch (const std::exception& error) {  // each says the file and the reason
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }
