@@ -71,7 +71,8 @@ JournalFile JournalFile::go_on(const fs::path& file, JournalText& text) {
   JournalFile journal(file, Descriptor(::open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC)));
   text = read_journal_file(file);
   journal.size_ = text.whole;
-  if (::ftruncate(journal.descriptor_.get(), static_cast<off_t>(text.whole)) != 0)
+  const bool is_whole = fs::file_size(file) == text.whole;  // and keeps its time, which people are told
+  if (!is_whole && ::ftruncate(journal.descriptor_.get(), static_cast<off_t>(text.whole)) != 0)
     throw file_error(file, "written", errno);
   return journal;
 }

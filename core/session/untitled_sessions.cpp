@@ -76,7 +76,12 @@ EarlierSession earlier_session_of(const fs::path& state, const fs::path& folder,
   session.time = std::chrono::system_clock::to_time_t(std::chrono::file_clock::to_sys(time));
   if (line.empty()) return session;
   const auto& outcome = line.back().outcome;
-  if (const auto found = outcome.find("coverage_visible"); found != outcome.end()) session.coverage = found->second;
+  for (const char* coverage : {"coverage_recorded", "coverage_visible"}) {
+    const auto found = outcome.find(coverage);
+    if (found == outcome.end() || !(found->second > 0.0)) continue;  // 0 without a truth, too
+    session.coverage = found->second;
+    break;
+  }
   return session;
 }
 

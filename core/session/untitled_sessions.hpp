@@ -11,7 +11,7 @@ struct EarlierSession {
   std::filesystem::path folder;
   std::string name;  ///< for people: "gearbox"
   std::size_t views = 0;
-  std::optional<double> coverage = {};  ///< of the visible surface, where that is known
+  std::optional<double> coverage = {};  ///< of the visible or the recorded surface, where known
   std::time_t time = 0;                 ///< of its last change
 
   /// For people, as of a moment: "17 views, 98.2 %, today 14:05".

@@ -38,11 +38,13 @@ std::string coordinates_of(const Command& command, const SessionSnapshot& s) {
   const std::array<const Command*, 5> in_space{&command::export_scan, &command::export_cloud, &command::export_map,
                                                &command::export_surface, &command::export_views};
   if (std::ranges::find(in_space, &command) == in_space.end()) return "";
-  if (s.live) return "In metres, in the coordinates of the scanner.";
-  if (s.is_recording()) return "In metres, in the coordinates of the recording.";
-  return s.configuration.object.centred
-             ? "In metres, z up, the object's middle in the origin (object.centred = false: that of its file)."
-             : "In metres, z up, the origin that of the object's file.";
+  const bool may_be_stl = &command == &command::export_surface || &command == &command::export_scan;
+  const std::string unit = may_be_stl ? "In metres (STL: in mm), " : "In metres, ";
+  if (s.live) return unit + "in the coordinates of the scanner.";
+  if (s.is_recording()) return unit + "in the coordinates of the recording.";
+  return unit + (s.configuration.object.centred
+                     ? "z up, the object's middle in the origin (object.centred = false: that of its file)."
+                     : "z up, the origin that of the object's file.");
 }
 
 int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }

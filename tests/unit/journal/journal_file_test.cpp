@@ -32,6 +32,15 @@ TEST_F(JournalFileTest, HoldsWhatWasAppended) {
   EXPECT_THAT(read_journal_file(file_).records, ElementsAre("one", "two", "three", "four"));
 }
 
+TEST_F(JournalFileTest, KeepsItsTimeUntilSomethingIsAppended) {
+  write_three();
+  const auto time = std::filesystem::last_write_time(file_) - std::chrono::hours(1);
+  std::filesystem::last_write_time(file_, time);
+  JournalText text;
+  { JournalFile::go_on(file_, text); }
+  EXPECT_EQ(std::filesystem::last_write_time(file_), time);
+}
+
 TEST_F(JournalFileTest, CutAnywhereItHoldsTheRecordsThatAreWhole) {
   write_three();
   const std::string whole = read_file(file_);

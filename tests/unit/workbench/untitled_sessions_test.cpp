@@ -114,6 +114,17 @@ TEST_F(UntitledSessions, AreKnownByTheirViewsCoverageAndTime) {
   EXPECT_EQ((EarlierSession{"", "", 1, {}, time}.summary(time)), "1 view, today 14:05");
 }
 
+TEST_F(UntitledSessions, HaveNoCoverageWhereNoneIsKnown) {
+  Configuration without_truth = small_scan();
+  without_truth.evaluation.enabled = false;
+  auto one = runner();
+  one->load(without_truth, job_control());
+  steps(*one, 1);
+  const std::optional<EarlierSession> known = earlier_session(state(), kept().front());
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->coverage, std::nullopt);
+}
+
 TEST_F(UntitledSessions, OneThatWasOpenedElsewhereIsOfferedToo) {
   const fs::path folder = folder_ / "a session of the day before";
   {
