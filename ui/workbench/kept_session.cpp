@@ -51,7 +51,10 @@ void KeptSession::begin(const Session& session) {
 bool KeptSession::step(Session& session, const Progress& progress, const std::stop_token& stop) {
   closed_ = false;
   begin(session);
-  if (folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); })) return true;
+  if (folder_->step(session, progress, stop, [this](const std::string& reason) { not_kept(reason); })) {
+    if (folder_->line().size() == 1) add_to_recent();  // already: whatever ends the program, it is found again
+    return true;
+  }
   follow(session, folder_->line(), folder_->branches());  // as the window shows it: without the view
   return false;
 }
@@ -79,9 +82,13 @@ void KeptSession::close(const Session* session) {
     if (session) keep_state(*session);
     folder_->close();
     closed_ = true;
-    if (!state_.empty() && !folder_->line().empty()) add_recent_file(state_, folder_->path());
+    add_to_recent();
   } catch (const std::exception&) {  // it will be offered again: nothing is lost
   }
+}
+
+void KeptSession::add_to_recent() {
+  if (!state_.empty() && folder() && !folder_->line().empty()) add_recent_file(state_, folder_->path());
 }
 
 /// Without it the session opens all the same, and takes longer.

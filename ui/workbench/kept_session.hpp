@@ -36,7 +36,7 @@ class KeptSession {
   std::optional<std::uint32_t> last_number() const {
     return folder_ && !folder_->line().empty() ? std::optional(folder_->line().back()) : std::nullopt;
   }
-  /// Nobody is in the middle of it, and an untitled one is found among the recent files. With what makes it quick to
+  /// Nobody is in the middle of it, and an untitled one comes first among the recent files. With what makes it quick to
   /// open, if the session is given.
   void close(const Session* session);
   const std::vector<CameraBookmark>& cameras() const { return cameras_; }
@@ -55,6 +55,7 @@ class KeptSession {
   void copy_to(OutputFolder& copy, const Session& session) const;
 
  private:
+  void add_to_recent();
   void keep_state(const Session& session);
   void not_kept(const std::string& reason);
   void write_cameras();

@@ -114,6 +114,14 @@ TEST_F(UntitledSessions, AreKnownByTheirViewsCoverageAndTime) {
   EXPECT_EQ((EarlierSession{"", "", 1, {}, time}.summary(time)), "1 view, today 14:05");
 }
 
+TEST_F(UntitledSessions, AreAmongTheRecentFilesFromTheirFirstViewOn) {
+  auto one = runner();
+  one->load(small_scan(), job_control());
+  EXPECT_TRUE(recent_files(state()).empty());
+  steps(*one, 1);
+  EXPECT_EQ(recent_files(state()), kept()) << "though nobody closed it";
+}
+
 TEST_F(UntitledSessions, HaveNoCoverageWhereNoneIsKnown) {
   Configuration without_truth = small_scan();
   without_truth.evaluation.enabled = false;
