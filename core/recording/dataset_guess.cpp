@@ -252,6 +252,9 @@ DescribedDataset describe_dataset(const fs::path& path) {
       throw std::runtime_error(fmt::format("{}: there is no such file or folder", path.string()));
     return described_file(path);
   }
+  if (fs::is_empty(path, ignored))
+    throw std::runtime_error(
+        fmt::format("{}: is an empty folder: no recording and no session is in it", path.string()));
   if (fs::exists(path / "dataset.toml", ignored)) return described_file(path / "dataset.toml");
   if (fs::exists(path / "manifest.json", ignored))
     throw std::runtime_error(

@@ -126,7 +126,7 @@ TEST(Info, WhatCannotBeReadIsALineAndTheRestIsTold) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.out, HasSubstr("sphere: a mesh of "));
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
-  EXPECT_THAT(run.err, AllOf(HasSubstr("none.stl"), HasSubstr("holds neither")));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("none.stl"), HasSubstr("is an empty folder")));
 }
 
 TEST(OwnSize, APartInMillimetresIsScannedAsLargeAsItIs) {

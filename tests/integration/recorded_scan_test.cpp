@@ -110,6 +110,8 @@ TEST_F(RecordedScan, MistakesAreOneLine) {
   };
   EXPECT_THAT(complaint("--recorded " + in("missing")), HasSubstr("missing: there is no such file or folder"));
   fs::create_directory(in("empty"));
+  EXPECT_THAT(complaint("--recorded " + in("empty")), HasSubstr("is an empty folder"));
+  write_file(in("empty") + "/notes.txt", "");
   EXPECT_THAT(complaint("--recorded " + in("empty")), HasSubstr("--write-dataset"));
   EXPECT_THAT(complaint("--recorded " + scan + " --start 17"),
               HasSubstr("--start (recorded.start): there is no frame '17'"));

@@ -109,6 +109,8 @@ TEST(Dataset, ViSPsCastleIsKnownInOneFolderAndAsDebianHasIt) {
 
 TEST(Dataset, UnknownFoldersSayWhatWasLookedFor) {
   const TemporaryFolder folder;
+  EXPECT_THAT(failure_of([&] { describe_dataset(folder / ""); }), HasSubstr("is an empty folder"));
+  folder.write("notes.txt", "");
   EXPECT_THAT(failure_of([&] { describe_dataset(folder / ""); }),
               testing::AllOf(HasSubstr("groundtruth.txt"), HasSubstr("--write-dataset")));
   folder.write("manifest.json", "{}");
