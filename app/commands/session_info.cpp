@@ -5,6 +5,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/journal/journal.hpp"
+#include "core/session/step_outcome.hpp"
 #include "core/setting/entropy_text.hpp"
 
 namespace nextview {
@@ -12,14 +13,10 @@ namespace {
 
 /// What came of the last view, if it is known.
 std::string outcome_text(const JournalStep& last) {
-  const auto value = [&](const char* name) {
-    const auto found = last.outcome.find(name);
-    return found == last.outcome.end() ? 0.0 : found->second;
-  };
+  const StepRecord record = record_with(last.outcome);
   std::string text;
-  if (value("coverage_visible") > 0)
-    text += fmt::format(", {:.1f} % of visible surface", 100 * value("coverage_visible"));
-  if (value("entropy") > 0) text += ", entropy " + entropy_text(value("entropy"));
+  if (record.coverage_visible > 0) text += fmt::format(", {:.1f} % of visible surface", 100 * record.coverage_visible);
+  if (record.entropy > 0) text += ", entropy " + entropy_text(record.entropy);
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "core/journal/journal.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/session/recent_files.hpp"
+#include "core/session/step_outcome.hpp"
 
 namespace nextview {
 namespace {
@@ -75,13 +76,9 @@ EarlierSession earlier_session_of(const fs::path& state, const fs::path& folder,
   const auto time = fs::last_write_time(folder / journal_name);
   session.time = std::chrono::system_clock::to_time_t(std::chrono::file_clock::to_sys(time));
   if (line.empty()) return session;
-  const auto& outcome = line.back().outcome;
-  for (const char* coverage : {"coverage_recorded", "coverage_visible"}) {
-    const auto found = outcome.find(coverage);
-    if (found == outcome.end() || !(found->second > 0.0)) continue;  // 0 without a truth, too
-    session.coverage = found->second;
-    break;
-  }
+  const StepRecord last = record_with(line.back().outcome);
+  const double coverage = last.coverage_recorded.value_or(last.coverage_visible);
+  if (coverage > 0.0) session.coverage = coverage;  // 0 without a truth, too
   return session;
 }
 
