@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 
 #include "core/planner/remaining_plan.hpp"
 #include "core/setting/area_text.hpp"
@@ -58,6 +60,19 @@ double promise_kept(std::span<const TakenView> taken) {
   return kept;
 }
 
+double shown_over_expected(double surface_left) {
+  struct Stage {
+    double left, shown;
+  };
+  constexpr std::array stages = {Stage{0.01, 0.6}, Stage{0.04, 1.25}, Stage{0.3, 1.25}, Stage{0.7, 0.9}};
+  const auto after = std::ranges::lower_bound(stages, surface_left, {}, &Stage::left);
+  if (after == stages.begin()) return stages.front().shown;
+  if (after == stages.end()) return stages.back().shown;
+  const Stage& before = *std::prev(after);
+  return std::lerp(before.shown, after->shown,
+                   std::log(surface_left / before.left) / std::log(after->left / before.left));
+}
+
 std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowledge& known) const {
   const auto is_of = [&](const Seen& seen) {
     return seen.planned_on.shares_all_with(known.planning_voxels()) &&
@@ -92,6 +107,7 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
   const double strip = seen->border_length * surface->radius() / (model_.mean_slant * surface->area());
   const double at_border = std::min(1.0, model_.left_at_border * strip);
   const double left = std::max(forecast.all / (forecast.all + scanned), at_border);
+  for (double& area : forecast.areas) area *= shown_over_expected(left);
   return {std::move(forecast.areas), left, std::move(few.views), few.is_least};
 }
 

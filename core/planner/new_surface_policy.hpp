@@ -16,6 +16,12 @@ inline SurfaceEvidence surface_evidence(const Knowledge& known) { return surface
 /// before there is any to tell from; bounded, as one view proves little. Expectations had it as a factor already.
 double promise_kept(std::span<const TakenView> taken);
 
+/// What a view shows over what the model expects of it, by the share of the surface that is left: at first less, as
+/// nobody knows where the surface goes; then more; at last less again, as what is left is what hardly any view shows.
+/// From scans of 24 made-up parts at 640 x 480 pixels, whose views after the second showed 22 % more or less than was
+/// promised, of all that they showed, and 14 % with this.
+double shown_over_expected(double surface_left);
+
 /// A view is worth the surface that it is expected to see first.
 class NewSurfacePolicy : public Policy {
  public:
@@ -46,7 +52,8 @@ class NewSurfacePolicy : public Policy {
   ScoreExplanation explanation(const Seen& seen, const PlanningState& state, const RayBundle& bundle,
                                const Pose& T_world_camera) const;
   NewSurfaceOptions options(const PlanningState& state) const {
-    return {state.config.ray_length, model_.slant.times(promise_kept(state.taken))};
+    const double stage = state.surface_left ? shown_over_expected(*state.surface_left) : 1.0;
+    return {state.config.ray_length, model_.slant.times(stage * promise_kept(state.taken))};
   }
 
   NewSurfaceModel model_;

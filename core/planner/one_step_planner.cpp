@@ -114,9 +114,10 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
   for (std::size_t v = 0; v < candidates.size(); ++v)
     if (candidates[v].available) available.push_back(v);
   const auto rays = planning_rays(known, setup.config.ray_length);
-  const PlanningState state = state_of(setup, known, views, *rays);
+  PlanningState state = state_of(setup, known, views, *rays);
   const Valuation valuation = policy_->values(state, available, stop);
   throw_if_stopped(stop);  // or the ranking would be half one
+  state.surface_left = valuation.surface_left;
   for (std::size_t i = 0; i < available.size(); ++i) candidates[available[i]].gain = valuation.gains[i];
   if (policy_->ignores_cost())
     for (Candidate& candidate : candidates) candidate.overlaps = true;
@@ -133,9 +134,12 @@ Plan OneStepPlanner::plan(const PlanningSetup& setup, const Knowledge& known, st
 }
 
 std::optional<ScoreExplanation> OneStepPlanner::explain(const PlanningSetup& setup, const Knowledge& known,
-                                                        const Pose& T_world_camera) const {
+                                                        const Pose& T_world_camera,
+                                                        std::optional<double> surface_left) const {
   const auto rays = planning_rays(known, setup.config.ray_length);
-  return policy_->explain(state_of(setup, known, {}, *rays), T_world_camera);
+  PlanningState state = state_of(setup, known, {}, *rays);
+  state.surface_left = surface_left;
+  return policy_->explain(state, T_world_camera);
 }
 
 }  // namespace nextview

@@ -46,7 +46,9 @@ class Planner {
   /// Why no rays explain its gains, to be read behind its name; empty if they do.
   virtual std::string no_explanation() const { return "ranks views without rays"; }
   /// Why a view would have its gain; nothing if no rays explain it.
-  virtual std::optional<ScoreExplanation> explain(const PlanningSetup&, const Knowledge&, const Pose&) const {
+  /// `surface_left` is its plan's for what is known; none if there is no plan.
+  virtual std::optional<ScoreExplanation> explain(const PlanningSetup&, const Knowledge&, const Pose&,
+                                                  std::optional<double> /*surface_left*/) const {
     return std::nullopt;
   }
 };
@@ -61,7 +63,8 @@ class OneStepPlanner : public Planner {
   Plan plan(const PlanningSetup& setup, const Knowledge& known, std::span<const View> views,
             std::vector<Candidate> candidates, std::stop_token stop) const override;
   std::optional<ScoreExplanation> explain(const PlanningSetup& setup, const Knowledge& known,
-                                          const Pose& T_world_camera) const override;
+                                          const Pose& T_world_camera,
+                                          std::optional<double> surface_left) const override;
 
  protected:
   /// Which of the ranked candidates is taken, and what is to be said of that.

@@ -48,6 +48,8 @@ struct PlanningState {
   std::span<const TakenView> taken;        ///< so far, in order
   double negligible_share = 0.005;         ///< of the surface: for less no view is worth it (termination.surface_left)
   const RayBundle* fine_bundle = nullptr;  ///< PlanningSetup::fine_bundle
+  /// Valuation::surface_left of all that can be taken; none before they are valued.
+  std::optional<double> surface_left = {};
 };
 
 /// What a policy makes of some candidates.

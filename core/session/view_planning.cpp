@@ -181,7 +181,8 @@ std::string termination(const TerminationConfig& config, const ScanState& state)
 
 std::optional<ScoreExplanation> explain(const ScanSetup& setup, const ScanState& state, const Pose& T_world_camera) {
   const PlanningInput input(setup, state);
-  return setup.planner->explain(input.setup, state.known, T_world_camera);
+  const auto surface_left = state.records.empty() ? std::nullopt : state.records.back()->surface_left;
+  return setup.planner->explain(input.setup, state.known, T_world_camera, surface_left);
 }
 
 }  // namespace nextview

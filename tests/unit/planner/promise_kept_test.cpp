@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/planner/new_surface_policy.hpp"
 
 namespace nextview {
@@ -41,6 +43,15 @@ TEST(PromiseKept, ConvergesToWhatIsAlwaysKept) {
     kept = promise_kept(views(all));
   }
   EXPECT_NEAR(kept, 0.6, 1e-6);
+}
+
+TEST(ShownOverExpected, RisesFromWhatIsLeftAtLastAndFallsToTheFirstView) {
+  EXPECT_EQ(shown_over_expected(0.0), shown_over_expected(0.01)) << "no smaller where nearly nothing is left";
+  EXPECT_EQ(shown_over_expected(1.0), shown_over_expected(0.7));
+  EXPECT_EQ(shown_over_expected(0.04), 1.25);
+  EXPECT_NEAR(shown_over_expected(0.1), 1.25, 1e-12);
+  EXPECT_NEAR(shown_over_expected(0.02), (0.6 + 1.25) / 2, 1e-12) << "half of the way, by its logarithm";
+  EXPECT_NEAR(shown_over_expected(std::sqrt(0.3 * 0.7)), (1.25 + 0.9) / 2, 1e-12);
 }
 
 }  // namespace
