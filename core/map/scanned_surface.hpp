@@ -27,7 +27,7 @@ class ScannedSurface {
   struct Cell {
     Eigen::Vector3i at;        ///< [radii]
     std::uint64_t points = 0;  ///< a bit each, of 4 x 4 x 4 places, x fastest
-    /// Of its points. @pre it has any
+    /// Of its points [radii]. @pre it has any
     Eigen::Vector3f middle() const;
   };
   std::vector<Cell> cells() const;  ///< that hold any point, in the order of their places
