@@ -212,11 +212,11 @@ void SessionRunner::adopt(HistoryEntry entry) {
   tree_->set_stand(entry.at, std::move(entry.stand));
   if (same_scan && planner == &session_->planner()) return show_next();
   const auto& scans = session_->scans();
-  // What was refined of views that are no more belongs to nothing.
+  // What was refined of views that are no more belongs to nothing; that of a session that is back, to it again.
   const auto begin_with = [&](const std::vector<std::shared_ptr<const Scan>>& first, std::size_t views) {
-    return same_session && views <= scans.size() && std::equal(first.begin(), first.begin() + views, scans.begin());
+    return views <= scans.size() && std::equal(first.begin(), first.begin() + views, scans.begin());
   };
-  if (!begin_with(refined_scans_, refined_scans_.size())) {
+  if (!same_session || !begin_with(refined_scans_, refined_scans_.size())) {
     refinement_.reset();
     refined_scans_.clear();
   }

@@ -60,6 +60,23 @@ TEST_F(SessionRunnerTest, AnExportKeepsTheGibbsMap) {
   EXPECT_EQ(now().gibbs_lost, 2u) << "it is another one";
 }
 
+TEST_F(SessionRunnerTest, TheGibbsMapOfAScanThatWasStartedOverComesBackWithIt) {
+  runner_.load(small_scan(), job_control());
+  steps(2);
+  runner_.refine(2, 8, job_control());
+  const auto map = now().gibbs;
+  runner_.load(small_scan(), job_control());
+  EXPECT_EQ(now().gibbs, nullptr);
+  EXPECT_EQ(now().gibbs_lost, 0u);
+  runner_.undo(job_control());
+  EXPECT_EQ(now().gibbs, map) << "what may be lost is there to be exported";
+  EXPECT_EQ(now().gibbs_lost, 2u);
+  runner_.write(folder_ / "export", job_control());
+  EXPECT_EQ(now().gibbs_lost, 0u);
+  runner_.refine(2, 12, job_control());
+  EXPECT_EQ(now().gibbs->views, 2u);
+}
+
 TEST_F(SessionRunnerTest, RefiningTwiceIsAsOnceAnew) {
   runner_.load(small_scan(), job_control());
   steps(2);
