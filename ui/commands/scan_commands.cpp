@@ -52,6 +52,14 @@ std::string continue_why_not(const CommandState& t) {
 
 SelectionHistory::Moment moment(const CommandState& t) { return {t.session.session, t.session.change}; }
 
+/// What an opened session came with is gone along in the timeline.
+std::string undo_why_not(const CommandState& t) {
+  if (t.window.selections.can_undo(moment(t))) return "";
+  if (t.session.can_undo) return needs_rest(t);
+  return t.session.records.empty() ? "there is nothing to undo"
+                                   : "nothing was done since this was opened; Page Up goes back along its views";
+}
+
 void look_at_next_view(WindowState& window) {
   window.selection.view = {};
   window.selection.ray.reset();
@@ -159,10 +167,7 @@ const CommandOf<> command::undo{
      "Undo",
      "Goes back to before the last view, choice of one, selection, branch, or change of settings or object.",
      {{key('Z'), true}},
-     [](const CommandState& t) {
-       if (t.window.selections.can_undo(moment(t))) return std::string();
-       return t.session.can_undo ? needs_rest(t) : "there is nothing to undo";
-     }},
+     undo_why_not},
     [](CommandTarget& t) {
       WindowState& w = t.window;
       if (w.selections.can_undo(moment(t.state())))

@@ -109,10 +109,13 @@ std::vector<ScanHistory::Held> ScanHistory::held() const {
   add_entries(redo_);
   std::set<const ScanState*> on_the_way_back;
   for (const HistoryEntry& entry : undo_) on_the_way_back.insert(entry.stand.state.get());
+  const auto add_tree = [&](const Session* session, const StepTree& tree) {
+    for (const auto& [state, before] : tree.states())
+      if (!on_the_way_back.contains(state)) add(session, state, before);
+  };
   for (const Entries* entries : {&redo_, &undo_})
-    for (const HistoryEntry& entry : *entries)
-      for (const auto& [state, before] : entry.tree->states())
-        if (!on_the_way_back.contains(state)) add(entry.session.get(), state, before);
+    for (const HistoryEntry& entry : *entries) add_tree(entry.session.get(), *entry.tree);
+  if (tree_) add_tree(session_.get(), *tree_);
   add_entries(undo_);
   return held;
 }

@@ -38,6 +38,12 @@ class ScanHistory {
     return static_cast<std::size_t>(configuration.history.memory * bytes_per_gibibyte);
   }
 
+  /// The session that goes on from here: the maps of its steps count from now on, whether or not undo leads to them.
+  void go_on_with(std::shared_ptr<const Session> session, std::shared_ptr<const StepTree> tree) {
+    session_ = std::move(session);
+    tree_ = std::move(tree);
+  }
+
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
   /// The number of the change that undo would take back; no two have the same. 0: there is none.
@@ -76,6 +82,8 @@ class ScanHistory {
   std::vector<Held> held() const;
 
   Entries undo_, redo_;
+  std::shared_ptr<const Session> session_;  ///< of now; null before the first; so is the next
+  std::shared_ptr<const StepTree> tree_;
   std::uint64_t changes_ = 0;  ///< so far
 };
 

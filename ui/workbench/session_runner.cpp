@@ -200,6 +200,7 @@ void SessionRunner::adopt(HistoryEntry entry) {
   scanner_ = std::move(entry.scanner);
   kept_ = std::move(entry.kept);
   tree_ = std::move(entry.tree);
+  history_.go_on_with(session_, tree_);
   tree_->at = entry.at;
   tree_->go_back_to(entry.branches);
   session_->restore(*entry.stand.state, entry.stand.planning);

@@ -28,7 +28,7 @@ void look_at_each_view(Session& session, const SavedSession& saved, const std::f
 
 }  // namespace
 
-/// It goes on where it stands, in its own folder. Each of its views can be undone.
+/// It goes on where it stands, in its own folder. Undo ends there: its views are gone along in the timeline.
 void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
   if (is_own(folder)) throw std::invalid_argument(folder.string() + ": is the session that is open");
   if (std::optional<HistoryEntry> left = history_.left_in(folder, control.progress, control.stop)) {
@@ -104,23 +104,15 @@ std::shared_ptr<KeptSession> SessionRunner::kept_of(SavedSession& saved, const S
   }
 }
 
-/// As if its views had been taken here.
+/// What is undone is what was done in this window: opening the session, not what it came with.
 void SessionRunner::adopt_opened(const std::shared_ptr<Session>& session, const std::shared_ptr<KeptSession>& kept,
                                  const std::shared_ptr<StepTree>& tree) {
   struct Later {
     bool& later;
     ~Later() { later = false; }
   } const compares{compares_later_ = true};
-  const auto entry = [&](std::uint32_t number) {
-    return HistoryEntry{session, nullptr, kept, tree, number, tree->branches, *tree->stand(number), kept->cameras()};
-  };
-  const std::size_t limit = ScanHistory::limit(session->configuration());
-  const ScanState* const here = tree->stand(tree->at)->state.get();
-  if (session_) history_.push(now(), nullptr, limit);
-  if (tree->at > 0) history_.push(entry(0), here, limit);
-  for (const std::uint32_t number : tree->line(tree->at))
-    if (number != tree->at && tree->stand(number)) history_.push(entry(number), here, limit);
-  adopt(entry(tree->at));
+  if (session_) history_.push(now(), nullptr, ScanHistory::limit(session->configuration()));
+  adopt({session, nullptr, kept, tree, tree->at, tree->branches, *tree->stand(tree->at), kept->cameras()});
   put_off_ = tree->line(tree->at);
 }
 

@@ -33,19 +33,32 @@ TEST_F(KeptSessionTest, IsThereFromTheFirstViewOn) {
   EXPECT_THAT(notices_, testing::IsEmpty());
 }
 
-TEST_F(KeptSessionTest, EachViewOfAnOpenedOneCanBeUndone) {
+TEST_F(KeptSessionTest, UndoEndsWhereASessionWasOpenedAndTheTimelineGoesOn) {
   auto first = runner();
   first->load(small_scan(), job_control());
   steps(*first, 3);
   first.reset();
   auto second = runner();
-  second->open(kept().front(), job_control());
-  second->undo(job_control());
-  second->undo(job_control());
+  const fs::path folder = kept().front();
+  second->open(folder, job_control());
+  EXPECT_FALSE(second->snapshot()->can_undo);
+  steps(*second, 1);
+  for (int k = 0; k < 3; ++k) second->undo(job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 3u) << "what it came with stays";
+  EXPECT_EQ(read_journal(folder).line().size(), 3u);
+  second->go_to("", 1, job_control());
   EXPECT_EQ(second->snapshot()->records.size(), 1u);
-  second->redo(job_control());
-  EXPECT_EQ(second->snapshot()->records.size(), 2u);
-  EXPECT_EQ(read_journal(kept().front()).line().size(), 2u);
+  second->undo(job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 3u);
+  second->load(small_scan(), job_control());
+  steps(*second, 1);
+  second.reset();
+  second = runner();
+  second->load(small_scan(), job_control());
+  steps(*second, 1);
+  second->open(folder, job_control());
+  second->undo(job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 1u) << "of the session that was left for it";
 }
 
 TEST_F(KeptSessionTest, ASecondProgramShowsItAndSaysThatNothingIsKept) {
@@ -119,7 +132,7 @@ TEST_F(KeptSessionTest, GoingBackInAnOpenedSessionMakesNoMapsAgain) {
     EXPECT_EQ(pieces, memory > 0 ? 3 : 1);
     int reports = 0;
     const auto count = [&](double, std::string_view) { ++reports; };
-    second->undo({count, [](const SamplerDiagnostics&) {}, {}});
+    second->go_to("", 2, {count, [](const SamplerDiagnostics&) {}, {}});
     EXPECT_EQ(reports == 0, memory > 0);
     expect_same_scan(*second->snapshot(), *earlier);
     second.reset();
