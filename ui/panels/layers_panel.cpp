@@ -10,6 +10,7 @@
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/layer_commands.hpp"
 #include "ui/commands/scene_commands.hpp"
+#include "ui/workbench/chosen_voxels.hpp"
 
 namespace nextview {
 namespace {
@@ -86,7 +87,7 @@ void draw_octree(const PanelContext& context) {
   constexpr std::array maps = {"conventional map", "Gibbs map"};
   constexpr std::array colours = {"class", "probability", "entropy", "change by Gibbs", "error"};
   choices(context, command::voxel_map, "Of the", layers.map, maps);
-  choices(context, command::voxel_colour, "Coloured by", layers.colouring, colours);
+  choices(context, command::voxel_colour, "Coloured by", chosen_colouring(context.snapshot, layers), colours);
   ImGui::BeginDisabled(layers.voxels.uncertain);
   for (const auto& [command, label, colour] : {std::tuple{&command::toggle_occupied, "occupied", theme::occupied},
                                                {&command::toggle_unknown, "unknown", theme::unknown},
@@ -156,7 +157,7 @@ void draw_surface(const PanelContext& context) {
   if (const auto source = segmented(context, "surface of", sources, static_cast<std::size_t>(layers.surface_source)))
     context.post(command::surface_source(static_cast<SurfaceSource>(*source)));
   tooltip(command::surface_source.help);
-  choices(context, command::surface_colour, "Coloured by", layers.surface_colouring, colours);
+  choices(context, command::surface_colour, "Coloured by", chosen_surface_colouring(context.snapshot, layers), colours);
   const FoundSurface* found = context.surface;
   if (!found || !found->of.session || found->of.session->session != context.snapshot.session) return;
   if (!found->found.surface.why_empty.empty()) small_text(context.style, found->found.surface.why_empty);
@@ -192,7 +193,9 @@ void draw_layers_panel(const PanelContext& context, const Rectangle& rectangle) 
   toggle(context, command::toggle_surface, "Reconstructed surface");
   nested([&] { draw_surface(context); });
   toggle(context, command::toggle_cloud, "Point cloud");
-  nested([&] { choices(context, command::cloud_colour, "Coloured by", layers.cloud_colouring, clouds); });
+  nested([&] {
+    choices(context, command::cloud_colour, "Coloured by", chosen_cloud_colouring(context.snapshot, layers), clouds);
+  });
   toggle(context, command::toggle_octree, "Octree");
   nested([&] { draw_octree(context); });
   toggle(context, command::toggle_views, "Candidate views");

@@ -31,11 +31,11 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
     if (!cloud.normals.empty()) thin.normals.push_back(cloud.normals[i]);
     if (!cloud.distances.empty()) thin.distances.push_back(cloud.distances[i]);
   }
-  CloudPicture picture{thin.points, thin.views, thin.distances, choice.cloud_colouring};
+  CloudPicture picture{thin.points, thin.views, thin.distances, chosen_cloud_colouring(s, choice)};
   picture.normals = thin.normals;
   picture.farthest = s.configuration.evaluation.d_reg;
-  if (thin.distances.empty() && choice.cloud_colouring == CloudColouring::by_distance)
-    picture.colouring = CloudColouring::single;  // there is no truth
+  if (thin.distances.empty() && picture.colouring == CloudColouring::by_distance)
+    picture.colouring = CloudColouring::single;  // they are not compared yet
   if (choice.ranges_locked && choice_.ranges_locked && heights_.first < heights_.second) {
     picture.heights = heights_;
   } else if (!thin.points.empty()) {
@@ -49,9 +49,7 @@ void SceneView::show_cloud(const SessionSnapshot& s, const LayerChoice& choice) 
 
 void SceneView::show_voxels(const SessionSnapshot& s, const LayerChoice& choice) {
   const auto values = chosen_values(s, choice);
-  const auto wanted = chosen_colouring(s, choice);
-  const bool is_unknown = wanted == VoxelColouring::by_error && values.empty();
-  const auto colouring = is_unknown ? VoxelColouring::by_class : wanted;
+  const auto colouring = chosen_colouring(s, choice);
   const auto faces = std::exchange(faces_, nullptr);
   const auto voxels = chosen_voxels(s, choice.map);
   const bool anew = std::exchange(voxels_are_old_, false);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ui/window/scene_view.hpp"
+#include "ui/workbench/chosen_voxels.hpp"
 
 namespace nextview {
 namespace {
@@ -38,13 +39,14 @@ void SceneView::show_surface(const SessionSnapshot& s, const LayerChoice& choice
   if (!of_it || surface_->found.surface.empty()) return scene_.surface().show(TriangleMesh{});
   const Surface& surface = surface_->found.surface;
   const auto& error = surface_->found.surface_error;
-  if (choice.surface_colouring == SurfaceColouring::by_deviation && error) {
+  const SurfaceColouring colouring = chosen_surface_colouring(s, choice);
+  if (colouring == SurfaceColouring::by_deviation && error) {
     const std::vector<float> values = in_mm(error->at_vertices);
     const double limit = per_mm * error->histogram.limit;
     return scene_.surface().show(surface.mesh, MeshPaint{values, surface.seen, ColourMap::deviation(), -limit, limit,
                                                          "surface against truth", "mm", "inside", "outside"});
   }
-  if (choice.surface_colouring != SurfaceColouring::single) {
+  if (colouring != SurfaceColouring::single) {
     const std::vector<float> values = in_mm(surface.uncertainty);
     return scene_.surface().show(
         surface.mesh, MeshPaint{values, surface.seen, ColourMap::contribution(), 0.0,

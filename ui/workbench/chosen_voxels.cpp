@@ -31,14 +31,25 @@ std::span<const Voxel> chosen_voxels(const SessionSnapshot& s, MapChoice map) { 
 VoxelBricks chosen_bricks(const SessionSnapshot& s, MapChoice map) { return chosen(s, map).bricks(s.grid.size); }
 
 VoxelColouring chosen_colouring(const SessionSnapshot& s, const LayerChoice& choice) {
-  const bool is_missing = choice.colouring == VoxelColouring::by_difference && !s.gibbs;
-  return is_missing ? VoxelColouring::by_probability : choice.colouring;
+  if (choice.colouring == VoxelColouring::by_difference && !s.gibbs) return VoxelColouring::by_probability;
+  if (choice.colouring == VoxelColouring::by_error && !s.truth) return VoxelColouring::by_class;
+  return choice.colouring;
+}
+
+CloudColouring chosen_cloud_colouring(const SessionSnapshot& s, const LayerChoice& choice) {
+  const bool is_missing = choice.cloud_colouring == CloudColouring::by_distance && !s.truth;
+  return is_missing ? CloudColouring::single : choice.cloud_colouring;
+}
+
+SurfaceColouring chosen_surface_colouring(const SessionSnapshot& s, const LayerChoice& choice) {
+  const bool is_missing = choice.surface_colouring == SurfaceColouring::by_deviation && !s.truth;
+  return is_missing ? SurfaceColouring::by_uncertainty : choice.surface_colouring;
 }
 
 std::vector<float> chosen_values(const SessionSnapshot& s, const LayerChoice& choice) {
   const VoxelColouring colouring = chosen_colouring(s, choice);
   if (colouring == VoxelColouring::by_difference) return differences(s);
-  if (colouring != VoxelColouring::by_error || !s.truth) return {};
+  if (colouring != VoxelColouring::by_error) return {};
   return voxel_errors(probabilities(chosen_voxels(s, choice.map)), *s.truth, TruthConvention::touch);
 }
 

@@ -150,3 +150,13 @@ TEST_F(Layers, ListsNameWhatTheyChoose) {
 
 }  // namespace
 }  // namespace nextview
+  scan_->gibbs = std::make_shared<const GibbsMap>();
+TEST_F(Layers, NameTheColoursThatAreThereWithoutATruth) {
+  layers().cloud_colouring = CloudColouring::by_distance;
+  EXPECT_THAT(panel(), HasSubstr("Coloured by distance to truth"));
+  const auto truth = std::exchange(scan_->truth, nullptr);
+  EXPECT_THAT(panel(), HasSubstr("Coloured by one colour"));
+  scan_->truth = truth;
+  EXPECT_THAT(panel(), HasSubstr("Coloured by distance to truth")) << "it comes back";
+}
+
