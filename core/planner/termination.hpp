@@ -23,6 +23,8 @@ struct TerminationConfig {
   /// Without any criterion.
   static TerminationConfig unlimited() { return {.views = max_views, .surface_left = 0.0}; }
   bool limits_views() const { return views < max_views; }
+  /// A scan with so many is within that limit; it may have more where the limit was lowered.
+  bool limits_views(std::size_t taken) const { return limits_views() && taken <= static_cast<std::size_t>(views); }
   /// @throws std::invalid_argument naming the setting and its bounds.
   void validate() const;
 };

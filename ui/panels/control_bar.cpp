@@ -165,7 +165,7 @@ float draw_figures(const PanelContext& context, float least, float right, float 
                       "Of the region: a bit for each voxel that nothing was measured in (Eq. 18).");
   const TerminationConfig& limits = s.configuration.termination;
   std::string taken = fmt::format("{}", s.records.size());
-  if (limits.limits_views()) taken += fmt::format(" / {}", limits.views);
+  if (limits.limits_views(s.records.size())) taken += fmt::format(" / {}", limits.views);
   return draw_figure(context, least, right, y, taken, "views",
                      "Views that were taken, and how many are taken at most.");
 }

@@ -138,7 +138,7 @@ std::string Interface::title() const {
   const SessionSnapshot& s = *parts_->news.snapshot;
   if (!s.loaded()) return "Nextview";
   const TerminationConfig& end = s.configuration.termination;
-  const std::string of = end.limits_views() ? fmt::format(" of {}", end.views) : "";
+  const std::string of = end.limits_views(s.records.size()) ? fmt::format(" of {}", end.views) : "";
   return fmt::format("Nextview - {} - view {}{}", s.object_name, s.records.size(), of);
 }
 

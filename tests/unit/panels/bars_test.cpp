@@ -41,6 +41,8 @@ TEST_F(Bars, TheFiguresAreThoseOfTheLastView) {
   has("62.5 %", "of visible surface");
   has("4.500 Mbit", "entropy");
   has("2 / 4", "views");
+  scan_->configuration.termination.views = 1;
+  EXPECT_THAT(control_bar(), Not(HasSubstr("/"))) << "the limit was lowered, and says nothing of them";
   desk_.snapshot = scanned(small_scan(), 0);
   has("0.0 %", "of visible surface");
   has(fmt::format("{:.3f} Mbit", double(scan_->grid.voxel_count()) / 1e6).c_str(), "entropy");
