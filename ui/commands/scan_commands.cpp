@@ -19,7 +19,7 @@ std::vector<std::string> available_candidates(const SessionSnapshot& s) {
 std::string needs_more_to_scan(const CommandState& t) {
   if (const std::string reason = needs_session(t); !reason.empty()) return reason;
   if (t.session.finished.empty()) return "";
-  const char* const way_out = available_candidates(t.session).empty() ? "" : "; Continue goes on";
+  const char* const way_out = available_candidates(t.session).empty() ? "" : "; Continue takes more views";
   return "the scan is finished: " + t.session.finished + way_out;
 }
 
@@ -154,7 +154,7 @@ const CommandOf<> command::cancel{{"cancel",
                                    "Scan",
                                    "Cancel what runs",
                                    "Stops what runs; a view that is not complete is not taken.",
-                                   {},
+                                   {{Key::escape}},
                                    [](const CommandState& t) { return t.progress.busy ? "" : "nothing runs"; }},
                                   [](CommandTarget& t) {
                                     t.worker.cancel();

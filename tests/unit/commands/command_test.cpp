@@ -120,7 +120,8 @@ TEST(Commands, TheSidesOfTheObjectHaveTheDigitsWithControl) {
                                 "Ctrl+6 bottom", "Ctrl+7 usual"));
 }
 
-/// Two commands may share a key only if there is no state in which both can be done.
+/// Two commands may share a key only if there is no state in which both can be done; but what runs is cancelled before
+/// what is selected is left (Front.EscapeCancelsWhatRunsAndElseSelectsNothing).
 TEST(Commands, AKeyNeverMeansTwoThingsAtOnce) {
   std::map<std::string, std::vector<const Command*>> keys;
   for (const Command& c : commands())
@@ -140,6 +141,7 @@ TEST(Commands, AKeyNeverMeansTwoThingsAtOnce) {
     WindowState window;
     if (bit(6)) window.selection.custom_view = Pose::Identity();
     for (const auto& [key, sharing] : keys) {
+      if (key == "Esc") continue;
       const auto can = [&](const Command* c) { return c->available(state_of(session, progress, window)); };
       EXPECT_LE(std::count_if(sharing.begin(), sharing.end(), can), 1) << key << " in state " << bits;
     }

@@ -107,7 +107,7 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
   scripted.run("step");
   ASSERT_NE(worker.snapshot()->finished, "");
   const CommandState finished{*worker.snapshot(), {}, scripted.window};
-  EXPECT_THAT(find_command("take-view").why_not_now(finished), testing::EndsWith("; Continue goes on"));
+  EXPECT_THAT(find_command("take-view").why_not_now(finished), testing::EndsWith("; Continue takes more views"));
   scripted.run("continue");
   EXPECT_EQ(worker.snapshot()->finished, "");
   EXPECT_EQ(worker.snapshot()->records.size(), 2u)

@@ -109,6 +109,21 @@ TEST(Front, WhatAnAnswerDoesIsToldWithItsKey) {
 }
 
 /// The palette lies over the question: whoever closes it has not answered.
+TEST(Front, EscapeCancelsWhatRunsAndElseSelectsNothing) {
+  Desk desk;
+  open_all_ways(desk);
+  desk.progress.busy = desk.progress.refining = true;
+  desk.type(Key::escape);
+  auto calls = desk.frames();
+  ASSERT_EQ(calls.size(), 1u);
+  EXPECT_EQ(calls[0].text(), "cancel") << "what is selected stays";
+  desk.progress = {};
+  desk.type(Key::escape);
+  calls = desk.frames();
+  ASSERT_EQ(calls.size(), 1u);
+  EXPECT_EQ(calls[0].text(), "clear-selection");
+}
+
 TEST(Front, EscapeClosesThePaletteBeforeItAnswers) {
   Desk desk;
   open_all_ways(desk);
