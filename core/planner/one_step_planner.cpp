@@ -65,8 +65,9 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   }
   const auto second = runner_up(candidates, best);
   if (!second) return text;
-  text += fmt::format(" Runner-up {}: {}, {}.", *second, short_text(candidates[*second].gain, policy.unit()),
-                      length_text(candidates[*second].cost));
+  text +=
+      fmt::format(" Runner-up {}: {}, {}.", *second, short_text(candidates[*second].gain, policy.unit(), chosen.gain),
+                  length_text(candidates[*second].cost));
   double largest = 0.0;
   for (const Candidate& c : candidates)
     if (c.available) largest = std::max(largest, c.gain);

@@ -50,8 +50,8 @@ std::string short_text(double value) {
   return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-std::string short_text(double value, const std::string& unit) {
-  if (unit == "cm²") return area_text(value);
+std::string short_text(double value, const std::string& unit, double beside) {
+  if (unit == "cm²") return area_text(value, beside);
   return unit.empty() ? short_text(value) : fmt::format("{} {}", short_text(value), unit);
 }
 

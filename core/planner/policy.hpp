@@ -95,8 +95,10 @@ class Policy {
 
 /// "214", "12.5", "0.083": three digits, and whole numbers in full.
 std::string short_text(double value);
-/// The same with its unit: "12.5 nats"; areas in the unit that suits them, however the policy has them.
-std::string short_text(double value, const std::string& unit);
+/// The same with its unit: "12.5 nats"; areas in the unit that suits them, or what they stand beside, however the
+/// policy has them.
+std::string short_text(double value, const std::string& unit, double beside);
+inline std::string short_text(double value, const std::string& unit) { return short_text(value, unit, value); }
 
 /// A policy as it is offered.
 struct PolicyEntry {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/setting/area_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/selection_commands.hpp"
@@ -18,12 +19,21 @@ namespace {
 struct Largest {
   double gain = 0.0, cost = 0.0, utility = 0.0;
   bool gains_are_whole = true;  ///< counts
+  std::string gain_unit;
+  double gain_scale = 1.0;  ///< what is shown of each gain
 
-  explicit Largest(const std::vector<Candidate>& candidates) {
-    for (const Candidate& c : candidates) {
+  explicit Largest(const SessionSnapshot& s) : gain_unit(s.gain_unit) {
+    if (s.records.empty()) return;
+    const StepRecord& last = s.records.back();
+    if (gain_unit == "cm²" && last.ranking.best) {  // in the unit of the sentence above the table
+      const AreaUnit unit = area_unit(last.candidates[*last.ranking.best].gain);
+      gain_unit = unit.name;
+      gain_scale = unit.per_square_centimetre;
+    }
+    for (const Candidate& c : last.candidates) {
       if (!c.available) continue;
-      gain = std::max(gain, c.gain);
-      gains_are_whole = gains_are_whole && c.gain == std::round(c.gain);
+      gain = std::max(gain, gain_scale * c.gain);
+      gains_are_whole = gains_are_whole && gain_scale * c.gain == std::round(gain_scale * c.gain);
       cost = std::max(cost, c.cost);
       utility = std::max(utility, std::abs(c.utility));
     }
@@ -71,7 +81,8 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
     return;
   }
   const Colour colour = is_proposed(s, candidate) ? theme::chosen : theme::series[0];
-  number_cell(context, fmt::format("{:.{}f}", c.gain, largest.gain_decimals()), c.gain, largest.gain, colour);
+  const double gain = largest.gain_scale * c.gain;
+  number_cell(context, fmt::format("{:.{}f}", gain, largest.gain_decimals()), gain, largest.gain, colour);
   ImGui::TableNextColumn();
   const std::string cost = largest.costs_in_mm() ? fmt::format("{:.{}f}", 1e3 * c.cost, largest.cost < 0.1 ? 1 : 0)
                                                  : fmt::format("{:.2f}", c.cost);
@@ -186,10 +197,11 @@ void draw_table(const PanelContext& context, float height) {
     ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, weight);
   const std::vector<Candidate> none;
   const std::vector<Candidate>& candidates = s.records.empty() ? none : s.records.back().candidates;
-  const Largest largest(candidates);
+  const Largest largest(s);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   draw_header(context, CandidateColumn::view, "candidate");
-  draw_header(context, CandidateColumn::gain, s.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", s.gain_unit));
+  draw_header(context, CandidateColumn::gain,
+              largest.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", largest.gain_unit));
   draw_header(context, CandidateColumn::cost, largest.costs_in_mm() ? "cost [mm]" : "cost [m]");
   draw_header(context, CandidateColumn::utility, "utility");
   for (const std::size_t i : sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))

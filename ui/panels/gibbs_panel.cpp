@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "core/file/counted.hpp"
+#include "core/setting/entropy_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/gibbs_commands.hpp"
 #include "ui/commands/layer_commands.hpp"
@@ -86,8 +89,9 @@ void draw_histograms(const PanelContext& context, const RefinementChange& change
 void draw_changes(const PanelContext& context, const RefinementChange& change) {
   small_text(context.style,
              fmt::format("{:.0f} thousand voxels are of another class than in the conventional map; the entropy of all "
-                         "voxels went from {:.0f} to {:.0f} knats.",
-                         double(change.changed_class) / 1e3, change.entropy_before / 1e3, change.entropy_after / 1e3));
+                         "voxels went from {} to {}.",
+                         double(change.changed_class) / 1e3, entropy_text(change.entropy_before / std::numbers::ln2),
+                         entropy_text(change.entropy_after / std::numbers::ln2)));
 }
 
 void draw_before_and_after(const PanelContext& context) {

@@ -79,6 +79,16 @@ TEST_F(CandidatesPanel, GainsHaveAsManyDecimalsAsTheLargestHasDigitsLeft) {
   EXPECT_THAT(rows().front(), HasSubstr(" 0.02002 "));
 }
 
+TEST_F(CandidatesPanel, AreasHaveTheUnitOfTheSentenceAboveThem) {
+  scan_->gain_unit = "cm²";
+  EXPECT_THAT(panel(), HasSubstr("gain [cm²]"));
+  for (Candidate& candidate : scan_->records.back().candidates) candidate.gain *= 100;  // 16,000 of the proposal
+  EXPECT_THAT(panel(), HasSubstr("gain [m²]"));
+  EXPECT_THAT(rows().front(), HasSubstr("6 1.600 "));
+  for (Candidate& candidate : scan_->records.back().candidates) candidate.gain *= 1e-6;
+  EXPECT_THAT(panel(), HasSubstr("gain [mm²]"));
+}
+
 TEST_F(CandidatesPanel, TheFormulaHasTheWeightsOfThePlanner) {
   scan_->configuration.planner.weights = {1, 0.3};
   EXPECT_THAT(panel(), HasSubstr("U = gain share − 0.3 cost share (Eq. 13)"));
