@@ -52,7 +52,8 @@ void Notifications::draw(const PanelContext& context, const Rectangle& scene, st
     LogEntry entry = log[log.size() - back];
     if (entry.level == LogEntry::Level::note) continue;
     entry.text = without_command_name(entry.text);
-    std::erase_if(notes_, [&](const Note& note) { return note.entry.text == entry.text; });  // it is said again
+    // It is said again, maybe with more.
+    std::erase_if(notes_, [&](const Note& note) { return entry.text.starts_with(note.entry.text); });
     notes_.push_back({entry, entry.level == LogEntry::Level::warning ? warning_seconds : shown_seconds});
   }
   seen_ = count;
@@ -67,11 +68,13 @@ void Notifications::draw(const PanelContext& context, const Rectangle& scene, st
   ImGui::Begin("Notifications", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoScrollbar);
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoMouseInputs);  // the scene's, beneath it
   ImGui::PushFont(style.small);
   for (const Note& note : notes_) draw_entry(style, note.entry);
   ImGui::PopFont();
-  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) notes_.clear();
+  const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const bool is_met = ImGui::IsMouseHoveringRect(from, {from.x + size.x, from.y + size.y}, false);
+  if (is_met && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) notes_.clear();
   ImGui::End();
   ImGui::PopStyleVar(2);
 }

@@ -48,6 +48,11 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
     log.add(Level::warning, warning);
 }
 
+/// A note alone: the control bar says it as long as it is so.
+void log_end(const SessionSnapshot& now, SessionLog& log) {
+  log.add(Level::note, "The scan is finished: " + now.finished);
+}
+
 void log_view(const SessionSnapshot& now, SessionLog& log) {
   const StepRecord& r = now.records.back();
   const std::string from = r.view < 0 ? r.overridden ? "your custom view" : "the start view"
@@ -61,9 +66,9 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
                 ? fmt::format("View {} lay {} and {:.2g}° off the scans before it", r.step,
                               length_text(r.registration->shift), r.registration->rotation * 180.0 / std::numbers::pi)
                 : fmt::format("View {} was not registered: {}", r.step, r.registration->why_not));
-  if (!r.ranking.degenerate.empty())
+  if (!r.ranking.degenerate.empty() && now.finished.empty())  // nothing is chosen by it any more
     log.add(Level::warning, fmt::format("The ranking after view {} says little: {}", r.step, r.ranking.degenerate));
-  if (!now.finished.empty()) log.add(Level::success, "The scan is finished: " + now.finished);
+  if (!now.finished.empty()) log_end(now, log);
 }
 
 /// A view that was taken where there were others after it left them where they are.
@@ -110,9 +115,7 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
       log_.add(Level::note, fmt::format("At view {} again", s.records.size()));
     }
   } else if (is<request::SetTermination>(request)) {
-    if (s.finished != before.finished)
-      log_.add(s.finished.empty() ? Level::note : Level::success,
-               s.finished.empty() ? going_on(s) : "The scan is finished: " + s.finished);
+    if (s.finished != before.finished) s.finished.empty() ? log_.add(Level::note, going_on(s)) : log_end(s, log_);
   } else if (is<request::SetPlanning>(request)) {
     if (!s.records.empty()) log_.add(Level::note, "The candidates are ranked anew; the scan stays");
   } else if (s.scanner_lost && !before.scanner_lost) {

@@ -227,6 +227,28 @@ TEST_F(Bars, ANotificationGoesOnceItIsNoNews) {
   EXPECT_EQ(seen_in("Notifications"), "the next one is small");
 }
 
+TEST_F(Bars, AClickOnANotificationIsTheScenesAndTakesItAway) {
+  desk_.frames();
+  desk_.log = {{LogEntry::Level::success, "it is done"}};
+  desk_.frames();
+  const SeenText* const note = find_text(seen_texts(), "it is done", "Notifications");
+  ASSERT_NE(note, nullptr);
+  const ImVec2 at(note->from.x + 5, note->middle());
+  desk_.move(at.x, at.y);
+  desk_.frames();
+  EXPECT_FALSE(ImGui::GetIO().WantCaptureMouse) << "what is beneath it cannot be measured or turned";
+  desk_.click(at.x, at.y);
+  EXPECT_EQ(seen_in("Notifications"), "");
+}
+
+TEST_F(Bars, WhatIsSaidAgainWithMoreIsReadOnce) {
+  desk_.frames();
+  desk_.log = {{LogEntry::Level::warning, "The scanner is lost"}};
+  desk_.frames();
+  desk_.log.push_back({LogEntry::Level::warning, "step: the scanner is lost; reach it again"});
+  EXPECT_EQ(seen_in("Notifications"), "The scanner is lost; reach it again");
+}
+
 TEST(Notifications, InANarrowWindowStepPlayAndTabsStayInReach) {
   for (const auto& [width, height] : {std::pair{640, 480}, {1000, 700}, {1280, 800}}) {
     Desk desk(width, height);
