@@ -131,7 +131,10 @@ const CommandOf<VoxelColouring> command::voxel_colour =
 const CommandOf<> command::toggle_occupied =
     toggle_voxels("occupied", "Shows or hides voxels of class occupied.", &VoxelFilter::occupied);
 const CommandOf<> command::toggle_unknown = toggle_voxels(
-    "unknown", "Shows or hides measured voxels that are neither occupied nor free.", &VoxelFilter::unknown);
+    "unknown",
+    "Shows or hides measured voxels that are neither occupied nor free: too few rays hit them to be sure, or others "
+    "passed. More views (Continue), or refining the map, settle most.",
+    &VoxelFilter::unknown);
 const CommandOf<> command::toggle_free =
     toggle_voxels("free", "Shows or hides voxels of class free.", &VoxelFilter::free);
 const CommandOf<> command::toggle_uncertain =

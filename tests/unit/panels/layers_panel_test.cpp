@@ -9,6 +9,7 @@
 namespace nextview {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -63,6 +64,11 @@ TEST_F(Layers, UnknownVoxelsHaveOneNameInPanelAndLegend) {
   const Legend legend = VoxelPalette(VoxelColouring::by_class).legend(layers().voxels, false);
   ASSERT_EQ(legend.swatches.size(), 2u);
   EXPECT_THAT(legend.swatches[1].name, HasSubstr("measured but unknown"));
+  const SeenText* const line = find_text(seen_texts(), "unknown", "Layers");
+  ASSERT_NE(line, nullptr);
+  desk_.move(line->from.x + 5, line->middle());
+  for (int frame = 0; frame < 120; ++frame) desk_.frame();
+  EXPECT_THAT(read_tooltip(), AllOf(HasSubstr("too few rays hit them"), HasSubstr("More views")));
 }
 
 TEST_F(Layers, EachLineSwitchesItsOwn) {
@@ -144,13 +150,11 @@ TEST_F(Layers, ListsNameWhatTheyChoose) {
   layers().map = MapChoice::gibbs;
   layers().colouring = VoxelColouring::by_difference;
   layers().cloud_colouring = CloudColouring::by_view;
+  scan_->gibbs = std::make_shared<const GibbsMap>();
   EXPECT_THAT(panel(), HasSubstr("Coloured by view"));
   EXPECT_THAT(panel(), HasSubstr("Of the Gibbs map Coloured by change by Gibbs"));
 }
 
-}  // namespace
-}  // namespace nextview
-  scan_->gibbs = std::make_shared<const GibbsMap>();
 TEST_F(Layers, NameTheColoursThatAreThereWithoutATruth) {
   layers().cloud_colouring = CloudColouring::by_distance;
   EXPECT_THAT(panel(), HasSubstr("Coloured by distance to truth"));
@@ -160,3 +164,5 @@ TEST_F(Layers, NameTheColoursThatAreThereWithoutATruth) {
   EXPECT_THAT(panel(), HasSubstr("Coloured by distance to truth")) << "it comes back";
 }
 
+}  // namespace
+}  // namespace nextview
