@@ -10,6 +10,7 @@
 #include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/counted.hpp"
 #include "core/gibbs/exact_posterior.hpp"
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/gibbs/test_problems.hpp"
@@ -77,9 +78,9 @@ Answers answer(const TestProblem& problem, const PosteriorSamplerConfig& config)
 
 void print_table(const TestProblem& problem, const PosteriorSamplerConfig& config, const Answers& answers) {
   fmt::print("{}: {}\n", problem.name, problem.summary);
-  fmt::print("{} voxels of {:g} mm, model {}, prior {:g}, sigma {:g} mm, {} chains of {} sweeps\n\n",
-             problem.grid.voxel_count(), 1e3 * problem.grid.resolution, name(config.model.kind), config.prior,
-             1e3 * config.model.sigma, config.chains, config.sweeps);
+  fmt::print("{} voxels of {:g} mm, model {}, prior {:g}, sigma {:g} mm, {} of {}\n\n", problem.grid.voxel_count(),
+             1e3 * problem.grid.resolution, name(config.model.kind), config.prior, 1e3 * config.model.sigma,
+             counted(config.chains, "chain"), counted(config.sweeps, "sweep"));
   fmt::print("{:>5}  {:<8} {:>9} {:>9} {:>11} {:>9}\n", "voxel", "x y z", "exact", "sampler", "difference", "OctoMap");
   double largest = 0.0;
   for (std::uint32_t v = 0; v < problem.grid.voxel_count(); ++v) {

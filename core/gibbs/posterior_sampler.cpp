@@ -83,7 +83,7 @@ class Schedule {
 };
 
 std::string warning(const SamplerDiagnostics& d) {
-  if (d.stopped) return fmt::format("stopped after {} sweeps", d.sweeps);
+  if (d.stopped) return fmt::format("stopped after {} sweep{}", d.sweeps, d.sweeps == 1 ? "" : "s");
   if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
   if (d.too_short_to_tell())

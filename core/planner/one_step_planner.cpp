@@ -89,8 +89,9 @@ std::string outlook(const Valuation& valuation, const PlanningState& state, std:
   const std::size_t count = stops.size();
   const char* fewest = valuation.remaining_is_fewest && count > 1 ? " (no fewer do)" : "";
   const std::size_t open = most_views - std::min(most_views, state.taken.size());
-  const std::string limit =
-      open > 0 && open < count ? fmt::format("; the limit of {} views leaves {}", most_views, open) : "";
+  const std::string limit = open > 0 && open < count ? fmt::format("; the limit of {} view{} leaves {}", most_views,
+                                                                   most_views == 1 ? "" : "s", open)
+                                                     : "";
   return left + fmt::format(": {} view{}{}, {}{}.", count, count == 1 ? "" : "s", fewest,
                             length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))),
                             limit);

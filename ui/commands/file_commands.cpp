@@ -95,6 +95,15 @@ void set_from(CommandTarget& target, const std::string& key, Configuration wante
   change_setting(target, key, configuration);
 }
 
+/// "Voxel = 5 mm", as a question begins; the six coordinates of a box say nothing to people.
+std::string change_text(const Setting& wanted) {
+  if (wanted.key == "map.region") return wanted.text().empty() ? "The region as it was" : "Another region of interest";
+  const auto* length = wanted.unit == "m" ? std::get_if<double*>(&wanted.value) : nullptr;
+  std::string text = fmt::format("{} = {}", field_name(wanted), length ? quantity_text(**length) : wanted.text());
+  text[0] = char(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 /// `values`: a key, and what it is to be; its default without.
 CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std::string>& values) {
   const std::string& key = values.at(0);
@@ -110,9 +119,7 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
   }
   const Setting wanted = setting(now, key);
   if (wanted.text() == before) return {};
-  const auto* length = wanted.unit == "m" ? std::get_if<double*>(&wanted.value) : nullptr;
-  return restart_question(t,
-                          fmt::format("{} = {}", field_name(wanted), length ? quantity_text(**length) : wanted.text()));
+  return restart_question(t, change_text(wanted));
 }
 
 /// The settings of a file start the scan over as any other does; another object, everybody knows, takes its place.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/file/counted.hpp"
 #include "ui/charts/curve_plot.hpp"
 #include "ui/figures/slice.hpp"
 
@@ -76,7 +77,7 @@ void paint_slices(vtkContext2D& context, const RefinementPicture& picture, doubl
 /// "stationary after 50 sweeps, R-hat 0.98"
 std::string verdict(const SamplerDiagnostics& d) {
   if (d.log_posterior.empty()) return "no chains";
-  if (d.few_sweeps()) return fmt::format("{} sweeps: too few to tell if stationary", d.sweeps);
+  if (d.few_sweeps()) return counted(d.sweeps, "sweep") + ": too few to tell if stationary";
   return fmt::format("{} after {} sweeps, R-hat {:.2f}", d.stationary ? "stationary" : "not stationary", d.sweeps,
                      d.r_hat);
 }

@@ -48,8 +48,10 @@ void draw_traces(const PanelContext& context, const SamplerDiagnostics& d) {
 void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d) {
   const Colour good = theme::series[2];
   if (d.stationary)
-    small_text(context.style, fmt::format("Stationary after {} sweeps of {} chains.", d.sweeps, d.log_posterior.size()),
-               good);
+    small_text(
+        context.style,
+        fmt::format("Stationary after {} of {}.", counted(d.sweeps, "sweep"), counted(d.log_posterior.size(), "chain")),
+        good);
   else if (d.too_short_to_tell())
     small_text(context.style, d.warning + ". Refine the map to know.");
   else
@@ -149,7 +151,7 @@ void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
   if (context.progress.refining) {
     ImGui::Spacing();
     if (context.progress.sampler) {
-      small_text(context.style, fmt::format("{} sweeps so far", context.progress.sampler->sweeps));
+      small_text(context.style, counted(context.progress.sampler->sweeps, "sweep") + " so far");
       draw_traces(context, *context.progress.sampler);
     }
     return;
@@ -159,7 +161,7 @@ void GibbsPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
                       "No Gibbs map yet. It is the mean over whole maps drawn from the posterior of all rays, without "
                       "the independence assumptions of the conventional map.");
   if (s.gibbs->views < s.records.size())
-    small_text(context.style, fmt::format("This is the map of the first {} views: refine again.", s.gibbs->views),
+    small_text(context.style, fmt::format("This is the map of {}: refine again.", first_views(s.gibbs->views)),
                theme::chosen);
   draw_stationarity(context, s.gibbs->posterior->diagnostics);
   draw_before_and_after(context);

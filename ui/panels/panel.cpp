@@ -231,6 +231,10 @@ void table_row(const std::string& name, const std::string& value, const std::str
   ImGui::TextUnformatted(value.c_str());
 }
 
+std::string first_views(std::size_t count) {
+  return count == 1 ? "the first view" : fmt::format("the first {} views", count);
+}
+
 std::string readable(double value) {
   if (value == 0.0) return "0";
   return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);

@@ -82,6 +82,8 @@ std::optional<std::size_t> segmented(const PanelContext& context, const char* id
                                      std::size_t selected, std::span<const char* const> help = {});
 /// "name    value" in a table of two columns, which must be open.
 void table_row(const std::string& name, const std::string& value, const std::string& help = "");
+/// "the first view", "the first 3 views".
+std::string first_views(std::size_t count);
 /// "1234567", "1234", "12.35", "0.00123": as many digits as people can use.
 std::string readable(double value);
 /// The same with its unit; areas in the unit that suits them.

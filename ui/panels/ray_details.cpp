@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/file/counted.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/selection_commands.hpp"
 
@@ -48,9 +49,9 @@ void draw_ray_details(const PanelContext& context, const ScoreExplanation& expla
   const std::string unit = context.snapshot.gain_unit;
   heading(context.style, fmt::format("Ray {} of {}", index, explanation.rays.size()).c_str());
   const double share = explanation.value != 0 ? 100 * ray.contribution / explanation.value : 0;
-  small_text(context.style, fmt::format("It contributes {} of the view's {} ({:.2f} %): the sum over its {} voxels.",
+  small_text(context.style, fmt::format("It contributes {} of the view's {} ({:.2f} %): the sum over its {}.",
                                         readable(ray.contribution, unit), readable(explanation.value, unit), share,
-                                        ray.voxels.size()));
+                                        counted(ray.voxels.size(), "voxel")));
   if (ray.voxels.empty()) return small_text(context.style, "It misses the region of interest.");
   double largest = 0;
   for (const auto& voxel : ray.voxels) largest = std::max(largest, voxel.contribution);

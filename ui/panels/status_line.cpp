@@ -18,13 +18,13 @@ std::string last_step(const SessionSnapshot& s, bool with_seconds) {
   const StepRecord& r = s.records.back();
   const double seconds = r.seconds.sense + r.seconds.clean + r.seconds.insert + r.seconds.evaluate + r.seconds.score;
   const std::string text =
-      fmt::format("View {}: {} points, {} of new surface", r.step, r.points, area_text(r.new_surface));
+      fmt::format("View {}: {}, {} of new surface", r.step, counted(r.points, "point"), area_text(r.new_surface));
   return with_seconds ? fmt::format("{}, {:.2f} s", text, seconds + r.seconds.refine) : text;
 }
 
 std::string scanned(const SessionSnapshot& s) {
   if (!s.loaded()) return "";
-  const std::string of = s.is_recording() ? fmt::format(" · {} frames", s.candidates.size())
+  const std::string of = s.is_recording() ? " · " + counted(s.candidates.size(), "frame")
                          : s.mesh         ? " · " + counted(s.mesh->triangles.size(), "triangle")
                                           : "";
   return fmt::format("{}{} · {} × {} × {} voxels of {:g} mm", s.object_name, of, s.grid.size.x(), s.grid.size.y(),

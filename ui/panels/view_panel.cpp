@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/file/counted.hpp"
 #include "core/setting/area_text.hpp"
 #include "core/setting/length_text.hpp"
 #include "ui/appearance/colour_map.hpp"
@@ -118,8 +119,8 @@ void draw_contributions(const PanelContext& context, const ViewInspection& view)
   const RayGrid grid(context.snapshot.configuration.planner, camera, e.rays.size());
   if (grid.cells() == 0 || grid.cells() != e.rays.size()) return;
   const std::string words = fmt::format(
-      "What each of its {} rays adds to the gain.\n\nDark {}, pale little, white nothing. Click a ray to see why.",
-      e.rays.size(), readable(largest_contribution(e), unit));
+      "What each of its {} adds to the gain.\n\nDark {}, pale little, white nothing. Click a ray to see why.",
+      counted(e.rays.size(), "ray"), readable(largest_contribution(e), unit));
   const ImVec4 place = draw_picture(context, "contributions", double(camera.height) / camera.width, words,
                                     [&] { return contribution_picture(e, grid); });
   const float width = context.style.px(1.5f);
@@ -147,7 +148,7 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
             "Entropy that the map lost by this view (Eq. 12)");
   table_row("new voxels", fmt::format("{}", r.new_voxels), "Measured for the first time");
   table_row("points", fmt::format("{} of {} hits", r.points, r.hits), "Left after the cleaning of the cloud");
-  table_row("beyond range", fmt::format("{} rays", r.misses));
+  table_row("beyond range", counted(r.misses, "ray"));
   table_row("way there",
             fmt::format("{}, {:.0f}°", length_text(r.motion.distance), 180 / std::numbers::pi * r.motion.rotation));
 }
@@ -160,7 +161,7 @@ void draw_ranked_gain(const PanelContext& context, const ViewInspection& view, d
   const bool by_fewer = view.explanation && view.explanation->rays.size() > rays &&
                         std::abs(gain - view.explanation->value) > 1e-6 * std::abs(gain);
   if (by_fewer)
-    table_row("in the ranking", fmt::format("{} by {} rays", text, rays),
+    table_row("in the ranking", fmt::format("{} by {}", text, counted(rays, "ray")),
               "The gain by which it was ranked: few rays value every candidate, many the best two");
   else
     table_row("in the ranking", text, "The gain by which it was ranked");

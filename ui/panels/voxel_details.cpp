@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/file/counted.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/gibbs_commands.hpp"
 #include "ui/commands/selection_commands.hpp"
@@ -142,7 +143,7 @@ void draw_gibbs(const PanelContext& context, const VoxelInspection& voxel) {
     return command_button(context, command::refine, Icon::none, "Refine the map");
   }
   if (s.gibbs->views < s.records.size())
-    small_text(context.style, fmt::format("The Gibbs map is of the first {} views.", s.gibbs->views), theme::chosen);
+    small_text(context.style, fmt::format("The Gibbs map is of {}.", first_views(s.gibbs->views)), theme::chosen);
   if (!voxel.trace.empty()) {
     small_text(context.style, "its level after each sweep, a strip a chain");
     draw_trace(context, voxel.trace, s.gibbs->config.model.levels());
@@ -153,9 +154,8 @@ void draw_gibbs(const PanelContext& context, const VoxelInspection& voxel) {
           context.style,
           "Its p is that the surface touches it, read out from the levels and rays around it, too. Its own level "
           "says how many rays it stops:");
-    small_text(context.style,
-               fmt::format("full conditional, given the rest of the last map of chain 1; {} rays have a say",
-                           voxel.conditional->rays.size()));
+    small_text(context.style, fmt::format("full conditional, given the rest of the last map of chain 1; {} a say",
+                                          counted(voxel.conditional->rays.size(), "ray has", "rays have")));
     draw_conditional(context, *voxel.conditional);
   }
 }

@@ -39,9 +39,9 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
   }
   const std::string unit =
       now.guessed_unit.empty() ? "" : fmt::format(" (its unit taken as {}; object.unit sets it)", now.guessed_unit);
-  log.add(Level::note, fmt::format("{}: {}{}, {}, {} candidate views, {:g} mm voxels", now.object_name,
-                                   size_text(*now.mesh), unit, counted(now.mesh->triangles.size(), "triangle"),
-                                   now.candidates.size(), 1e3 * now.grid.resolution));
+  log.add(Level::note, fmt::format("{}: {}{}, {}, {}, {:g} mm voxels", now.object_name, size_text(*now.mesh), unit,
+                                   counted(now.mesh->triangles.size(), "triangle"),
+                                   counted(now.candidates.size(), "candidate view"), 1e3 * now.grid.resolution));
   for (const std::string& note : now.notes) log.add(Level::note, note);
   if (!now.records.empty()) log.add(Level::note, fmt::format("Goes on with {}", counted(now.records.size(), "view")));
   for (const std::string& warning : setup_warnings(now.configuration, *now.mesh, now.candidates))
@@ -57,9 +57,9 @@ void log_view(const SessionSnapshot& now, SessionLog& log) {
   const StepRecord& r = now.records.back();
   const std::string from = r.view < 0 ? r.overridden ? "your custom view" : "the start view"
                                       : fmt::format("{} {}", now.is_recording() ? "frame" : "candidate", r.view);
-  log.add(Level::note,
-          fmt::format("View {} from {}{}: {} points, {} of new surface", r.step, from,
-                      r.view >= 0 && r.overridden ? " (your choice)" : "", r.points, area_text(r.new_surface)));
+  log.add(Level::note, fmt::format("View {} from {}{}: {}, {} of new surface", r.step, from,
+                                   r.view >= 0 && r.overridden ? " (your choice)" : "", counted(r.points, "point"),
+                                   area_text(r.new_surface)));
   if (r.registration)
     log.add(Level::note,
             r.registration->reliable
@@ -83,9 +83,9 @@ void log_branch(const SessionSnapshot& before, const SessionSnapshot& now, Sessi
 /// How a refinement went; of one that was cancelled, what is left of it.
 void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
   const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
-  const std::string map = fmt::format("Gibbs map of {} view{}", gibbs.views, gibbs.views == 1 ? "" : "s");
-  if (cancelled) return log.add(Level::note, fmt::format("Cancelled: the {} keeps its {} sweeps", map, d.sweeps));
-  if (d.stationary) return log.add(Level::success, fmt::format("{}: stationary after {} sweeps", map, d.sweeps));
+  const std::string map = "Gibbs map of " + counted(gibbs.views, "view"), sweeps = counted(d.sweeps, "sweep");
+  if (cancelled) return log.add(Level::note, fmt::format("Cancelled: the {} keeps its {}", map, sweeps));
+  if (d.stationary) return log.add(Level::success, fmt::format("{}: stationary after {}", map, sweeps));
   log.add(Level::warning, fmt::format("{}: {}", map, d.warning));
 }
 

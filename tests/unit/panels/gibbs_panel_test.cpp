@@ -143,7 +143,7 @@ TEST_F(GibbsPanelTest, SaysWhatRefiningChangedAndOfWhichViewsItIs) {
                                            "entropy of all voxels went from 0.013 Mbit to 0.006 Mbit."));
   GibbsMap map = made_map();
   map.views = 1;
-  EXPECT_THAT(panel(map), HasSubstr("This is the map of the first 1 views: refine again."));
+  EXPECT_THAT(panel(map), HasSubstr("This is the map of the first view: refine again."));
   scan_->gibbs = nullptr;
   desk_.frames();
   EXPECT_THAT(read("Gibbs"), HasSubstr("No Gibbs map yet."));

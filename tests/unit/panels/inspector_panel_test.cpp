@@ -160,7 +160,7 @@ TEST_F(InspectedVoxel, ItsGibbsMapAndItsFullConditionalAddUp) {
   desk_.inspection.voxel->conditional = f;
   std::string text = panel();
   EXPECT_THAT(text, HasSubstr("Gibbs p 0.250, unknown, 0.44 nats"));
-  EXPECT_THAT(text, HasSubstr("The Gibbs map is of the first 1 views."));
+  EXPECT_THAT(text, HasSubstr("The Gibbs map is of the first view."));
   EXPECT_THAT(text, HasSubstr("Its p is that the surface touches it")) << "0.25 is no level's";
   EXPECT_THAT(text, HasSubstr("3 rays have a say free 0.8750 occupied 0.1250 log odds of occupied against free: -2.25, "
                               "of these prior -2.00, rays for it +1.25, against it -1.50"));
