@@ -52,7 +52,7 @@ void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> vi
   after.stand = stand_at(after.at, control);
   // Going along the timeline is one change, however many views it goes by.
   const std::size_t limit = ScanHistory::limit(session_->configuration());
-  if (history_.last_change() != change_when_gone_ || history_.can_redo())
+  if (!history_.can_undo() || history_.last_change() != change_when_gone_ || history_.can_redo())
     history_.push(before, after.stand.state.get(), limit);
   else
     history_.keep_within(limit, after.stand.state.get());

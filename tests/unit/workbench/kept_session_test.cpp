@@ -42,6 +42,11 @@ TEST_F(KeptSessionTest, UndoEndsWhereASessionWasOpenedAndTheTimelineGoesOn) {
   const fs::path folder = kept().front();
   second->open(folder, job_control());
   EXPECT_FALSE(second->snapshot()->can_undo);
+  second->go_to("", 2, job_control());
+  second->go_to("", 1, job_control());
+  second->undo(job_control());
+  EXPECT_EQ(second->snapshot()->records.size(), 3u) << "going along is one change, also the first";
+  EXPECT_FALSE(second->snapshot()->can_undo);
   steps(*second, 1);
   for (int k = 0; k < 3; ++k) second->undo(job_control());
   EXPECT_EQ(second->snapshot()->records.size(), 3u) << "what it came with stays";
