@@ -45,6 +45,7 @@ TEST_F(WindowRegion, AFaceThatIsLetGoIsTheSettingAndStartsOver) {
   user_.release();
   user_.wait();
   EXPECT_EQ(user_.session().records.size(), 1u) << "it is asked first";
+  EXPECT_TRUE(user_.window().question().starts_with("Another region of interest starts the scan over."));
   user_.run("answer \"Start over\"\n");
   EXPECT_EQ(user_.session().message, "");
   EXPECT_TRUE(user_.session().records.empty());
