@@ -97,10 +97,16 @@ void obey_shortcuts(const PanelContext& context) {
   if (refused) context.invoke(*refused);
 }
 
+/// Of ImGui's keys Space alone presses what has the ring: people press Enter in a question.
 void obey_answers(const PanelContext& context) {
   const std::vector<std::string>& answers = context.progress.answers;
-  if (pressed(Key::escape)) context.post(command::answer(answers.back()));
-  if (pressed(Key::enter)) context.post(command::answer(answers[context.progress.usual_answer()]));
+  if (pressed(Key::escape)) return context.post(command::answer(answers.back()));
+  const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  const bool ring_is_shown = imgui.IO.NavVisible && imgui.NavWindow == ImGui::FindWindowByName("Question");
+  if (ring_is_shown)
+    ImGui::ActivateItem(imgui.NavId);
+  else
+    context.post(command::answer(answers[context.progress.usual_answer()]));
 }
 
 }  // namespace

@@ -91,6 +91,23 @@ TEST(Front, AQuestionIsAnsweredFirst) {
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
 }
 
+/// Who went to a button by keys sees which one Enter presses, whatever Enter does without that.
+TEST(Front, EnterPressesTheAnswerThatHasTheRing) {
+  Desk desk;
+  desk.progress.question = "Leave without keeping?";
+  desk.progress.answers = {"Quit", "Export", "Cancel"};
+  desk.progress.costs = true;
+  desk.frames();
+  for (const auto& [key, does] : {std::pair{Key::tab, "answer Quit"}, {Key::right, "answer Export"}}) {
+    desk.type(key);
+    desk.frames();
+    desk.type(Key::enter);
+    EXPECT_EQ(names(desk.frames()), std::vector<std::string>{does});
+  }
+  desk.type(Key::escape);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer Cancel"});
+}
+
 TEST(Front, WhatAnAnswerDoesIsToldWithItsKey) {
   Desk desk;
   desk.progress.question = "Go on with it?";
