@@ -8,7 +8,9 @@
 #include "app/commands/options.hpp"
 #include "app/commands/scanner.hpp"
 #include "core/file/read_file.hpp"
+#include "core/session/recent_files.hpp"
 #include "core/session/session_folder.hpp"
+#include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/script.hpp"
 #include "ui/window/window.hpp"
@@ -50,6 +52,7 @@ int run(const WindowArguments& a) {
   }
   const Configuration configuration = a.options.configuration();
   resolve_object(configuration);  // who is wrong about the file need not look for it in the window
+  if (a.script.empty() && is_there(object)) add_recent_file(state_folder(), object);
   if (a.scanner.wanted()) start.scanner = {a.scanner.command, a.scanner.confirm == "always", configuration};
   start.offer = !a.scanner.wanted() && a.script.empty() && object.empty() && !a.options.gives_settings();
   return run_window(configuration, script, start);

@@ -73,6 +73,14 @@ TEST_F(Display, AScriptOfAnObjectThatIsNotThereEndsWithTwo) {
   EXPECT_NE(read_file(folder_ / "err").find("/no/such/file.ply"), std::string::npos);
 }
 
+TEST_F(Display, AFileThatTheProgramIsStartedWithIsAmongTheRecentOnes) {
+  const std::filesystem::path part = folder_ / "part.ply";
+  std::filesystem::copy_file(NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply", part);
+  start("'" + part.string() + "'");
+  ASSERT_TRUE(titled("part - view 0"));
+  EXPECT_EQ(read_file(folder_ / "nextview/recent"), part.string() + "\n");
+}
+
 class SmallDisplay : public Display {
  protected:
   std::string size() const override { return "640x480"; }
