@@ -97,6 +97,7 @@ class Command : public CommandDeclaration {
   /// Whether it can be called without a value.
   bool needs_no_value() const { return arguments_.empty() || arguments_.front().optional; }
   bool takes_file() const { return !arguments_.empty() && arguments_.front().kind == Argument::Kind::file; }
+  bool names_folder() const { return !arguments_.empty() && arguments_.front().name == "folder"; }
   /// Why it cannot be done now; empty: it can. While something is asked, the session takes nothing but the answer.
   std::string why_not_now(const CommandState& state) const;
   bool available(const CommandState& state) const { return why_not_now(state).empty(); }

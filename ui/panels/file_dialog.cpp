@@ -13,7 +13,6 @@
 #include "core/session/recent_files.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
-#include "ui/commands/demo_file.hpp"
 #include "ui/commands/export_commands.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/recording_commands.hpp"
@@ -23,14 +22,6 @@ namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool names_folder(const Command& command) { return command.arguments().front().name == "folder"; }
-
-/// A name without an ending has that of the one that is proposed, so that it is known what would be replaced.
-fs::path with_ending(fs::path file, const fs::path& proposed) {
-  if (!file.has_extension()) file += proposed.extension();
-  return file;
-}
 
 /// Where the origin of what a command writes is; of pictures and curves there is none.
 std::string coordinates_of(const Command& command, const SessionSnapshot& s) {
@@ -45,6 +36,13 @@ std::string coordinates_of(const Command& command, const SessionSnapshot& s) {
   return unit + (s.configuration.object.centred
                      ? "z up, the object's middle in the origin (object.centred = false: that of its file)."
                      : "z up, the origin that of the object's file.");
+}
+
+/// Of a text that may take several lines.
+float height_of(const std::string& text) {
+  if (text.empty()) return 0;
+  const float width = ImGui::GetContentRegionAvail().x;
+  return ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + ImGui::GetStyle().ItemSpacing.y;
 }
 
 int open_popups() { return ImGui::GetCurrentContext()->OpenPopupStack.Size; }
@@ -81,6 +79,11 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   chosen_ = 0;
   opened_ = true;
   coordinates_ = coordinates_of(command, context.snapshot);
+  if (const auto failed = std::exchange(opening_, std::nullopt); failed && !failed->problem.empty()) {
+    write(failed->written);
+    problem_ = failed->problem;
+    return;
+  }
   write("");
   // Where something could not be written is not proposed again.
   if (is_there(wanted_) && context.snapshot.failures == failures_) last_written_ = wanted_.parent_path();
@@ -91,49 +94,14 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   const std::string name = suggested(context.snapshot).front();
   write(name);
   // No session is written over: the next name that is free.
-  for (int number = 2; names_folder(command) && has_journal(browser_.meant(written_)); ++number)
+  for (int number = 2; command.names_folder() && has_journal(browser_.meant(written_)); ++number)
     write(fmt::format("{}-{}", name, number));
 }
 
 void FileDialog::look_into(const fs::path& folder) {
   browser_.go_to(folder);
   chosen_ = 0;
-}
-
-/// With it the dialog closes.
-void FileDialog::call(const PanelContext& context, const Command& command, const std::string& file) {
-  context.post(command::file_dialog());
-  context.post(command.read({file}));
-}
-
-void FileDialog::accept(const PanelContext& context, const Command& command, const fs::path& file) {
-  std::error_code ignored;
-  const bool is_folder = fs::is_directory(file, ignored);
-  const bool looked_into = is_folder && (plays_ || (to_read_ ? !has_journal(file) : !names_folder(command)));
-  if (looked_into) {
-    look_into(file);
-    return write("");
-  }
-  if (!is_folder && names_folder(command) && is_there(file)) {
-    problem_ = fmt::format("{} is a file: a folder is wanted.", file.filename().string());
-    return;
-  }
-  if (!to_read_ && !is_folder && is_there(file) && replaced_ != file.string()) {
-    replaced_ = file.string();
-    return;
-  }
-  if (to_read_ && !is_there(file)) {  // what was written stays, to be mended
-    problem_ = fmt::format("{}: there is no such file, nor {} of this name.", file.filename().string(),
-                           plays_ ? "a demo" : "an object");
-    return;
-  }
-  if (to_read_) {
-    last_read_ = file.parent_path();
-  } else {
-    wanted_ = file;
-    failures_ = context.snapshot.failures;
-  }
-  call(context, command, file.string());
+  is_chosen_ = false;
 }
 
 void FileDialog::draw_path() {
@@ -198,14 +166,16 @@ void FileDialog::draw_entries(const PanelContext& context, const Command& comman
     const std::string reason = why_not(entry);
     const bool of_no_use = !reason.empty();  // who takes it all the same is told why
     if (of_no_use) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    if (ImGui::Selectable(name.c_str(), i == chosen_,
+    const std::string fitting = shortened(name, ImGui::GetContentRegionAvail().x);
+    if (ImGui::Selectable(fmt::format("{}##{}", fitting, i).c_str(), i == chosen_,
                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
       chosen_ = i;
+      is_chosen_ = true;
       if (!to_read_ && !entry.is_folder) write(entry.name);
       if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accepted = browser_.folder() / entry.name;
     }
     if (of_no_use) ImGui::PopStyleColor();
-    if (of_no_use) tooltip(reason);
+    tooltip(of_no_use ? reason : fitting == name ? "" : name);
     if (i == chosen_ && scroll_) ImGui::SetScrollHereY();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", entry.is_session  ? "session"
@@ -215,7 +185,7 @@ void FileDialog::draw_entries(const PanelContext& context, const Command& comman
   ImGui::EndTable();
   scroll_ = false;
   if (found.empty() && browser_.problem().empty())
-    ImGui::TextDisabled("%s", browser_.matching("").empty() ? "An empty folder." : "No name here holds that.");
+    ImGui::TextDisabled("%s", !to_read_ || written_.empty() ? "An empty folder." : "No name here holds that.");
   if (!accepted.empty()) accept(context, command, accepted);
 }
 
@@ -223,40 +193,11 @@ void FileDialog::obey_keys(const PanelContext& context, const Command& command) 
   const int by = int(pressed(Key::down, true)) - int(pressed(Key::up, true));
   if (by > 0 || (by < 0 && chosen_ > 0)) {  // that there are so many is seen to where they are drawn
     chosen_ += std::size_t(by);
+    is_chosen_ = true;
     entered_ = false;
     scroll_ = true;
   }
   if (pressed(Key::enter)) accept_written(context, command);
-}
-
-std::string FileDialog::why_not(const FolderEntry& entry) const {
-  if (!to_read_ || entry.is_folder) return "";
-  if (!plays_) return is_demo_file(entry.name) ? "" : entry.not_opened;
-  return is_demo_file(entry.name) ? "" : "no demo: those end in .nextview";
-}
-
-/// Names are parts of what is there while a file is looked for; what cannot be opened comes last.
-std::vector<std::size_t> FileDialog::shown() const {
-  std::vector<std::size_t> found = browser_.matching(to_read_ ? written_ : "");
-  if (to_read_)
-    std::ranges::stable_partition(found, [&](std::size_t i) { return why_not(browser_.entries()[i]).empty(); });
-  return found;
-}
-
-void FileDialog::accept_written(const PanelContext& context, const Command& command) {
-  if (written_.empty() && std::exchange(entered_, false)) return;  // who writes a folder and Enter wants to see it
-  const std::vector<std::size_t> found = shown();
-  const bool by_name = !written_.empty() && (!to_read_ || found.empty() || is_there(browser_.meant(written_)));
-  const auto& names = command.arguments().front().choices;  // of objects, or the one that is proposed
-  const auto known = names ? names(context.snapshot) : std::vector<std::string>();
-  if (to_read_ && found.empty() && std::ranges::find(known, written_) != known.end())
-    call(context, command, written_);
-  else if (by_name)
-    accept(context, command, with_ending(browser_.meant(written_), to_read_ || known.empty() ? "" : known.front()));
-  else if (!found.empty())
-    accept(context, command, browser_.folder() / browser_.entries()[found[std::min(chosen_, found.size() - 1)]].name);
-  else
-    problem_ = to_read_ ? "There is nothing here to open." : "It needs a name.";
 }
 
 void FileDialog::draw_field(const PanelContext& context, const Command& command) {
@@ -278,6 +219,7 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
                                    ImGuiInputTextFlags_CallbackAlways,
                                follow, this)) {
     chosen_ = 0;
+    is_chosen_ = false;
     replaced_.clear();
     problem_.clear();
   }
@@ -285,8 +227,9 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
   if (icon_button(style, Icon::none, does, true)) accept_written(context, command);
   if (to_read_ && !plays_) {
     ImGui::SameLine();
-    if (icon_button(style, Icon::none, "Open this folder")) call(context, command, browser_.folder().string());
-    tooltip("Goes through the recorded scans that lie in it, or goes on with the session that it is.");
+    const std::string folder = wanted_folder().string();
+    if (icon_button(style, Icon::none, "Open this folder")) call(context, command, folder);
+    tooltip(folder + ": goes through the recorded scans that lie in it, or goes on with the session that it is.");
   }
   ImGui::SameLine();
   if (icon_button(style, Icon::none, "Cancel")) context.post(command::file_dialog());
@@ -294,7 +237,10 @@ void FileDialog::draw_field(const PanelContext& context, const Command& command)
 
 void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   const std::string& wanted = context.window.file_for;
-  if (wanted.empty()) return command_.clear();
+  if (wanted.empty()) {
+    command_.clear();
+    return follow_opening(context);
+  }
   const Command& command = find_command(wanted);
   if (command_ != wanted) begin(context, command);
   const Style& style = context.style;
@@ -313,9 +259,8 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   if (title.ends_with("…")) title.resize(title.size() - std::string("…").size());
   heading(style, title.c_str());
   draw_path();
-  const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) +
-                     (replaced_.empty() && problem_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing()) +
-                     (coordinates_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing());
+  const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) + height_of(problem_) +
+                     (replaced_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing()) + height_of(coordinates_);
   const float height = std::max(ImGui::GetContentRegionAvail().y - rest, style.px(40));
   ImGui::BeginChild("places", {std::min(style.px(150), 0.3f * size.x), height});
   draw_places(context, command);

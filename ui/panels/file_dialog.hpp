@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "ui/panels/file_browser.hpp"
@@ -16,6 +17,8 @@ class FileDialog {
 
  private:
   void begin(const PanelContext& context, const Command& command);
+  /// Opens again if what it was closed for did not come to be.
+  void follow_opening(const PanelContext& context);
   void look_into(const std::filesystem::path& folder);
   void call(const PanelContext& context, const Command& command, const std::string& file);
   void draw_path();
@@ -29,7 +32,11 @@ class FileDialog {
   /// With what is written, or else what is chosen.
   void accept_written(const PanelContext& context, const Command& command);
   std::string why_not(const FolderEntry& entry) const;  ///< it is of no use for the command; empty: it may be
-  std::vector<std::size_t> shown() const;               ///< places in the browser's entries
+  /// Why a file that is there cannot be read, as far as that is known at once.
+  std::string why_not_read(const std::filesystem::path& file) const;
+  /// That its button opens: what is written, or was chosen, or the one that is looked into.
+  std::filesystem::path wanted_folder() const;
+  std::vector<std::size_t> shown() const;  ///< places in the browser's entries
   void write(std::string text);
   void follow(ImGuiInputTextCallbackData& field);
 
@@ -40,12 +47,20 @@ class FileDialog {
   std::string problem_;             ///< why what is written will not do
   std::string coordinates_;         ///< of what will be written; empty: it has none
   std::size_t chosen_ = 0;          ///< among those that match
+  bool is_chosen_ = false;          ///< by a click or the arrow keys
   bool to_read_ = true, plays_ = false, scroll_ = false;
   bool opened_ = false;                             ///< just now: what is proposed can be written over
   bool entered_ = false;                            ///< the folder that was written, and nothing was done since
   std::filesystem::path last_read_, last_written_;  ///< folders that were used last
   std::filesystem::path wanted_;                    ///< what was to be written last
   std::size_t failures_ = 0;                        ///< of the session then
+  /// What is being opened, and what was written for it.
+  struct Opening {
+    std::string command, written;
+    std::size_t failures;  ///< of the session before
+    std::string problem;   ///< why nothing came of it
+  };
+  std::optional<Opening> opening_;
 };
 
 }  // namespace nextview

@@ -86,7 +86,69 @@ TEST_F(FileDialogTest, WhatCannotBeOpenedComesLast) {
   desk_.write("about");
   desk_.frames();
   desk_.type(Key::enter);
-  EXPECT_EQ(done(), "open " + quoted(path("parts/about the bracket.pdf"))) << "which says why not";
+  EXPECT_EQ(done(), "");
+  EXPECT_TRUE(is_open());
+  EXPECT_THAT(read("File"), testing::HasSubstr("no known mesh file type"));
+}
+
+/// Letters that were meant for the path were commands of the window once it had closed.
+TEST_F(FileDialogTest, AFileThatCannotBeReadIsToldWhereItWasChosen) {
+  begin("open");
+  desk_.type(Key::enter);
+  desk_.frames();
+  desk_.write("brack");
+  desk_.frames();
+  desk_.progress.busy = desk_.progress.opening = true;
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "open " + quoted(path("parts/bracket.stl")));
+  EXPECT_FALSE(is_open());
+  auto failed = std::make_shared<SessionSnapshot>(*desk_.snapshot);
+  ++failed->failures;
+  failed->message = path("parts/bracket.stl") + ": it has no triangles";
+  desk_.snapshot = failed;
+  desk_.progress = {};
+  desk_.frames();
+  EXPECT_TRUE(is_open());
+  EXPECT_THAT(read("File"), testing::HasSubstr(" bracket.stl: it has no triangles"));
+  EXPECT_THAT(read("File"), testing::HasSubstr("brack "));
+  desk_.type(Key::escape);
+  desk_.frames();
+  EXPECT_FALSE(is_open());
+  begin("open");
+  EXPECT_THAT(read("File"), testing::Not(testing::HasSubstr("no triangles"))) << "it is begun anew";
+}
+
+TEST_F(FileDialogTest, OpensTheFolderThatIsWrittenOrChosenOrShown) {
+  const auto opens = [&] {
+    std::string opened;
+    for (const CommandCall& call : click_on(desk_, "Open this folder", "File"))
+      if (call.command->name == "open") opened = call.text();
+    return opened;
+  };
+  begin("open");
+  EXPECT_EQ(opens(), "open " + quoted(path("parts"))) << "that the first row is a folder was not chosen";
+  begin("open");
+  desk_.write("older");
+  desk_.frames();
+  EXPECT_EQ(opens(), "open " + quoted(path("parts/older")));
+  begin("open");
+  click_on(desk_, "older/", "File");
+  EXPECT_EQ(opens(), "open " + quoted(path("parts/older")));
+}
+
+TEST_F(FileDialogTest, ANameThatIsCutIsInATooltip) {
+  const std::string name = "a part with a name that is longer than any list of files that anybody has ever drawn " +
+                           std::string("in a window of this size.ply");
+  std::ofstream(folder_ / "parts" / name) << "12345";
+  begin("open");
+  desk_.type(Key::enter);
+  desk_.frames();
+  const auto all = seen_texts();
+  const SeenText* const row = find_text(all, "a part with");
+  ASSERT_TRUE(row);
+  desk_.move(row->from.x + 5, row->middle());
+  for (int frame = 0; frame < 40; ++frame) desk_.frame();
+  EXPECT_EQ(read_tooltip(), name);
 }
 
 TEST_F(FileDialogTest, APathThatIsNotThereOpensNothingAndCanBeMended) {
