@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 #include "core/file/read_file.hpp"
@@ -23,6 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What a command with several things to write takes without being told: what is shown.
+std::vector<std::size_t> usual_choices(const Command& command, const PanelContext& context) {
+  const LayerChoice& layers = context.window.layers;
+  if (&command == &command::export_map && context.snapshot.gibbs) return {std::size_t(layers.map)};
+  if (&command != &command::export_surface) return {};
+  const SurfaceSource source = layers.surface ? layers.surface_source : SurfaceSource::map;
+  return {std::size_t(source), std::size_t(SurfacePart::seen)};
+}
+
 /// Where the origin of what a command writes is; of pictures and curves there is none.
 std::string coordinates_of(const Command& command, const SessionSnapshot& s) {
   if (!(s.setup && s.loaded())) return "";
@@ -36,6 +46,13 @@ std::string coordinates_of(const Command& command, const SessionSnapshot& s) {
   return unit + (s.configuration.object.centred
                      ? "z up, the object's middle in the origin (object.centred = false: that of its file)."
                      : "z up, the origin that of the object's file.");
+}
+
+std::string written_as(const Command& command, const SessionSnapshot& s) {
+  std::string file = command.arguments().front().help;  // "a file that ends in .ply or .stl"
+  file.front() = char(std::toupper(static_cast<unsigned char>(file.front())));
+  const std::string coordinates = coordinates_of(command, s);
+  return file + "." + (coordinates.empty() ? "" : " " + coordinates);
 }
 
 /// Of a text that may take several lines.
@@ -78,7 +95,8 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   recent_ = recent_files(state_folder());
   chosen_ = 0;
   opened_ = true;
-  coordinates_ = coordinates_of(command, context.snapshot);
+  written_as_ = to_read_ ? "" : written_as(command, context.snapshot);
+  which_ = usual_choices(command, context);
   if (const auto failed = std::exchange(opening_, std::nullopt); failed && !failed->problem.empty()) {
     write(failed->written);
     problem_ = failed->problem;
@@ -200,9 +218,26 @@ void FileDialog::obey_keys(const PanelContext& context, const Command& command) 
   if (pressed(Key::enter)) accept_written(context, command);
 }
 
+void FileDialog::draw_which(const Command& command, const SessionSnapshot& snapshot) {
+  for (std::size_t k = 0; k < which_.size(); ++k) {
+    const Argument& argument = command.arguments()[k + 1];
+    if (k > 0) ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", argument.name.c_str());
+    tooltip(argument.help);
+    const std::vector<std::string> values = argument.choices(snapshot);
+    for (std::size_t value = 0; value < values.size(); ++value) {
+      ImGui::SameLine();
+      if (ImGui::RadioButton(values[value].c_str(), which_[k] == value)) which_[k] = value;
+      tooltip(argument.help);
+    }
+  }
+}
+
 void FileDialog::draw_field(const PanelContext& context, const Command& command) {
   const Style& style = context.style;
-  if (!coordinates_.empty()) small_text(style, coordinates_);
+  draw_which(command, context.snapshot);
+  if (!written_as_.empty()) small_text(style, written_as_);
   if (!replaced_.empty())
     small_text(style, fmt::format("{} is there already.", fs::path(replaced_).filename().string()), theme::chosen);
   if (!problem_.empty()) small_text(style, problem_, theme::chosen);
@@ -260,7 +295,8 @@ void FileDialog::draw(const PanelContext& context, const Rectangle& place) {
   heading(style, title.c_str());
   draw_path();
   const float rest = 2 * ImGui::GetFrameHeightWithSpacing() + style.px(6) + height_of(problem_) +
-                     (replaced_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing()) + height_of(coordinates_);
+                     (replaced_.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing()) + height_of(written_as_) +
+                     (which_.empty() ? 0 : ImGui::GetFrameHeightWithSpacing());
   const float height = std::max(ImGui::GetContentRegionAvail().y - rest, style.px(40));
   ImGui::BeginChild("places", {std::min(style.px(150), 0.3f * size.x), height});
   draw_places(context, command);

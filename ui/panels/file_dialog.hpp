@@ -26,14 +26,16 @@ class FileDialog {
   void draw_place(const std::string& name, const std::filesystem::path& folder);
   void draw_entries(const PanelContext& context, const Command& command);
   void draw_field(const PanelContext& context, const Command& command);
+  void draw_which(const Command& command, const SessionSnapshot& snapshot);
   void obey_keys(const PanelContext& context, const Command& command);
   /// Enter, or a double click: looks into a folder, does the command with a file.
   void accept(const PanelContext& context, const Command& command, const std::filesystem::path& file);
   /// With what is written, or else what is chosen.
   void accept_written(const PanelContext& context, const Command& command);
   std::string why_not(const FolderEntry& entry) const;  ///< it is of no use for the command; empty: it may be
-  /// Why a file that is there cannot be read, as far as that is known at once.
+  /// Why a file cannot be, as far as that is known at once.
   std::string why_not_read(const std::filesystem::path& file) const;
+  static std::string why_not_written(const Command& command, const std::filesystem::path& file);
   /// That its button opens: what is written, or was chosen, or the one that is looked into.
   std::filesystem::path wanted_folder() const;
   std::vector<std::size_t> shown() const;  ///< places in the browser's entries
@@ -45,7 +47,8 @@ class FileDialog {
   std::vector<std::filesystem::path> recent_;
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
   std::string problem_;             ///< why what is written will not do
-  std::string coordinates_;         ///< of what will be written; empty: it has none
+  std::string written_as_;          ///< its formats by their endings, and its coordinates; empty: nothing is written
+  std::vector<std::size_t> which_;  ///< of several things is written: values of the arguments behind the file
   std::size_t chosen_ = 0;          ///< among those that match
   bool is_chosen_ = false;          ///< by a click or the arrow keys
   bool to_read_ = true, plays_ = false, scroll_ = false;

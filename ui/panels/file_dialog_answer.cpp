@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/config/opened_input.hpp"
+#include "core/export/export_kind.hpp"
 #include "core/file/read_file.hpp"
 #include "core/journal/journal.hpp"
 #include "core/session/untitled_sessions.hpp"
@@ -35,15 +36,30 @@ std::string FileDialog::why_not(const FolderEntry& entry) const {
 }
 
 std::string FileDialog::why_not_read(const fs::path& file) const {
+  const std::string name = file.filename().string();
+  if (!is_there(file))
+    return fmt::format("{}: there is no such file, nor {} of this name.", name, plays_ ? "a demo" : "an object");
+  if (::access(file.c_str(), R_OK) != 0) return fmt::format("{}: {}", name, std::generic_category().message(errno));
   try {
-    if (is_demo_file(file)) return require_data(read_demo(file.string())), "";
+    if (is_demo_file(file)) require_data(read_demo(file.string()));
   } catch (const std::runtime_error& error) {
     return error.what();
   }
-  if (::access(file.c_str(), R_OK) != 0)
-    return fmt::format("{}: {}", file.filename().string(), std::generic_category().message(errno));
   std::error_code ignored;
-  return fs::is_directory(file, ignored) ? "" : not_an_input(file);
+  return is_demo_file(file) || fs::is_directory(file, ignored) ? "" : not_an_input(file);
+}
+
+std::string FileDialog::why_not_written(const Command& command, const fs::path& file) {
+  std::error_code ignored;
+  if (command.names_folder() && is_there(file) && !fs::is_directory(file, ignored))
+    return fmt::format("{} is a file: a folder is wanted.", file.filename().string());
+  try {
+    for (const ExportEntry& entry : export_entries())
+      if (command.name == fmt::format("export-{}", entry.name)) require_ending(entry, file.filename());
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
 }
 
 fs::path FileDialog::wanted_folder() const {
@@ -88,7 +104,10 @@ void FileDialog::accept_written(const PanelContext& context, const Command& comm
 void FileDialog::call(const PanelContext& context, const Command& command, const std::string& file) {
   if (to_read_) opening_ = {command.name, written_, context.snapshot.failures, ""};
   context.post(command::file_dialog());
-  context.post(command.read({file}));
+  std::vector<std::string> values = {file};
+  for (std::size_t k = 0; k < which_.size(); ++k)
+    values.push_back(command.arguments()[k + 1].choices(context.snapshot).at(which_[k]));
+  context.post(command.read(std::move(values)));
 }
 
 void FileDialog::accept(const PanelContext& context, const Command& command, const fs::path& file) {
@@ -99,20 +118,12 @@ void FileDialog::accept(const PanelContext& context, const Command& command, con
     look_into(file);
     return write("");
   }
-  if (!is_folder && command.names_folder() && is_there(file)) {
-    problem_ = fmt::format("{} is a file: a folder is wanted.", file.filename().string());
-    return;
-  }
+  problem_ = to_read_ ? why_not_read(file) : why_not_written(command, file);
+  if (!problem_.empty()) return;  // what was written stays, to be mended
   if (!to_read_ && !is_folder && is_there(file) && replaced_ != file.string()) {
     replaced_ = file.string();
     return;
   }
-  if (to_read_ && !is_there(file)) {  // what was written stays, to be mended
-    problem_ = fmt::format("{}: there is no such file, nor {} of this name.", file.filename().string(),
-                           plays_ ? "a demo" : "an object");
-    return;
-  }
-  if (to_read_ && !(problem_ = why_not_read(file)).empty()) return;
   if (to_read_) {
     last_read_ = file.parent_path();
   } else {

@@ -193,8 +193,32 @@ TEST_F(FileDialogTest, SaysInWhichCoordinatesItWrites) {
   EXPECT_THAT(read("File"), testing::Not(testing::HasSubstr("In metres")));
 }
 
+/// The surface of the map, or of the points; what is shown is proposed.
+TEST_F(FileDialogTest, AsksWhichSurfaceIsWrittenAndSaysInWhichFormats) {
+  desk_.window.layers.surface = true;
+  for (const auto& [clicked, written] : {std::pair{"", " cloud seen"}, {"map", " map seen"}, {"all", " cloud all"}}) {
+    begin("export-surface");
+    EXPECT_THAT(read("File"), testing::HasSubstr("A file that ends in .ply or .stl."));
+    if (*clicked) click_on(desk_, clicked, "File");
+    desk_.write("mine");
+    desk_.frames();
+    desk_.type(Key::enter);
+    EXPECT_EQ(done(), "export-surface " + quoted(path("parts/mine.ply")) + written);
+  }
+}
+
+TEST_F(FileDialogTest, AFormatThatThereIsNotIsToldBeforeItCloses) {
+  begin("export-surface");
+  desk_.write("mine.obj");
+  desk_.frames();
+  desk_.type(Key::enter);
+  EXPECT_EQ(done(), "");
+  EXPECT_TRUE(is_open());
+  EXPECT_THAT(read("File"), testing::HasSubstr("mine.obj: a surface can be written as .ply or .stl"));
+}
+
 TEST_F(FileDialogTest, NothingIsReplacedUnasked) {
-  begin("export-cloud");
+  begin("export-surface");
   desk_.type_with(key('A'), true);
   desk_.write(path("parts/bracket.stl"));
   desk_.frames();
@@ -203,7 +227,7 @@ TEST_F(FileDialogTest, NothingIsReplacedUnasked) {
   EXPECT_TRUE(is_open());
   EXPECT_THAT(read("File"), testing::HasSubstr("bracket.stl is there already."));
   desk_.type(Key::enter);
-  EXPECT_EQ(done(), "export-cloud " + quoted(path("parts/bracket.stl")));
+  EXPECT_EQ(done(), "export-surface " + quoted(path("parts/bracket.stl")) + " map seen");
 }
 
 TEST_F(FileDialogTest, AnEndingThatIsLeftOutIsAddedBeforeItAsks) {
