@@ -75,29 +75,6 @@ void require_unit(const std::vector<std::string>& key_and_value) {
 
 }  // namespace
 
-std::vector<const Command*> matching_commands(std::string_view text) {
-  std::istringstream words(lower_case(text));
-  std::vector<std::string> wanted;
-  for (std::string word; words >> word;) wanted.push_back(word);
-  std::vector<std::pair<int, const Command*>> found;
-  for (const Command& command : commands()) {
-    const std::string all = command.name + " " + lower_case(command.text) + " " + lower_case(command.help);
-    const bool matches =
-        std::all_of(wanted.begin(), wanted.end(), [&](const std::string& w) { return all.find(w) != all.npos; });
-    if (!matches) continue;
-    const std::string first = wanted.empty() ? "" : wanted.front();
-    const int rank = command.name == first                                                        ? 0
-                     : command.name.starts_with(first)                                            ? 1
-                     : (command.name + lower_case(command.text)).find(first) != std::string::npos ? 2
-                                                                                                  : 3;
-    found.emplace_back(rank, &command);
-  }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const Command*> result;
-  for (const auto& [rank, command] : found) result.push_back(command);
-  return result;
-}
-
 void Palette::put(std::string text) {
   text_ = std::move(text);
   put_ = true;
@@ -137,34 +114,41 @@ void Palette::run(const PanelContext& context) {
   }
 }
 
+/// Its text, what it is called in scripts, if there is room, and its keys. Whether it was clicked.
+bool Palette::draw_entry(const PanelContext& context, const PaletteEntry& entry, bool chosen) {
+  const Style& style = context.style;
+  const Command& command = *entry.command;
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(command.available(context.state()) ? theme::ink : theme::muted));
+  const bool pressed = ImGui::Selectable(fmt::format("{}##{}", entry.text, entry.name()).c_str(), chosen);
+  ImGui::PopStyleColor();
+  tooltip(entry.setting.empty() ? help_of(context, command) : entry.help);
+  const float name_at = std::max(style.px(300), ImGui::CalcTextSize(entry.text.c_str()).x + style.px(16));
+  ImGui::PushFont(style.small);
+  const std::string keys = entry.setting.empty() ? command.keys() : "";
+  const float keys_at = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x - style.px(6);
+  if (name_at + ImGui::CalcTextSize(entry.name().c_str()).x + style.px(10) < keys_at) {  // else there is no room
+    ImGui::SameLine(name_at);
+    ImGui::TextDisabled("%s", entry.name().c_str());
+  }
+  ImGui::SameLine(keys_at);
+  ImGui::TextDisabled("%s", keys.c_str());
+  ImGui::PopFont();
+  return pressed;
+}
+
 void Palette::draw_commands(const PanelContext& context) {
-  const auto found = matching_commands(text_);
+  const std::vector<PaletteEntry> found = found_in_palette(text_);
   const bool moved = choose_by_keys(found.size());
   const bool enter = ImGui::IsKeyPressed(static_cast<int>(Key::enter), false);
   const Style& style = context.style;
   ImGui::BeginChild("found", {0, std::min(style.px(300), room_)});
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Command& command = *found[i];
-    const bool can = command.available(context.state());
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(can ? theme::ink : theme::muted));
-    const bool pressed = ImGui::Selectable(fmt::format("{}##{}", command.text, command.name).c_str(), i == chosen_);
-    ImGui::PopStyleColor();
-    tooltip(help_of(context, command));
+    const PaletteEntry& entry = found[i];
+    const bool pressed = draw_entry(context, entry, i == chosen_);
     if (i == chosen_ && moved) ImGui::SetScrollHereY();
-    const float name_at = std::max(style.px(300), ImGui::CalcTextSize(command.text.c_str()).x + style.px(16));
-    ImGui::PushFont(style.small);
-    const std::string keys = command.keys();
-    const float keys_at = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x - style.px(6);
-    if (name_at + ImGui::CalcTextSize(command.name.c_str()).x + style.px(10) < keys_at) {  // else there is no room
-      ImGui::SameLine(name_at);
-      ImGui::TextDisabled("%s", command.name.c_str());
-    }
-    ImGui::SameLine(keys_at);
-    ImGui::TextDisabled("%s", keys.c_str());
-    ImGui::PopFont();
     if (!pressed && !(enter && i == chosen_)) continue;
-    put(command.needs_no_value() ? command.name : command.name + " ");
-    if (command.needs_no_value()) run(context);
+    put(entry.written());
+    if (entry.needs_no_value()) run(context);
   }
   if (found.empty()) {
     ImGui::TextDisabled("No command is called that.");
@@ -173,15 +157,30 @@ void Palette::draw_commands(const PanelContext& context) {
   ImGui::EndChild();
 }
 
+/// What the setting is that `set` is to change, and how it is now.
+void Palette::draw_setting(const PanelContext& context) const {
+  std::istringstream words(text_);
+  std::string command, key;
+  words >> command >> key;
+  Configuration configuration = context.snapshot.configuration;
+  for (const Setting& setting : settings(configuration))
+    if (setting.key == key)
+      small_text(context.style, fmt::format("{}: {}; now {}", key, setting.explanation(), setting.text()));
+}
+
 void Palette::draw_values(const PanelContext& context, const Command& command) {
   const Style& style = context.style;
   small_text(style, command.usage());
   small_text(style, command.help);
+  if (&command == &command::set) draw_setting(context);
   const std::size_t at = values_before_last(text_);
   const std::vector<std::string> values = values_at_end(text_, command, context.snapshot);
   const bool moved = choose_by_keys(values.size()), enter = ImGui::IsKeyPressed(static_cast<int>(Key::enter), false);
   std::optional<std::string> taken;
-  if (enter && is_chosen_ && !values.empty()) taken = values[chosen_];
+  const bool is_wanted = at < command.arguments().size() && !command.arguments()[at].optional && text_.back() == ' ';
+  // Enter takes what the list shows as chosen, but proposes no file to write over.
+  const bool takes = is_chosen_ || (is_wanted && command.arguments()[at].kind != Argument::Kind::file);
+  if (enter && takes && !values.empty()) taken = values[chosen_];
   ImGui::BeginChild("values", {0, std::min(style.px(240), room_)});
   if (at < command.arguments().size()) {
     const Argument& argument = command.arguments()[at];
@@ -205,10 +204,8 @@ std::string Palette::completed(const std::string& text, const PanelContext& cont
     const std::vector<std::string> values = values_at_end(text, *command, context.snapshot);
     return values.empty() ? text : with_value(text, *command, values[std::min(chosen_, values.size() - 1)]);
   }
-  const std::vector<const Command*> found = matching_commands(text);
-  if (found.empty()) return text;
-  const Command& command = *found[std::min(chosen_, found.size() - 1)];
-  return command.needs_no_value() ? command.name : command.name + " ";
+  const std::vector<PaletteEntry> found = found_in_palette(text);
+  return found.empty() ? text : found[std::min(chosen_, found.size() - 1)].written();
 }
 
 void Palette::draw(const PanelContext& context, const Rectangle& scene) {

@@ -1,21 +1,21 @@
 #pragma once
 #include <string>
-#include <vector>
 
+#include "ui/panels/palette_search.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
 
-/// The commands that a text may mean, likeliest first: those whose name or text holds all its words.
-std::vector<const Command*> matching_commands(std::string_view text);
-
-/// All commands in one list: a part of a name finds them, a whole line of a script with its values does it.
+/// All commands in one list: a part of a name, or of what it does, finds them, and settings with them; a whole line of
+/// a script with its values does it.
 class Palette {
  public:
   void draw(const PanelContext& context, const Rectangle& scene);
 
  private:
+  static bool draw_entry(const PanelContext& context, const PaletteEntry& entry, bool chosen);
   void draw_commands(const PanelContext& context);
+  void draw_setting(const PanelContext& context) const;
   void draw_values(const PanelContext& context, const Command& command);
   void run(const PanelContext& context);
   void put(std::string text);

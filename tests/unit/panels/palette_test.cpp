@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/panels/desk.hpp"
+#include "tests/unit/panels/seen.hpp"
+#include "ui/commands/command_list.hpp"
+#include "ui/panels/palette_search.hpp"
 
 namespace nextview {
 namespace {
@@ -34,6 +36,47 @@ TEST(Palette, TabCompletesTheValueThatBeginsWithWhatWasTyped) {
   desk.frames();
   desk.type(Key::enter);
   EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "set planner.gain random"));
+}
+
+/// By the words that other programs use, too.
+TEST(Palette, FindsWhatPeopleCallOtherwise) {
+  for (const auto& [typed, meant] : {std::pair{"resolution", "set map.resolution "},
+                                     {"preferences", "set "},
+                                     {"settings", "set "},
+                                     {"save scan", "export "},
+                                     {"font", "text-size "},
+                                     {"text size", "text-size "},
+                                     {"dark", "dark"},
+                                     {"undo", "undo"},
+                                     {"export", "export "},
+                                     {"quit", "quit"},
+                                     {"exit", "quit"},
+                                     {"standard deviation ray", "set sensor.range_noise "}}) {
+    const std::vector<PaletteEntry> found = found_in_palette(typed);
+    ASSERT_FALSE(found.empty()) << typed;
+    EXPECT_EQ(found.front().written(), meant) << typed;
+  }
+  EXPECT_EQ(found_in_palette("").size(), commands().size()) << "settings are many, and nothing was asked for";
+}
+
+/// The key is written, and what it is and has been is seen beside its new value.
+TEST(Palette, ASettingThatIsFoundIsChanged) {
+  OpenPalette desk("ray refinement");
+  desk.type(Key::enter);
+  EXPECT_THAT(desk.frames(), IsEmpty());
+  EXPECT_THAT(read("Commands"), ::testing::HasSubstr("; now 4"));
+  desk.write("8");
+  desk.type(Key::enter);
+  EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "set planner.ray_refinement 8"));
+}
+
+/// What the list shows as chosen was not what Enter did.
+TEST(Palette, EnterTakesTheValueThatIsShownAsChosen) {
+  OpenPalette desk("second-view ");
+  desk.type(Key::enter);
+  EXPECT_THAT(desk.frames(), IsEmpty()) << "the text has it now";
+  desk.type(Key::enter);
+  EXPECT_THAT(texts(desk.frames()), ElementsAre("palette", "second-view none"));
 }
 
 TEST(Palette, TabCompletesTheCommand) {
