@@ -152,14 +152,12 @@ const CommandOf<> command::full_screen{{"full-screen",
                                         [](const WindowState& w) { return w.full_screen; }},
                                        [](CommandTarget& t) { t.window.full_screen = !t.window.full_screen; }};
 
-const CommandOf<> command::guide{{"guide",
-                                  "Help",
-                                  "First steps",
-                                  "Shows or hides what to do first.",
-                                  {},
-                                  {},
-                                  [](const WindowState& w) { return w.guide_open; }},
-                                 [](CommandTarget& t) { t.window.guide_open = !t.window.guide_open; }};
+const CommandOf<> command::guide{
+    {"guide", "Help", "First steps", "Shows or hides what to do first; of itself it is shown until a view is taken."},
+    [](CommandTarget& t) {
+      const bool show = !t.window.shows_guide(t.session);
+      t.window.guide_open = t.window.guide_asked = show;
+    }};
 
 const CommandOf<> command::shortcuts{{"shortcuts",
                                       "Help",

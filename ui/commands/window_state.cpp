@@ -2,6 +2,11 @@
 
 namespace nextview {
 
+bool WindowState::shows_guide(const SessionSnapshot& session) const {
+  const bool is_begun = !session.records.empty() || !session.finished.empty();  // a map alone is without a view
+  return guide_open && (guide_asked || !is_begun);
+}
+
 std::string WindowState::in_front(Side side) const {
   const std::string& chosen = front[static_cast<std::size_t>(side)];
   if (!chosen.empty()) return chosen;

@@ -15,6 +15,7 @@
 #include "ui/workbench/layer_choice.hpp"
 #include "ui/workbench/measurement.hpp"
 #include "ui/workbench/selection_history.hpp"
+#include "ui/workbench/session_snapshot.hpp"
 
 namespace nextview {
 
@@ -85,6 +86,7 @@ struct WindowState {
   std::string palette_text;  ///< what the palette starts with
   std::string file_for;      ///< the command that the file dialog asks a file for; empty: it is closed
   bool guide_open = true;    ///< what to do first; shown until a view is taken
+  bool guide_asked = false;  ///< somebody wants to see it later than that, and however little room there is
   std::optional<EarlierSession> last_session;  ///< that it offers to go on with
   bool panels_hidden = false, full_screen = false;
   bool dark = false;                  ///< light on dark paper
@@ -104,6 +106,7 @@ struct WindowState {
   CommandHistory history;                    ///< the commands so far
   std::optional<DemoRecording> recording;    ///< of them
 
+  bool shows_guide(const SessionSnapshot& session) const;
   /// The name of the panel in front; empty if there is none on this side.
   std::string in_front(Side side) const;
   /// @throws std::invalid_argument if there is no panel of this name.

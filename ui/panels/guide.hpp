@@ -3,7 +3,8 @@
 
 namespace nextview {
 
-/// What to do first, in three lines above the scene: until a view is taken, or the user has read it.
+/// What to do first with what is open, in three lines above the scene: until a view is taken, or the user has read it,
+/// and whenever it is asked for.
 void draw_guide(const PanelContext& context, const Rectangle& scene);
 
 }  // namespace nextview

@@ -1,8 +1,10 @@
 // Every panel in every state of a scan, at several sizes: it is drawn in its place and nothing of it is cut off.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/unit/panels/scan_states.hpp"
+#include "tests/unit/panels/seen.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/window_commands.hpp"
 #include "ui/workbench/inspector.hpp"
 
 namespace nextview {
@@ -152,6 +154,35 @@ TEST(FirstSteps, AreInTheSceneUntilAViewIsTaken) {
     const ImGuiWindow* w = ImGui::FindWindowByName("First steps");
     EXPECT_TRUE(!w || !w->WasActive);
   }
+}
+
+/// However many views there are, and however small the window is.
+TEST(FirstSteps, AreShownWhenTheyAreAskedForAndFitWhatIsOpen) {
+  auto recording = std::make_shared<SessionSnapshot>(*states()[2].snapshot);
+  auto setup = std::make_shared<ScanSetup>(*recording->setup);
+  const PointCloud point(1);
+  setup->recorded = std::make_shared<RecordedSurface>(
+      1, [&](std::size_t) { return point; }, 0.01);
+  recording->setup = setup;
+  const std::vector<std::pair<std::shared_ptr<const SessionSnapshot>, const char*>> all = {
+      {states()[2].snapshot, "Take the next view"}, {recording, "nothing is captured anew"}};
+  for (const auto& [width, height] : {std::pair(1280, 800), {640, 480}})
+    for (const auto& [snapshot, says] : all) {
+      Desk desk(width, height, 1.0);
+      desk.snapshot = snapshot;
+      desk.frames();
+      EXPECT_EQ(read("First steps"), "");
+      const auto ask = [&] {
+        CommandTarget target{desk.worker(), desk.window, *desk.snapshot, desk.progress};
+        execute(command::guide(), target);
+        desk.frames();
+      };
+      ask();
+      EXPECT_THAT(read("First steps"), testing::HasSubstr(says));
+      EXPECT_TRUE(is_within(ImGui::FindWindowByName("First steps")->Rect(), {0, 0, double(width), double(height)}));
+      ask();
+      EXPECT_EQ(read("First steps"), "");
+    }
 }
 
 /// To clear a text in the session panel once threw out of the frame.
