@@ -17,33 +17,70 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+constexpr char link_begins = 1, link_ends = 2;  // which no text has
+
+/// Of links what they say, between marks; of pictures, too, but without.
+std::string with_marked_links(const std::string& text, std::vector<std::string>& targets) {
+  static const std::regex link(R"((!?)\[([^\]]*)\]\(([^)]*)\))");
+  std::string result;
+  auto rest = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; rest = (*at++)[0].second) {
+    const std::string says = (*at)[2];
+    const bool is_picture = (*at)[1].length() > 0;
+    result.append(rest, (*at)[0].first).append(is_picture ? says : link_begins + says + link_ends);
+    if (!is_picture) targets.push_back((*at)[3]);
+  }
+  return result.append(rest, text.end());
+}
+
+/// Takes the marks out of a text.
+std::vector<MarkdownLink> take_links(std::string& text, const std::vector<std::string>& targets) {
+  std::vector<MarkdownLink> links;
+  std::string plain;
+  for (const char c : text)
+    if (c == link_begins)
+      links.push_back({plain.size(), plain.size(), targets[links.size()]});
+    else if (c == link_ends)
+      links.back().end = plain.size();
+    else
+      plain += c;
+  text = std::move(plain);
+  return links;
+}
+
 /// Without emphasis, and of links what they say. What stands in backquotes stays as it is.
-std::string unmarked(std::string_view marked) {
-  static const std::regex link(R"(!?\[([^\]]*)\]\([^)]*\))"), bold(R"(\*\*([^*]+)\*\*)"),
-      italic(R"((^|[^A-Za-z0-9*])\*([^* ][^*]*)\*)");
+std::string unmarked(std::string_view marked, std::vector<MarkdownLink>* links = nullptr) {
+  static const std::regex bold(R"(\*\*([^*]+)\*\*)"), italic(R"((^|[^A-Za-z0-9*])\*([^* ][^*]*)\*)");
+  std::vector<std::string> targets;
   std::string result;
   for (bool code = false; !marked.empty(); code = !code) {
     const std::size_t end = std::min(marked.find('`'), marked.size());
     std::string part(marked.substr(0, end));
     if (!code) {
-      part = std::regex_replace(part, link, "$1");
+      part = with_marked_links(part, targets);
       part = std::regex_replace(part, bold, "$1");
       part = std::regex_replace(part, italic, "$1$2");
     }
     result += part;
     marked.remove_prefix(std::min(end + 1, marked.size()));
   }
+  std::vector<MarkdownLink> found = take_links(result, targets);
+  if (links) *links = std::move(found);
   return result;
 }
 
 /// The cells of "| a | b |"; "\|" is a bar within one.
-std::vector<std::string> cells(std::string_view line) {
+std::vector<std::string> cells(std::string_view line, std::size_t row, std::vector<MarkdownLink>& links) {
   line = trimmed(line);
   if (line.starts_with('|')) line.remove_prefix(1);
   if (line.ends_with('|')) line.remove_suffix(1);
   std::vector<std::string> result;
   std::string cell;
-  const auto end_cell = [&] { result.push_back(unmarked(trimmed(std::exchange(cell, {})))); };
+  const auto end_cell = [&] {
+    std::vector<MarkdownLink> found;
+    result.push_back(unmarked(trimmed(std::exchange(cell, {})), &found));
+    for (const MarkdownLink& link : found) links.push_back({link.begin, link.end, link.target, row, result.size() - 1});
+  };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool escaped = line.substr(i).starts_with("\\|");
     if (line[i] == '|')
@@ -98,7 +135,10 @@ class Reader {
       take_row(line);
     } else if (line.starts_with("![")) {
       finish();
-      blocks_.push_back({.kind = Kind::picture, .text = unmarked(line)});
+      const std::size_t file = line.find("](") + 2;
+      blocks_.push_back({.kind = Kind::picture,
+                         .text = unmarked(line),
+                         .picture = std::string(line.substr(file, line.find(')', file) - file))});
     } else {
       take_text(line);
     }
@@ -122,7 +162,7 @@ class Reader {
     if (open_.kind != Kind::table) finish();
     open_.kind = Kind::table;
     if (is_rule(line)) return;
-    open_.rows.push_back(cells(line));
+    open_.rows.push_back(cells(line, open_.rows.size(), open_.links));
     open_.rows.back().resize(open_.rows.front().size());
   }
 
@@ -130,12 +170,12 @@ class Reader {
   void take_pictures(std::string_view line) {
     if (open_.kind == Kind::table) open_ = {};
     finish();
-    static const std::regex picture(R"(!\[([^\]]*)\]\([^)]*\)([^|]*))");
+    static const std::regex picture(R"(!\[([^\]]*)\]\(([^)]*)\)([^|]*))");
     const std::string row(line);
     for (auto at = std::sregex_iterator(row.begin(), row.end(), picture); at != std::sregex_iterator(); ++at) {
-      const std::string shows = (*at)[1], caption = (*at)[2], name = unmarked(trimmed(caption));
+      const std::string shows = (*at)[1], caption = (*at)[3], name = unmarked(trimmed(caption));
       const char* const between = shows.empty() || name.empty() ? "" : ": ";
-      blocks_.push_back({.kind = Kind::item, .text = name + between + shows});
+      blocks_.push_back({.kind = Kind::item, .text = name + between + shows, .picture = (*at)[2]});
     }
   }
 
@@ -148,7 +188,7 @@ class Reader {
   }
 
   void finish() {
-    open_.text = unmarked(open_.text);
+    if (open_.kind != Kind::table) open_.text = unmarked(open_.text, &open_.links);
     if (!open_.text.empty() || !open_.rows.empty()) blocks_.push_back(std::move(open_));
     open_ = {};
   }

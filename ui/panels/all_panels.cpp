@@ -154,7 +154,7 @@ void AllPanels::obey_keys(const PanelContext& context) {
     if (pressed(Key::escape) || (io.KeyCtrl && pressed(key('P')))) context.post(command::palette());
   } else if (context.window.shortcuts_open) {
     if (pressed(Key::escape) || pressed(Key::f1)) context.post(command::shortcuts());
-  } else if (context.window.manual && !io.WantTextInput) {
+  } else if (context.window.manual && (!io.WantTextInput || pressed(Key::escape))) {
     if (pressed(Key::escape)) context.post(command::manual());
   } else if (!io.WantTextInput) {
     begin_among_controls(context);

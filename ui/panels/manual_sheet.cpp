@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -16,89 +17,22 @@ namespace {
 
 using Kind = MarkdownBlock::Kind;
 
-void draw_heading(const Style& style, const MarkdownBlock& block) {
-  ImGui::Dummy({0, style.px(block.level == 1 ? 2 : 8)});
-  ImGui::PushFont(style.semi_bold);
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(block.level <= 2 ? theme::series[0] : theme::ink));
-  ImGui::TextWrapped("%s", block.text.c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
-}
-
-void draw_item(const Style& style, const MarkdownBlock& block) {
-  ImGui::TextUnformatted(block.number.empty() ? "-" : block.number.c_str());
-  ImGui::SameLine(style.px(30));
-  ImGui::TextWrapped("%s", block.text.c_str());
-}
-
-/// On a ground of its own; what is too wide is scrolled.
-void draw_code(const Style& style, const MarkdownBlock& block, int id) {
-  const auto lines = std::ranges::count(block.text, '\n');
-  const float height = float(lines) * ImGui::GetTextLineHeightWithSpacing() + style.px(26);
-  ImGui::PushID(id);
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, to_imgui(theme::sky));
-  ImGui::PushFont(style.small);
-  ImGui::BeginChild("code", {0, height}, true, ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoNav);
-  ImGui::TextUnformatted(block.text.c_str());
-  ImGui::EndChild();
-  ImGui::PopFont();
-  ImGui::PopStyleColor();
-  ImGui::PopID();
-}
-
-/// The longer the texts of a column, the wider it is.
-float weight(const MarkdownBlock& block, std::size_t column) {
-  std::size_t sum = 0;
-  for (const auto& row : block.rows) sum += std::min<std::size_t>(row[column].size(), 80);
-  return 6.0f + float(sum) / float(block.rows.size());
-}
-
-void draw_table(const Style& style, const MarkdownBlock& block, int id) {
-  const int columns = int(block.rows.front().size());
-  constexpr int most = 64;  // that ImGui takes
-  ImGui::PushID(id);
-  ImGui::PushFont(style.small);
-  constexpr ImGuiTableFlags flags = ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingStretchProp;
-  if (columns <= most && ImGui::BeginTable("table", columns, flags)) {
-    for (int c = 0; c < columns; ++c)
-      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight(block, std::size_t(c)));
-    for (const auto& row : block.rows) {
-      ImGui::TableNextRow();
-      for (const std::string& cell : row) {
-        ImGui::TableNextColumn();
-        ImGui::TextWrapped("%s", cell.c_str());
-      }
-    }
-    ImGui::EndTable();
-  }
-  ImGui::PopFont();
-  ImGui::PopID();
-}
-
-void draw_block(const Style& style, const MarkdownBlock& block, int id) {
-  switch (block.kind) {
-    case Kind::heading:
-      return draw_heading(style, block);
-    case Kind::item:
-      return draw_item(style, block);
-    case Kind::code:
-      return draw_code(style, block, id);
-    case Kind::table:
-      return draw_table(style, block, id);
-    case Kind::picture:
-      return small_text(style, "Picture: " + block.text);
-    case Kind::paragraph:
-      ImGui::TextWrapped("%s", block.text.c_str());
-  }
-  ImGui::Spacing();
-}
-
 /// What a block says, a row of a table at a time.
 std::vector<std::string> texts_of(const MarkdownBlock& block) {
   if (block.kind != Kind::table) return {block.text};
   std::vector<std::string> rows;
   for (const auto& row : block.rows) rows.push_back(fmt::format("{}", fmt::join(row, "  ")));
   return rows;
+}
+
+/// As links name a heading: "At any density" is at-any-density.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : lower_case(heading)) {
+    if (c == ' ') anchor += '-';
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_') anchor += c;
+  }
+  return anchor;
 }
 
 /// From the word before a place on, in one line.
@@ -171,6 +105,14 @@ void ManualSheet::go_to_hit(const PanelContext& context, std::size_t hit) {
   if (topic != topic_) context.post(command::manual(topic));
 }
 
+/// "gibbs.md#sweeps": the page, and the heading on it.
+void ManualSheet::go_to_link(const PanelContext& context, const std::string& target) {
+  const std::size_t hash = std::min(target.find('#'), target.size());
+  const std::string topic = target.substr(0, target.find(".md"));
+  anchor_ = target.substr(std::min(hash + 1, target.size()));
+  if (topic != topic_) context.post(command::manual(topic));
+}
+
 void ManualSheet::draw_hits(const PanelContext& context) {
   small_text(context.style, hits_.empty() ? "The manual does not say this."
                             : at_         ? fmt::format("{} of {}; Enter: the next", *at_ + 1, hits_.size())
@@ -205,7 +147,12 @@ void ManualSheet::draw_page(const PanelContext& context) {
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const bool is_hit = at_ && &pages_[hits_[*at_].page].page == &page && hits_[*at_].block == b;
       const ImVec2 corner = ImGui::GetCursorScreenPos();
-      draw_block(context.style, blocks[b], int(b));
+      if (const std::string target = drawing_.draw(context, blocks[b], int(b)); !target.empty())
+        go_to_link(context, target);
+      if (blocks[b].kind == Kind::heading && !anchor_.empty() && anchor_of(blocks[b].text) == anchor_) {
+        anchor_.clear();
+        ImGui::SetScrollFromPosY(corner.y - ImGui::GetWindowPos().y, 0.0f);
+      }
       if (!is_hit) continue;
       const float right = corner.x + ImGui::GetContentRegionAvail().x, bottom = ImGui::GetCursorScreenPos().y;
       ImGui::GetWindowDrawList()->AddRectFilled(corner, {right, bottom}, to_imgui_u32(theme::series[0], 0.1));
@@ -231,6 +178,7 @@ void ManualSheet::draw(const PanelContext& context, const Rectangle& window) {
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::BeginGroup();
   ImGui::SetNextItemWidth(list);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   draw_search(context);
   ImGui::BeginChild("topics", {list, -ImGui::GetFrameHeightWithSpacing()});
   wanted_.empty() ? draw_topics(context) : draw_hits(context);

@@ -5,6 +5,7 @@
 
 #include "ui/manual/manual.hpp"
 #include "ui/manual/markdown.hpp"
+#include "ui/panels/manual_page.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
@@ -37,7 +38,9 @@ class ManualSheet {
   void go_to_hit(const PanelContext& context, std::size_t hit);
   void draw_topics(const PanelContext& context) const;
   void draw_page(const PanelContext& context);
+  void go_to_link(const PanelContext& context, const std::string& target);
 
+  ManualPageDrawing drawing_;
   std::vector<ParsedPage> pages_;  ///< read when the manual is opened for the first time
   std::string topic_, error_;
   bool is_new_ = true;  ///< it is to be read from its begin
@@ -45,6 +48,7 @@ class ManualSheet {
   std::vector<ManualHit> hits_;
   std::optional<std::size_t> at_;  ///< the hit that was gone to
   bool is_at_new_ = false;         ///< it is to be scrolled to
+  std::string anchor_;             ///< of the heading that is to be, too
 };
 
 }  // namespace nextview

@@ -32,7 +32,8 @@ void PanelPictures::forget() {
 void PanelPictures::upload(unsigned int texture, const Image& image) const {
   gl<void (*)(unsigned int, unsigned int)>(*target_, "glBindTexture")(gl_texture_2d, texture);
   const auto set = gl<void (*)(unsigned int, unsigned int, int)>(*target_, "glTexParameteri");
-  for (const unsigned int filter : {gl_min_filter, gl_mag_filter}) set(gl_texture_2d, filter, int(gl_nearest));
+  set(gl_texture_2d, gl_mag_filter, int(gl_nearest));  // each cell of it can be told
+  set(gl_texture_2d, gl_min_filter, int(gl_linear));
   for (const unsigned int wrap : {gl_wrap_s, gl_wrap_t}) set(gl_texture_2d, wrap, gl_clamp_to_edge);
   gl<void (*)(unsigned int, int, int, int, int, int, unsigned int, unsigned int, const void*)>(
       *target_, "glTexImage2D")(gl_texture_2d, 0, gl_rgba, image.width, image.height, 0, gl_rgba, gl_unsigned_byte,

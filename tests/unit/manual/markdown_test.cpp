@@ -23,6 +23,10 @@ TEST(Markdown, PartsOfAPageAreWhatTheyAre) {
   EXPECT_EQ(blocks[0].text, "The whole");
   EXPECT_EQ(blocks[0].level, 1);
   EXPECT_EQ(blocks[1].text, "One line and a **b** another with two words and a link.");
+  ASSERT_EQ(blocks[1].links.size(), 1u);
+  EXPECT_EQ(blocks[1].links[0].target, "page.md");
+  EXPECT_EQ(blocks[1].text.substr(blocks[1].links[0].begin), "a link.");
+  EXPECT_EQ(blocks[5].picture, "a.png");
   EXPECT_EQ(blocks[3].text, "second, of two lines");
   EXPECT_EQ(blocks[4].number, "12.");
   EXPECT_EQ(blocks[5].text, "a picture");

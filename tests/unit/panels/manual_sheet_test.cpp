@@ -61,6 +61,29 @@ TEST(ManualSheet, FindsPagesHeadingsAndTextAndGoesFromHitToHit) {
   EXPECT_THAT(read(), testing::HasSubstr("does not say this"));
 }
 
+TEST(ManualSheet, WhoOpensItMaySearchAtOnce) {
+  Desk desk;
+  open_at(desk, "start");
+  desk.write("termination");
+  desk.frames();
+  EXPECT_THAT(read(), testing::HasSubstr("Enter: the first"));
+}
+
+TEST(ManualSheet, ALinkOpensItsPage) {
+  Desk desk;
+  open_at(desk, "start");
+  const ParsedPage page{read_manual_page("start"), parse_markdown(read_manual_page("start").text)};
+  ASSERT_FALSE(page.blocks.empty());
+  const auto all = seen_texts();
+  const auto link = std::ranges::find_if(page.blocks, [](const MarkdownBlock& b) {
+    return b.kind == MarkdownBlock::Kind::paragraph && !b.links.empty() && b.links.front().target.ends_with(".md");
+  });
+  ASSERT_NE(link, page.blocks.end());
+  const MarkdownLink& first = link->links.front();
+  click_on(desk, link->text.substr(first.begin, first.end - first.begin));
+  EXPECT_EQ(*desk.window.manual + ".md", first.target);
+}
+
 TEST(ManualSheet, HeadingsAreFoundFirst) {
   const std::vector<ParsedPage> pages{
       {{"a", "A", ""}, parse_markdown("# A\n\nOf the noise there is much to say here.\n")},
