@@ -42,6 +42,9 @@ TEST(Window, TextGrowsAsFarAsTheControlBarHasRoom) {
     const double bar = user.window().layout().control_bar.height;
     EXPECT_GT(bar, 1.2 * usual) << width;
     EXPECT_LE(bar / usual * 332, width);
+    if (width >= 1280) {
+      EXPECT_LE(bar / usual * 400, height) << "no panel has room for its table";
+    }
   }
 }
 

@@ -235,14 +235,15 @@ void draw_candidates_panel(const PanelContext& context, const Rectangle& rectang
   const float below = ImGui::GetFrameHeight() + 2 * ImGui::GetTextLineHeight() + context.style.px(4) +
                       3 * ImGui::GetStyle().ItemSpacing.y;
   const float left = ImGui::GetContentRegionAvail().y - below, least = context.style.px(110);
-  const bool low = left < least;  // the table keeps some rows, and the panel scrolls
+  const bool low = left < least;  // the table keeps some rows, and the panel scrolls; not for its buttons
+  if (low) draw_take_buttons(context);
   ImGui::PushFont(context.style.small);
   draw_table(context, std::max(left, least));
   ImGui::PopFont();
   small_text(context.style, next_text(s));
-  if (!low)
-    ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
-                         context.style.px(4));
+  if (low) return;
+  ImGui::SetCursorPosY(float(rectangle.height) - ImGui::GetStyle().WindowPadding.y - ImGui::GetFrameHeight() -
+                       context.style.px(4));
   draw_take_buttons(context);
 }
 

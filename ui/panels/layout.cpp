@@ -24,8 +24,9 @@ Viewport Rectangle::in(int surface_width, int surface_height) const {
 }
 
 double Layout::largest_scale(int w, int h) {
-  constexpr double narrowest = 332;  // of the control bar's buttons
-  return std::min(w / narrowest, h / (menu_height + bar_height + status_height + min_middle + 6 * gap));
+  const double for_buttons = std::min(w / 332.0, h / (menu_height + bar_height + status_height + min_middle + 6 * gap));
+  const double for_panels = std::min(w / 480.0, h / 400.0);  // each still shows its first table or plot
+  return std::min(for_buttons, std::max(for_panels, 1.25));  // a little larger at any rate
 }
 
 Layout::Layout(int w, int h, double scale, Side open, const PlaceSizes& sizes) : width(w), height(h), open_(open) {

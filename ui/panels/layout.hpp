@@ -26,7 +26,8 @@ struct Layout {
   /// Of a window of any size [px]; `scale` is the display's. `open` is the place that is open where they are folded.
   Layout(int width, int height, double scale, Side open = Side::right, const PlaceSizes& sizes = {});
 
-  /// Of a window of this size [px], in which the control bar still has its place and shows all its buttons.
+  /// Of a window of this size [px], in which the control bar shows all its buttons, and where that leaves
+  /// text large enough, panels what they are for.
   static double largest_scale(int width, int height);
 
   /// With a strip for captions beneath all else, as wide as the window.

@@ -165,8 +165,8 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   draw_setting(context, find_setting(settings, "object.file"), "Object");  // also when there is none yet
   if (const auto& mesh = context.snapshot.mesh) {
     const std::string& unit = context.snapshot.guessed_unit;
-    const std::string guess = unit.empty() ? "" : fmt::format("; its unit is taken as {}, Object › unit sets it", unit);
-    small_text(context.style, size_text(*mesh) + guess);
+    small_text(context.style, size_text(*mesh) + (unit.empty() ? "" : "; unit guessed: " + unit));
+    if (!unit.empty()) tooltip("The file does not say its unit; Object › unit sets it.");
   }
   ImGui::BeginDisabled(!context.snapshot.loaded());
   for (const auto& [text, key] : {std::pair{"Gain", "planner.gain"},
@@ -181,8 +181,13 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, to_imgui(theme::sky));
   ImGui::PushStyleColor(ImGuiCol_HeaderActive, to_imgui(theme::sky));
+  // In a window that is a little lower than usual the button beneath them stays in sight.
+  const bool is_low = rectangle.height < context.style.px(650);
+  const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {spacing.x, is_low ? context.style.px(2) : spacing.y});
   for (const auto& [group, title] : groups)
     if (concerns(group, context.snapshot) && ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
+  ImGui::PopStyleVar();
   ImGui::PopStyleColor(3);
   ImGui::Spacing();
   command_button(context, command::reset_settings, Icon::reset, "All settings back", false,

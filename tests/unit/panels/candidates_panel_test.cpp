@@ -50,6 +50,18 @@ TEST_F(CandidatesPanel, EachNumberStandsInItsColumnWithItsUnit) {
   EXPECT_THAT(panel(), HasSubstr("candidate gain cost [m] utility"));
 }
 
+TEST(CandidatesPanelInASmallWindow, ItsButtonsAreInSight) {
+  Desk desk(640, 480);
+  desk.snapshot = made_scan();
+  desk.frames();
+  const auto all = seen_texts();
+  for (const char* name : {"Take the selected", "Take the proposal"}) {
+    const SeenText* const button = find_text(all, name, "Candidates");
+    ASSERT_TRUE(button) << name;
+    EXPECT_LT(button->to.y + 6, ImGui::FindWindowByName("Candidates")->InnerRect.Max.y) << name;
+  }
+}
+
 TEST_F(CandidatesPanel, TheTableIsInSmallLettersAndTheButtonsAreNot) {
   desk_.frames();
   const auto all = seen_texts();

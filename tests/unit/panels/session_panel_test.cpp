@@ -67,6 +67,18 @@ TEST_F(SessionPanelTest, WhatIsNotAllowedIsLeftToTheCommand) {
   EXPECT_EQ(write_into("13", "-5"), "set termination.views -5");
 }
 
+/// A window manager takes a title's height of the usual window.
+TEST(SessionPanel, AllOfItIsInSightInTheUsualWindow) {
+  for (const int height : {800, 770}) {
+    Desk desk(1280, height);
+    const auto scan = made_scan();
+    scan->guessed_unit = "mm";
+    desk.snapshot = scan;
+    desk.frames();
+    EXPECT_EQ(ImGui::FindWindowByName("Session")->ScrollMax.y, 0) << height;
+  }
+}
+
 /// A name that is long with its unit has a line of its own above the field, a short one stands beside it.
 TEST_F(SessionPanelTest, AllOthersAreInGroupsThatOpen) {
   desk_.frames();
@@ -129,9 +141,9 @@ TEST_F(SessionPanelTest, AListIsAsLongWhereItsGroupIsOpen) {
 }
 
 TEST_F(SessionPanelTest, ASizeSaysThatItsUnitWasGuessed) {
-  EXPECT_THAT(panel(), testing::Not(HasSubstr("is taken as")));
+  EXPECT_THAT(panel(), testing::Not(HasSubstr("unit guessed")));
   scan_->guessed_unit = "mm";
-  EXPECT_THAT(panel(), HasSubstr("500 x 500 x 500 mm; its unit is taken as mm, Object › unit sets it"));
+  EXPECT_THAT(panel(), HasSubstr("500 x 500 x 500 mm; unit guessed: mm"));
 }
 
 /// Nobody takes it for a length that was rounded away.

@@ -142,6 +142,7 @@ TEST(Menus, AreAllReachedHoweverLargeTextIs) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, WordsFit,
                          testing::Values(std::tuple(640, 480, 1.0), std::tuple(1280, 800, 1.0),
+                                         std::tuple(1280, 800, Layout::largest_scale(1280, 800)),
                                          std::tuple(3840, 2160, 2.0)));
 
 }  // namespace
