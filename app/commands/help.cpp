@@ -55,29 +55,33 @@ std::map<std::string, std::string> window_commands() {
   return rows;
 }
 
+/// All that help is there for: pages, subcommands, groups of settings and each of them, commands of the window.
+std::vector<std::string> help_topics(const CLI::App& program) {
+  std::vector<std::string> topics = manual_topics();
+  for (const CLI::App* command : program.get_subcommands({})) topics.push_back(command->get_name());
+  Configuration configuration;
+  std::string group;
+  for (const Setting& setting : settings(configuration)) {
+    if (const std::string its = section_of(setting.key); its != group) topics.push_back(group = its);
+    topics.push_back(setting.key);
+  }
+  for (const auto& [name, row] : window_commands()) topics.push_back(name);
+  return topics;
+}
+
 /// A page, the options of a subcommand, what a setting is, or a group of them, or a command of the window.
 void print_topic(const std::string& topic, const CLI::App& program) {
-  auto known = manual_topics();
-  if (std::ranges::find(known, topic) != known.end())
+  const std::vector<std::string> pages = manual_topics();
+  if (std::ranges::find(pages, topic) != pages.end())
     return print_markdown(read_manual_page(topic).text + "\n\n" + settings_page(topic));
-  for (const CLI::App* command : program.get_subcommands({})) {
+  for (const CLI::App* command : program.get_subcommands({}))
     if (command->get_name() == topic) return fmt::print("{}", command->help("nextview"));
-    known.push_back(command->get_name());
-  }
   if (const std::string page = settings_page(topic); !page.empty()) return print_markdown(page);
-  for (const auto& [name, row] : window_commands()) {
-    if (name == topic)
-      return print_markdown("| command of the window | key | does |\n|---|---|---|\n" + row +
-                            "\n\nMore of them: `nextview help commands`.\n");
-    known.push_back(name);
-  }
-  const bool is_key = topic.find('.') != topic.npos;
-  Configuration configuration;
-  for (const Setting& setting : settings(configuration)) {
-    const std::string section = section_of(setting.key);
-    known.push_back(is_key || section.empty() ? setting.key : section);
-  }
-  const std::string hint = did_you_mean(topic, known, ";");
+  const auto rows = window_commands();
+  if (const auto found = rows.find(topic); found != rows.end())
+    return print_markdown("| command of the window | key | does |\n|---|---|---|\n" + found->second +
+                          "\n\nMore of them: `nextview help commands`.\n");
+  const std::string hint = did_you_mean(topic, help_topics(program), ";");
   throw std::runtime_error(
       fmt::format("there is no topic '{}'{} {} nextview help", topic, hint, hint == ";" ? "see" : "See"));
 }
@@ -98,15 +102,6 @@ std::vector<std::string> names_in(const char* folder) {
     if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
   std::ranges::sort(names);
   return names;
-}
-
-std::vector<std::string> help_topics(const CLI::App& program) {
-  std::vector<std::string> topics = manual_topics();
-  for (const CLI::App* command : program.get_subcommands({})) topics.push_back(command->get_name());
-  Configuration configuration;
-  for (const Setting& setting : settings(configuration)) topics.push_back(setting.key);
-  for (const auto& [name, row] : window_commands()) topics.push_back(name);
-  return topics;
 }
 
 /// What commands and options take beside files, for the shell to complete.

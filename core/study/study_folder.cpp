@@ -34,13 +34,14 @@ bool holds_nothing(const fs::path& folder) {
 
 std::string text_if_there(const fs::path& file) { return is_there(file) ? read_file(file) : ""; }
 
-bool is_study(const fs::path& folder) {
+/// What it says of its study; none if it is no study's folder.
+std::optional<Json> study_of(const fs::path& folder) {
   try {
-    const Json json = parse_json<Json>(read_file(folder / study_json_name));
-    return json.at("program").get<std::string>().starts_with("nextview ") && json.contains("study");
-  } catch (const std::exception&) {
-    return false;
+    Json json = parse_json<Json>(read_file(folder / study_json_name));
+    if (json.at("program").get<std::string>().starts_with("nextview ") && json.contains("study")) return json;
+  } catch (const std::exception&) {  // it is another's
   }
+  return std::nullopt;
 }
 
 fs::path run_file(const fs::path& folder, const std::string& key) {
@@ -52,7 +53,7 @@ void require_suitable(const fs::path& folder, const StudyTexts& study, bool resu
     throw std::invalid_argument(fmt::format("{}: {}; give another folder, for example --out {}", folder.string(), why,
                                             free_folder(folder).string()));
   };
-  if (!is_study(folder)) refuse("is not empty, and holds no study");
+  if (!study_of(folder)) refuse("is not empty, and holds no study");
   const std::string text = text_if_there(folder / study_file_name), there = text_if_there(folder / study_keys_name);
   if (!text.empty() && text != study.file) refuse("holds another study, or this one before its file was changed");
   if (!there.empty() && there != study.keys)
@@ -109,11 +110,11 @@ StudyFolder::StudyFolder(const fs::path& path, const StudyTexts& study, bool res
 }
 
 std::optional<StudyContents> study_contents(const fs::path& folder) {
-  if (!is_study(folder)) return std::nullopt;
+  const std::optional<Json> study = study_of(folder);
+  if (!study) return std::nullopt;
   StudyContents contents;
-  const Json json = parse_json<Json>(read_file(folder / study_json_name));
-  contents.name = json.at("study").get<std::string>();
-  for (const auto& [object, input] : json.at("objects").items())
+  contents.name = study->at("study").get<std::string>();
+  for (const auto& [object, input] : study->at("objects").items())
     contents.objects.push_back(fmt::format("{} ({})", object, input.get<std::string>()));
   std::istringstream keys(text_if_there(folder / study_keys_name));
   for (std::string key; std::getline(keys, key); ++contents.runs) contents.done += is_there(run_file(folder, key));
@@ -122,7 +123,7 @@ std::optional<StudyContents> study_contents(const fs::path& folder) {
 }
 
 StudyFolder StudyFolder::open(const fs::path& folder) {
-  if (!is_study(folder) || !is_there(folder / study_keys_name))
+  if (!study_of(folder) || !is_there(folder / study_keys_name))
     throw std::runtime_error(fmt::format("{}: is no folder of a study", folder.string()));
   return StudyFolder(folder);
 }
