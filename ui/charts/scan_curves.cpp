@@ -90,23 +90,23 @@ ChartContent divergence_chart(const ScanCourse& course) {
   return content;
 }
 
-/// What a planner expects of a view can be seen in one unit only if that is the surface's; else beside Eq. 12.
+/// What a planner expects of a view, beside what it brought in the same unit: nats (Eq. 12), or new surface, which is
+/// also what counts where a planner has another unit, or none.
 ChartContent gain_chart(const ScanCourse& course) {
   // The start view, which nobody chose, has none, nor have those of a planner with another unit.
   const auto is_there = [&](const StepRecord& r) { return r.view >= 0 && r.gain_unit == course.gain_unit; };
-  if (course.gain_unit == "cm²") {
-    ChartContent surface{"New surface of a view [cm²]", "view", "", "new surface", "cm²", {}, {}, true};
-    add_series(surface, course,
-               {{"seen", [](const StepRecord& r) { return r.new_surface; }},
-                {"expected", [](const StepRecord& r) { return r.gain; }, is_there}});
-    return surface;
+  if (course.gain_unit == "nats") {
+    ChartContent nats{"Gain predicted and realised [nats]", "view", "", "gain", "nats", {}, {}, true};
+    add_series(nats, course,
+               {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
+                {"predicted", [](const StepRecord& r) { return r.gain; }, is_there}});
+    return nats;
   }
-  const std::string unit = course.gain_unit.empty() ? "" : fmt::format(" [{}]", course.gain_unit);
-  ChartContent content{"Gain predicted" + unit + " and realised [nats]", "view", "", "gain", "", {}, {}, true};
-  add_series(content, course,
-             {{"realised (Eq. 12)", [](const StepRecord& r) { return r.realised_gain; }},
-              {"predicted", [](const StepRecord& r) { return r.gain; }, is_there}});
-  return content;
+  ChartContent surface{"New surface of a view [cm²]", "view", "", "new surface", "cm²", {}, {}, true};
+  add_series(surface, course, {{"seen", [](const StepRecord& r) { return r.new_surface; }}});
+  if (course.gain_unit == "cm²")
+    add_series(surface, course, {{"expected", [](const StepRecord& r) { return r.gain; }, is_there}});
+  return surface;
 }
 
 ChartContent time_chart(const ScanCourse& course) {

@@ -126,16 +126,24 @@ TEST_F(ScanCurves, NobodyExpectedAnythingOfTheStartView) {
   EXPECT_THAT(chart.series.at(1).x, ElementsAre(2));
 }
 
-TEST_F(ScanCurves, AGainOfAnotherUnitStandsBesideTheEntropyThatWasLost) {
-  plan_in("voxels");
+TEST_F(ScanCurves, AGainInNatsStandsBesideTheEntropyThatWasLost) {
+  plan_in("nats");
   const ChartContent chart = gain_chart(course_);
-  EXPECT_EQ(chart.title, "Gain predicted [voxels] and realised [nats]");
+  EXPECT_EQ(chart.title, "Gain predicted and realised [nats]");
   EXPECT_THAT(names(chart), ElementsAre("realised (Eq. 12)", "predicted"));
   EXPECT_THAT(chart.series.at(0).y, ElementsAre(17, 18));
   EXPECT_THAT(chart.series.at(1).y, ElementsAre(11, 12));
-  EXPECT_EQ(chart.y_unit, "") << "they have two";
-  plan_in("");
-  EXPECT_EQ(gain_chart(course_).title, "Gain predicted and realised [nats]");
+  EXPECT_EQ(chart.y_unit, "nats");
+}
+
+TEST_F(ScanCurves, OfAGainOfAnotherUnitNothingStandsBesideTheSurfaceThatWasSeen) {
+  for (const char* unit : {"voxels", ""}) {
+    plan_in(unit);
+    const ChartContent chart = gain_chart(course_);
+    EXPECT_EQ(chart.title, "New surface of a view [cm²]") << unit;
+    EXPECT_THAT(names(chart), ElementsAre("seen")) << unit;
+    EXPECT_THAT(chart.series.at(0).y, ElementsAre(13, 14)) << unit;
+  }
 }
 
 TEST_F(ScanCurves, DivergenceIsInThousands) {
@@ -155,13 +163,13 @@ TEST_F(ScanCurves, EachStageHasItsSeconds) {
 
 TEST_F(ScanCurves, OnlyWhatIsKnownIsDrawn) {
   EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "Surface within 5 mm of a point [%]",
-                                    "Gain predicted and realised [nats]", "D_KL to the truth, visited voxels [knats]"));
+                                    "New surface of a view [cm²]", "D_KL to the truth, visited voxels [knats]"));
   course_.is_evaluated = false;
-  EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "Gain predicted and realised [nats]"));
+  EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "New surface of a view [cm²]"));
   const CoverageByOrder orders{{0.5}, {0.5}, {0.5}};
   course_.orders = &orders;
   EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "Of what all frames show, within 5 mm [%]",
-                                    "Gain predicted and realised [nats]"));
+                                    "New surface of a view [cm²]"));
   course_.is_evaluated = true;
   EXPECT_EQ(titles().size(), 4u) << "frames' own surface in place of the truth's";
 }
