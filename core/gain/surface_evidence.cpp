@@ -37,8 +37,7 @@ float log_odds_of(float probability) {
 }  // namespace
 
 SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
-                                 double occupancy_threshold, const OpenBorder& border, const ScannedSurface* scanned,
-                                 double finest)
+                                 double occupancy_threshold, const OpenBorder& border, double finest)
     : grid_{grid.resolution, grid.first, Eigen::Vector3i::Zero()}, voxels_(voxels), occlusions_(occlusions) {
   const std::optional<OccupiedHull> hull = occupied_hull(voxels, occupancy_threshold);
   if (!hull) return;
@@ -46,7 +45,7 @@ SurfaceEvidence::SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxel
   set_region(grid);
   while (2 * block_edge_ <= finest * size_) block_edge_ *= 2;
   read_kinds(occupancy_threshold);
-  if (scanned) occupy(*scanned);
+  occupy(border.within);
   measure_distances();
   measure_border(border);
 }
@@ -86,13 +85,13 @@ void SurfaceEvidence::read_kinds(double threshold) {
   });
 }
 
-void SurfaceEvidence::occupy(const ScannedSurface& scanned) {
-  constexpr int fewest = 4;  // points in a cell that are no stray ones, of 64 at most
-  for (const ScannedSurface::Cell& cell : scanned.cells()) {
-    if (std::popcount(cell.points) < fewest) continue;
-    const Eigen::Vector3i voxel = grid_.cell_at(scanned.radius() * cell.middle().cast<double>());
-    if (grid_.contains(voxel) && !unmeasured_.at(voxel)) occupied_.set(voxel);
-  }
+void SurfaceEvidence::occupy(std::span<const Eigen::Vector3f> scanned) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scanned.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Eigen::Vector3i cell = grid_.cell_at(scanned[i].cast<double>());
+      if (grid_.contains(cell) && !unmeasured_.at(cell)) occupied_.set(cell);
+    }
+  });
 }
 
 void SurfaceEvidence::measure_distances() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/gain/occupied_hull.hpp"
@@ -35,8 +36,7 @@ class SurfaceEvidence {
   /// What occupied_hull takes for outliers the object's box leaves out. A measured voxel that holds scanned surface is
   /// occupied, whatever its probability is: rays that graze a face take it away from the voxels that the face cuts off.
   SurfaceEvidence(const VoxelGrid& grid, const VoxelBricks& voxels, const VoxelBricks& occlusions,
-                  double occupancy_threshold, const OpenBorder& border = {}, const ScannedSurface* scanned = nullptr,
-                  double finest = finest_share);
+                  double occupancy_threshold, const OpenBorder& border = {}, double finest = finest_share);
 
   /// The part of the map that is looked at, in the same lattice; of no voxels if none is occupied.
   const VoxelGrid& grid() const { return grid_; }
@@ -66,7 +66,7 @@ class SurfaceEvidence {
  private:
   void set_region(const VoxelGrid& whole);
   void read_kinds(double occupancy_threshold);
-  void occupy(const ScannedSurface& scanned);
+  void occupy(std::span<const Eigen::Vector3f> scanned);
   void measure_distances();
   void measure_border(const OpenBorder& border);
   Eigen::Vector3i first_unmeasured(const Eigen::Vector3i& block) const;

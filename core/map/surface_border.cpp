@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -25,6 +26,7 @@ namespace nextview::border {
 constexpr float reach = 2.0f;       // [radii]
 constexpr std::size_t length = 5;   // of a row of cells that may be within reach, and as many of them side by side
 constexpr std::size_t at_once = 8;  // cells that are looked at
+constexpr int fewest = 4;           // points in a cell that are no stray ones, of 64 at most
 constexpr std::size_t most_ways = length * length * length;
 
 /// A surface's points, one a cell, in the order of the cells [radii]; behind them there is room to read on.
@@ -32,14 +34,17 @@ struct PointsOfCells {
   std::size_t size;
   std::vector<std::uint64_t> order;  ///< of the cells; the largest number behind them
   std::array<std::vector<float>, 3> points;
+  std::vector<std::uint8_t> is_stray;
 
   explicit PointsOfCells(const ScannedSurface& surface) {
     const std::vector<ScannedSurface::Cell> cells = surface.cells();
     size = cells.size();
     order.resize(size + at_once, ~std::uint64_t{0});
     for (auto& along : points) along.resize(order.size());
+    is_stray.resize(size);
     tbb::parallel_for(std::size_t{0}, size, [&](std::size_t c) {
       order[c] = ScannedSurface::order(cells[c].at);
+      is_stray[c] = std::popcount(cells[c].points) < fewest;
       const Eigen::Vector3f middle = cells[c].middle();
       for (int axis = 0; axis < 3; ++axis) points[std::size_t(axis)][c] = middle[axis];
     });
@@ -151,9 +156,9 @@ HWY_EXPORT(find_open_ways);
 
 std::optional<Eigen::Vector3f> open_way(const Ways& ways) {
   constexpr float widest_gap = 2.1f;         // that has no border in it [rad]
-  constexpr int fewest = 5;                  // points around one that say anything
+  constexpr int fewest_ways = 5;             // to points around one that say anything
   constexpr float lopsided = 0.15f * reach;  // less is never a border: half a disc is 0.42, two thirds are 0.28
-  if (ways.count < fewest) return std::nullopt;
+  if (ways.count < fewest_ways) return std::nullopt;
   const float count = float(ways.count + 1);  // itself, too
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < ways.count; ++i) mean += ways[i];
@@ -190,6 +195,8 @@ SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most) {
   border.spacing = surface.radius() * double(every);
   for (std::size_t i = 0; i < outward.size(); ++i)
     if (outward[i]) border.points.push_back({float(surface.radius()) * all.point(i * every), *outward[i]});
+  for (std::size_t c = 0; c < all.size; ++c)
+    if (!all.is_stray[c]) border.within.push_back(float(surface.radius()) * all.point(c));
   return border;
 }
 

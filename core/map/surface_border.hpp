@@ -12,7 +12,8 @@ struct SurfaceBorder {
     Eigen::Vector3f at, outward;  ///< [m, world], and the middle of what is empty, a unit vector
   };
   std::vector<Point> points;
-  double spacing = 0.0;  ///< how much of the border each point stands for [m]
+  double spacing = 0.0;                 ///< how much of the border each point stands for [m]
+  std::vector<Eigen::Vector3f> within;  ///< the surface: a point a cell, if no stray ones are in it [m, world]
 };
 
 /// Points are looked at that are the surface's radius apart, the middle of each of its cells or of every so-many-th:
@@ -23,6 +24,7 @@ SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most = 2
 struct OpenBorder {
   std::vector<Eigen::Vector3f> beyond;                               ///< the border, past it [m, world]
   double spacing = 0.0;                                              ///< SurfaceBorder::spacing
+  std::vector<Eigen::Vector3f> within = {};                          ///< SurfaceBorder::within
   double length() const { return double(beyond.size()) * spacing; }  ///< [m]
 };
 

@@ -42,8 +42,7 @@ std::vector<Pose> poses(const PlanningState& state, std::span<const std::size_t>
 
 SurfaceEvidence surface_evidence(const Knowledge& known, const OpenBorder& border) {
   const OccupancyMap& map = known.map;
-  return {map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold,
-          border,     known.scanned.get()};
+  return {map.grid(), known.planning_voxels(), map.voxels(), map.model().occupancy_threshold, border};
 }
 
 double promise_kept(std::span<const TakenView> taken) {

@@ -1,6 +1,7 @@
 #include "core/planner/open_border.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/map/surface_border.hpp"
 
@@ -8,8 +9,8 @@ namespace nextview {
 
 OpenBorder open_border(const Knowledge& known) {
   if (!known.scanned) return {};
-  const SurfaceBorder border = surface_border(*known.scanned);
-  OpenBorder open{{}, border.spacing};
+  SurfaceBorder border = surface_border(*known.scanned);
+  OpenBorder open{{}, border.spacing, std::move(border.within)};
   const VoxelGrid& grid = known.map.grid();
   const double beyond = std::max(border_reach(*known.scanned), grid.resolution);
   for (const SurfaceBorder::Point& point : border.points) {

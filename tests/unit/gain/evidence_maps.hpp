@@ -28,8 +28,8 @@ struct MadeMap {
         for (int x = low.x(); x <= high.x(); ++x) visit({x, y, z});
   }
   SurfaceEvidence evidence(double threshold = 0.5, double finest = SurfaceEvidence::finest_share,
-                           const OpenBorder& border = {}, const ScannedSurface* scanned = nullptr) const {
-    return {map.grid(), map.voxels(), map.voxels(), threshold, border, scanned, finest};
+                           const OpenBorder& border = {}) const {
+    return {map.grid(), map.voxels(), map.voxels(), threshold, border, finest};
   }
 
   OccupancyMap map;

@@ -64,28 +64,19 @@ TEST(SurfaceEvidence, KindsAreThoseOfTheMap) {
 
 TEST(SurfaceEvidence, AVoxelThatHoldsScannedSurfaceIsOccupied) {
   MadeMap made = plate();
-  const Vector3i grazed(10, 12, 12), stray(9, 10, 10), unmeasured(12, 12, 12);
+  const VoxelGrid& whole = made.map.grid();
+  const Vector3i grazed(10, 12, 12), unmeasured(12, 12, 12), far_off(29, 0, 0);
   made.set(grazed, -0.4);
-  // A voxel is 20 mm wide, a cell of the scanned surface 10 mm: points of one, 2.5 mm apart.
-  const auto points = [&](const Vector3i& cell, int count) {
-    Scan scan;
-    const Vector3 corner = (made.map.grid().first + cell).cast<double>() * 0.02;
-    for (int i = 0; i < count; ++i)
-      scan.hits.push_back((corner + Vector3(0.001, 0.001 + 0.0025 * i, 0.001)).cast<float>());
-    return scan;
-  };
-  ScannedSurface scanned(0.01);
-  scanned.add(points(grazed, 4), Vector3::UnitX(), 1e-6);
-  scanned.add(points(stray, 3), Vector3::UnitX(), 1e-6);
-  scanned.add(points(unmeasured, 4), Vector3::UnitX(), 1e-6);
+  OpenBorder border;
+  for (const Vector3i& cell : {grazed, unmeasured, far_off})
+    border.within.push_back(((whole.first + cell).cast<double>() * 0.02 + Vector3(0.001, 0.019, 0.01)).cast<float>());
   const SurfaceEvidence without = made.evidence();
-  const SurfaceEvidence evidence = made.evidence(0.5, SurfaceEvidence::finest_share, {}, &scanned);
+  const SurfaceEvidence evidence = made.evidence(0.5, SurfaceEvidence::finest_share, border);
   const auto kind = [&](const SurfaceEvidence& of, const Vector3i& cell) {
-    return of.kind(in_evidence(of, made.map.grid(), cell));
+    return of.kind(in_evidence(of, whole, cell));
   };
   EXPECT_EQ(kind(without, grazed), Kind::free);
   EXPECT_EQ(kind(evidence, grazed), Kind::occupied);
-  EXPECT_EQ(kind(evidence, stray), Kind::free);
   EXPECT_EQ(kind(evidence, unmeasured), Kind::unmeasured) << "nothing was measured there: it is asked for";
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -51,6 +52,17 @@ TEST(SurfaceBorder, OfHalfASphereIsItsRim) {
     EXPECT_LT(point.outward.z(), -0.7f) << "past the rim, along the surface: " << point.outward.transpose();
     EXPECT_NEAR(point.outward.norm(), 1.0f, 1e-5f);
   }
+}
+
+TEST(SurfaceBorder, WithinItIsTheSurfaceWithoutStrayPoints) {
+  const ScannedSurface surface = surface_of(part_of_sphere(0.0f));
+  const SurfaceBorder border = surface_border(surface, 100);
+  std::vector<Eigen::Vector3f> expected;
+  for (const ScannedSurface::Cell& cell : surface.cells())
+    if (std::popcount(cell.points) >= 4) expected.push_back(float(surface_radius) * cell.middle());
+  EXPECT_EQ(border.within, expected);
+  EXPECT_LT(border.within.size(), surface.cells().size()) << "the sphere cuts corners off some cells";
+  EXPECT_GT(border.within.size(), surface.cells().size() / 2);
 }
 
 /// As it is meant to be read: every point is held against every other.

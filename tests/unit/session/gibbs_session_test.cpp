@@ -87,7 +87,7 @@ TEST(GibbsSession, NewSurfaceIsExpectedOfThePosterior) {
   const OccupancyMap& map = session.map();
   const NewSurfaceModel& model = c.planner.new_surface;
   const SurfaceEvidence evidence(map.grid(), session.planning_voxels(), map.voxels(), c.map.model.occupancy_threshold,
-                                 open_border(session.state().known), session.state().known.scanned.get());
+                                 open_border(session.state().known));
   const RayBundle bundle = RayBundle::regular(session.camera(), c.planner.ray_columns, c.planner.ray_rows);
   const std::vector<Pose>& views = session.candidates();
   const auto areas = expected_new_surface({evidence, model}, views, bundle, {c.planner.ray_length, model.slant});
