@@ -58,7 +58,8 @@ void draw_speed(const PanelContext& context, float x, float y) {
   tooltip(command::speed.help);
 }
 
-std::string readiness(const SessionSnapshot& s) {
+std::string readiness(const SessionSnapshot& s, const WorkerProgress& progress) {
+  if (progress.opening) return "Opening…";  // which takes long for a large mesh, or fine voxels
   if (s.scanner_lost) return "The scanner is lost";
   if (!s.loaded()) return "Nothing is open: choose an object, or drop a file here";
   if (s.records.empty()) return "Ready to take the start view";
@@ -96,7 +97,8 @@ void draw_readiness(const PanelContext& context, float left, float right, float 
   ImGui::SetCursorPos({left, y});
   ImGui::AlignTextToFramePadding();
   const float button = s.scanner_lost ? style.px(132) : 0;
-  const std::string text = s.finished.empty() ? readiness(s) : fmt::format("Finished: {}", s.finished);
+  const std::string text =
+      s.finished.empty() ? readiness(s, context.progress) : fmt::format("Finished: {}", s.finished);
   const std::string shown = shortened(text, right - left - button);
   s.finished.empty() ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
   if (shown != text) tooltip(text);

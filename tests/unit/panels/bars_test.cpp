@@ -64,6 +64,8 @@ TEST_F(Bars, SaysWhatItIsReadyFor) {
   EXPECT_THAT(control_bar(), HasSubstr("Ready to take the start view"));
   desk_.snapshot = std::make_shared<SessionSnapshot>();
   EXPECT_THAT(control_bar(), HasSubstr("Nothing is open"));
+  desk_.progress.opening = true;
+  EXPECT_THAT(control_bar(), AllOf(HasSubstr("Opening…"), Not(HasSubstr("Nothing is open"))));
 }
 
 TEST_F(Bars, SaysWhatRunsWhatWaitsAndForHowLong) {
