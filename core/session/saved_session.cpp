@@ -94,6 +94,16 @@ bool holds_nothing_but(std::span<const InputFile> inputs, const fs::path& folder
          std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(), is_input);
 }
 
+void require_session(const fs::path& folder) {
+  if (is_session(folder)) return;
+  std::error_code unseen;  // what cannot be looked at holds none for us
+  const std::string reason = !is_there(folder)                   ? "there is no such folder"
+                             : !fs::is_directory(folder, unseen) ? "is a file"
+                                                                 : "holds no session";
+  throw std::runtime_error(
+      fmt::format("{}: {}; give the folder of a session, as `nextview scan --out` leaves it", folder.string(), reason));
+}
+
 }  // namespace
 
 bool is_session(const fs::path& folder) {
@@ -101,7 +111,7 @@ bool is_session(const fs::path& folder) {
 }
 
 SavedSession read_session(const fs::path& folder) {
-  if (!is_session(folder)) throw std::runtime_error(fmt::format("{}: holds no session", folder.string()));
+  require_session(folder);
   SavedSession saved;
   saved.folder = folder;
   if (has_journal(folder)) {

@@ -125,7 +125,7 @@ TEST_F(Export, BadCallsAreToldInOneLineAndNothingIsLost) {
   expect_refused(out + "cloud " + in("a.xyz"), "a cloud can be written as .ply or .pcd");
   expect_refused(out + "cloud /proc/a.ply", "/proc/a.ply");
   expect_refused(out + "cloud " + in("no/a.ply"), in("no/a.ply"));
-  expect_refused("export " + in("nowhere") + " cloud " + in("a.ply"), "holds no session");
+  expect_refused("export " + in("nowhere") + " cloud " + in("a.ply"), "nowhere: there is no such folder");
   expect_refused(out + "views " + in("out/scans/a.csv"), "among the session's scans");
   fs::create_symlink(in("out/journal"), in("link.txt"));
   expect_refused(out + "views " + in("link.txt"), "the session's journal");
@@ -174,7 +174,7 @@ TEST_F(Export, ScoreRanksTheSessionAsItStands) {
   EXPECT_EQ(compared + taken, 8);
   EXPECT_GE(taken, 2);
   expect_refused("score", "SESSION or --scene");
-  expect_refused("score " + in("nowhere"), "holds no session");
+  expect_refused("score " + in("nowhere"), "nowhere: there is no such folder");
   expect_refused("score " + in("out") + " --csv " + in("out/journal"), "the session's journal");
   const Result one = nextview("score " + in("out") + " --gain area-factor");
   EXPECT_THAT(one.out, HasSubstr("8 candidate views"));

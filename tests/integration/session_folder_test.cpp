@@ -270,7 +270,9 @@ TEST_F(SessionFolders, RejectedScansAreFollowedByOtherViewsAndThenByTheEnd) {
 
 TEST_F(SessionFolders, MistakesAreOneLine) {
   ASSERT_EQ(nextview("scan box --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
-  expect_refused("scan --resume " + in("nothing"), "nothing: holds no session");
+  expect_refused("scan --resume " + in("nothing"), "nothing: there is no such folder; give the folder of a session");
+  expect_refused("scan --resume " + in("out/journal"), "out/journal: is a file; give the folder of a session");
+  expect_refused("scan --resume " + in("out/scans"), "out/scans: holds no session; give");
   expect_refused("scan --resume " + in("out") + " --planner.gain random",
                  "termination.* and the limits of registration alone may change");
   expect_refused("scan --resume " + in("out") + " --out " + in("other"), "--out");
