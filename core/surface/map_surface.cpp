@@ -181,7 +181,8 @@ Surface map_surface(const VoxelGrid& grid, const VoxelBricks& voxels, std::optio
   Surface surface;
   const std::optional<SolidPart> part = solid_part(grid, voxels, decided);
   if (!part) {
-    surface.why_empty = any_voxel(voxels, decided) ? "no voxel is occupied" : "nothing has been measured yet";
+    const bool measured = any_voxel(voxels, [](const Voxel& voxel) { return voxel.measured; });
+    surface.why_empty = measured ? "no voxel is occupied" : "nothing has been measured yet";
     return surface;
   }
   const ScalarField field = InsideField(*part).make();

@@ -71,6 +71,8 @@ TEST(MapSurface, NothingToShowSaysWhy) {
     EXPECT_FALSE(surface.why_empty.empty());
   }
   EXPECT_NE(map_surface(grid, unknown).why_empty, map_surface(grid, free_space(grid)).why_empty);
+  std::vector<Voxel> undecided(grid.voxel_count(), Voxel{.probability = 0.5f, .measured = true});
+  EXPECT_EQ(map_surface(grid, VoxelBricks(grid.size, undecided), 0.5).why_empty, "no voxel is occupied");
   EXPECT_TRUE(complete(map_surface(VoxelGrid{}, std::vector<Voxel>()), edge)) << "a grid without voxels";
 }
 
