@@ -26,6 +26,7 @@
 #include "core/results/manifest.hpp"
 #include "core/sensor/recorded_scans.hpp"
 #include "core/session/object_mesh.hpp"
+#include "core/session/saved_session.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/study/study.hpp"
 #include "core/view/pose.hpp"
@@ -168,6 +169,11 @@ std::string write_dataset(const fs::path& folder) {
   const fs::path file = folder / "dataset.toml";
   if (!fs::is_directory(folder))
     throw std::runtime_error(fmt::format("{}: is no folder; --write-dataset takes folders", folder.string()));
+  if (is_session(folder))
+    throw std::runtime_error(
+        fmt::format("{}: is a session, whose captures are read as they are; no dataset.toml is needed: "
+                    "nextview scan --recorded {}",
+                    folder.string(), folder.string()));
   if (is_there(file))
     throw std::runtime_error(fmt::format("{}: is there already; it is not written over", file.string()));
   const auto guess = guess_dataset(folder);

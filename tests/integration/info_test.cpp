@@ -89,6 +89,20 @@ TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
   EXPECT_EQ(nextview("info " + unknown.string()).exit_code, 2);
 }
 
+TEST(Info, ASessionNeedsNoDescription) {
+  const TemporaryFolder folder;
+  const std::string session = (folder.path() / "out").string();
+  ASSERT_EQ(nextview("scan box --views 1 --sensor.width 40 --sensor.height 30 --map.resolution 0.04 --no-pictures "
+                     "--no-surfaces --out " +
+                     session)
+                .exit_code,
+            0);
+  const Result run = nextview("info " + session + " --write-dataset");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is a session, whose captures are read as they are"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out/dataset.toml"));
+}
+
 TEST(Info, CloudsAreTakenAsScanTakesThem) {
   const TemporaryFolder folder;
   const std::string points = "5 7 -9\n65 7 -9\n5 47 11\n";
