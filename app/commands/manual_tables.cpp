@@ -102,7 +102,8 @@ std::string settings_page(const std::string& key_or_group) {
   if (tables.empty()) return "";
   return tables +
          "\nEach is an option of the commands that use it (`--KEY VALUE`), and may stand in a file for `--config`: "
-         "`nextview help settings`.\n";
+         "`nextview help settings`. Lengths that are not given suit the object's size; the default is that of half a "
+         "metre.\n";
 }
 
 std::string with_tables(const std::string& page, const CLI::App& program) {
