@@ -13,7 +13,7 @@ std::runtime_error no_window() {
   const char* reason = nullptr;
   glfwGetError(&reason);
   return std::runtime_error(std::string("cannot open a window: ") + (reason ? reason : "unknown reason") +
-                            "; the subcommands draw without a display");
+                            "; `nextview scan`, `export`, `figure` and `demo --out DIR` draw without a display");
 }
 
 /// @throws std::runtime_error
