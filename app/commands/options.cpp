@@ -43,7 +43,14 @@ std::string describe(const Setting& setting) {
 std::filesystem::path find_configuration(const std::string& name) {
   const auto named = assets_folder() / "configurations" / (name + ".toml");
   std::error_code error;
-  return !std::filesystem::is_regular_file(name, error) && is_there(named) ? named : std::filesystem::path(name);
+  if (!std::filesystem::is_regular_file(name, error) && is_there(named)) return named;
+  if (is_there(name)) return name;
+  std::vector<std::string> known;
+  for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "configurations"))
+    known.push_back(entry.path().stem());
+  std::ranges::sort(known);
+  throw std::runtime_error(fmt::format("--config: there is no file '{}'; those that come with the program are {}", name,
+                                       fmt::join(known, ", ")));
 }
 
 }  // namespace

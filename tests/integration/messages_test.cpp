@@ -210,6 +210,13 @@ TEST_F(Messages, AnEmptyNameIsNotTakenForNone) {
             line("--out: is empty; give a name, or leave it out; see nextview scan --help"));
 }
 
+TEST_F(Messages, AConfigurationThatIsNotThereIsToldWithThoseThatAre) {
+  EXPECT_EQ(
+      complaint("scan box --config papr"),
+      line("--config: there is no file 'papr'; those that come with the program are calibrated, new_surface, paper, "
+           "published_bunny"));
+}
+
 TEST_F(Messages, AFigureOfAStudyIsNotOfSessions) {
   EXPECT_EQ(complaint("figure gap_closed coverage_by_view --out " + in("figures")),
             line("figure gap_closed: is one of a study (--study DIR), not of 'coverage_by_view'"));
