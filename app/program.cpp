@@ -20,6 +20,7 @@
 #include "app/all_commands.hpp"
 #include "app/commands/command_line.hpp"
 #include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "app/commands/scarcity.hpp"
 #include "core/file/printable.hpp"
@@ -89,7 +90,7 @@ int run(int argc, char** argv) {
       limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
   };
   program.add_option_function<int>("--threads", limit_threads, "threads to use; 0: all. Results never depend on it")
-      ->check(CLI::Range(0, 1024));
+      ->check(within(0, 1024));
   announce_panels(standard_panels());  // before there is a window: scripts and demos name them
   try {
     program.parse(argc, argv);

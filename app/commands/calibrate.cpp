@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/sensor/recorded_scans.hpp"
 
@@ -69,7 +70,7 @@ void add_options_of_sensor_model(CLI::App& app, CalibrateArguments& arguments) {
   app.add_option("--band", arguments.config.band,
                  "fit to voxels at most so many from the surface, as the Gibbs map has it; 0: to all")
       ->capture_default_str()
-      ->check(CLI::Range(0, 100));
+      ->check(within(0, 100));
 }
 
 }  // namespace
@@ -98,17 +99,17 @@ void add_calibrate_command(CLI::App& program) {
       ->capture_default_str();
   app->add_option("--fit", *fit, "the sensor model (map.hit, …), or what the gain new-surface expects (new_surface.…)")
       ->capture_default_str()
-      ->check(CLI::IsMember(fit_names()));
+      ->check(one_of(fit_names()));
   app->add_option("--views", arguments->views,
                   "of each object, so many views, spread evenly around it; for new surface one number, default 10, "
                   "half of them at random")
       ->capture_default_str()
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(1, 100));
+      ->check(within(1, 100));
   app->add_option("--parts", arguments->parts, "new surface: so many parts to make up where there is no INPUT")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->check(within(1, 1000));
   add_options_of_sensor_model(*app, *arguments);
   app->add_option("--out", arguments->out, "folder for the results; those of an earlier run are replaced")
       ->capture_default_str()

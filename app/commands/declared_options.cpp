@@ -13,7 +13,7 @@ bool is_lower_case(const std::string& text) {
   return std::ranges::all_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// "{always,never}" of CLI::IsMember, or "map|cloud".
+/// "{always,never}" of one_of, or "map|cloud".
 std::vector<std::string> choices_of_type(const std::string& type) {
   const std::size_t begin = type.find('{'), end = type.rfind('}');
   if (begin != type.npos && end != type.npos) return split(type.substr(begin + 1, end - begin - 1), ',');

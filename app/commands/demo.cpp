@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "core/file/printable.hpp"
 #include "core/results/output_folder.hpp"
@@ -76,7 +77,7 @@ void add_demo_command(CLI::App& program) {
       ->type_name("DIR");
   app->add_option("--size", a->size, "of the frames in pixels (default 1280x720)")->type_name("WxH");
   app->add_option("--fps", a->frames_per_second, "frames a second, of the demo's own time (default 30)")
-      ->check(CLI::Range(1, 120));
+      ->check(within(1, 120));
   app->add_option("--video", a->video, "also makes a video of them by the program ffmpeg, or an animated PNG")
       ->type_name("FILE.mp4|FILE.webm|FILE.png");
   app->add_flag("--check", a->check, "only tells whether every line is right, and what it opens is there");

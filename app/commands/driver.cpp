@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
@@ -47,7 +48,7 @@ void add_driver_command(CLI::App& program) {
   auto options = std::make_shared<ConfigurationOptions>();
   CLI::App* app =
       program.add_subcommand("driver", "A scanner for --driver: the driver protocol, spoken by this program");
-  app->require_subcommand(1);
+  app->callback([] { throw std::invalid_argument("driver: simulated is missing: nextview driver simulated OBJECT"); });
   CLI::App* simulated = app->add_subcommand(
       "simulated", "The simulated camera: reads requests from standard input and answers until `bye`");
   options->add_to(*simulated);

@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
+#include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "core/export/frame_folder.hpp"
 #include "core/export/single_export.hpp"
@@ -171,7 +172,7 @@ void add_export_command(CLI::App& program) {
   app->add_option("WHAT", a->what, kinds_text())->required();
   app->add_option("FILE", a->file, "where to; its ending says the format, and a file of this name is replaced")
       ->required();
-  app->add_option("--step", a->step, "as it was after so many views; else as it stands")->check(CLI::Range(1, 1000000));
+  app->add_option("--step", a->step, "as it was after so many views; else as it stands")->check(within(1, 1000000));
   app->add_option("--of", a->of, "the surface of the map, or that of the cloud (default map)")->type_name("map|cloud");
   app->add_flag("--unseen", a->unseen,
                 "also what closes the map's surface where no view has looked, into NAME_unseen beside NAME");
@@ -184,7 +185,7 @@ void add_export_command(CLI::App& program) {
       ->type_name("AZIMUTH,ELEVATION");
   app->add_option("--layers", a->layers, "some of object,cloud,map,views,rays,region (default: all)")
       ->type_name("LIST");
-  app->add_option("--frames", a->frames, "of a turntable")->check(CLI::Range(2, 3600))->capture_default_str();
+  app->add_option("--frames", a->frames, "of a turntable")->check(within(2, 3600))->capture_default_str();
   app->footer(
       "Examples:\n  nextview export out cloud cloud.pcd\n  nextview export out surface part.stl --unseen\n"
       "  nextview export out views poses.txt --step 8\n  nextview export out curves curves.svg\n"

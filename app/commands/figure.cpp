@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/options.hpp"
 #include "app/commands/progress.hpp"
 #include "app/commands/report_scans.hpp"
 #include "core/file/atomic_file.hpp"
@@ -208,12 +209,12 @@ void add_figure_command(CLI::App& program) {
   app->add_option("--study", a->study, "folder of a study; else the one that comes with the program")->type_name("DIR");
   app->add_option("--out", a->out, "folder for them: new, empty, or of figures")->type_name("DIR");
   app->add_option("--dpi", a->dpi, "of the pictures; 96 draws a pixel a pixel")
-      ->check(CLI::Range(48.0, 600.0))
+      ->check(within(48.0, 600.0))
       ->capture_default_str();
   app->add_option("--size", a->size, "of the pictures in pixels, whatever the dpi")->type_name("WxH");
   app->add_option("--views", a->views, "that `strategy` has as columns, from 1 (default 1 to 8)")
       ->delimiter(',')
-      ->check(CLI::Range(1, 1000000))
+      ->check(within(1, 1000000))
       ->type_name("LIST");
   app->add_flag("--dark,!--light", a->dark, "on dark paper");
   app->add_flag("--list", a->list, "prints all figures and ends");

@@ -70,6 +70,14 @@ CLI::Validator quantity(const std::string& unit) {
           ""};
 }
 
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return {[names](std::string& text) {
+            const bool known = std::ranges::find(names, text) != names.end();
+            return known ? "" : fmt::format("takes {}, not '{}'", fmt::join(names, " or "), text);
+          },
+          fmt::format("{{{}}}", fmt::join(names, ","))};
+}
+
 void ConfigurationOptions::add_to(CLI::App& app) {
   app.add_option(
          "OBJECT", object_,

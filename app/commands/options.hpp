@@ -1,7 +1,10 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/config/configuration.hpp"
@@ -13,6 +16,21 @@ CLI::Validator not_empty();
 
 /// Of numbers with this unit: they are taken as settings take theirs, "1 mm" for 0.001 [m].
 CLI::Validator quantity(const std::string& unit);
+
+/// Of numbers from `least` to `most`, with a reason as settings have it.
+template <class Number>
+CLI::Validator within(Number least, Number most) {
+  const char* kind = std::is_integral_v<Number> ? "whole number" : "number";
+  return {[=](std::string& text) {
+            Number value{};
+            const bool good = CLI::detail::lexical_cast(text, value) && least <= value && value <= most;
+            return good ? "" : fmt::format("takes a {} from {} to {}, not '{}'", kind, least, most, text);
+          },
+          fmt::format("in [{} - {}]", least, most)};
+}
+
+/// Of a word that is one of these.
+CLI::Validator one_of(const std::vector<std::string>& names);
 
 /// What the command line says of a configuration: files, and settings by their keys, which override them.
 class ConfigurationOptions {

@@ -39,7 +39,7 @@ void ScannerOptions::add_to(CLI::App& app) {
           ->group("Live scanner");
   for (const char* other : {"OBJECT", "--recorded", "--recorded.folder"}) driver->excludes(app.get_option(other));
   app.add_option("--driver-confirm", confirm, "ask before each move of a real robot: always or never")
-      ->check(CLI::IsMember({"always", "never"}))
+      ->check(one_of({"always", "never"}))
       ->capture_default_str()
       ->group("Live scanner");
 }

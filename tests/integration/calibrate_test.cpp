@@ -216,7 +216,7 @@ TEST_F(Calibrate, ItsHelpTellsBoundsAndDefaults) {
   ASSERT_EQ(help.exit_code, 0) << help.err;
   for (const char* told :
        {"INPUT TEXT=[bunny,slotted_plate]", "--fit TEXT:{sensor-model,new-surface}=sensor-model",
-        "--views INT:INT in [1 - 100]=[4,20]", "--parts INT:INT in [1 - 1000]=24", "--band INT:INT in [0 - 100]=3",
+        "--views INT:in [1 - 100]=[4,20]", "--parts INT:in [1 - 1000]=24", "--band INT:in [0 - 100]=3",
         "--out DIR=calibration", "--voxel FLOAT:NONNEGATIVE=0", "--stand-off FLOAT:POSITIVE=0.7"})
     EXPECT_THAT(help.out, HasSubstr(told));
 }

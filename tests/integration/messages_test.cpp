@@ -210,6 +210,19 @@ TEST_F(Messages, AnEmptyNameIsNotTakenForNone) {
             line("--out: is empty; give a name, or leave it out; see nextview scan --help"));
 }
 
+TEST_F(Messages, ANumberOrWordThatIsNotTakenIsToldWithThoseThatAre) {
+  EXPECT_EQ(complaint("export out turntable frames --frames 1"),
+            line("--frames: takes a whole number from 2 to 3600, not '1'; see nextview export --help"));
+  EXPECT_EQ(complaint("demo --fps 2.5"),
+            line("--fps: takes a whole number from 1 to 120, not '2.5'; see nextview demo --help"));
+  EXPECT_EQ(complaint("figure all --dpi high"),
+            line("--dpi: takes a number from 48 to 600, not 'high'; see nextview figure --help"));
+  EXPECT_EQ(complaint("calibrate --fit map"),
+            line("--fit: takes sensor-model or new-surface, not 'map'; see nextview calibrate --help"));
+  EXPECT_EQ(complaint("driver real"), line("not expected: real; see nextview driver --help"));
+  EXPECT_EQ(complaint("driver"), line("driver: simulated is missing: nextview driver simulated OBJECT"));
+}
+
 TEST_F(Messages, AConfigurationThatIsNotThereIsToldWithThoseThatAre) {
   EXPECT_EQ(
       complaint("scan box --config papr"),
