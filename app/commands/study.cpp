@@ -92,7 +92,9 @@ int print_shard(const StudyKeys& keys, const StudyFolder& folder, const StudySha
 fs::path study_file(const std::string& wanted) {
   if (is_there(wanted)) return wanted;
   const fs::path own = assets_folder() / "studies" / fs::path(wanted).filename().replace_extension(".toml");
-  return is_there(own) ? own : fs::path(wanted);
+  if (is_there(own)) return own;
+  throw std::runtime_error(
+      fmt::format("{}: there is no such file; smoke and nextview are studies that come with the program", wanted));
 }
 
 int run_file(const StudyArguments& a) {

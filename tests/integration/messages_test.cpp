@@ -230,6 +230,12 @@ TEST_F(Messages, AConfigurationThatIsNotThereIsToldWithThoseThatAre) {
            "published_bunny"));
 }
 
+TEST_F(Messages, AStudyThatIsNotThereIsToldWithThoseThatAre) {
+  EXPECT_EQ(complaint("study smok --out " + in("out")),
+            line("smok: there is no such file; smoke and nextview are studies that come with the program"));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
 TEST_F(Messages, AFigureOfAStudyIsNotOfSessions) {
   EXPECT_EQ(complaint("figure gap_closed coverage_by_view --out " + in("figures")),
             line("figure gap_closed: is one of a study (--study DIR), not of 'coverage_by_view'"));
