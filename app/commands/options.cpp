@@ -126,8 +126,9 @@ bool ConfigurationOptions::takes(const std::string& key) const {
 Configuration ConfigurationOptions::configuration() const {
   Configuration configuration = with_object();
   if (!configuration.recorded.truth.empty() && configuration.recorded.folder.empty())
-    throw std::invalid_argument(configuration.as_given(
-        "recorded.truth: only recorded scans are compared with a mesh; give recorded.folder too, or leave it out"));
+    throw std::invalid_argument(
+        configuration.as_given("recorded.truth: only recorded scans are compared with a mesh; give the recording, too "
+                               "(--recorded), or leave it out"));
   return configuration;
 }
 

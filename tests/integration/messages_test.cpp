@@ -236,6 +236,12 @@ TEST_F(Messages, AStudyThatIsNotThereIsToldWithThoseThatAre) {
   EXPECT_FALSE(fs::exists(in("out")));
 }
 
+TEST_F(Messages, WhatHasNoRecordingIsToldByItsOption) {
+  EXPECT_EQ(complaint("scan box --truth box"),
+            line("--truth (recorded.truth): only recorded scans are compared with a mesh; give the recording, too "
+                 "(--recorded), or leave it out"));
+}
+
 TEST_F(Messages, AFigureOfAStudyIsNotOfSessions) {
   EXPECT_EQ(complaint("figure gap_closed coverage_by_view --out " + in("figures")),
             line("figure gap_closed: is one of a study (--study DIR), not of 'coverage_by_view'"));
