@@ -186,7 +186,11 @@ std::string write_dataset(const fs::path& folder) {
     return "dataset.toml is written as a template: nothing about the folder is known, so fill it in";
   }
   write_file(file, to_toml(guess->description));
-  return "dataset.toml is written\n  " + recording_info(folder);
+  try {
+    return "dataset.toml is written\n  " + recording_info(folder);
+  } catch (const std::runtime_error& error) {  // a wrong guess is what the file is for
+    return fmt::format("dataset.toml is written, and is to be corrected: {}", error.what());
+  }
 }
 
 /// Stanford's range images as scenes to be scored.

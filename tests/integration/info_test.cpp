@@ -89,6 +89,21 @@ TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
   EXPECT_EQ(nextview("info " + unknown.string()).exit_code, 2);
 }
 
+TEST(Info, ADescriptionThatWasGuessedWronglyIsToBeCorrected) {
+  const TemporaryFolder folder;
+  const fs::path scans = folder.path() / "scans";
+  fs::create_directories(scans);
+  write_file(scans / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+             "end_header\n0 0 1\n");
+  write_file(scans / "notes.txt", "of no frame\n");
+  EXPECT_EQ(nextview("info " + scans.string()).exit_code, 2);
+  const Result run = nextview("info " + scans.string() + " --write-dataset");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("dataset.toml is written, and is to be corrected: "));
+  EXPECT_TRUE(fs::exists(scans / "dataset.toml"));
+}
+
 TEST(Info, ASessionNeedsNoDescription) {
   const TemporaryFolder folder;
   const std::string session = (folder.path() / "out").string();
