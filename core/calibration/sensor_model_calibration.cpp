@@ -87,7 +87,7 @@ void judge_kink(Descent& descent) {
   constexpr double vanished = 1e-5;
   if (!descent.converged || descent.steps.back().gradient_norm <= vanished) return;
   descent.converged = false;
-  descent.termination += fmt::format(" It is at a kink, where sums of terms meet a clamp: gradient norm {:.2g}.",
+  descent.termination += fmt::format(". It is at a kink, where sums of terms meet a clamp: gradient norm {:.2g}",
                                      descent.steps.back().gradient_norm);
 }
 
@@ -112,7 +112,8 @@ Descent descend(const UpdateHistories& histories, const FreeSensorParameters& pa
     const double before = descent.steps.back().cross_entropy;
     ceres::GradientProblemSolver::Summary summary;
     ceres::Solve(solver_options(left, recorder), problem, free.data(), &summary);
-    descent.termination = summary.message;
+    descent.termination = summary.message;  // some end with a full stop, some without
+    if (descent.termination.ends_with('.')) descent.termination.pop_back();
     descent.converged = summary.termination_type == ceres::CONVERGENCE;
     if (descent.converged) add_point(problem, parameters, free, descent);
     if (!(descent.steps.back().cross_entropy < before * (1.0 - helped))) break;
@@ -172,7 +173,7 @@ Calibration calibrate(const UpdateHistories& all, const InverseSensorModel& star
     result.descent = std::move(descent.steps);
   }
   if (const std::string bounds = parameters.at_bounds(result.model); !bounds.empty())
-    result.termination += fmt::format(" At the bounds of what is tried: {}.", bounds);
+    result.termination += fmt::format(". At the bounds of what is tried: {}", bounds);
   if (stop.stop_requested()) result.termination = "stopped", result.converged = false;
   return result;
 }

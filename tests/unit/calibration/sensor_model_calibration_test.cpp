@@ -150,6 +150,7 @@ TEST(Calibration, IterationsAreKeptTo) {
   EXPECT_LE(fit.descent.size(), 3u);
   EXPECT_FALSE(fit.converged);
   EXPECT_NE(fit.termination.find("iterations"), std::string::npos) << fit.termination;
+  EXPECT_FALSE(fit.termination.ends_with('.')) << "what prints it ends the sentence";
   config.iterations = 0;
   EXPECT_THROW(calibrate(histories(scans(1), {}), {}, config), std::invalid_argument);
 }
