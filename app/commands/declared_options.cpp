@@ -40,6 +40,11 @@ std::string usage(const CLI::Option& option) {
   return option.get_name() + (type.empty() ? "" : " ") + type.substr(0, type.find(':'));
 }
 
+std::string description(const CLI::Option& option) {
+  const std::string value = option.get_default_str();
+  return option.get_description() + (value.empty() ? "" : " (default " + value + ")");
+}
+
 std::vector<std::string> choices(const CLI::Option& option) {
   if (!is_setting(option)) return choices_of_type(option.get_type_name());
   std::vector<std::string> keys = option.get_lnames();

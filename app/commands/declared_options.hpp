@@ -16,6 +16,9 @@ std::vector<const CLI::Option*> own_options(const CLI::App& command);
 /// "--out DIR"
 std::string usage(const CLI::Option& option);
 
+/// What it does, with the default that it has of itself.
+std::string description(const CLI::Option& option);
+
 /// The values that it may have, if these are few and have names: of --gain "new-surface", "occlusion-aware", ….
 std::vector<std::string> choices(const CLI::Option& option);
 

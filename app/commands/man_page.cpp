@@ -84,7 +84,7 @@ std::string man_page(const CLI::App& program) {
   page += ".SH COMMANDS\n";
   for (const CLI::App* command : program.get_subcommands({})) {
     page += fmt::format(".SS nextview {}\n{}.\n", roff(command->get_name()), roff(command->get_description()));
-    for (const CLI::Option* option : own_options(*command)) page += entry(usage(*option), option->get_description());
+    for (const CLI::Option* option : own_options(*command)) page += entry(usage(*option), description(*option));
   }
   page += ".SH SETTINGS\nOf a configuration file (TOML), or as options of the commands that take them.\n";
   Configuration configuration;

@@ -79,7 +79,7 @@ std::string options_tables(const CLI::App& program) {
     tables += fmt::format("{}## nextview {}\n\n{}.\n\n| option | does |\n|---|---|\n", tables.empty() ? "" : "\n",
                           command->get_name(), command->get_description());
     for (const CLI::Option* option : own_options(*command))
-      tables += fmt::format("| `{}` | {} |\n", cell(usage(*option)), cell(option->get_description()));
+      tables += fmt::format("| `{}` | {} |\n", cell(usage(*option)), cell(description(*option)));
     for (const CLI::App* part : command->get_subcommands({}))
       tables += fmt::format("| `{}` | {} |\n", part->get_name(), cell(part->get_description()));
     tables += settings_row(*command);

@@ -91,6 +91,7 @@ TEST(Manual, SaysWhatASettingIs) {
   EXPECT_THAT(one.out, HasSubstr("weight of the distance in the utility"));
   EXPECT_THAT(one.out, Not(HasSubstr("ray_columns")));
   EXPECT_THAT(one.out, HasSubstr("0.3")) << "its default";
+  EXPECT_THAT(nextview("help options").out, HasSubstr("replaced (default refined)")) << "where refine writes of itself";
   EXPECT_THAT(group.out, AllOf(HasSubstr("planner.cost_weight"), HasSubstr("planner.ray_columns")));
   EXPECT_THAT(group.out, Not(HasSubstr("map.hit")));
   EXPECT_THAT(nextview("help map.region").out, HasSubstr("numbers [m]"));
