@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 void RangeScanOptions::add_to(CLI::App& app) {
   app.add_option("--voxel", resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber)
+      ->check(within(0.0, 1.0))
       ->transform(quantity("m"));
   app.add_option("--stand-off", stand_off, "range scans: the scanner's distance, which they do not tell [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber)
+      ->check(within(0.01, 100.0))
       ->transform(quantity("m"));
 }
 

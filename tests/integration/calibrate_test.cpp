@@ -217,7 +217,7 @@ TEST_F(Calibrate, ItsHelpTellsBoundsAndDefaults) {
   for (const char* told :
        {"INPUT TEXT=[bunny,slotted_plate]", "--fit TEXT:{sensor-model,new-surface}=sensor-model",
         "--views INT:in [1 - 100]=[4,20]", "--parts INT:in [1 - 1000]=24", "--band INT:in [0 - 100]=3",
-        "--out DIR=calibration", "--voxel FLOAT:NONNEGATIVE=0", "--stand-off FLOAT:POSITIVE=0.7"})
+        "--out DIR=calibration", "--voxel FLOAT:in [0 - 1]=0", "--stand-off FLOAT:in [0.01 - 100]=0.7"})
     EXPECT_THAT(help.out, HasSubstr(told));
 }
 

@@ -219,6 +219,8 @@ TEST_F(Messages, ANumberOrWordThatIsNotTakenIsToldWithThoseThatAre) {
             line("--dpi: takes a number from 48 to 600, not 'high'; see nextview figure --help"));
   EXPECT_EQ(complaint("calibrate --fit map"),
             line("--fit: takes sensor-model or new-surface, not 'map'; see nextview calibrate --help"));
+  EXPECT_EQ(complaint("refine out --voxel -1"),
+            line("--voxel: takes a number from 0 to 1, not '-1'; see nextview refine --help"));
   EXPECT_EQ(complaint("driver real"), line("not expected: real; see nextview driver --help"));
   EXPECT_EQ(complaint("driver"), line("driver: simulated is missing: nextview driver simulated OBJECT"));
 }
