@@ -44,6 +44,9 @@ std::filesystem::path find_configuration(const std::string& name) {
   const auto named = assets_folder() / "configurations" / (name + ".toml");
   std::error_code error;
   if (!std::filesystem::is_regular_file(name, error) && is_there(named)) return named;
+  if (std::filesystem::is_directory(name, error))
+    throw std::runtime_error(
+        fmt::format("--config: {0} is a folder; that of a session is given as {0}/config.toml", name));
   if (is_there(name)) return name;
   std::vector<std::string> known;
   for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "configurations"))

@@ -230,6 +230,8 @@ TEST_F(Messages, AConfigurationThatIsNotThereIsToldWithThoseThatAre) {
       complaint("scan box --config papr"),
       line("--config: there is no file 'papr'; those that come with the program are calibrated, new_surface, paper, "
            "published_bunny"));
+  EXPECT_EQ(complaint("scan box --config /tmp"),
+            line("--config: /tmp is a folder; that of a session is given as /tmp/config.toml"));
 }
 
 TEST_F(Messages, AStudyThatIsNotThereIsToldWithThoseThatAre) {
