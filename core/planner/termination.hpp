@@ -22,6 +22,13 @@ struct TerminationConfig {
 
   /// Without any criterion.
   static TerminationConfig unlimited() { return {.views = max_views, .surface_left = 0.0}; }
+  /// Whether at most the number of views ends the scan, as Continue leaves it.
+  bool is_lifted() const {
+    TerminationConfig lifted = unlimited();
+    lifted.views = views;
+    return *this == lifted;
+  }
+  bool operator==(const TerminationConfig&) const = default;
   bool limits_views() const { return views < max_views; }
   /// A scan with so many is within that limit; it may have more where the limit was lowered.
   bool limits_views(std::size_t taken) const { return limits_views() && taken <= static_cast<std::size_t>(views); }

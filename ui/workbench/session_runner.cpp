@@ -51,12 +51,12 @@ void SessionRunner::keep_sessions(std::filesystem::path state, KeptSession::Noti
 
 void SessionRunner::load(Configuration configuration, const JobControl& control) {
   if (scanner_) require_goes_on(*scanner_, session_->configuration(), configuration);
-  start(std::move(configuration), scanner_, control);
+  start(for_another_scan(std::move(configuration)), scanner_, control);
 }
 
 void SessionRunner::open(const std::filesystem::path& input, const JobControl& control) {
   if (is_session(input)) return open_session(input, control);
-  const Configuration before = scanner_ ? before_scanner_ : configuration();
+  const Configuration before = for_another_scan(scanner_ ? before_scanner_ : configuration());
   start(session_ ? with_next_input(before, input) : with_input(before, input), nullptr, control);
 }
 
@@ -66,7 +66,9 @@ void SessionRunner::disconnect(const JobControl& control) {
 
 void SessionRunner::connect(const ScannerWishes& wishes, std::optional<Configuration> wanted,
                             const JobControl& control) {
-  const Configuration before = wanted ? *std::move(wanted) : scanner_ ? before_scanner_ : configuration();
+  const Configuration before = for_another_scan(wanted     ? *std::move(wanted)
+                                                : scanner_ ? before_scanner_
+                                                           : configuration());
   if (!session_) wanted_ = before;
   Configuration following = before;
   forget_fitted(following);

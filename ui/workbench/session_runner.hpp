@@ -104,6 +104,7 @@ class SessionRunner {
   void follow_compared(const JobControl& control);
   SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
+  Configuration for_another_scan(Configuration configuration) const;
   void open_session(const std::filesystem::path& folder, const JobControl& control);
   void adopt(HistoryEntry entry);
   void compare_what_is_shown();

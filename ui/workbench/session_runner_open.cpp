@@ -28,6 +28,20 @@ void look_at_each_view(Session& session, const SavedSession& saved, const std::f
 
 }  // namespace
 
+/// What Continue lifted is lifted for this scan alone: the limits of another are those on the way here before it.
+Configuration SessionRunner::for_another_scan(Configuration configuration) const {
+  if (!session_ || configuration.termination != session_->configuration().termination) return configuration;
+  std::vector<std::uint32_t> way = tree_->line(tree_->at);
+  way.insert(way.begin(), 0);
+  const auto is_lifted = [&](std::uint32_t number) {
+    const std::optional<Stand>& stand = tree_->stand(number);
+    return !stand || stand->termination.is_lifted();
+  };
+  while (way.size() > 1 && is_lifted(way.back())) way.pop_back();
+  configuration.termination = tree_->stand(way.back())->termination;
+  return configuration;
+}
+
 /// It goes on where it stands, in its own folder. Undo ends there: its views are gone along in the timeline.
 void SessionRunner::open_session(const std::filesystem::path& folder, const JobControl& control) {
   if (is_own(folder)) throw std::invalid_argument(folder.string() + ": is the session that is open");

@@ -129,6 +129,23 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
   EXPECT_THROW(scripted.run("continue"), std::exception) << "there is nothing to go on to";
 }
 
+TEST(ContinueCommand, LeavesTheLimitsOfAnotherScanAsTheyWere) {
+  ScriptedWorker scripted;
+  SessionWorker& worker = scripted.worker;
+  scripted.load(with_views(1));
+  const TerminationConfig limits = worker.snapshot()->configuration.termination;
+  for (const char* another : {"open box", "reset", "set seed 7"}) {
+    scripted.run("step");
+    ASSERT_NE(worker.snapshot()->finished, "");
+    scripted.run("continue");
+    scripted.run("step");
+    ASSERT_NE(worker.snapshot()->configuration.termination, limits);
+    scripted.run(another);
+    EXPECT_EQ(worker.snapshot()->records.size(), 0u);
+    EXPECT_EQ(worker.snapshot()->configuration.termination, limits) << another;
+  }
+}
+
 /// As somebody does it who presses + at Views: by the command.
 TEST(TerminationCommand, KeepsTheScan) {
   ScriptedWorker scripted;
