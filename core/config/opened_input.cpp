@@ -68,7 +68,8 @@ Configuration with_next_input(Configuration configuration, const std::filesystem
   if (!carries_settings(input) && input != object.file && !same_file(input, object.file)) {
     object.unit = LengthUnit::automatic;
     object.up = UpAxis::automatic;
-    for (const char* key : {"object.unit", "object.up"}) configuration.sources.erase(key);
+    object.longest_side = 0.0;
+    for (const char* key : {"object.unit", "object.up", "object.longest_side"}) configuration.sources.erase(key);
   }
   return with_input(std::move(configuration), input);
 }

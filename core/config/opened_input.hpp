@@ -18,7 +18,7 @@ bool carries_settings(const std::filesystem::path& file);
 /// Whether this is the name of an octree's file.
 bool is_map(const std::filesystem::path& file);
 
-/// The same after another object: what was set of that one's file, its unit and its axis upwards, holds of no other.
+/// The same after another object: what was set of that one, its unit, axis upwards and size, holds of no other.
 Configuration with_next_input(Configuration configuration, const std::filesystem::path& input);
 
 /// Why nothing is opened that is called so, and what to do; empty if its name says that it may be. Its content is not

@@ -41,15 +41,17 @@ TEST(WithInput, ForgetsWhatFollowedFromTheObjectBefore) {
   EXPECT_EQ(c.map.resolution, 0.003);
 }
 
-TEST(WithNextInput, TakesNoUnitFromTheFileBefore) {
+TEST(WithNextInput, TakesNoUnitOrSizeFromTheFileBefore) {
   Configuration inches;
   inches.object.file = "part.stl";
   give(inches, "object.unit", "inch", "--object.unit");
   give(inches, "object.up", "y", "--object.up");
+  give(inches, "object.longest_side", "0.3", "--object.longest_side");
   EXPECT_EQ(with_next_input(inches, "part.stl").object.unit, LengthUnit::inches);
   const Configuration next = with_next_input(inches, "other.stl");
   EXPECT_EQ(next.object.unit, LengthUnit::automatic);
   EXPECT_EQ(next.object.up, UpAxis::automatic);
+  EXPECT_EQ(next.object.longest_side, 0.0) << "it would be scaled, and nothing said so";
   EXPECT_FALSE(next.sources.contains("object.unit"));
 }
 
