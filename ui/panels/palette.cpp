@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -18,11 +19,23 @@
 namespace nextview {
 namespace {
 
+/// A command's text that happens to begin with a name, as "refine the map" and "export a surface", is to be found, not
+/// read as a line of a script.
+bool is_searched_for(const std::string& text, const Command& named) {
+  if (text.find('"') != text.npos) return false;
+  std::istringstream words(text);
+  const std::ptrdiff_t values = std::distance(std::istream_iterator<std::string>(words), {}) - 1;
+  const bool is_begun = values > 1 && std::ranges::any_of(commands(), [&](const Command& command) {
+                          return lower_case(command.text).find(lower_case(text)) != std::string::npos;
+                        });
+  return (is_begun || values > std::ssize(named.arguments())) && !found_in_palette(text).empty();
+}
+
 /// The command that a text begins with, if it goes on after its name.
 const Command* named_by(const std::string& text) {
   for (const Command& command : commands())
     if (text.size() > command.name.size() && text.starts_with(command.name) && text[command.name.size()] == ' ')
-      return &command;
+      return is_searched_for(text, command) ? nullptr : &command;
   return nullptr;
 }
 

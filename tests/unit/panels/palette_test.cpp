@@ -51,12 +51,27 @@ TEST(Palette, FindsWhatPeopleCallOtherwise) {
                                      {"export", "export "},
                                      {"quit", "quit"},
                                      {"exit", "quit"},
+                                     {"voxel size", "set map.resolution "},
+                                     {"accuracy", "set sensor.range_noise "},
                                      {"standard deviation ray", "set sensor.range_noise "}}) {
     const std::vector<PaletteEntry> found = found_in_palette(typed);
     ASSERT_FALSE(found.empty()) << typed;
     EXPECT_EQ(found.front().written(), meant) << typed;
   }
   EXPECT_EQ(found_in_palette("").size(), commands().size()) << "settings are many, and nothing was asked for";
+}
+
+/// Menus show it, and it may begin as the name of another command does.
+TEST(Palette, FindsACommandByItsTextInTheMenus) {
+  for (const auto& [typed, done] : {std::pair{"refine the map", "refine"}, {"dark mode", "dark"}}) {
+    OpenPalette desk(typed);
+    desk.type(Key::enter);
+    EXPECT_THAT(texts(desk.frames()), testing::Contains(done)) << typed;
+  }
+  OpenPalette desk("export a surface");
+  desk.type(Key::enter);
+  EXPECT_THAT(desk.frames(), IsEmpty()) << "where to is still to be said";
+  EXPECT_NE(find_text(seen_texts(), "export-surface FILE [OF] [PART]", "Commands"), nullptr);
 }
 
 /// The key is written, and what it is and has been is seen beside its new value.
