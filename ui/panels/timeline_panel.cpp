@@ -19,11 +19,11 @@ namespace {
 constexpr float label_width = 158, start_width = 20, picture_width = 60, picture_height = 45, picture_gap = 6,
                 row_gap = 10, row_height = picture_height + 18 + row_gap;
 
-/// What a view came to, in a few characters.
-std::string brief(const SessionSnapshot& s, const StepRecord& record) {
-  const auto percent = [](double share) {  // 99.96 % is not all of it
-    return share >= 0.995 && share < 1 ? fmt::format("{:.1f} %", std::floor(1000 * share) / 10)
-                                       : fmt::format("{:.0f} %", 100 * share);
+/// What a view came to, in a few characters; in fewer below its picture, where tenths would touch the next view's.
+std::string brief(const SessionSnapshot& s, const StepRecord& record, bool with_tenths) {
+  const auto percent = [&](double share) {  // 99.96 % is not all of it
+    if (share < 0.995 || share >= 1) return fmt::format("{:.0f} %", 100 * share);
+    return with_tenths ? fmt::format("{:.1f} %", std::floor(1000 * share) / 10) : std::string("99 %");
   };
   if (record.coverage_recorded) return percent(*record.coverage_recorded);
   return s.is_evaluated() ? percent(record.coverage_visible) : area_text(record.new_surface);
@@ -101,7 +101,7 @@ void draw_label(const PanelContext& context, const Branch& branch, bool current,
   list.AddText(font, font->FontSize, {start.x, start.y + style.px(3)},
                to_imgui_u32(current ? theme::ink : theme::soft_ink), name.c_str());
   std::string length = counted(line.size(), "view");
-  if (!line.empty() && line.back()->record) length += ", " + brief(s, *line.back()->record);
+  if (!line.empty() && line.back()->record) length += ", " + brief(s, *line.back()->record, true);
   list.AddText(style.small, style.small->FontSize, {start.x, start.y + style.px(23)}, to_imgui_u32(theme::soft_ink),
                length.c_str());
 }
@@ -129,9 +129,10 @@ void draw_cell(const PanelContext& context, const TimelineStep* step, const ImVe
   const auto width_of = [&](const std::string& text) {
     return style.small->CalcTextSizeA(style.small->FontSize, FLT_MAX, 0, text.c_str()).x;
   };
-  std::string text = step->record ? fmt::format("{} · {}", view, brief(s, *step->record)) : fmt::format("{}", view);
-  if (width_of(text) > to.x - from.x + style.px(picture_gap))
-    text = fmt::format("{}", view);  // its tooltip says the rest
+  std::string text =
+      step->record ? fmt::format("{} · {}", view, brief(s, *step->record, false)) : fmt::format("{}", view);
+  if (width_of(text) > to.x - from.x + style.px(picture_gap))  // else it touches that of the next view
+    text = fmt::format("{}", view);                            // its tooltip says the rest
   const float width = width_of(text);
   list.AddText(style.small, style.small->FontSize, {(from.x + to.x - width) / 2, to.y + style.px(1)},
                to_imgui_u32(is_here ? theme::chosen : theme::soft_ink), text.c_str());

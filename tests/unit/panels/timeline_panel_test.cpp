@@ -1,4 +1,5 @@
 // Where the timeline draws the views of branches, and what leads from one to another.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/panels/seen.hpp"
@@ -45,6 +46,22 @@ TEST_F(TimelinePanelTest, TheBranchThatTheScanIsOnIsScrolledIntoView) {
   const auto shows = [](const char* branch) { return find_text(seen_texts(), branch, "Timeline") != nullptr; };
   EXPECT_TRUE(shows("branch 8")) << read("Timeline");
   EXPECT_FALSE(shows("main")) << "all have room: this tests nothing";
+}
+
+/// From view 10 on a tenth of a percent more would be as wide as its picture and the gap beside it.
+TEST_F(TimelinePanelTest, WhatAViewCameToStandsApartFromThatOfTheNext) {
+  auto snapshot = std::make_shared<SessionSnapshot>(*with_branches({}));
+  auto timeline = std::make_shared<Timeline>(*snapshot->timeline);
+  StepRecord record = *timeline->steps.back().record;
+  record.coverage_visible = 0.9966;
+  timeline->steps.clear();
+  for (std::uint32_t number = 1; number <= 42; ++number)
+    timeline->steps.push_back({number, number - 1, std::make_shared<StepRecord>(record), nullptr});
+  timeline->branches.all.front().tip = timeline->at = 42;
+  snapshot->timeline = timeline;
+  show(snapshot);
+  EXPECT_THAT(read("Timeline"), testing::HasSubstr("42 views, 99.6 %"));
+  EXPECT_THAT(read("Timeline"), testing::MatchesRegex(".* 40 · 99 % *41 · 99 % *42 · 99 %"));
 }
 
 }  // namespace
