@@ -59,6 +59,13 @@ TEST_F(WorkerLog, HasALineForEachThing) {
   wait_until_idle();
   expect_last(Level::warning, "Gibbs map of 4 views: " + now()->gibbs->posterior->diagnostics.warning);
   const TemporaryFolder own;
+  const auto surface = own.path() / "surface.ply", map = own.path() / "map.ot";
+  worker_.post(request::ExportOne{ExportKind::surface, surface, {}, now()->gibbs});
+  wait_until_idle();
+  expect_last(Level::success, "The surface of the Gibbs map of 4 views: written to " + surface.string());
+  worker_.post(request::ExportOne{ExportKind::map, map, {}, now()->gibbs});
+  wait_until_idle();
+  expect_last(Level::success, "The Gibbs map of 4 views: written to " + map.string());
   const auto folder = own.path() / "scan";
   worker_.post(request::Export{folder});
   wait_until_idle();
