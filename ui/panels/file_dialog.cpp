@@ -11,7 +11,6 @@
 
 #include "core/file/read_file.hpp"
 #include "core/journal/journal.hpp"
-#include "core/session/recent_files.hpp"
 #include "core/session/untitled_sessions.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/export_commands.hpp"
@@ -92,7 +91,7 @@ void FileDialog::begin(const PanelContext& context, const Command& command) {
   command_ = command.name;
   to_read_ = !command.writes;
   plays_ = &command == &command::play_demo;
-  recent_ = recent_files(state_folder());
+  recent_.read();
   chosen_ = 0;
   opened_ = true;
   written_as_ = to_read_ ? "" : written_as(command, context.snapshot);
@@ -154,15 +153,16 @@ void FileDialog::draw_places(const PanelContext& context, const Command& command
       if (ImGui::Selectable(object.c_str())) call(context, command, object);
   }
   if (to_read_ && !plays_) {
-    if (!recent_.empty()) {
+    if (!recent_.entries.empty()) {
       ImGui::Spacing();
       ImGui::TextDisabled("Recent");
     }
-    for (const fs::path& file : recent_) {
-      const float width = ImGui::GetContentRegionAvail().x;
-      const std::string shown = shortened(file.filename().string(), width);
-      if (ImGui::Selectable(fmt::format("{}##{}", shown, file.string()).c_str())) accept(context, command, file);
-      tooltip(file.string());
+    for (const RecentMenu::Entry& entry : recent_.entries) {
+      const std::string text = entry.name + (entry.summary.empty() ? "" : ", " + entry.summary),
+                        file = entry.file.string();
+      const std::string shown = shortened(text, ImGui::GetContentRegionAvail().x);
+      if (ImGui::Selectable(fmt::format("{}##{}", shown, file).c_str())) accept(context, command, entry.file);
+      tooltip(shown == text ? file : text + "\n" + file);
     }
   }
   ImGui::PopFont();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ui/panels/file_browser.hpp"
+#include "ui/panels/menu_bar.hpp"
 #include "ui/panels/panel.hpp"
 
 namespace nextview {
@@ -44,7 +45,7 @@ class FileDialog {
 
   std::string command_;  ///< that it was begun for; empty: it is closed
   FileBrowser browser_;
-  std::vector<std::filesystem::path> recent_;
+  RecentMenu recent_;
   std::string written_, replaced_;  ///< replaced_: the file that the user was asked about
   std::string problem_;             ///< why what is written will not do
   std::string written_as_;          ///< its formats by their endings, and its coordinates; empty: nothing is written

@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "core/session/untitled_sessions.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/panels/desk.hpp"
 #include "tests/unit/panels/made_scan.hpp"
@@ -89,6 +90,23 @@ TEST_F(FileDialogTest, WhatCannotBeOpenedComesLast) {
   EXPECT_EQ(done(), "");
   EXPECT_TRUE(is_open());
   EXPECT_THAT(read("File"), testing::HasSubstr("no known mesh file type"));
+}
+
+/// Their folders are called by the time alone, as far as there is room for it.
+TEST_F(FileDialogTest, ARecentSessionIsCalledByWhatWasScanned) {
+  const char* const before = std::getenv("XDG_STATE_HOME");
+  const std::string was = before ? before : "";
+  setenv("XDG_STATE_HOME", folder_.path().c_str(), 1);
+  {
+    SessionRunner runner;
+    runner.keep_sessions(state_folder(), {});
+    const SessionRunner::JobControl control{[](double, std::string_view) {}, [](const SamplerDiagnostics&) {}, {}};
+    runner.load(small_scan(), control);
+    runner.step(control);
+  }
+  begin("open");
+  before ? setenv("XDG_STATE_HOME", was.c_str(), 1) : unsetenv("XDG_STATE_HOME");
+  EXPECT_THAT(read("File"), testing::HasSubstr("sphere, 1 view"));
 }
 
 /// Letters that were meant for the path were commands of the window once it had closed.
