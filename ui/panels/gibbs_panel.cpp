@@ -66,7 +66,7 @@ void draw_stationarity(const PanelContext& context, const SamplerDiagnostics& d)
     table_row("trend |z|", fmt::format("{:.1f} (under 2.58)", d.trend), "Geweke's statistic of the log-posterior");
     table_row("effective samples", fmt::format("{:.0f}", d.effective_samples), "Of the log-posterior");
   }
-  table_row("voxels that differ", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels),
+  table_row("voxels in dispute", fmt::format("{} of {}", d.disagreeing_voxels, d.informed_voxels),
             "Informed voxels whose mean differs by over 0.5 between two chains");
   table_row("merged rays", fmt::format("{} of {}", d.merged_rays, d.measured_rays));
   if (!context.window.presentation.demo) table_row("time", fmt::format("{:.1f} s", d.build_seconds + d.sample_seconds));

@@ -85,7 +85,7 @@ TEST_F(GibbsPanelTest, EachDiagnosticStandsAtItsName) {
   const std::string text = panel(made_map());
   EXPECT_THAT(text, HasSubstr("Stationary after 12 sweeps of 2 chains."));
   EXPECT_THAT(text, HasSubstr("R-hat 1.012 (under 1.05) trend |z| 1.8 (under 2.58) effective samples 222 "
-                              "voxels that differ 7 of 5000 merged rays 400 of 1000 time 2.5 s"));
+                              "voxels in dispute 7 of 5000 merged rays 400 of 1000 time 2.5 s"));
   EXPECT_THAT(text, Not(HasSubstr("refine again")));
 }
 
@@ -125,7 +125,7 @@ TEST_F(GibbsPanelTest, OfTooFewSweepsItSaysWhatToDoAndNoNumbers) {
   const std::string text = panel(map);
   EXPECT_THAT(text, HasSubstr("5 sweeps are too few to tell. Refine the map"));
   EXPECT_THAT(text, Not(HasSubstr("R-hat")));
-  EXPECT_THAT(text, HasSubstr("voxels that differ 7 of 5000"));
+  EXPECT_THAT(text, HasSubstr("voxels in dispute 7 of 5000"));
   posterior.diagnostics.stopped = true;
   posterior.diagnostics.warning = "stopped after 5 sweeps";
   map.posterior = std::make_shared<const GibbsPosterior>(posterior);
