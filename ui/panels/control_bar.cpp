@@ -58,13 +58,16 @@ void draw_speed(const PanelContext& context, float x, float y) {
   tooltip(command::speed.help);
 }
 
-std::string readiness(const SessionSnapshot& s, const WorkerProgress& progress) {
+/// `brief`: cut off at its end it would not say which candidate.
+std::string readiness(const SessionSnapshot& s, const WorkerProgress& progress, bool brief) {
+  if (!s.finished.empty()) return "Finished: " + s.finished;
   if (progress.opening) return "Opening…";  // which takes long for a large mesh, or fine voxels
   if (s.scanner_lost) return "The scanner is lost";
   if (!s.loaded()) return "Nothing is open: choose an object, or drop a file here";
   if (s.records.empty()) return "Ready to take the start view";
   if (s.custom_next_view) return "Ready to take your custom view";
-  return s.next_candidate ? fmt::format("Ready to take candidate {}", *s.next_candidate) : "No candidate is left";
+  if (!s.next_candidate) return "No candidate is left";
+  return fmt::format("{} candidate {}", brief ? "Next:" : "Ready to take", *s.next_candidate);
 }
 
 std::string left_text(std::optional<double> seconds) {
@@ -97,9 +100,10 @@ void draw_readiness(const PanelContext& context, float left, float right, float 
   ImGui::SetCursorPos({left, y});
   ImGui::AlignTextToFramePadding();
   const float button = s.scanner_lost ? style.px(132) : 0;
-  const std::string text =
-      s.finished.empty() ? readiness(s, context.progress) : fmt::format("Finished: {}", s.finished);
-  const std::string shown = shortened(text, right - left - button);
+  const float room = right - left - button;
+  const std::string text = readiness(s, context.progress, false);
+  const bool is_too_long = ImGui::CalcTextSize(text.c_str()).x > room;
+  const std::string shown = shortened(readiness(s, context.progress, is_too_long), room);
   s.finished.empty() ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
   if (shown != text) tooltip(text);
   if (!s.scanner_lost) return;

@@ -52,6 +52,14 @@ TEST_F(Bars, TheFiguresAreThoseOfTheLastView) {
   EXPECT_THAT(control_bar(), Not(HasSubstr("surface")));
 }
 
+TEST_F(Bars, SaysWhichCandidateIsNextInASmallWindow) {
+  scan_->next_candidate = 46;
+  Desk small(640, 480);
+  small.snapshot = scan_;
+  small.frames();
+  EXPECT_THAT(read("Control bar"), HasSubstr("Next: candidate 46"));
+}
+
 TEST_F(Bars, SaysWhatItIsReadyFor) {
   EXPECT_THAT(control_bar(), HasSubstr("Ready to take candidate 6"));
   scan_->next_candidate.reset();
