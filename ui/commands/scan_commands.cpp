@@ -27,14 +27,16 @@ std::string step_why_not(const CommandState& t) {
   return t.progress.playing ? "views are being taken already" : needs_more_to_scan(t);
 }
 
+/// A scan that is finished goes on for a view that a person wants.
 std::string take_why_not(const CommandState& t) {
   if (const std::string reason = needs_view(t); !reason.empty()) return reason;
-  if (const std::string reason = needs_more_to_scan(t); !reason.empty()) return reason;
-  return needs_rest(t);
+  const bool is_over = !t.session.finished.empty() && available_candidates(t.session).empty();
+  return is_over ? needs_more_to_scan(t) : needs_rest(t);
 }
 
 std::string take_proposal_why_not(const CommandState& t) {
   if (const std::string reason = take_why_not(t); !reason.empty()) return reason;
+  if (const std::string reason = needs_more_to_scan(t); !reason.empty()) return reason;
   if (!t.session.proposal()) return "no candidate is left";
   return t.session.next_candidate == t.session.proposal() ? "it is the next view" : "";
 }
@@ -60,6 +62,14 @@ std::string undo_why_not(const CommandState& t) {
                                    : "nothing was done since this was opened; Page Up goes back along its views";
 }
 
+/// Lifts what ends the scan, for some more views.
+void go_beyond_limits(CommandTarget& t) {
+  TerminationConfig beyond = TerminationConfig::unlimited();
+  const int allowed = t.session.configuration.termination.views, more = TerminationConfig().views;
+  beyond.views = std::max(allowed, std::min(int(t.session.records.size()) + more, TerminationConfig::max_views));
+  t.worker.post(request::SetTermination{beyond});
+}
+
 void look_at_next_view(WindowState& window) {
   window.selection.view = {};
   window.selection.ray.reset();
@@ -70,11 +80,13 @@ void take(CommandTarget& t, std::optional<std::size_t> candidate) {
   if (!candidate) throw std::invalid_argument("take-view: select a candidate first, or name one");
   if (!t.session.available(*candidate))
     throw std::invalid_argument("take-view: view " + std::to_string(*candidate) + " is not available");
+  if (!t.session.finished.empty()) go_beyond_limits(t);
   t.worker.post(request::TakeView{*candidate});
   look_at_next_view(t.window);
 }
 
 void take_own(CommandTarget& t) {
+  if (!t.session.finished.empty()) go_beyond_limits(t);
   t.worker.post(request::TakeCustomView{*t.window.selection.custom_view});
   look_at_next_view(t.window);
 }
@@ -102,10 +114,7 @@ const CommandOf<> command::go_on{
      {},
      continue_why_not},
     [](CommandTarget& t) {
-      TerminationConfig beyond = TerminationConfig::unlimited();
-      const int allowed = t.session.configuration.termination.views, more = TerminationConfig().views;
-      beyond.views = std::max(allowed, std::min(int(t.session.records.size()) + more, TerminationConfig::max_views));
-      t.worker.post(request::SetTermination{beyond});
+      go_beyond_limits(t);
       t.worker.post(request::Step{.with_last = true});
     }};
 
@@ -127,7 +136,8 @@ const CommandOf<std::optional<std::size_t>> command::take_view{
     {"take-view",
      "Scan",
      "Take this candidate next…",
-     "Makes a candidate, or the selected one, the next view instead of the proposal.",
+     "Makes a candidate, or the selected one, the next view instead of the proposal. A finished scan goes on, as by "
+     "continue.",
      {{key('T')}},
      take_why_not},
     argument::optional(argument::whole("candidate", "its number", 0, 1e6, available_candidates)),

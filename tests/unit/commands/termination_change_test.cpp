@@ -107,7 +107,7 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
   scripted.run("step");
   ASSERT_NE(worker.snapshot()->finished, "");
   const CommandState finished{*worker.snapshot(), {}, scripted.window};
-  EXPECT_THAT(find_command("take-view").why_not_now(finished), testing::EndsWith("; Continue takes more views"));
+  EXPECT_THAT(find_command("step").why_not_now(finished), testing::EndsWith("; Continue takes more views"));
   scripted.run("continue");
   EXPECT_EQ(worker.snapshot()->finished, "");
   EXPECT_EQ(worker.snapshot()->records.size(), 2u)
@@ -127,6 +127,21 @@ TEST(ContinueCommand, GoesOnBeyondEveryLimitUntilNoViewIsLeft) {
   EXPECT_EQ(worker.snapshot()->records.size(), 6u) << "the start view and all candidates";
   EXPECT_EQ(worker.snapshot()->finished, "no candidate view is left");
   EXPECT_THROW(scripted.run("continue"), std::exception) << "there is nothing to go on to";
+}
+
+/// By Continue alone the planner's view would be taken first, by a robot, too.
+TEST(ContinueCommand, IsNotNeededForAViewOfOnesOwn) {
+  ScriptedWorker scripted;
+  SessionWorker& worker = scripted.worker;
+  scripted.load(with_views(1));
+  scripted.run("step");
+  ASSERT_NE(worker.snapshot()->finished, "");
+  scripted.run("take-view 3");
+  EXPECT_EQ(worker.snapshot()->finished, "");
+  EXPECT_EQ(worker.snapshot()->records.size(), 1u);
+  EXPECT_EQ(worker.snapshot()->next_candidate, 3u);
+  scripted.run("step");
+  EXPECT_EQ(worker.snapshot()->records.back().view, 3);
 }
 
 TEST(ContinueCommand, LeavesTheLimitsOfAnotherScanAsTheyWere) {
