@@ -146,6 +146,11 @@ TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
   user_.wait();
   EXPECT_EQ(question(), "") << "it keeps the scan";
   EXPECT_EQ(user_.session().configuration.planner.gain, "random");
+  user_.run("previous-view\nstep\nprevious-view\nprevious-view\n");
+  EXPECT_EQ(views(), 0u);
+  user_.window().ask(command::set("map.resolution", "0.05"));
+  EXPECT_THAT(question(), HasSubstr("Its 3 views are set aside")) << "of both branches, wherever the scan stands";
+  user_.type(Key::escape);
   user_.run("set map.resolution 0.05\n");
   EXPECT_EQ(views(), 0u) << "a script is not asked";
 }

@@ -28,14 +28,15 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
   else if (s.gibbs_lost > 0 && !s.planned_on_posterior)
     lost = fmt::format("The Gibbs map of {} is kept nowhere: to keep it, cancel{} and export the scan (Ctrl+E).",
                        counted(s.gibbs_lost, "view"), s.gibbs ? "" : ", go to its view");
-  if (!undoable && !s.kept && !s.records.empty())
+  const std::size_t views = s.views_on_branches();
+  if (!undoable && !s.kept && views > 0)
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",
-                        s.records.size() == 1 ? "The view is" : fmt::format("The {} views are", s.records.size()));
+                        views == 1 ? "The view is" : fmt::format("The {} views are", views));
   return lost;
 }
 
 CommandQuestion restart_question(const CommandState& t, const std::string& what) {
-  const std::size_t views = t.session.records.size();
+  const std::size_t views = t.session.views_on_branches();
   const std::string lost = what_is_lost(t, true);
   if (views == 0) return {lost, "Start over"};
   return {fmt::format("{} starts the scan over. Its {} set aside: undo brings {} back.{}{}", what,

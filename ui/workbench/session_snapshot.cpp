@@ -1,6 +1,7 @@
 #include "ui/workbench/session_snapshot.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace nextview {
 
@@ -19,6 +20,14 @@ RefinementChange refinement_change(std::span<const Voxel> conventional, std::spa
     ++change.after[bin(after.probability)];
   }
   return change;
+}
+
+std::size_t SessionSnapshot::views_on_branches() const {
+  if (!timeline) return records.size();
+  std::set<std::uint32_t> numbers;
+  for (const Branch& branch : timeline->branches.all)
+    for (const TimelineStep* step : timeline->line(branch)) numbers.insert(step->number);
+  return numbers.size();
 }
 
 }  // namespace nextview

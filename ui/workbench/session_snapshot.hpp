@@ -121,6 +121,8 @@ struct SessionSnapshot {
   std::shared_ptr<const std::vector<CameraBookmark>> cameras;  ///< to look at the scene from; may be null
 
   bool loaded() const { return session > 0; }
+  /// Views on all branches, each once, wherever the scan stands: what it takes to start over.
+  std::size_t views_on_branches() const;
   /// Goes through recorded data, whose frames are the candidates.
   bool is_recording() const { return setup && setup->recorded; }
   /// Compares the scan with the true surface, where one is known.

@@ -21,7 +21,7 @@ using Level = LogEntry::Level;
 /// Another session took the place of the one before.
 void log_start(const SessionRequest& request, const SessionSnapshot& before, const SessionSnapshot& now,
                SessionLog& log) {
-  if (const std::size_t views = before.records.size(); views > 0 && starts_anew(request))
+  if (const std::size_t views = before.views_on_branches(); views > 0 && starts_anew(request))
     log.add(Level::note, fmt::format("{} starts the scan over; undo (Ctrl+Z) brings its {} back",
                                      is<request::Load>(request)         ? "This setting"
                                      : is<request::OpenFile>(request)   ? "Another file"
