@@ -146,17 +146,9 @@ void FileDialog::draw_places(const PanelContext& context, const Command& command
   std::error_code ignored;
   if (fs::is_directory(state_folder(), ignored)) draw_place("Kept sessions", state_folder());
   draw_place("Whole disk", "/");
-  if (to_read_) {
+  if (to_read_ && !plays_ && !recent_.entries.empty()) {  // before the objects, or it would have to be scrolled to
     ImGui::Spacing();
-    ImGui::TextDisabled(plays_ ? "Demos" : "Objects");
-    for (const std::string& object : command.arguments().front().choices(context.snapshot))
-      if (ImGui::Selectable(object.c_str())) call(context, command, object);
-  }
-  if (to_read_ && !plays_) {
-    if (!recent_.entries.empty()) {
-      ImGui::Spacing();
-      ImGui::TextDisabled("Recent");
-    }
+    ImGui::TextDisabled("Recent");
     for (const RecentMenu::Entry& entry : recent_.entries) {
       const std::string text = entry.name + (entry.summary.empty() ? "" : ", " + entry.summary),
                         file = entry.file.string();
@@ -164,6 +156,12 @@ void FileDialog::draw_places(const PanelContext& context, const Command& command
       if (ImGui::Selectable(fmt::format("{}##{}", shown, file).c_str())) accept(context, command, entry.file);
       tooltip(shown == text ? file : text + "\n" + file);
     }
+  }
+  if (to_read_) {
+    ImGui::Spacing();
+    ImGui::TextDisabled(plays_ ? "Demos" : "Objects");
+    for (const std::string& object : command.arguments().front().choices(context.snapshot))
+      if (ImGui::Selectable(object.c_str())) call(context, command, object);
   }
   ImGui::PopFont();
 }
