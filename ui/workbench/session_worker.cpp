@@ -20,6 +20,13 @@ namespace {
 /// Smaller steps of progress are no news.
 constexpr double min_progress = 0.01;
 
+/// "The surface of the Gibbs map of 4 views: written to "
+std::string what_is_written(const request::ExportOne& wanted) {
+  if (!wanted.gibbs) return "Written to ";
+  return fmt::format("The {}Gibbs map of {}: written to ", wanted.kind == ExportKind::surface ? "surface of the " : "",
+                     counted(wanted.gibbs->views, "view"));
+}
+
 }  // namespace
 
 SessionWorker::SessionWorker(std::function<void()> on_news)
@@ -196,69 +203,66 @@ void SessionWorker::attempt(std::uint64_t number, const SessionRequest& request)
 }
 
 void SessionWorker::execute(const SessionRequest& request) {
-  std::visit(
-      Overloaded{
-          [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
-          [&](const request::OpenFile& r) { runner_.open(r.file, job_control()); },
-          [&](const request::OfferSession& r) { offer(r.session); },
-          [&](const request::Connect& r) { runner_.connect(scanner_wishes(r), r.configuration, job_control()); },
-          [&](request::Disconnect) { runner_.disconnect(job_control()); },
-          [&](request::Reconnect) {
-            runner_.reconnect(job_control());
-            log_.add(LogEntry::Level::success, "The scanner is reached again");
-          },
-          [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
-          [&](const request::SetPlanning& r) { runner_.set_planning(r.planning, job_control()); },
-          [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
-          [&](const request::Step& r) {
-            runner_.step(
-                job_control(), [this](const auto& acquired, const auto& reason) { return judge(acquired, reason); },
-                r.with_last);
-          },
-          [&](request::Play) {
-            const std::lock_guard lock(mutex_);
-            progress_.playing = runner_.can_step();
-            next_play_ = Clock::now();
-          },
-          [](request::Pause) {},  // done when it was posted
-          [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
-          [&](const request::TakeCustomView& r) { runner_.take_custom_view(r.T_world_camera); },
-          [&](request::Undo) { runner_.undo(job_control()); },
-          [&](request::Redo) { runner_.redo(job_control()); },
-          [&](const request::GoTo& r) {
-            {
-              const std::lock_guard lock(mutex_);
-              progress_.playing = false;
-            }
-            runner_.go_to(r.branch, r.views, job_control());
-          },
-          [&](const request::BeginBranch& r) { runner_.begin_branch(r.name); },
-          [&](const request::KeepCamera& r) { runner_.keep_camera(r.camera); },
-          [&](const request::RemoveCamera& r) { runner_.remove_camera(r.name); },
-          [&](const request::RenameBranch& r) { runner_.rename_branch(r.name, r.to); },
-          [&](const request::RemoveBranch& r) { runner_.remove_branch(r.name); },
-          [&](const request::Compare& r) { runner_.compare(r.branch, job_control(), r.view_for_view); },
-          [&](const request::Refine& r) {
-            {
-              const std::lock_guard lock(mutex_);
-              progress_.refining = true;
-            }
-            runner_.refine(r.chains, r.sweeps, job_control());
-          },
-          [&](const request::Export& r) {
-            for (const std::string& line : runner_.write(r.folder, job_control()))
-              log_.add(LogEntry::Level::note, line);
-          },
-          [&](const request::ExportOne& r) {
-            for (const auto& file : runner_.write_one(r, job_control()))
-              log_.add(LogEntry::Level::success,
-                       (r.gibbs ? fmt::format("The Gibbs map of {}: written to ", counted(r.gibbs->views, "view"))
-                                : "Written to ") +
-                           file.string());
-          },
-          [&](request::ForgetRuns) { runner_.forget_runs(); },
-      },
-      request);
+  std::visit(Overloaded{
+                 [&](const request::Load& r) { runner_.load(r.configuration, job_control()); },
+                 [&](const request::OpenFile& r) { runner_.open(r.file, job_control()); },
+                 [&](const request::OfferSession& r) { offer(r.session); },
+                 [&](const request::Connect& r) { runner_.connect(scanner_wishes(r), r.configuration, job_control()); },
+                 [&](request::Disconnect) { runner_.disconnect(job_control()); },
+                 [&](request::Reconnect) {
+                   runner_.reconnect(job_control());
+                   log_.add(LogEntry::Level::success, "The scanner is reached again");
+                 },
+                 [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
+                 [&](const request::SetPlanning& r) { runner_.set_planning(r.planning, job_control()); },
+                 [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
+                 [&](const request::Step& r) {
+                   runner_.step(
+                       job_control(),
+                       [this](const auto& acquired, const auto& reason) { return judge(acquired, reason); },
+                       r.with_last);
+                 },
+                 [&](request::Play) {
+                   const std::lock_guard lock(mutex_);
+                   progress_.playing = runner_.can_step();
+                   next_play_ = Clock::now();
+                 },
+                 [](request::Pause) {},  // done when it was posted
+                 [&](const request::TakeView& r) { runner_.take_view(r.candidate); },
+                 [&](const request::TakeCustomView& r) { runner_.take_custom_view(r.T_world_camera); },
+                 [&](request::Undo) { runner_.undo(job_control()); },
+                 [&](request::Redo) { runner_.redo(job_control()); },
+                 [&](const request::GoTo& r) {
+                   {
+                     const std::lock_guard lock(mutex_);
+                     progress_.playing = false;
+                   }
+                   runner_.go_to(r.branch, r.views, job_control());
+                 },
+                 [&](const request::BeginBranch& r) { runner_.begin_branch(r.name); },
+                 [&](const request::KeepCamera& r) { runner_.keep_camera(r.camera); },
+                 [&](const request::RemoveCamera& r) { runner_.remove_camera(r.name); },
+                 [&](const request::RenameBranch& r) { runner_.rename_branch(r.name, r.to); },
+                 [&](const request::RemoveBranch& r) { runner_.remove_branch(r.name); },
+                 [&](const request::Compare& r) { runner_.compare(r.branch, job_control(), r.view_for_view); },
+                 [&](const request::Refine& r) {
+                   {
+                     const std::lock_guard lock(mutex_);
+                     progress_.refining = true;
+                   }
+                   runner_.refine(r.chains, r.sweeps, job_control());
+                 },
+                 [&](const request::Export& r) {
+                   for (const std::string& line : runner_.write(r.folder, job_control()))
+                     log_.add(LogEntry::Level::note, line);
+                 },
+                 [&](const request::ExportOne& r) {
+                   for (const auto& file : runner_.write_one(r, job_control()))
+                     log_.add(LogEntry::Level::success, what_is_written(r) + file.string());
+                 },
+                 [&](request::ForgetRuns) { runner_.forget_runs(); },
+             },
+             request);
 }
 
 SessionRunner::JobControl SessionWorker::job_control() {
