@@ -47,7 +47,7 @@ TEST(Curves, EachShowsItsColumnInItsUnit) {
   EXPECT_EQ(divergence.y_unit, "knats");
   EXPECT_THAT(names(gain), ElementsAre("realised (Eq. 12)", "predicted"));
   EXPECT_THAT(last(gain), ElementsAre(321, 12.5));
-  EXPECT_EQ(gain.title, "Gain predicted [nats] and realised [nats]");
+  EXPECT_EQ(gain.title, "Gain predicted and realised [nats]");
   EXPECT_THAT(names(time), ElementsAre("score", "insert", "sense, clean", "evaluate", "refine"));
   EXPECT_THAT(last(time), ElementsAre(8, 1, 0.75, 4, 2));
   EXPECT_EQ(time.y_unit, "s");
