@@ -241,7 +241,8 @@ TEST_F(Bars, AClickOnANotificationIsTheScenesAndTakesItAway) {
   desk_.frames();
   desk_.log = {{LogEntry::Level::success, "it is done"}};
   desk_.frames();
-  const SeenText* const note = find_text(seen_texts(), "it is done", "Notifications");
+  const std::vector<SeenText> texts = seen_texts();
+  const SeenText* const note = find_text(texts, "it is done", "Notifications");
   ASSERT_NE(note, nullptr);
   const ImVec2 at(note->from.x + 5, note->middle());
   desk_.move(at.x, at.y);
