@@ -64,7 +64,8 @@ TEST_F(Layers, UnknownVoxelsHaveOneNameInPanelAndLegend) {
   const Legend legend = VoxelPalette(VoxelColouring::by_class).legend(layers().voxels, false);
   ASSERT_EQ(legend.swatches.size(), 2u);
   EXPECT_THAT(legend.swatches[1].name, HasSubstr("measured but unknown"));
-  const SeenText* const line = find_text(seen_texts(), "unknown", "Layers");
+  const std::vector<SeenText> texts = seen_texts();
+  const SeenText* const line = find_text(texts, "unknown", "Layers");
   ASSERT_NE(line, nullptr);
   desk_.move(line->from.x + 5, line->middle());
   for (int frame = 0; frame < 120; ++frame) desk_.frame();
