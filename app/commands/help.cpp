@@ -12,6 +12,7 @@
 #include "app/commands/man_page.hpp"
 #include "app/commands/manual_tables.hpp"
 #include "app/commands/shell_completion.hpp"
+#include "core/config/asset_names.hpp"
 #include "core/config/configuration.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/export/export_kind.hpp"
@@ -93,21 +94,10 @@ void write_pages(const std::filesystem::path& folder, const CLI::App& program) {
     write_file(folder / (topic + ".md"), with_tables(read_manual_page(topic).text, program));
 }
 
-/// The files of settings that come with the program in one of its folders, by their names.
-std::vector<std::string> names_in(const char* folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(assets_folder() / folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
-  std::ranges::sort(names);
-  return names;
-}
-
 /// What commands and options take beside files, for the shell to complete.
 std::map<std::string, std::vector<std::string>> names_taken(const CLI::App& program) {
   const std::vector<std::string> objects(known_objects().begin(), known_objects().end());
-  const std::vector<std::string> sensors = names_in("sensors");
+  const std::vector<std::string> sensors = asset_names("sensors");
   std::vector<std::string> problems = {"list"}, exports;
   for (const TestProblem& problem : test_problems()) problems.emplace_back(problem.name);
   for (const ExportEntry& entry : export_entries()) exports.emplace_back(entry.name);
@@ -117,12 +107,12 @@ std::map<std::string, std::vector<std::string>> names_taken(const CLI::App& prog
           {"scan", objects},
           {"window", objects},
           {"calibrate", objects},
-          {"study", names_in("studies")},
+          {"study", asset_names("studies")},
           {"export", exports},
           {"--problem", problems},
           {"--sensor", sensors},
           {"--sensor.preset", sensors},
-          {"--config", names_in("configurations")},
+          {"--config", asset_names("configurations")},
           {"--layers", {"object", "cloud", "map", "views", "rays", "region"}}};
 }
 

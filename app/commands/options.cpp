@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "core/config/asset_names.hpp"
 #include "core/config/opened_input.hpp"
 #include "core/file/read_file.hpp"
 #include "core/setting/quantity.hpp"
@@ -48,12 +49,8 @@ std::filesystem::path find_configuration(const std::string& name) {
     throw std::runtime_error(
         fmt::format("--config: {0} is a folder; that of a session is given as {0}/config.toml", name));
   if (is_there(name)) return name;
-  std::vector<std::string> known;
-  for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "configurations"))
-    known.push_back(entry.path().stem());
-  std::ranges::sort(known);
   throw std::runtime_error(fmt::format("--config: there is no file '{}'; those that come with the program are {}", name,
-                                       fmt::join(known, ", ")));
+                                       fmt::join(asset_names("configurations"), ", ")));
 }
 
 }  // namespace

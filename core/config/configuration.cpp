@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/config/asset_names.hpp"
 #include "core/config/configuration_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
@@ -271,13 +272,9 @@ std::string to_toml(const Configuration& configuration) {
 void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
   fs::path file = named_sensor(preset);
   if (!is_there(file)) file = preset;
-  if (!is_there(file)) {
-    std::vector<std::string> known;
-    for (const auto& entry : fs::directory_iterator(assets_folder() / "sensors")) known.push_back(entry.path().stem());
-    std::sort(known.begin(), known.end());
+  if (!is_there(file))
     throw std::runtime_error(fmt::format("sensor.preset: there is no sensor '{}'; there are {}, or give a file", preset,
-                                         fmt::join(known, ", ")));
-  }
+                                         fmt::join(asset_names("sensors"), ", ")));
   configuration.sensor = {};
   std::erase_if(configuration.sources, [](const auto& source) { return source.first.starts_with("sensor."); });
   TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));

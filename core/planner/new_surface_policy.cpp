@@ -107,7 +107,8 @@ Valuation NewSurfacePolicy::values(const PlanningState& state, std::span<const s
   const double strip = seen->border_length * surface->radius() / (model_.mean_slant * surface->area());
   const double at_border = std::min(1.0, model_.left_at_border * strip);
   const double left = std::max(forecast.all / (forecast.all + scanned), at_border);
-  for (double& area : forecast.areas) area *= shown_over_expected(left);
+  const double stage = shown_over_expected(left);
+  for (double& area : forecast.areas) area *= stage;
   return {std::move(forecast.areas), left, std::move(few.views), few.is_least};
 }
 
