@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/file/counted.hpp"
 #include "core/gibbs/chain_ensemble.hpp"
 #include "core/gibbs/independence.hpp"
 #include "core/gibbs/read_out.hpp"
@@ -84,7 +83,7 @@ class Schedule {
 };
 
 std::string warning(const SamplerDiagnostics& d) {
-  if (d.stopped) return "stopped after " + counted(d.sweeps, "sweep");
+  if (d.stopped) return fmt::format("stopped after {} sweep{}", d.sweeps, d.sweeps == 1 ? "" : "s");
   if (d.merged_rays == 0) return "no ray enters the region: nothing is informed";
   if (d.stationary) return "";
   if (d.too_short_to_tell())

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/file/counted.hpp"
 #include "core/planner/planner.hpp"
 #include "core/planner/remaining_plan.hpp"
 #include "core/progress/stopped.hpp"
@@ -90,9 +89,10 @@ std::string outlook(const Valuation& valuation, const PlanningState& state, std:
   const std::size_t count = stops.size();
   const char* fewest = valuation.remaining_is_fewest && count > 1 ? " (no fewer do)" : "";
   const std::size_t open = most_views - std::min(most_views, state.taken.size());
-  const std::string limit =
-      open > 0 && open < count ? fmt::format("; the limit of {} leaves {}", counted(most_views, "view"), open) : "";
-  return left + fmt::format(": {}{}, {}{}.", counted(count, "view"), fewest,
+  const std::string limit = open > 0 && open < count ? fmt::format("; the limit of {} view{} leaves {}", most_views,
+                                                                   most_views == 1 ? "" : "s", open)
+                                                     : "";
+  return left + fmt::format(": {} view{}{}, {}{}.", count, count == 1 ? "" : "s", fewest,
                             length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))),
                             limit);
 }
