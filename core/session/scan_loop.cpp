@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/cloud/smoothed_points.hpp"
 #include "core/evaluation/entropy.hpp"
 #include "core/planner/new_surface_policy.hpp"
 #include "core/progress/part.hpp"
@@ -76,14 +77,32 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   state.evaluation = std::move(evaluation);
 }
 
+/// Noise makes points of one surface lie apart. Up to so many d_reg they are told from others' by that much more; where
+/// noise is more, scans are smoothed before they are compared (with 5 mm of noise views show most nearly what they
+/// promise with 1.6).
+constexpr double standard_deviations = 3.0, most_registration_distances = 1.6;
+
+/// By how much points of one surface are told from another's [m].
+double told_apart(const ScanSetup& setup) {
+  const double d_reg = setup.configuration.evaluation.d_reg;
+  return std::clamp(standard_deviations * setup.source.range_noise, d_reg, most_registration_distances * d_reg);
+}
+
 /// What the scan of a step shows for the first time [cm^2].
 double see_surface(const ScanSetup& setup, Knowledge& known, const Scan& scan, const StepRecord& record) {
   const PinholeCamera& camera = setup.source.camera;
   // Cleaning leaves some out: the others stand for all.
   const double pixels_per_point = double(record.hits) / double(std::max<std::size_t>(1, record.points));
+  const double solid_angle = pixels_per_point / (camera.fx * camera.fy), noise = setup.source.range_noise;
   auto scanned = std::make_shared<ScannedSurface>(*known.scanned);
+  const Vector3 optical_axis = record.T_world_camera.linear().col(2);
+  const bool is_smoothed = standard_deviations * noise > scanned->radius();
+  const auto smoothing = Smoothing::down_to(scanned->radius(), noise, solid_angle);
   const double across =
-      scanned->add(scan, record.T_world_camera.linear().col(2), pixels_per_point / (camera.fx * camera.fy));
+      is_smoothed
+          ? scanned->add({scan.origin, smoothed_points(scan, record.T_world_camera, smoothing), {}, scan.max_range},
+                         optical_axis, solid_angle)
+          : scanned->add(scan, optical_axis, solid_angle);
   known.scanned = std::move(scanned);
   return setup.configuration.planner.new_surface.square_centimetres(across);
 }
@@ -223,9 +242,7 @@ ScanState nothing_scanned(const ScanSetup& setup, const Pose& T_world_camera) {
   ScanState state;
   state.known = nothing_known(setup.configuration, setup.region, setup.planner->needs());
   if (setup.start_map) begin_with(*setup.start_map, state.known.map);
-  // Noise makes points of the same surface lie apart.
-  state.known.scanned = std::make_shared<const ScannedSurface>(
-      std::max(setup.configuration.evaluation.d_reg, 3.0 * setup.source.range_noise));
+  state.known.scanned = std::make_shared<const ScannedSurface>(told_apart(setup));
   if (setup.truth) state.evaluation = std::make_shared<const EvaluationState>(setup.truth->nothing_seen());
   state.candidates = setup.candidates->candidates(state.known);
   state.next.view = setup.start;

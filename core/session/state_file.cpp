@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "nextview state 3\n";
+constexpr std::string_view magic = "nextview state 4\n";
 constexpr std::uintmax_t largest = std::uintmax_t{4} << 30;  // [bytes]
 
 // What a value is made of, in one order for writing and reading; `Archive` is a ByteWriter or a ByteReader.
