@@ -20,15 +20,10 @@ namespace {
 
 constexpr std::uintmax_t longest_script = std::uintmax_t{1} << 20;  // [bytes]
 
-/// None without a file. @throws std::runtime_error naming the file, the line and the reason.
+/// None without a file. @throws std::exception naming the file, the line and the reason.
 std::vector<CommandCall> read_script(const std::string& file) {
   if (file.empty()) return {};
-  const std::string text = read_file(file, longest_script);
-  try {
-    return parse_script(text);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
-  }
+  return parse_script(read_file(file, longest_script), file + ":");
 }
 
 struct WindowArguments {

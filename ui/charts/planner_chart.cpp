@@ -181,7 +181,7 @@ std::vector<PlannerCourse> read_planner_courses(const std::filesystem::path& fil
       if (is_view_number(header[i])) course.coverage.push_back(number_of(cells[i]));
     if (cells.size() != header.size() ||
         !std::ranges::all_of(course.coverage, [](double c) { return c >= 0 && c <= 100; }))
-      throw std::runtime_error(fmt::format("{}, line {}: not a row of the table", file.string(), number));
+      throw std::runtime_error(fmt::format("{}:{}: not a row of the table", file.string(), number));
     course.object = cells[0], course.policy = cells[1];
     if (course.object != "mean") courses.push_back(std::move(course));  // it is made again
   }

@@ -34,13 +34,6 @@ fs::path file_of(const std::string& file_or_name) {
   return demos() / (file_or_name + ending);
 }
 
-/// "line 3: reason" as "FILE:3: reason".
-std::runtime_error at_its_place(const fs::path& file, std::string_view reason) {
-  constexpr std::string_view line = "line ";
-  if (reason.starts_with(line)) reason.remove_prefix(line.size());
-  return std::runtime_error(fmt::format("{}:{}", file.string(), reason));
-}
-
 /// The same call with its file below a folder.
 CommandCall below(const CommandCall& call, const fs::path& folder) {
   if (folder.empty()) throw std::invalid_argument(call.command->name + ": a demo writes below --out only; give one");
@@ -79,12 +72,12 @@ bool is_demo_file(const fs::path& file) { return file.extension() == ending; }
 
 Demo read_demo(const std::string& file_or_name, const fs::path& folder) {
   Demo demo{file_of(file_or_name), {}};
+  const std::string text = read_file(demo.file, longest_demo), place = demo.file.string() + ":";
+  demo.needs = needs_of(text);
   try {
-    const std::string text = read_file(demo.file, longest_demo);
-    demo.needs = needs_of(text);
-    demo.calls = parse_script(text);
+    demo.calls = parse_script(text, place);
   } catch (const std::invalid_argument& error) {
-    throw at_its_place(demo.file, error.what());
+    throw std::runtime_error(error.what());
   }
   for (CommandCall& call : demo.calls) try {
       const bool opens_demo = call.command == &command::open && is_demo_file(call.values().front());
@@ -94,7 +87,7 @@ Demo read_demo(const std::string& file_or_name, const fs::path& folder) {
         throw std::invalid_argument("connect: a demo starts no program");
       if (call.command->writes) call = below(call, folder);
     } catch (const std::invalid_argument& error) {
-      throw at_its_place(demo.file, fmt::format("{}: {}", call.line, error.what()));
+      throw std::runtime_error(fmt::format("{}{}: {}", place, call.line, error.what()));
     }
   if (demo.calls.empty()) throw std::runtime_error(demo.file.string() + ": has no commands");
   return demo;

@@ -61,7 +61,7 @@ CommandCall parse_call(std::string_view line) {
   return command.read(std::move(values));
 }
 
-std::vector<CommandCall> parse_script(std::string_view text) {
+std::vector<CommandCall> parse_script(std::string_view text, std::string_view place) {
   std::vector<CommandCall> calls;
   int number = 0;
   while (!text.empty()) {
@@ -74,7 +74,7 @@ std::vector<CommandCall> parse_script(std::string_view text) {
       calls.push_back(parse_call(line));
       calls.back().line = number;
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(fmt::format("line {}: {}", number, error.what()));
+      throw std::invalid_argument(fmt::format("{}{}: {}", place, number, error.what()));
     }
   }
   return calls;

@@ -250,6 +250,7 @@ TEST(Commands, AScriptsErrorsHaveItsLine) {
   EXPECT_THAT(error_of([] { parse_script("step\n\n# x\nstop\n"); }), StartsWith("line 4: there is no command 'stop'"));
   EXPECT_THAT(error_of([] { parse_script("open \"x\n"); }), StartsWith("line 1: a double quote is not closed"));
   EXPECT_THAT(error_of([] { parse_script("step\nstep 3\n"); }), StartsWith("line 2: step takes no value"));
+  EXPECT_THAT(error_of([] { parse_script("step 3\n", "a/script.txt:"); }), StartsWith("a/script.txt:1: step takes"));
   EXPECT_THAT(error_of([] { parse_call("   # nothing"); }), HasSubstr("no command"));
 }
 
