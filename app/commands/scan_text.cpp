@@ -12,6 +12,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/planner/policy.hpp"
+#include "core/planner/way_text.hpp"
 #include "core/results/output_folder.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/setting/percent_text.hpp"
@@ -94,8 +95,9 @@ void print_head(const Session& session) {
              c.planner.semantics == Semantics::published ? "published" : "reference");
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
              "new", "coverage", "entropy", "log loss", "seconds");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit, "m", "", "cm²",
-             session.recording() ? "% shown" : "% visible", "Mbit", "nats*", "");
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "", "", unit,
+             way_unit(session.state().known.map.grid()).name, "", "cm²", session.recording() ? "% shown" : "% visible",
+             "Mbit", "nats*", "");
 }
 
 void print_step(const Session& session, const StepRecord& r) {
@@ -103,7 +105,8 @@ void print_step(const Session& session, const StepRecord& r) {
   std::string gain = fmt::format("{:.5g}", r.gain);
   if (!r.gain_unit.empty() && r.gain_unit != session.planner().unit()) gain += " " + r.gain_unit;
   fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9.3f} {:>9} {:>8.2f}\n", r.step,
-             r.view < 0 ? "start" : fmt::format("{}", r.view), gain, short_text(r.motion.distance), r.hits,
+             r.view < 0 ? "start" : fmt::format("{}", r.view), gain,
+             way_number(r.motion.distance, way_unit(session.state().known.map.grid())), r.hits,
              short_text(r.new_surface), coverage_text(session, r), r.entropy / 1e6,
              session.known_object() ? fmt::format("{:.3f}", r.quality_near_surface.log_loss) : "-",
              s.sense + s.clean + s.insert + s.refine + s.evaluate + s.score);

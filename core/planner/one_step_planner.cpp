@@ -4,8 +4,8 @@
 
 #include "core/planner/planner.hpp"
 #include "core/planner/remaining_plan.hpp"
+#include "core/planner/way_text.hpp"
 #include "core/progress/stopped.hpp"
-#include "core/setting/length_text.hpp"
 #include "core/setting/percent_text.hpp"
 
 namespace nextview {
@@ -51,14 +51,15 @@ Ranking rank_finely(const Policy& policy, const PlanningState& state, std::span<
   }
 }
 
-/// "Candidate 17: 214 cm² of new surface, most of it at its top; 900 mm away. Runner-up 32: 190 cm², 400 mm."
+/// "Candidate 17: 214 cm² of new surface, most of it at its top; 0.9 m away. Runner-up 32: 190 cm², 0.4 m."
 std::string reason(const Policy& policy, const PlanningState& state, std::span<const Candidate> candidates,
                    std::size_t best, bool is_per_second) {
   constexpr double saturated = 0.001;  // of the largest gain
   const Candidate& chosen = candidates[best];
-  std::string text =
-      fmt::format("Candidate {}: {}; {} away.", best,
-                  policy.promise(chosen.gain, state, state.candidates[best].T_world_camera), length_text(chosen.cost));
+  const VoxelGrid& region = state.known.map.grid();
+  std::string text = fmt::format("Candidate {}: {}; {} away.", best,
+                                 policy.promise(chosen.gain, state, state.candidates[best].T_world_camera),
+                                 way_text(chosen.cost, region));
   if (is_per_second) {
     text.back() = ',';
     text += fmt::format(" {} a second.", short_text(chosen.utility, policy.unit()));
@@ -67,7 +68,7 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
   if (!second) return text;
   text +=
       fmt::format(" Runner-up {}: {}, {}.", *second, short_text(candidates[*second].gain, policy.unit(), chosen.gain),
-                  length_text(candidates[*second].cost));
+                  way_text(candidates[*second].cost, region));
   double largest = 0.0;
   for (const Candidate& c : candidates)
     if (c.available) largest = std::max(largest, c.gain);
@@ -93,7 +94,8 @@ std::string outlook(const Valuation& valuation, const PlanningState& state, std:
                                                                    most_views == 1 ? "" : "s", open)
                                                      : "";
   return left + fmt::format(": {} view{}{}, {}{}.", count, count == 1 ? "" : "s", fewest,
-                            length_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops))),
+                            way_text(short_way(state.taken.back().T_world_camera.translation(), std::move(stops)),
+                                     state.known.map.grid()),
                             limit);
 }
 

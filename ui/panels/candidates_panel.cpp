@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/planner/way_text.hpp"
 #include "core/setting/area_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/scan_commands.hpp"
@@ -21,8 +22,9 @@ struct Largest {
   bool gains_are_whole = true;  ///< counts
   std::string gain_unit;
   double gain_scale = 1.0;  ///< what is shown of each gain
+  WayUnit way;              ///< of costs, as of the sentence above the table
 
-  explicit Largest(const SessionSnapshot& s) : gain_unit(s.gain_unit) {
+  explicit Largest(const SessionSnapshot& s) : gain_unit(s.gain_unit), way(way_unit(s.state.known.map.grid())) {
     if (s.records.empty()) return;
     const StepRecord& last = s.records.back();
     if (gain_unit == "cm²" && last.ranking.best) {  // in the unit of the sentence above the table
@@ -43,7 +45,7 @@ struct Largest {
     if (gains_are_whole || !(gain > 0)) return 0;
     return std::clamp(3 - static_cast<int>(std::floor(std::log10(gain))), 0, 6);
   }
-  bool costs_in_mm() const { return cost > 0 && cost < 1.0; }  // as the sentence above the table says lengths
+  int cost_decimals() const { return way.per_metre == 1.0 ? 2 : cost < 0.1 ? 1 : 0; }
 };
 
 /// A number at the right of its cell over a bar; negative values have a paler bar.
@@ -84,8 +86,7 @@ void draw_numbers(const PanelContext& context, std::size_t candidate, const Larg
   const double gain = largest.gain_scale * c.gain;
   number_cell(context, fmt::format("{:.{}f}", gain, largest.gain_decimals()), gain, largest.gain, colour);
   ImGui::TableNextColumn();
-  const std::string cost = largest.costs_in_mm() ? fmt::format("{:.{}f}", 1e3 * c.cost, largest.cost < 0.1 ? 1 : 0)
-                                                 : fmt::format("{:.2f}", c.cost);
+  const std::string cost = fmt::format("{:.{}f}", largest.way.per_metre * c.cost, largest.cost_decimals());
   number_cell(context, cost, c.cost, largest.cost, theme::muted);
   ImGui::TableNextColumn();
   number_cell(context, fmt::format("{:.4f}", c.utility), c.utility, largest.utility, colour);
@@ -202,7 +203,7 @@ void draw_table(const PanelContext& context, float height) {
   draw_header(context, CandidateColumn::view, "candidate");
   draw_header(context, CandidateColumn::gain,
               largest.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", largest.gain_unit));
-  draw_header(context, CandidateColumn::cost, largest.costs_in_mm() ? "cost [mm]" : "cost [m]");
+  draw_header(context, CandidateColumn::cost, fmt::format("cost [{}]", largest.way.name));
   draw_header(context, CandidateColumn::utility, "utility");
   for (const std::size_t i : sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))
     draw_row(context, i, largest);

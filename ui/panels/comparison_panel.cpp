@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "core/file/counted.hpp"
+#include "core/planner/way_text.hpp"
 #include "core/setting/area_text.hpp"
 #include "core/setting/entropy_text.hpp"
-#include "core/setting/length_text.hpp"
 #include "ui/commands/branch_commands.hpp"
 
 namespace nextview {
@@ -102,7 +102,7 @@ std::vector<Difference> differences(const SessionSnapshot& here, const SessionSn
   });
   add("entropy, unmeasured (Eq. 18)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().entropy); });
   add("entropy, total ΣH(p)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().total_entropy); });
-  add("path", [](const SessionSnapshot& s) { return length_text(path_of(s.records)); });
+  add("path", [&](const SessionSnapshot& s) { return way_text(path_of(s.records), here.state.known.map.grid()); });
   add("time of the robot", [](const SessionSnapshot& s) { return fmt::format("{:.0f} s", motion_seconds(s.records)); });
   return result;
 }

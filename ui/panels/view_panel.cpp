@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/file/counted.hpp"
+#include "core/planner/way_text.hpp"
 #include "core/setting/area_text.hpp"
-#include "core/setting/length_text.hpp"
 #include "ui/appearance/colour_map.hpp"
 #include "ui/commands/scan_commands.hpp"
 #include "ui/commands/selection_commands.hpp"
@@ -150,7 +150,8 @@ void draw_taken_numbers(const PanelContext& context, const StepRecord& r) {
   table_row("points", fmt::format("{} of {} hits", r.points, r.hits), "Left after the cleaning of the cloud");
   table_row("beyond range", counted(r.misses, "ray"));
   table_row("way there",
-            fmt::format("{}, {:.0f}°", length_text(r.motion.distance), 180 / std::numbers::pi * r.motion.rotation));
+            fmt::format("{}, {:.0f}°", way_text(r.motion.distance, context.snapshot.state.known.map.grid()),
+                        180 / std::numbers::pi * r.motion.rotation));
 }
 
 /// The gain by which it was ranked. By fewer rays than explain it, unless it is one of the best.
@@ -185,7 +186,7 @@ void draw_candidate_numbers(const PanelContext& context, const ViewInspection& v
   }
   if (!c.available) return table_row("", "taken");
   draw_ranked_gain(context, view, c.gain);
-  table_row("way there", length_text(c.cost));
+  table_row("way there", way_text(c.cost, s.state.known.map.grid()));
   const bool per_second = s.configuration.planner.utility == UtilityKind::gain_per_second;
   table_row("utility", fmt::format("{:.4f}", c.utility),
             per_second ? "Gain per second of the way and of a scan"

@@ -76,6 +76,7 @@ TEST_F(CandidatesPanel, TheTableIsInSmallLettersAndTheButtonsAreNot) {
 }
 
 TEST_F(CandidatesPanel, WaysAroundASmallPartAreInMillimetres) {
+  scan_->state.known.map = OccupancyMap(region_of_interest(Vector3::Zero(), 0.05, 0.001));
   for (Candidate& candidate : scan_->records.back().candidates) candidate.cost *= 0.01;
   EXPECT_THAT(panel(), HasSubstr("cost [mm]"));
   EXPECT_THAT(rows().front(), HasSubstr("160 7.5 0.2000"));

@@ -33,7 +33,7 @@ inline std::shared_ptr<SessionSnapshot> made_scan() {
   r.seconds = {0.25, 0.5, 1, 2, 4, 8};
   r.candidates = {{true, 10, 0.5, 0.01}, {true, 40, 0.25, 0.05}, {false, 9999, 99, 7},   {true, 20, 2, 0.02},
                   {true, 80, 1, -0.1},   {false, 8888, 98, 8},   {true, 160, 0.75, 0.2}, {true, 5, 1.5, -0.03}};
-  r.ranking = {6, "", "Candidate 6: 214 cm² of new surface; 900 mm away. Runner-up 3: 190 cm², 400 mm."};
+  r.ranking = {6, "", "Candidate 6: 214 cm² of new surface; 0.75 m away. Runner-up 3: 190 cm², 2 m."};
   s->next_candidate = 6;
   s->custom_next_view = false;
   s->finished.clear();

@@ -25,7 +25,7 @@ struct GivenValues : Policy {
 
 Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candidates, const PlannerConfig& config = {},
                std::optional<double> surface_left = {}, const std::vector<std::size_t>& remaining = {},
-               std::size_t most_views = 100) {
+               std::size_t most_views = 100, const VoxelGrid& region = {}) {
   const RayBundle bundle;
   auto policy = std::make_unique<GivenValues>(values);
   policy->left = surface_left, policy->remaining = remaining;
@@ -33,6 +33,7 @@ Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candida
   std::vector<View> views(values.size());
   for (std::size_t v = 0; v < views.size(); ++v) views[v].T_world_camera.translation().x() = double(v);
   Knowledge known;
+  if (region.voxel_count() > 0) known.map = OccupancyMap(region);
   known.taken.emplace_back();  // at the origin
   return planner
       .plan({config, 1, 60.0, 4.0, bundle, nullptr, 0.005, nullptr, most_views}, known, views, std::move(candidates),
@@ -45,7 +46,7 @@ Candidate at(double metres, bool available = true) { return {available, 0.0, met
 TEST(Reason, NamesTheChoiceAndTheRunnerUp) {
   const Ranking ranking = ranked({10, 300, 250, 999}, {at(0.5), at(0.9), at(0.4), at(0.1, false)});
   EXPECT_EQ(ranking.best, 1u);
-  EXPECT_EQ(ranking.reason, "Candidate 1: gain 300 nats; 900 mm away. Runner-up 2: 250 nats, 400 mm.");
+  EXPECT_EQ(ranking.reason, "Candidate 1: gain 300 nats; 0.9 m away. Runner-up 2: 250 nats, 0.4 m.");
 }
 
 TEST(Reason, WithoutOthersNamesTheOneAndWithoutAnySaysNothing) {
@@ -100,6 +101,19 @@ TEST(Reason, SaysWhoIsPassedOverForRegistration) {
   EXPECT_THAT(ranked({40, 20, 30}, all).reason, Not(HasSubstr("registered")));
   all[0].overlaps = false;
   EXPECT_THAT(ranked({10, 20, 30}, all).reason, HasSubstr(" No candidate shows enough of what was scanned"));
+}
+
+TEST(Reason, AllWaysHaveOneUnitByTheSizeOfTheRegion) {
+  const auto reason = [](double edge) {
+    return ranked({10, 300, 250}, {at(0.5), at(1.25), at(0.4)}, {}, 0.1, {0, 2}, 100,
+                  region_of_interest(Vector3::Zero(), edge, edge / 8))
+        .reason;
+  };
+  EXPECT_THAT(reason(0.9),
+              HasSubstr("1250 mm away. Runner-up 2: 250 nats, 400 mm. About 10 % of the surface is left: 2 "
+                        "views, 2000 mm."));
+  EXPECT_THAT(reason(1.2), HasSubstr("1.25 m away. Runner-up 2: 250 nats, 0.4 m. About 10 % of the surface is left: 2 "
+                                     "views, 2 m."));
 }
 
 TEST(Reason, PerSecondTheWayCostsItsTime) {
