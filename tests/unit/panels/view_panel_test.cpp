@@ -65,7 +65,7 @@ TEST_F(ViewPanel, ACandidatesNumbersAreThoseOfTheRanking) {
   EXPECT_THAT(panel(), HasSubstr("expected gain 1234 nats in the ranking 20 nats way there 2 m utility 0.0200"));
   EXPECT_THAT(panel(), HasSubstr("Candidate 3"));
   show_view({});
-  EXPECT_THAT(panel(), HasSubstr("in the ranking 160 nats way there 750 mm utility 0.2000")) << "of the next view";
+  EXPECT_THAT(panel(), HasSubstr("in the ranking 160 nats way there 0.75 m utility 0.2000")) << "of the next view";
   EXPECT_THAT(panel(), HasSubstr("Next: candidate 6"));
   show_view({Kind::candidate, 5});
   EXPECT_THAT(panel(), HasSubstr("taken"));

@@ -105,14 +105,14 @@ TEST(Reason, SaysWhoIsPassedOverForRegistration) {
 
 TEST(Reason, AllWaysHaveOneUnitByTheSizeOfTheRegion) {
   const auto reason = [](double edge) {
-    return ranked({10, 300, 250}, {at(0.5), at(1.25), at(0.4)}, {}, 0.1, {0, 2}, 100,
+    return ranked({10, 300, 150}, {at(0.5), at(1.25), at(0.4)}, {}, 0.1, {0, 2}, 100,
                   region_of_interest(Vector3::Zero(), edge, edge / 8))
         .reason;
   };
   EXPECT_THAT(reason(0.9),
-              HasSubstr("1250 mm away. Runner-up 2: 250 nats, 400 mm. About 10 % of the surface is left: 2 "
+              HasSubstr("1250 mm away. Runner-up 2: 150 nats, 400 mm. About 10 % of the surface is left: 2 "
                         "views, 2000 mm."));
-  EXPECT_THAT(reason(1.2), HasSubstr("1.25 m away. Runner-up 2: 250 nats, 0.4 m. About 10 % of the surface is left: 2 "
+  EXPECT_THAT(reason(1.2), HasSubstr("1.25 m away. Runner-up 2: 150 nats, 0.4 m. About 10 % of the surface is left: 2 "
                                      "views, 2 m."));
 }
 
