@@ -97,16 +97,27 @@ void obey_shortcuts(const PanelContext& context) {
   if (refused) context.invoke(*refused);
 }
 
-/// Of ImGui's keys Space alone presses what has the ring: people press Enter in a question.
+/// Of ImGui's keys Space alone presses what has the ring; people press Enter. False if nothing has one.
+bool press_what_has_the_ring() {
+  const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  if (!pressed(Key::enter) || !imgui.IO.NavVisible) return false;
+  ImGui::ActivateItem(imgui.NavId);
+  return true;
+}
+
 void obey_answers(const PanelContext& context) {
   const std::vector<std::string>& answers = context.progress.answers;
   if (pressed(Key::escape)) return context.post(command::answer(answers.back()));
-  const ImGuiContext& imgui = *ImGui::GetCurrentContext();
-  const bool ring_is_shown = imgui.IO.NavVisible && imgui.NavWindow == ImGui::FindWindowByName("Question");
-  if (ring_is_shown)
-    ImGui::ActivateItem(imgui.NavId);
-  else
-    context.post(command::answer(answers[context.progress.usual_answer()]));
+  const bool is_in_it = ImGui::GetCurrentContext()->NavWindow == ImGui::FindWindowByName("Question");
+  if (is_in_it && press_what_has_the_ring()) return;
+  context.post(command::answer(answers[context.progress.usual_answer()]));
+}
+
+/// Whether something lies over the panels that has the keyboard.
+bool has_front(const PanelContext& context) {
+  const WindowState& window = context.window;
+  return !context.progress.question.empty() || !window.file_for.empty() || window.palette_open ||
+         window.shortcuts_open || window.manual;
 }
 
 }  // namespace
@@ -126,6 +137,22 @@ void AllPanels::begin_among_controls(const PanelContext& context) {
   imgui.NavDisableHighlight = false;
 }
 
+/// Who closes what lay in front goes on where they were: with the ring where it was, or with none, so that Space steps.
+void AllPanels::come_back_from_front(const PanelContext& context) {
+  ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  const bool is_covered = has_front(context);
+  if (is_covered && !was_covered_) {
+    left_at_ = imgui.NavWindow ? imgui.NavWindow->ID : 0;
+    left_with_ring_ = imgui.IO.NavVisible;
+  } else if (!is_covered && was_covered_) {
+    ImGuiWindow* const window = ImGui::FindWindowByID(left_at_);
+    if (window && window->WasActive) ImGui::FocusWindow(window);
+    imgui.NavDisableHighlight = !left_with_ring_;
+    imgui.IO.NavVisible = left_with_ring_ && imgui.NavId != 0;
+  }
+  was_covered_ = is_covered;
+}
+
 /// Escape leaves what was clicked, and ImGui would show where one is then: Space would press that, and take no step.
 void AllPanels::show_no_focus_after_clicks() {
   ImGuiContext& imgui = *ImGui::GetCurrentContext();
@@ -138,10 +165,12 @@ void AllPanels::show_no_focus_after_clicks() {
 
 void AllPanels::obey_keys(const PanelContext& context) {
   show_no_focus_after_clicks();
+  come_back_from_front(context);
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_covered = context.window.palette_open || !context.window.file_for.empty();  // a question, by these
   if (popups_ > 0) {
     ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    press_what_has_the_ring();
     if (!pressed(Key::escape)) return;
     if (imgui.OpenPopupStack.Size == popups_) ImGui::ClosePopupToLevel(popups_ - 1, true);
     imgui.NavDisableMouseHover = true;  // until the pointer moves: a menu within a menu would open again beneath it
@@ -156,9 +185,10 @@ void AllPanels::obey_keys(const PanelContext& context) {
     if (pressed(Key::escape) || pressed(Key::f1)) context.post(command::shortcuts());
   } else if (context.window.manual && (!io.WantTextInput || pressed(Key::escape))) {
     if (pressed(Key::escape)) context.post(command::manual());
+    press_what_has_the_ring();
   } else if (!io.WantTextInput) {
     begin_among_controls(context);
-    obey_shortcuts(context);
+    if (!press_what_has_the_ring()) obey_shortcuts(context);
   }
 }
 

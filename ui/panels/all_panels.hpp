@@ -31,6 +31,7 @@ class AllPanels {
   void draw_side(const PanelContext& context, Side side, const Rectangle& rectangle, bool is_open);
   void begin_among_controls(const PanelContext& context);
   void show_no_focus_after_clicks();
+  void come_back_from_front(const PanelContext& context);
 
   std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
@@ -41,6 +42,9 @@ class AllPanels {
   std::string in_front_;  ///< the title of the panel that was brought there last, in the last frame
   int popups_ = 0;        ///< menus and lists that were open in the last frame; Escape has closed one since, maybe
   bool focus_was_shown_ = false;  ///< in the frame before: by keys
+  bool was_covered_ = false;      ///< likewise, by what has the keyboard in the panels' place
+  ImGuiID left_at_ = 0;           ///< the window that had the keyboard before that
+  bool left_with_ring_ = false;
 };
 
 }  // namespace nextview

@@ -19,7 +19,7 @@ constexpr std::array mouse = {
     std::pair{"Wheel", "nearer to the pointer, farther"},
     std::pair{"Double click", "bring this point to the middle"},
     std::pair{"Arrows, =, −", "turn, nearer, farther"},
-    std::pair{"Tab, arrows, Space", "go through the controls, press one"},
+    std::pair{"Tab, arrows, Enter", "go through the controls, press one"},
     std::pair{"Click a frustum", "look at this view"},
     std::pair{"Click a voxel", "inspect it"},
     std::pair{"Click a ray", "inspect it"},

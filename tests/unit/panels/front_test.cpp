@@ -170,6 +170,79 @@ TEST(Front, TabBeginsInThePanelThatWasShownLastWithoutAClick) {
   }
 }
 
+TEST(Front, EnterPressesTheControlThatTabStandsOnAndDoesNothingElse) {
+  Desk desk;
+  desk.snapshot = scanned(small_scan(), 2);
+  desk.frames();
+  desk.type(Key::f3);
+  desk.frames();
+  desk.type(Key::enter);
+  EXPECT_THAT(names(desk.frames()), IsEmpty()) << "none has the ring";
+  desk.type(Key::tab);
+  desk.frames();
+  for (int i = 0; i < 2; ++i) {
+    desk.type(Key::enter);
+    EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"toggle-object"});
+  }
+}
+
+TEST(Front, EnterInATextOfThePanelSetsItAndSpaceStepsThen) {
+  Desk desk;
+  desk.snapshot = scanned(small_scan(), 2);
+  desk.frames();
+  const auto all = seen_texts();
+  const SeenText* const voxel = find_text(all, "40 mm", "Session");
+  ASSERT_NE(voxel, nullptr) << read("Session");
+  desk.click(voxel->from.x + 4, voxel->middle());
+  desk.frames();
+  desk.type_with(key('A'), true);
+  desk.write("20");
+  desk.frames();
+  desk.type(Key::enter);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"set map.resolution 0.02"});
+  desk.type(Key::space);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"step"});
+}
+
+TEST(Front, TheRingIsWhereItWasOnceWhatLayInFrontIsClosed) {
+  Desk desk;
+  desk.snapshot = scanned(small_scan(), 2);
+  desk.frames();
+  desk.type(Key::f3);
+  desk.frames();
+  desk.type(Key::tab);
+  desk.frames();
+  const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  const ImGuiID control = imgui.NavId;
+  for (const bool* open : {&desk.window.palette_open, &desk.window.shortcuts_open}) {
+    open == &desk.window.palette_open ? desk.type_with(key('P'), true) : desk.type(Key::f1);
+    desk.frames();
+    ASSERT_TRUE(*open);
+    desk.type(Key::escape);
+    desk.frames();
+    ASSERT_FALSE(*open);
+    EXPECT_STREQ(imgui.NavWindow->Name, "Layers");
+    EXPECT_TRUE(imgui.IO.NavVisible && imgui.NavId == control);
+  }
+}
+
+TEST(Front, AfterAQuestionThatWasAnsweredByKeysSpaceSteps) {
+  Desk desk;
+  desk.snapshot = scanned(small_scan(), 2);
+  desk.frames();
+  desk.progress.question = "Take it?";
+  desk.progress.answers = {"Take it", "Reject it"};
+  desk.frames();
+  desk.type(Key::tab);
+  desk.frames();
+  desk.type(Key::enter);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer \"Take it\""});
+  desk.progress = {};
+  desk.frames();
+  desk.type(Key::space);
+  EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"step"});
+}
+
 /// Who clicked a row and leaves it with Escape has shown no wish to go on by keys: Space steps.
 TEST(Front, SpaceStepsAfterAClickAndEscape) {
   Desk desk;
