@@ -177,7 +177,6 @@ int begin(const ScanArguments& arguments) {
 int resume(const ScanArguments& arguments) {
   SavedSession saved = read_session(arguments.resume);
   const bool has_changed = adopt_changes(arguments.options, saved);
-  if (!has_changed) require_captures_of_results(saved);
   const StopOnInterrupt stop;
   const ProgressLine progress;
   Configuration& c = saved.configuration;
@@ -186,16 +185,18 @@ int resume(const ScanArguments& arguments) {
   SessionParts parts = scanner ? scanner->parts(c) : c.driver.name.empty() ? SessionParts{} : absent_scanner_parts(c);
   Session session(began_with(saved), std::move(parts), progress, stop.token());
   progress.clear();
-  print_head(session);
   SessionFolder folder = SessionFolder::go_on(OutputFolder(saved.folder, {}), saved, session);
+  // That looks at every capture; only where it does not do is it to be found out which one is lost.
+  const bool has_all_files =
+      has_files(saved.folder, !arguments.no_pictures, !arguments.no_surfaces) && restore_kept(session, saved, &folder);
+  if (!has_changed && !has_all_files) require_captures_of_results(saved);
+  print_head(session);
   StepPictures pictures(!arguments.no_pictures, true);
   const auto each = [&](std::uint32_t) {
     progress.clear();
     print_step(session, session.records().back());
     pictures.write(session, folder.out());
   };
-  const bool has_all_files =
-      has_files(saved.folder, !arguments.no_pictures, !arguments.no_surfaces) && restore_kept(session, saved, &folder);
   if (has_all_files)
     for (const StepRecord& record : session.records()) print_step(session, record);
   const bool is_restored = has_all_files || restore(session, saved, &folder, each, progress, stop.token());

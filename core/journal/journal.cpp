@@ -34,6 +34,7 @@ void stand_on_a_branch(Journal& journal) {
 
 Journal journal_of(JournalText text, const fs::path& file) {
   Journal journal;
+  journal.bytes = text.whole;
   journal.damage = std::move(text.damage);
   bool begun = false;
   for (const std::string& record : text.records) {
@@ -97,8 +98,6 @@ void require_same_input(const Journal& journal, const fs::path& folder) {
   if (input.hash) require_unchanged(folder / input.path, *input.hash, folder);
 }
 
-void require_same_input(const fs::path& folder) { require_same_input(read_journal(folder), folder); }
-
 JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::move(folder)), file_(std::move(file)) {
   std::error_code error;
   fs::create_directories(folder_ / scans_name, error);
@@ -114,9 +113,10 @@ JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& i
 }
 
 JournalWriter JournalWriter::go_on(const fs::path& folder, Journal& journal) {
+  const fs::path file = folder / journal_name;
   JournalText text;
-  JournalWriter writer(folder, JournalFile::go_on(folder / journal_name, text));
-  journal = journal_of(std::move(text), folder / journal_name);
+  JournalWriter writer(folder, JournalFile::go_on(file, text, journal.bytes));
+  if (text.whole != journal.bytes) journal = journal_of(std::move(text), file);
   return writer;
 }
 

@@ -55,6 +55,7 @@ struct Journal {
   Branches branches;                                 ///< the session stands on the current one
   bool closed = false;                               ///< nobody was in the middle of it
   std::vector<std::string> damage;                   ///< what is lost of it, a line each, for people
+  std::uintmax_t bytes = 0;                          ///< of the file that it was read of; 0: of none
 
   /// The steps from the first to where it stands, or to another one.
   std::vector<JournalStep> line() const { return line(at); }
@@ -74,7 +75,6 @@ Capture read_capture(const JournalStep& step, const std::filesystem::path& folde
 
 /// @throws std::runtime_error naming the file if what a session is of has changed since, or is gone
 void require_same_input(const Journal& journal, const std::filesystem::path& folder);
-void require_same_input(const std::filesystem::path& folder);
 
 /// Writes the journal of a session and its scans. It is locked as long as this lives.
 class JournalWriter {
@@ -82,7 +82,8 @@ class JournalWriter {
   /// @throws std::runtime_error naming the file and the reason
   static JournalWriter begin(const std::filesystem::path& folder, const JournalInput& input,
                              const std::string& settings);
-  /// Goes on with what is there, which `journal` then says. @throws as read_journal; JournalInUse
+  /// Goes on with what is there, which `journal` then says: where it was read before, and the file is as long as then,
+  /// it is not read again, as nothing but appending is done to it. @throws as read_journal; JournalInUse
   static JournalWriter go_on(const std::filesystem::path& folder, Journal& journal);
 
   /// Keeps a capture. `step` gets its file's name and hash; both are durable when this returns, and the session then

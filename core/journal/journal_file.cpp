@@ -66,12 +66,13 @@ JournalFile JournalFile::begin(const fs::path& file) {
   return {file, Descriptor(::open(file.c_str(), flags, 0666))};
 }
 
-JournalFile JournalFile::go_on(const fs::path& file, JournalText& text) {
+JournalFile JournalFile::go_on(const fs::path& file, JournalText& text, std::uintmax_t known) {
   { const Descriptor regular = open_regular_file(file); }
   JournalFile journal(file, Descriptor(::open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC)));
-  text = read_journal_file(file);
+  const std::uintmax_t size = fs::file_size(file);
+  text = known > 0 && size == known ? JournalText{{}, {}, known} : read_journal_file(file);
   journal.size_ = text.whole;
-  const bool is_whole = fs::file_size(file) == text.whole;  // and keeps its time, which people are told
+  const bool is_whole = size == text.whole;  // and keeps its time, which people are told
   if (!is_whole && ::ftruncate(journal.descriptor_.get(), static_cast<off_t>(text.whole)) != 0)
     throw file_error(file, "written", errno);
   return journal;

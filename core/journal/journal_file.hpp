@@ -27,9 +27,10 @@ class JournalFile {
  public:
   /// @throws std::runtime_error naming the file and the reason: it is there, it cannot be written
   static JournalFile begin(const std::filesystem::path& file);
-  /// Goes on with one that is there. What was being written when its program ended is cut off.
+  /// Goes on with one that is there. What was being written when its program ended is cut off. One that is `known`
+  /// bytes long was read before: of its text only the length is given.
   /// @throws JournalInUse; std::runtime_error naming the file and the reason
-  static JournalFile go_on(const std::filesystem::path& file, JournalText& text);
+  static JournalFile go_on(const std::filesystem::path& file, JournalText& text, std::uintmax_t known = 0);
 
   /// Durable when it returns. @throws std::runtime_error naming the file and the reason; then it is as it was.
   /// @pre no line break in `record`

@@ -63,9 +63,10 @@ struct KeptScans {
   std::vector<Scan> scans;
 };
 
-KeptScans kept_scans(const fs::path& folder, const Configuration& c, const std::stop_token& stop) {
+KeptScans kept_scans(const Journal& journal, const fs::path& folder, const Configuration& c,
+                     const std::stop_token& stop) {
   KeptScans kept;
-  for (const JournalStep& step : read_journal(folder).line()) {
+  for (const JournalStep& step : journal.line()) {
     kept.poses.push_back(step.T_world_camera);
     kept.scans.push_back(to_scan(read_capture(step, folder), &c.cloud, stop).scan);
   }
@@ -81,7 +82,7 @@ RefinementJob recorded_job(Configuration c, const fs::path& folder, const Progre
   job.name = recording_name(c.recorded.folder);
   job.candidates = poses_of(source->describe().frames);
   if (has_journal(folder))
-    job.scans = kept_scans(folder, c, stop).scans;
+    job.scans = kept_scans(read_journal(folder), folder, c, stop).scans;
   else
     job.scans =
         take_scans(*source, frames_listed(folder / "views.csv", *source), &c.cloud, part(progress, 0.5, 1.0), stop);
@@ -93,7 +94,7 @@ RefinementJob live_job(const Configuration& c, const fs::path& folder, const std
   RefinementJob job = job_of(c, c.sensor.camera());
   job.name = c.driver.name;
   job.candidates = candidate_views(c.views, view_target(c));
-  job.scans = kept_scans(folder, c, stop).scans;
+  job.scans = kept_scans(read_journal(folder), folder, c, stop).scans;
   return job;
 }
 
@@ -139,9 +140,10 @@ RefinementJob refinement_job(const fs::path& folder, const std::function<void(Co
   } else if (!c.driver.name.empty() && has_journal(folder)) {
     job = live_job(c, folder, stop);
   } else if (has_journal(folder)) {
-    require_same_input(folder);
+    const Journal journal = read_journal(folder);
+    require_same_input(journal, folder);
     const ConfiguredObject object = load_object(c, stop);
-    KeptScans kept = kept_scans(folder, c, stop);
+    KeptScans kept = kept_scans(journal, folder, c, stop);
     job = simulated_job(c, object, kept.poses, std::move(kept.scans), progress, stop);
   } else {
     require_scanned_object(folder, c);

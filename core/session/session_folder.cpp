@@ -103,7 +103,7 @@ SessionFolder SessionFolder::go_on(OutputFolder out, const SavedSession& saved, 
   out.go_on("scan");
   const fs::path folder = out.claim(journal_name).parent_path();
   if (!saved.journal) return begun(std::move(out), input_of(session, folder), session);
-  Journal now;
+  Journal now = *saved.journal;
   SessionFolder result(std::move(out), JournalWriter::go_on(folder, now), saved.journal->input);
   if (now.at != saved.journal->at || now.last_number() != saved.journal->last_number())
     throw JournalInUse(fmt::format("{}: another program has written this session", folder.string()));

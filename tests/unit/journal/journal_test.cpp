@@ -136,6 +136,19 @@ TEST_F(JournalTest, IsClosedUntilItGoesOn) {
   EXPECT_FALSE(read_journal(folder_ / "").closed);
 }
 
+/// It is only ever appended to.
+TEST_F(JournalTest, IsReadAgainOnlyIfItHasGrown) {
+  write({{1, 0}, {2, 1}});
+  Journal journal = read_journal(folder_ / "");
+  const auto size = std::filesystem::file_size(folder_ / "journal");
+  EXPECT_EQ(journal.bytes, size);
+  write_file(folder_ / "journal", std::string(size, '?'));
+  { const JournalWriter lock = JournalWriter::go_on(folder_ / "", journal); }
+  EXPECT_EQ(journal.last_number(), 2u) << "it was read again, and nothing is there any more";
+  write_file(folder_ / "journal", std::string(size + 1, '?'));
+  EXPECT_THROW(JournalWriter::go_on(folder_ / "", journal), std::runtime_error);
+}
+
 TEST_F(JournalTest, ACaptureThatChangedIsRefused) {
   write({{1, 0}});
   const JournalStep s = read_journal(folder_ / "").steps.at(1);
