@@ -172,7 +172,7 @@ constexpr std::array all_gains = {
     make<RearSideEntropy>("rear-side-entropy", "nats", "entropy of the unknown stretch in front of an occupied end"),
     make<ProximityCount>("proximity-count", "voxels", "unmeasured voxels behind a surface, the nearer the more", true),
     make<AreaFactor>("area-factor", "", "nearness of the shares of occupied and occluded ends to 0.2 and 0.8", true),
-    make<AverageEntropy>("average-entropy", "nats", "mean entropy of the voxels on rays that end on the object"),
+    make<AverageEntropy>("average-entropy", "nats/voxel", "mean entropy of the voxels on rays that end on the object"),
     make<Gibbs>("gibbs", "nats", "entropy of the Gibbs map along each ray, up to its first occupied voxel", false,
                 true),
 };

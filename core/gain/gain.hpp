@@ -38,7 +38,7 @@ struct GainValue {
 /// A volumetric information: a short function over the visited voxels of a ray.
 struct Gain {
   std::string_view name;     ///< as on the command line and in the head of a column, e.g. "occlusion-aware"
-  std::string_view unit;     ///< "nats", "voxels", or "" if it has none
+  std::string_view unit;     ///< "nats", "nats/voxel", "voxels", or "" if it has none
   std::string_view summary;  ///< one line for people
   bool needs_occlusion;      ///< wants OccupancyMap::mark_occlusions
   bool needs_posterior;      ///< is of the Gibbs map, and has published semantics only

@@ -192,17 +192,18 @@ void draw_table(const PanelContext& context, float height) {
   const SessionSnapshot& s = context.snapshot;
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("candidates", 4, flags, {0, height})) return;
-  ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(64));
-  for (const auto& [name, weight] : {std::pair{"gain", 1.2f}, {"cost", 1.0f}, {"utility", 1.05f}})
-    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, weight);
   const std::vector<Candidate> none;
   const std::vector<Candidate>& candidates = s.records.empty() ? none : s.records.back().candidates;
   const Largest largest(s);
+  const std::string gain = largest.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", largest.gain_unit);
+  const float long_unit = ImGui::CalcTextSize(gain.c_str()).x / context.style.px(50);  // "nats/voxel" has to fit
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("view", ImGuiTableColumnFlags_WidthFixed, context.style.px(64));
+  for (const auto& [name, weight] : {std::pair{"gain", std::max(1.2f, long_unit)}, {"cost", 1.0f}, {"utility", 1.05f}})
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   draw_header(context, CandidateColumn::view, "candidate");
-  draw_header(context, CandidateColumn::gain,
-              largest.gain_unit.empty() ? "gain" : fmt::format("gain [{}]", largest.gain_unit));
+  draw_header(context, CandidateColumn::gain, gain);
   draw_header(context, CandidateColumn::cost, fmt::format("cost [{}]", largest.way.name));
   draw_header(context, CandidateColumn::utility, "utility");
   for (const std::size_t i : sorted_candidates(candidates, context.window.sort_column, context.window.sort_ascending))

@@ -67,8 +67,8 @@ namespace {
 
 /// A number and its unit belong together: "12 %", "1.19 m", "214 cm²".
 bool joins(const std::string& text, std::size_t space) {
-  constexpr std::array<std::string_view, 13> units = {"%", "mm", "cm", "m",    "mm²",  "cm²", "m²",
-                                                      "s", "px", "°",  "nats", "Mbit", "GB"};
+  constexpr std::array<std::string_view, 14> units = {"%",          "mm", "cm", "m", "mm²",  "cm²",  "m²",
+                                                      "nats/voxel", "s",  "px", "°", "nats", "Mbit", "GB"};
   if (space == 0 || !std::isdigit(static_cast<unsigned char>(text[space - 1]))) return false;
   const std::size_t end = text.find_first_of(" \n,.;:)", space + 1);
   return std::ranges::count(units, std::string_view(text).substr(space + 1, end - space - 1)) > 0;

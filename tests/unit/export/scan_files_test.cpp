@@ -136,10 +136,10 @@ TEST_F(ScanFiles, EachRowSaysTheUnitOfItsGainWhereTheyDiffer) {
   const CsvTable steps = table("steps.csv"), scores = table("scores.csv");
   EXPECT_EQ(steps.text(0, "gain_unit"), "");
   EXPECT_EQ(steps.text(1, "gain_unit"), "cm²");
-  EXPECT_EQ(steps.text(2, "gain_unit"), "nats");
+  EXPECT_EQ(steps.text(2, "gain_unit"), "nats/voxel");
   EXPECT_EQ(steps.number(1, "gain"), record(1).gain);
   EXPECT_EQ(scores.text(0, "gain_unit"), "cm²");
-  EXPECT_EQ(scores.text(10, "gain_unit"), "nats") << "ranked anew";
+  EXPECT_EQ(scores.text(10, "gain_unit"), "nats/voxel") << "ranked anew";
   EXPECT_EQ(scores.number(10, "gain"), record(1).candidates[0].gain);
 }
 

@@ -102,6 +102,16 @@ TEST_F(CandidatesPanel, AreasHaveTheUnitOfTheSentenceAboveThem) {
   EXPECT_THAT(panel(), HasSubstr("gain [mm²]"));
 }
 
+TEST_F(CandidatesPanel, ALongUnitHasRoomInItsColumn) {
+  scan_->gain_unit = "nats/voxel";
+  desk_.frames();
+  const auto all = seen_texts();
+  const SeenText* const gain = find_text(all, "gain [nats/voxel]", "Candidates");
+  const SeenText* const cost = find_text(all, "cost [m]", "Candidates");
+  ASSERT_TRUE(gain && cost) << read("Candidates");
+  EXPECT_LT(gain->to.x + 4, cost->from.x);
+}
+
 TEST_F(CandidatesPanel, TheFormulaHasTheWeightsOfThePlanner) {
   scan_->configuration.planner.weights = {1, 0.3};
   EXPECT_THAT(panel(), HasSubstr("U = gain share − 0.3 cost share (Eq. 13)"));
