@@ -8,6 +8,7 @@
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/integration/window_pixels.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 #include "ui/appearance/theme.hpp"
 
 namespace nextview {
@@ -129,6 +130,25 @@ TEST(WindowFraming, TheAxesStandFreeOfThePartFromEverySide) {
     EXPECT_EQ(legends > 100, !with.ends_with("legends")) << with;
     EXPECT_LT(legends, 0.7 * scene.rectangle().width) << with;
   }
+}
+
+/// Its region is as large as that of the scan that it is of, more than twice as wide as the object.
+TEST_F(WindowCamera, ARecordingIsFramedOnWhatItsFramesShowBeforeAnyIsTaken) {
+  const TemporaryFolder folder;
+  user_.run("step\nexport " + (folder.path() / "scan").string() + "\n");
+  Configuration recorded;
+  recorded.recorded.folder = folder.path() / "scan";
+  User other(recorded);
+  ASSERT_TRUE(other.session().is_recording());
+  ASSERT_TRUE(other.session().records.empty());
+  SceneView& view = other.window().scene();
+  Eigen::AlignedBox2d seen;
+  for (const Eigen::Vector3f& point : other.session().setup->recorded->samples())
+    seen.extend(view.project(point.cast<double>()).value());
+  const Rectangle& r = view.rectangle();
+  EXPECT_TRUE(
+      Eigen::AlignedBox2d(Eigen::Vector2d(r.x, r.y), Eigen::Vector2d(r.x + r.width, r.y + r.height)).contains(seen));
+  EXPECT_GT(seen.sizes().y(), 0.7 * r.height);
 }
 
 TEST_F(WindowCamera, ArrowsTurnAndFComesBack) {

@@ -16,6 +16,7 @@ std::vector<Vector3> SceneView::object_outline() {
   if (!shown_) return scene_.outline();
   const SessionSnapshot& s = *shown_;
   if (s.mesh) return extreme_points(s.mesh->vertices);
+  if (s.is_recording()) return extreme_points(s.setup->recorded->samples());  // of all frames, before any is taken
   const Eigen::AlignedBox3d region = s.grid.box();
   std::vector<Eigen::Vector3f> inside;
   for (const Eigen::Vector3f& point : s.cloud->points)
