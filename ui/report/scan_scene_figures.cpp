@@ -44,6 +44,15 @@ void draw_key(VectorDrawing& drawing, double top, const std::string& along_rays)
                theme::small_text, drawing.look().soft_ink);
 }
 
+/// "6 views taken, in this order: start, 17, 4, …": as far as the heading has room.
+std::string order_text(const std::vector<StepRecord>& records) {
+  constexpr std::size_t most = 10;
+  std::string text = counted(records.size(), "view") + " taken, in this order:";
+  for (std::size_t i = 0; i < std::min(records.size(), most); ++i)
+    text += fmt::format("{} {}", i == 0 ? "" : ",", records[i].view < 0 ? "start" : std::to_string(records[i].view));
+  return text + (records.size() > most ? ", …" : "");
+}
+
 }  // namespace
 
 VectorDrawing scene_and_octree_figure(std::span<ReportScan> scans, const FigurePaper& paper) {
@@ -65,13 +74,14 @@ VectorDrawing scene_and_octree_figure(std::span<ReportScan> scans, const FigureP
 VectorDrawing candidate_views_figure(std::span<ReportScan> scans, const FigurePaper& paper) {
   ReportScan& scan = scans.front();
   SceneLayers layers = no_layers;
-  layers.object = layers.views = layers.candidates = layers.annotated = true;
+  layers.object = layers.views = layers.candidates = layers.numbers = layers.annotated = true;
   StepPicture first = picture_after(scan, 1);
   first.object_style = MeshStyle::solid;
   first.taken.clear(), first.path.clear(), first.chosen.reset();
   TwoPanels panels(paper, fmt::format("{}: candidate views, and the views taken", scan.name));
   draw_heading(panels.drawing, panels.left,
-               fmt::format("{} candidates, ranked after the first view", first.candidates.size()));
+               fmt::format("{} candidates by their numbers, ranked by {} after the first view", first.candidates.size(),
+                           scan.session->configuration().planner.gain));
   draw_scene_panel(panels.drawing, panels.left, first, layers, paper);
   StepPicture last = picture_after(scan, scan.states.size());
   last.object_style = MeshStyle::solid;
@@ -79,10 +89,8 @@ VectorDrawing candidate_views_figure(std::span<ReportScan> scans, const FigurePa
   last.scores.resize(last.path.size());
   std::iota(last.scores.begin(), last.scores.end(), 1.0);
   last.taken.clear(), last.chosen.reset();
-  layers.annotated = false;
-  draw_heading(panels.drawing, panels.right,
-               fmt::format("{} views taken, 1 the start view: {}", last.path.size(),
-                           scan.session->configuration().planner.gain));
+  layers.annotated = layers.numbers = false;
+  draw_heading(panels.drawing, panels.right, order_text(scan.session->records()));
   draw_scene_panel(panels.drawing, panels.right, last, layers, paper);
   return std::move(panels.drawing);
 }
