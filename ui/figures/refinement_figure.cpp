@@ -93,7 +93,7 @@ CurvePlot trace_of(const SamplerDiagnostics& d) {
   plot.title = "Log-posterior";
   plot.remark = verdict(d);
   plot.x_label = "sweep";
-  plot.y_label = "above its mean after burn-in [nats]";
+  plot.y_label = "above its mean after burn-in [knats]";
   plot.whole_x = true;
   plot.x_high = std::max(2, d.sweeps);
   plot.y_low = plot.y_high = 0.0;
@@ -101,7 +101,7 @@ CurvePlot trace_of(const SamplerDiagnostics& d) {
     Curve curve{fmt::format("chain {}", c + 1), {}, {}, {}, theme::series[c % theme::series.size()]};
     for (std::size_t s = 0; s < d.log_posterior[c].size(); ++s) {
       curve.x.push_back(double(s + 1));
-      curve.y.push_back(d.log_posterior[c][s] - mean);
+      curve.y.push_back((d.log_posterior[c][s] - mean) / 1e3);
       plot.y_low = std::min(plot.y_low, curve.y.back());
       plot.y_high = std::max(plot.y_high, curve.y.back());
     }
