@@ -16,7 +16,7 @@ std::string outcome_text(const JournalStep& last) {
   const StepRecord record = record_with(last.outcome);
   std::string text;
   if (record.coverage_visible > 0) text += fmt::format(", {:.1f} % of visible surface", 100 * record.coverage_visible);
-  if (record.entropy > 0) text += ", entropy " + entropy_text(record.entropy);
+  if (record.entropy > 0) text += ", unmeasured entropy " + entropy_text(record.entropy);
   return text;
 }
 

@@ -17,8 +17,9 @@ std::vector<Setting> settings(TerminationConfig& c) {
        from_to(0, 1)},
       {"termination.new_voxels", "", "stop when a view measures less than this share of the region anew; 0: off",
        &c.new_voxels, from_to(0, 1)},
-      {"termination.entropy_slope", "", "stop when a view lowers the entropy by less than this share; 0: off",
-       &c.entropy_slope, from_to(0, 1)},
+      {"termination.entropy_slope", "",
+       "stop when a view lowers the unmeasured entropy by less than this share; 0: off", &c.entropy_slope,
+       from_to(0, 1)},
   };
 }
 
@@ -39,7 +40,8 @@ std::string termination_reason(const TerminationConfig& config, const ScanProgre
     return fmt::format("the last view measured only {:.3g} % of the region for the first time",
                        100.0 * progress.new_voxel_share);
   if (config.entropy_slope > 0.0 && progress.entropy_drop_share < config.entropy_slope)
-    return fmt::format("the last view lowered the entropy by only {:.3g} %", 100.0 * progress.entropy_drop_share);
+    return fmt::format("the last view lowered the unmeasured entropy by only {:.3g} %",
+                       100.0 * progress.entropy_drop_share);
   return "";
 }
 

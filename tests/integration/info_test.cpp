@@ -46,7 +46,7 @@ TEST(Info, TellsWhatFilesHold) {
   EXPECT_THAT(run.out, HasSubstr("results of `nextview scan`"));
   EXPECT_THAT(run.out, HasSubstr("slotted_plate.ply: closed\n  branch 'main': "));
   EXPECT_THAT(run.out, HasSubstr("of visible surface"));
-  EXPECT_THAT(run.out, HasSubstr(" Mbit")) << "the entropy that scan prints";
+  EXPECT_THAT(run.out, HasSubstr(", unmeasured entropy ")) << "the entropy that scan prints";
   EXPECT_THAT(run.out, HasSubstr("cloud.ply: a cloud of "));
   EXPECT_THAT(run.out, HasSubstr("map.ot: an occupancy map (OctoMap): "));
   EXPECT_THAT(run.out, AllOf(HasSubstr("a configuration that gives"), HasSubstr("map.resolution = 0.01")));

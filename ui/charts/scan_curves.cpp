@@ -45,13 +45,13 @@ ChartContent entropy_chart(const ScanCourse& course) {
   const auto conventional = [&](const StepRecord& r) { return !refined(r); };
   const double at_start = course.start.total / 1e6;
   std::vector<Value> values = {
-      {"unmeasured (Eq. 18)", [](const StepRecord& r) { return r.entropy / 1e6; }, any, course.start.unmeasured / 1e6}};
+      {"unmeasured entropy", [](const StepRecord& r) { return r.entropy / 1e6; }, any, course.start.unmeasured / 1e6}};
   // Of two maps, where the gain was changed to or from one that needs the Gibbs map, it is two curves.
   if (std::ranges::any_of(course.records, refined) && std::ranges::any_of(course.records, conventional)) {
-    values.push_back({"total, ΣH(p)", total, conventional, at_start});
-    values.push_back({"total, Gibbs map", total, refined, at_start});
+    values.push_back({"total entropy", total, conventional, at_start});
+    values.push_back({"total entropy, Gibbs map", total, refined, at_start});
   } else {
-    values.push_back({"total, ΣH(p)", total, any, at_start});
+    values.push_back({"total entropy", total, any, at_start});
   }
   add_series(content, course, values);
   return content;

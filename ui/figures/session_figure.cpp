@@ -62,7 +62,7 @@ StepPicture step_picture(const Session& session) {
       picture.rays = ray_segments(*explanation, session.next_view().translation(), picture.grid.resolution);
     picture.ray_values = {picture.gain_name + " along rays", picture.gain_unit};
   }
-  ChartSeries unmeasured{"unmeasured voxels (Eq. 18)", {}, {}}, total{"all voxels, sum of H(p)", {}, {}};
+  ChartSeries unmeasured{"unmeasured entropy (Eq. 18)", {}, {}}, total{"total entropy, sum of H(p)", {}, {}};
   ChartSeries visible{"of the visible surface", {}, {}}, all{"of all the surface", {}, {}};
   ChartSeries recorded{"of what all frames show", {}, {}};
   for (const StepRecord& r : session.records()) {

@@ -100,8 +100,8 @@ std::vector<Difference> differences(const SessionSnapshot& here, const SessionSn
     const auto& left = s.records.back().surface_left;
     return left ? percent(*left) : std::string("not predicted");
   });
-  add("entropy, unmeasured (Eq. 18)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().entropy); });
-  add("entropy, total ΣH(p)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().total_entropy); });
+  add("unmeasured entropy (Eq. 18)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().entropy); });
+  add("total entropy, ΣH(p)", [](const SessionSnapshot& s) { return entropy_text(s.records.back().total_entropy); });
   add("path", [&](const SessionSnapshot& s) { return way_text(path_of(s.records), here.state.known.map.grid()); });
   add("time of the robot", [](const SessionSnapshot& s) { return fmt::format("{:.0f} s", motion_seconds(s.records)); });
   return result;

@@ -167,7 +167,7 @@ float draw_figures(const PanelContext& context, float least, float right, float 
                                            "can see.");
   }
   const double bits = any ? s.records.back().entropy : s.setup->start_entropy.unmeasured;
-  right = draw_figure(context, least, right, y, entropy_text(bits), "entropy",
+  right = draw_figure(context, least, right, y, entropy_text(bits), "unmeasured entropy",
                       "Of the region: a bit for each voxel that nothing was measured in (Eq. 18).");
   const TerminationConfig& limits = s.configuration.termination;
   std::string taken = fmt::format("{}", s.records.size());

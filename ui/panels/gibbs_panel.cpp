@@ -31,7 +31,7 @@ void draw_traces(const PanelContext& context, const SamplerDiagnostics& d) {
   double highest = -1e300;
   for (const auto& chain : d.log_posterior)
     for (const double value : chain) highest = std::max(highest, value);
-  ChartContent chart{"Log-posterior, below the highest [knats]", "sweep", "", "", "knats", {}, {}, true};
+  ChartContent chart{"Log-posterior, below its highest [knats]", "sweep", "", "", "knats", {}, {}, true};
   for (std::size_t c = 0; c < d.log_posterior.size(); ++c) {
     ChartSeries series{fmt::format("chain {}", c + 1), {}, {}};
     const auto& chain = d.log_posterior[c];
@@ -90,8 +90,8 @@ void draw_histograms(const PanelContext& context, const RefinementChange& change
 
 void draw_changes(const PanelContext& context, const RefinementChange& change) {
   small_text(context.style,
-             fmt::format("{:.0f} thousand voxels are of another class than in the conventional map; the entropy of all "
-                         "voxels went from {} to {}.",
+             fmt::format("{:.0f} thousand voxels are of another class than in the conventional map; the total entropy "
+                         "went from {} to {}.",
                          double(change.changed_class) / 1e3, entropy_text(change.entropy_before / std::numbers::ln2),
                          entropy_text(change.entropy_after / std::numbers::ln2)));
 }

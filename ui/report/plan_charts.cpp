@@ -61,9 +61,9 @@ StudyChart entropy_by_view(const SummaryTable& table, const Look& look) {
   VectorDrawing drawing(760, height * double(settings.size()), look);
   for (std::size_t i = 0; i < settings.size(); ++i) {
     Plot plot = courses(table, settings[i], "entropy[bits]", 1e6);
-    plot.title = "Entropy of the map (Eq. 18): " + scope(table, settings[i], "entropy[bits]");
+    plot.title = "Unmeasured entropy of the map (Eq. 18): " + scope(table, settings[i], "entropy[bits]");
     plot.x_label = "views";
-    plot.y_label = "entropy [Mbit]";
+    plot.y_label = "unmeasured entropy [Mbit]";
     draw_plot(drawing, {0, height * double(i), 760, height}, plot);
   }
   return drawing;

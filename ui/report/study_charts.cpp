@@ -61,8 +61,8 @@ std::span<const StudyFigure> study_figures() {
        "gaps between points.",
        "the policies random and oracle, and another", gap_closed},
       {"entropy_by_view",
-       "Fig. 7c: entropy of the maximum-likelihood map (Eq. 18) after each view; the mean over objects.", "policies",
-       entropy_by_view},
+       "Fig. 7c: unmeasured entropy of the maximum-likelihood map (Eq. 18) after each view; the mean over objects.",
+       "policies", entropy_by_view},
       {"predicted_and_seen",
        "New surface that a plan predicts of the view it takes, and what that view shows first; a dot an object and "
        "view, the mean over start views and seeds. On the diagonal the prediction is right.",

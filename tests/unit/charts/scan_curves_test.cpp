@@ -48,7 +48,7 @@ class ScanCurves : public testing::Test {
 
 TEST_F(ScanCurves, EntropyBeginsWithThatOfTheMapBeforeTheFirstView) {
   const ChartContent chart = entropy_chart(course_);
-  EXPECT_THAT(names(chart), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)"));
+  EXPECT_THAT(names(chart), ElementsAre("unmeasured entropy", "total entropy"));
   EXPECT_THAT(chart.series.at(0).x, ElementsAre(0, 1, 2));
   EXPECT_THAT(chart.series.at(0).y, ElementsAre(4, 1, 2)) << "in millions";
   EXPECT_THAT(chart.series.at(1).y, ElementsAre(5, 3, 6));
@@ -86,12 +86,12 @@ TEST_F(ScanCurves, ARecordingsViewsAreComparedWithOtherOrders) {
 TEST_F(ScanCurves, TheEntropyOfTwoMapsIsTwoCurves) {
   records_[1].refinement.emplace();
   const ChartContent chart = entropy_chart(course_);
-  EXPECT_THAT(names(chart), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)", "total, Gibbs map"));
+  EXPECT_THAT(names(chart), ElementsAre("unmeasured entropy", "total entropy", "total entropy, Gibbs map"));
   EXPECT_THAT(chart.series.at(1).x, ElementsAre(0, 1));
   EXPECT_THAT(chart.series.at(2).x, ElementsAre(2)) << "nothing leads there from before the first view";
   EXPECT_THAT(chart.series.at(2).y, ElementsAre(6));
   records_[0].refinement.emplace();
-  EXPECT_THAT(names(entropy_chart(course_)), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)"));
+  EXPECT_THAT(names(entropy_chart(course_)), ElementsAre("unmeasured entropy", "total entropy"));
 }
 
 TEST_F(ScanCurves, WhatWasExpectedInAnotherUnitIsNotDrawn) {
@@ -137,7 +137,7 @@ TEST_F(ScanCurves, AGainInNatsStandsBesideTheEntropyThatWasLost) {
 }
 
 TEST_F(ScanCurves, OfAGainOfAnotherUnitNothingStandsBesideTheSurfaceThatWasSeen) {
-  for (const char* unit : {"voxels", ""}) {
+  for (const char* unit : {"voxels", "nats/voxel", ""}) {
     plan_in(unit);
     const ChartContent chart = gain_chart(course_);
     EXPECT_EQ(chart.title, "New surface of a view [cm²]") << unit;

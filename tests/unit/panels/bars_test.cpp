@@ -39,13 +39,13 @@ TEST_F(Bars, TheFiguresAreThoseOfTheLastView) {
     }
   };
   has("62.5 %", "of visible surface");
-  has("4.500 Mbit", "entropy");
+  has("4.500 Mbit", "unmeasured entropy");
   has("2 / 4", "views");
   scan_->configuration.termination.views = 1;
   EXPECT_THAT(control_bar(), Not(HasSubstr("/"))) << "the limit was lowered, and says nothing of them";
   desk_.snapshot = scanned(small_scan(), 0);
   has("0.0 %", "of visible surface");
-  has(fmt::format("{:.3f} Mbit", double(scan_->grid.voxel_count()) / 1e6).c_str(), "entropy");
+  has(fmt::format("{:.3f} Mbit", double(scan_->grid.voxel_count()) / 1e6).c_str(), "unmeasured entropy");
   has("0 / 4", "views");
   scan_->configuration.evaluation.enabled = false;
   desk_.snapshot = scan_;

@@ -34,7 +34,7 @@ TEST(Curves, EachShowsItsColumnInItsUnit) {
   const ChartContent entropy = curve_content(*s, CurveKind::entropy), coverage = curve_content(*s, CurveKind::coverage),
                      divergence = curve_content(*s, CurveKind::divergence), gain = curve_content(*s, CurveKind::gain),
                      time = curve_content(*s, CurveKind::time);
-  EXPECT_THAT(names(entropy), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)"));
+  EXPECT_THAT(names(entropy), ElementsAre("unmeasured entropy", "total entropy"));
   EXPECT_THAT(last(entropy), ElementsAre(4.5, 3.25));
   EXPECT_EQ(entropy.y_unit, "Mbit");
   EXPECT_THAT(entropy.title, HasSubstr("[Mbit]"));
@@ -104,7 +104,7 @@ TEST(Curves, EarlierRunsStayBehindWithTheirFirstCurve) {
   }
   s->earlier_runs = std::make_shared<const std::vector<nextview::Run>>(runs);
   const ChartContent content = curve_content(*s, CurveKind::entropy);
-  ASSERT_THAT(names(content), ElementsAre("unmeasured (Eq. 18)", "total, ΣH(p)", "random", "farthest"));
+  ASSERT_THAT(names(content), ElementsAre("unmeasured entropy", "total entropy", "random", "farthest"));
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(content.series[i].earlier, i >= 2) << content.series[i].name;
   EXPECT_THAT(content.series[2].x, ElementsAre(1, 2, 3));
   EXPECT_THAT(content.series[2].y, ElementsAre(11, 12, 13));

@@ -140,7 +140,7 @@ TEST_F(GibbsPanelTest, OfTooFewSweepsItSaysWhatToDoAndNoNumbers) {
 
 TEST_F(GibbsPanelTest, SaysWhatRefiningChangedAndOfWhichViewsItIs) {
   EXPECT_THAT(panel(made_map()), HasSubstr("2 thousand voxels are of another class than in the conventional map; the "
-                                           "entropy of all voxels went from 0.013 Mbit to 0.006 Mbit."));
+                                           "total entropy went from 0.013 Mbit to 0.006 Mbit."));
   GibbsMap map = made_map();
   map.views = 1;
   EXPECT_THAT(panel(map), HasSubstr("This is the map of the first view: refine again."));
