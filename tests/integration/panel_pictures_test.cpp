@@ -29,11 +29,19 @@ Vector3 nearest_voxel(User& user) {
   return nearest;
 }
 
+/// The group is one that whoever sets up a scan looks for first.
+void show_sensor_settings(User& user) {
+  user.click(70, 473);
+  user.move(5, 790);
+  user.wait();
+}
+
 PictureBound bound() { return {0.03, 255, "times and progress differ from run to run"}; }
 
 TEST(PanelPictures, CandidatesThenAViewThenARayOfIt) {
   User user(housing());
-  user.run("step\nstep\nstep\nselect-view 12\n");
+  user.run("step\nstep\nstep\nselect-view 37\n");
+  show_sensor_settings(user);
   expect_screenshot("panel_candidates", user.look(), bound());
   user.run("select-view 32\npanel view\npanel layers\nzoom 3\n");
   expect_screenshot("panel_view", user.look(), bound());
@@ -45,7 +53,7 @@ TEST(PanelPictures, GibbsThenAVoxelOfIt) {
   User user(housing());
   user.run("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
   const auto pixel = user.window().scene().project(nearest_voxel(user));
-  user.run("voxel-map gibbs\nvoxel-colour difference\ntoggle-rays\ntoggle-cloud\n");
+  user.run("voxel-map gibbs\nvoxel-colour difference\ntoggle-rays\ntoggle-cloud\nwait 13\n");  // notices go
   expect_screenshot("panel_gibbs", user.look(), bound());
   user.run("voxel-map conventional\nvoxel-colour probability\ntoggle-rays\ntoggle-cloud\n");
   user.click(pixel->x(), pixel->y());

@@ -79,7 +79,7 @@ void draw_captions(const Style& style, const ChartContent& content, ImVec2 corne
 void draw_grid(const Style& style, const ChartContent& content, const Axes& axes) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 grid = to_imgui_u32(theme::hairline), ink = to_imgui_u32(theme::soft_ink);
-  const float size = style.small->FontSize, gap = style.px(5);
+  const float size = style.small->FontSize, gap = style.px(5), clear_of_dots = style.px(8);
   const auto width = [&](const std::string& text) {
     return style.small->CalcTextSizeA(size, FLT_MAX, 0, text.c_str()).x;
   };
@@ -87,7 +87,7 @@ void draw_grid(const Style& style, const ChartContent& content, const Axes& axes
     const std::string text = fmt::format("{:g}", std::abs(tick) < 1e-12 ? 0.0 : tick);
     const float y = std::round(axes.y(tick));
     list.AddLine({axes.lower_left.x, y}, {axes.upper_right.x, y}, grid);
-    list.AddText(style.small, size, {axes.lower_left.x - gap - width(text), y - size / 2}, ink, text.c_str());
+    list.AddText(style.small, size, {axes.lower_left.x - clear_of_dots - width(text), y - size / 2}, ink, text.c_str());
   }
   for (const double tick : axes.x_ticks) {
     const std::string text = fmt::format("{:g}", tick);
@@ -155,7 +155,7 @@ void draw_values_at(const Style& style, const ChartContent& content, const Axes&
 
 void draw_plot(const Style& style, const ChartContent& content, const Rectangle& r) {
   const float top = title_height(style, content) + style.small->FontSize + style.px(12);
-  const float left = style.px(34), right = style.px(48), bottom = style.small->FontSize + style.px(4);
+  const float left = style.px(38), right = style.px(48), bottom = style.small->FontSize + style.px(4);
   if (r.width < left + right + style.px(20) || r.height < top + bottom + style.px(20)) return;  // no room to read it
   draw_captions(style, content, {float(r.x), float(r.y)}, float(r.x + r.width));
   const Axes axes(content, {float(r.x) + left, float(r.y + r.height) - bottom},
