@@ -93,9 +93,9 @@ void print_head(const Session& session) {
                      session.recording() ? "frames to choose from" : "candidate views"),
              c.planner.gain, unit.empty() ? "" : fmt::format(" [{}]", unit),
              c.planner.semantics == Semantics::published ? "published" : "reference");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>12} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>14} {:>9} {:>8}\n", "step", "view", "gain", "moved", "hits",
              "new", "coverage", "unmeasured", "log loss", "seconds");
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>12} {:>9} {:>8}\n", "", "", unit,
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>14} {:>9} {:>8}\n", "", "", unit,
              way_unit(session.state().known.map.grid()).name, "", "cm²", session.recording() ? "% shown" : "% visible",
              "entropy Mbit", "nats*", "");
 }
@@ -104,7 +104,7 @@ void print_step(const Session& session, const StepRecord& r) {
   const StageSeconds& s = r.seconds;
   std::string gain = fmt::format("{:.5g}", r.gain);
   if (!r.gain_unit.empty() && r.gain_unit != session.planner().unit()) gain += " " + r.gain_unit;
-  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>12.3f} {:>9} {:>8.2f}\n", r.step,
+  fmt::print("{:>4} {:>5} {:>10} {:>8} {:>8} {:>9} {:>9} {:>14.3f} {:>9} {:>8.2f}\n", r.step,
              r.view < 0 ? "start" : fmt::format("{}", r.view), gain,
              way_number(r.motion.distance, way_unit(session.state().known.map.grid())), r.hits,
              short_text(r.new_surface), coverage_text(session, r), r.entropy / 1e6,

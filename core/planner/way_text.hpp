@@ -7,14 +7,14 @@
 
 namespace nextview {
 
-/// What a scan gives its ways in: mm where its region of interest is smaller than a metre, else m. One unit for all of
-/// them, so that those in a sentence, a table and a total can be compared.
+/// What a scan gives its ways in: mm where its region of interest is smaller than half a metre, else m. One unit for
+/// all of them, so that those in a sentence, a table and a total can be compared.
 struct WayUnit {
   const char* name;
   double per_metre;
 };
 inline WayUnit way_unit(const VoxelGrid& region) {
-  const bool small = region.voxel_count() > 0 && region.box().sizes().maxCoeff() < 1.0;
+  const bool small = region.voxel_count() > 0 && region.box().sizes().maxCoeff() < 0.5;
   return small ? WayUnit{"mm", 1e3} : WayUnit{"m", 1.0};
 }
 

@@ -73,7 +73,7 @@ class PrintedNumbers : public ::testing::Test {
 TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
   // By this gain the two coverages differ at every step, so that they cannot be mixed up.
   const std::string out = run(quick + "--gain proximity-count --out " + in("out"));
-  EXPECT_THAT(out, HasSubstr("% visible entropy Mbit"));
+  EXPECT_THAT(out, HasSubstr("% visible   entropy Mbit"));
   const auto rows = numbered_rows(out.substr(out.find("% visible")));
   const Table steps = table("out/steps.csv");
   ASSERT_GE(rows.size(), 3u) << out;

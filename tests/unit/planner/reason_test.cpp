@@ -109,7 +109,7 @@ TEST(Reason, AllWaysHaveOneUnitByTheSizeOfTheRegion) {
                   region_of_interest(Vector3::Zero(), edge, edge / 8))
         .reason;
   };
-  EXPECT_THAT(reason(0.9),
+  EXPECT_THAT(reason(0.4),
               HasSubstr("1250 mm away. Runner-up 2: 150 nats, 400 mm. About 10 % of the surface is left: 2 "
                         "views, 2000 mm."));
   EXPECT_THAT(reason(1.2), HasSubstr("1.25 m away. Runner-up 2: 150 nats, 0.4 m. About 10 % of the surface is left: 2 "
