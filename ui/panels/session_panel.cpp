@@ -94,7 +94,7 @@ const std::string& SessionPanel::default_of(const std::string& key) const {
 void SessionPanel::draw_object(const PanelContext& context, Setting& setting) {
   std::string& file = *std::get<std::string*>(setting.value);
   const float arrow = ImGui::GetFrameHeight();
-  ImGui::SetNextItemWidth(-arrow - context.style.px(24));
+  ImGui::SetNextItemWidth(-arrow - context.style.px(2));  // it has no way back: long names have that room
   const std::string& object = context.snapshot.object_name;
   // The path is long, and its end matters: until somebody writes the name alone is shown.
   std::string text = typed_.key == setting.key ? typed_.text : object;
