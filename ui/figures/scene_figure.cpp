@@ -65,7 +65,6 @@ SceneFigure::SceneFigure(const StepPicture& picture, const SceneLayers& layers, 
   scene.rays().show(picture.rays, picture.ray_values);
   ViewsPicture views = views_of(picture);
   views.numbered_path = true;
-  views.numbered = layers.numbers;
   const std::vector<std::size_t> hidden = layers.candidates ? std::vector<std::size_t>{} : others(picture);
   views.hidden = hidden;
   if (!layers.candidates) views.path = {};

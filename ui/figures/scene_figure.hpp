@@ -13,7 +13,6 @@ namespace nextview {
 struct SceneLayers {
   bool object = true, cloud = true, map = true, views = true, rays = true, region = true;
   bool candidates = true;  ///< of the views; else the chosen one alone
-  bool numbers = false;    ///< at the candidates
   bool annotated = true;   ///< legends, axes and a scale bar
   bool dark = false;       ///< on dark paper
 };

@@ -152,6 +152,7 @@ ViewsPicture views_of(const StepPicture& picture) {
   views.scores = picture.scores;
   views.taken = picture.taken;
   views.unreachable = picture.unreachable;
+  views.numbered = picture.numbered;
   views.chosen = picture.chosen;
   views.path = picture.path;
   views.score_name = picture.gain_name;

@@ -36,6 +36,7 @@ struct StepPicture {
   std::vector<double> utilities;         ///< one per candidate if the ranking is by utility, otherwise none
   std::vector<std::size_t> taken;        ///< candidates that no longer take part
   std::vector<std::size_t> unreachable;  ///< candidates that the robot cannot go to
+  std::vector<std::size_t> numbered;     ///< candidates that are drawn with their numbers
   std::optional<std::size_t> chosen;     ///< a candidate: the next best view
   std::vector<Pose> path;                ///< views taken so far, the start view first; T_world_camera
   std::vector<RaySegment> rays;          ///< of the chosen view

@@ -166,7 +166,8 @@ void ViewsLayer::show(const ViewsPicture& picture) {
       if (!scores.taken[i] || picture.chosen == i) frustum.add_faces(frustums, colour, true);
       frustum.add_outline(outlines, scores.taken[i] ? colour : mix(colour, tone(theme::ink), 0.45));
     }
-    if (picture.numbered) labels.push_back({{frustum.apex}, std::to_string(i), theme::soft_ink});
+    if (std::ranges::find(picture.numbered, i) != picture.numbered.end())
+      labels.push_back({{frustum.apex}, std::to_string(i), theme::soft_ink});
     points.push_back(frustum.apex);
     points.insert(points.end(), frustum.base.begin(), frustum.base.end());
   }

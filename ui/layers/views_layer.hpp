@@ -18,13 +18,13 @@ struct ViewsPicture {
   std::span<const std::size_t> taken;             ///< candidates
   std::span<const std::size_t> unreachable = {};  ///< candidates
   std::span<const std::size_t> hidden = {};       ///< candidates that are not drawn, but count for the colours
+  std::span<const std::size_t> numbered = {};     ///< candidates with small numbers: as sentences and tables name them
   std::optional<std::size_t> chosen;              ///< a candidate
   std::optional<Pose> custom_view =
       {};                           ///< no candidate, but chosen by hand; its full frustum takes the chosen one's place
   std::optional<Vector3> eye = {};  ///< views from here (or nearly) are not drawn: they would be in the way [m, world]
   std::span<const Pose> path;       ///< the views taken so far, in order; T_world_camera
   bool numbered_path = false;       ///< small numbers at the views taken, from 1
-  bool numbered = false;            ///< and at the candidates, from 0: as sentences and tables name them
   std::string score_name = "score";
   std::string score_unit;
   std::optional<ValueRange> range = {};  ///< of the colours, locked; that of the candidates not taken if not given

@@ -46,7 +46,7 @@ void draw_key(VectorDrawing& drawing, double top, const std::string& along_rays)
 
 /// "6 views taken, in this order: start, 17, 4, …": as far as the heading has room.
 std::string order_text(const std::vector<StepRecord>& records) {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t most = 9;
   std::string text = counted(records.size(), "view") + " taken, in this order:";
   for (std::size_t i = 0; i < std::min(records.size(), most); ++i)
     text += fmt::format("{} {}", i == 0 ? "" : ",", records[i].view < 0 ? "start" : std::to_string(records[i].view));
@@ -74,14 +74,15 @@ VectorDrawing scene_and_octree_figure(std::span<ReportScan> scans, const FigureP
 VectorDrawing candidate_views_figure(std::span<ReportScan> scans, const FigurePaper& paper) {
   ReportScan& scan = scans.front();
   SceneLayers layers = no_layers;
-  layers.object = layers.views = layers.candidates = layers.numbers = layers.annotated = true;
+  layers.object = layers.views = layers.candidates = layers.annotated = true;
   StepPicture first = picture_after(scan, 1);
   first.object_style = MeshStyle::solid;
   first.taken.clear(), first.path.clear(), first.chosen.reset();
   TwoPanels panels(paper, fmt::format("{}: candidate views, and the views taken", scan.name));
+  for (const auto& record : scan.states.back().records)
+    if (record->view >= 0) first.numbered.push_back(std::size_t(record->view));
   draw_heading(panels.drawing, panels.left,
-               fmt::format("{} candidates by their numbers, ranked by {} after the first view", first.candidates.size(),
-                           scan.session->configuration().planner.gain));
+               fmt::format("{} candidates, ranked after the first view; taken ones numbered", first.candidates.size()));
   draw_scene_panel(panels.drawing, panels.left, first, layers, paper);
   StepPicture last = picture_after(scan, scan.states.size());
   last.object_style = MeshStyle::solid;
@@ -89,7 +90,7 @@ VectorDrawing candidate_views_figure(std::span<ReportScan> scans, const FigurePa
   last.scores.resize(last.path.size());
   std::iota(last.scores.begin(), last.scores.end(), 1.0);
   last.taken.clear(), last.chosen.reset();
-  layers.annotated = layers.numbers = false;
+  layers.annotated = false;
   draw_heading(panels.drawing, panels.right, order_text(scan.session->records()));
   draw_scene_panel(panels.drawing, panels.right, last, layers, paper);
   return std::move(panels.drawing);
