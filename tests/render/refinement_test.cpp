@@ -27,7 +27,7 @@ std::vector<RefinementNumber> numbers_of(const MapNumbers& before, const MapNumb
        fmt::format("{:.3f}", after.centres.log_loss), "nats per voxel"},
       {"Brier score near the surface", fmt::format("{:.3f}", before.near_surface.brier),
        fmt::format("{:.3f}", after.near_surface.brier), ""},
-      {"entropy of the region", thousands(before.entropy), thousands(after.entropy), "thousand nats"},
+      {"total entropy", thousands(before.entropy), thousands(after.entropy), "knats"},
       {"voxels measured, or informed", thousands(double(before.measured)), thousands(double(after.measured)),
        "thousand"},
   };
