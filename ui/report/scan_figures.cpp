@@ -15,9 +15,8 @@ std::span<const ScanFigure> scan_figures() {
        scene_and_octree_figure},
       {"candidate_views",
        "Fig. 4: all candidate views, coloured by how the planner first ranked them, with the numbers of those that "
-       "were "
-       "taken, as sentences and tables name them; and the views taken, numbered in their order, darker from view to "
-       "view.",
+       "were taken, as sentences and tables name them; and the views taken, numbered in their order, darker from "
+       "view to view.",
        candidate_views_figure},
       {"strategy",
        "Fig. 5: the strategy view by view: rays cast from the view that is chosen next (colour: what they are expected "
