@@ -19,9 +19,7 @@ void stand_at(SavedSession& saved, int views) {
   const auto line = saved.journal->line();
   if (views < 1 || static_cast<std::size_t>(views) >= line.size()) return;
   saved.journal->at = line[static_cast<std::size_t>(views) - 1].number;
-  const PlanningConfig planning = chosen_by(saved, line[static_cast<std::size_t>(views)]);
-  saved.configuration.planner = planning.planner;
-  saved.configuration.views = planning.views;
+  saved.configuration = with_planning(saved.configuration, chosen_by(saved, line[static_cast<std::size_t>(views)]));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ SceneScores score_session(Session& session, std::span<const std::string> names, 
     planner.gain = names[k];
     const bool of_gibbs_map = make_policy(planner)->needs().posterior;
     const Stand& from = of_gibbs_map && refined ? *refined : own;
-    session.restore(from.state, {from.planner, session.configuration().views});
+    session.restore(from.state, {from.planner, session.configuration().views, session.configuration().gibbs});
     double seconds = 0.0;
     if (names[k] != from.planner.gain) {
       const Stopwatch watch(seconds);
@@ -52,7 +52,7 @@ SceneScores score_session(Session& session, std::span<const std::string> names, 
       scores.views[v].milliseconds += 1e3 * seconds / double(scores.views.size());
     }
   }
-  session.restore(own.state, {own.planner, session.configuration().views});
+  session.restore(own.state, {own.planner, session.configuration().views, session.configuration().gibbs});
   return scores;
 }
 

@@ -84,7 +84,7 @@ class Session {
   void set_planning(const PlanningConfig& config, const Progress& progress = {}, const std::stop_token& stop = {});
   /// The same of the planner alone.
   void set_planner(const PlannerConfig& config, const Progress& progress = {}, const std::stop_token& stop = {}) {
-    set_planning({config, configuration().views}, progress, stop);
+    set_planning({config, configuration().views, configuration().gibbs}, progress, stop);
   }
   PlanningConfig planning() const { return planning_of(configuration()); }
 

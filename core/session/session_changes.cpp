@@ -24,9 +24,7 @@ void Session::restore(ScanState state, const PlanningConfig& planning) {
 
 ScanSetup Session::setup_with(const PlanningConfig& config, const std::stop_token& stop) const {
   ScanSetup setup = setup_;
-  Configuration wanted = configuration();
-  wanted.planner = config.planner;
-  wanted.views = config.views;
+  Configuration wanted = with_planning(configuration(), config);
   wanted.views.projections = configuration().views.projections;
   setup.configuration = validated(std::move(wanted));
   if (to_toml(setup.configuration) == to_toml(configuration())) return setup_;  // also with a planner of its own
@@ -37,19 +35,10 @@ ScanSetup Session::setup_with(const PlanningConfig& config, const std::stop_toke
   return setup;
 }
 
-namespace {
-
-bool same_views(CandidateViewsConfig a, CandidateViewsConfig b) {
-  const auto all_a = settings(a), all_b = settings(b);
-  return std::ranges::equal(all_a, all_b, {}, &Setting::text, &Setting::text);
-}
-
-}  // namespace
-
 /// The candidates of its configuration, and what each sees of the true surface, for a planner that may know.
 void Session::follow_views(ScanSetup& setup, const std::stop_token& stop) const {
   const Configuration& c = setup.configuration;
-  if (c.views.layout == ViewLayout::adaptive || !same_views(c.views, configuration().views))
+  if (c.views.layout == ViewLayout::adaptive || !same_settings(c.views, configuration().views))
     setup.candidates = configured_candidates(c, setup.source);
   if (!setup.truth || !policy_entry(c.planner.gain).baseline) return;
   const auto poses = poses_of(setup.candidates->candidates(nothing_known(c, setup.region, {})));
@@ -64,13 +53,14 @@ void Session::set_planning(const PlanningConfig& config, const Progress& progres
   if (setup.planner == setup_.planner) return;
   ScanState state = state_;
   const PolicyNeeds before = setup_.planner->needs(), now = setup.planner->needs();
+  const bool refines_otherwise = now.posterior && !same_settings(configuration().gibbs, config.gibbs);
   if (state.records.empty()) {
     if (robot_as_configured_) robot_->restored(setup.start.T_world_camera);
     state = nothing_scanned(setup, robot_->pose());
-  } else if (before.occlusions != now.occlusions || before.posterior != now.posterior ||
+  } else if (before.occlusions != now.occlusions || before.posterior != now.posterior || refines_otherwise ||
              configuration().planner.semantics != config.planner.semantics) {
     ScanState nothing = nothing_scanned(setup, state.T_world_camera);
-    const auto posterior = state.known.posterior;
+    const auto posterior = refines_otherwise ? nullptr : state.known.posterior;
     if (posterior) nothing.known.posterior = nullptr;  // it is of the scans alone, and takes the longest
     remake(setup, state, nothing, progress, stop);
     if (now.posterior && posterior) state.known.posterior = posterior;
@@ -78,7 +68,7 @@ void Session::set_planning(const PlanningConfig& config, const Progress& progres
   if (!state.records.empty()) {
     // A scanner that is not connected cannot be asked again.
     const bool is_absent = robot_as_configured_ && !configuration().driver.name.empty();
-    const bool knows = is_absent && same_views(config.views, configuration().views);
+    const bool knows = is_absent && same_settings(config.views, configuration().views);
     const std::vector<Reach> reach = knows ? reach_of(*state.records.back()) : std::vector<Reach>();
     state = plan(setup, std::move(state), *robot_, reach, progress, stop);
   }

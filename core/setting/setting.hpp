@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -49,6 +50,13 @@ Setting::Choice choice(Enum& value, std::vector<std::string> names) {
 template <class Configuration>
 void require_in_bounds(Configuration configuration) {
   for (const Setting& setting : settings(configuration)) setting.require_in_bounds();
+}
+
+/// Whether they say the same.
+template <class Configuration>
+bool same_settings(Configuration a, Configuration b) {
+  const auto all_a = settings(a), all_b = settings(b);
+  return std::ranges::equal(all_a, all_b, {}, &Setting::text, &Setting::text);
 }
 
 /// @throws std::invalid_argument if there is none with this key, with one that may be meant

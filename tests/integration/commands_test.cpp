@@ -32,10 +32,10 @@ Configuration coarse_scan() {
 }
 
 /// A refinement that does not end by itself while a few frames are drawn: it is never tried whether so long a burn-in
-/// is stationary. The settings start the scan over.
+/// is stationary.
 constexpr const char* endless_refinement =
-    "set gibbs.burn_in 50000\nstep\nstep\nrefine 1 100000\npause-refinement\nresume-refinement\ncancel\n"
-    "reset-setting gibbs.burn_in\nstep\nstep";
+    "reset\nset gibbs.burn_in 50000\nstep\nstep\nrefine 1 100000\npause-refinement\nresume-refinement\ncancel\n"
+    "reset-setting gibbs.burn_in";
 
 /// A camera, a map or a sampler that would keep the tests waiting.
 bool is_large(const Configuration& c) {

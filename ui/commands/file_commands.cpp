@@ -49,7 +49,8 @@ void change_setting(CommandTarget& target, const std::string& key, const Configu
   wanted.validate();
   if (to_toml(wanted) == to_toml(target.session.configuration)) return;
   if (key.starts_with("termination.")) return target.worker.post(request::SetTermination{wanted.termination});
-  if (key.starts_with("planner.") || (key.starts_with("views.") && !target.session.records.empty()))
+  if (key.starts_with("planner.") || key.starts_with("gibbs.") ||
+      (key.starts_with("views.") && !target.session.records.empty()))
     return target.worker.post(request::SetPlanning{planning_of(wanted)});
   target.worker.post(request::Load{wanted});
 }
@@ -157,7 +158,8 @@ std::string reset_settings_why_not(const CommandState& t) {
 }  // namespace
 
 bool keeps_scan(std::string_view key) {
-  return key.starts_with("termination.") || key.starts_with("planner.") || key.starts_with("views.");
+  return key.starts_with("termination.") || key.starts_with("planner.") || key.starts_with("views.") ||
+         key.starts_with("gibbs.");
 }
 
 const CommandOf<std::string> command::open{
@@ -179,7 +181,7 @@ const CommandOf<std::string, std::string> command::set{
     {"set",
      "File",
      "Change a setting…",
-     "Changes a setting. Those of planner, views and termination keep the scan, the others start it over.",
+     "Changes a setting. Those of planner, gibbs, views and termination keep the scan, the others start it over.",
      {},
      needs_session,
      {},
@@ -193,8 +195,8 @@ const CommandOf<std::string> command::reset_setting{
     {"reset-setting",
      "File",
      "Set a setting back…",
-     "Gives a setting its default again. Those of planner, views and termination keep the scan, the others start it "
-     "over.",
+     "Gives a setting its default again. Those of planner, gibbs, views and termination keep the scan, the others "
+     "start it over.",
      {},
      needs_session,
      {},

@@ -31,7 +31,7 @@ std::vector<PanelEntry> standard_panels() {
   using enum Side;
   return {
       {{"session", "Session", left,
-        "Every setting. Those of planner, views and end keep the scan, the others start it over."},
+        "Every setting. Those of planner, gibbs, views and end keep the scan, the others start it over."},
        make<SessionPanel>},
       {{"layers", "Layers", left, "What the scene shows, and how."}, make<Drawn<draw_layers_panel>>},
       {{"candidates", "Candidates", right, "What each candidate view is worth."}, make<Drawn<draw_candidates_panel>>},

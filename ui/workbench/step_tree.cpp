@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/session/step_outcome.hpp"
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 namespace {
@@ -124,7 +125,8 @@ const ScanState* StepTree::nearest_maps(std::uint32_t number, const Stand& like)
     const auto& stand = nodes_.at(number).stand;
     if (stand && stand->state->has_maps && stand->needs.occlusions == like.needs.occlusions &&
         stand->needs.posterior == like.needs.posterior &&
-        stand->planning.planner.semantics == like.planning.planner.semantics)
+        stand->planning.planner.semantics == like.planning.planner.semantics &&
+        (!like.needs.posterior || same_settings(stand->planning.gibbs, like.planning.gibbs)))
       return stand->state.get();
     if (number == 0) return nullptr;
   }

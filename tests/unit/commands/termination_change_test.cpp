@@ -174,6 +174,9 @@ TEST(TerminationCommand, KeepsTheScan) {
   scripted.run("set termination.views 3");
   scripted.run("set planner.gain occlusion-aware");
   EXPECT_EQ(worker.snapshot()->records.size(), 2u) << "what ranks the views is no part of the scan";
+  scripted.run("set gibbs.prior 0.3");
+  EXPECT_EQ(worker.snapshot()->records.size(), 2u) << "nor how a map is refined from it";
+  EXPECT_EQ(worker.snapshot()->configuration.gibbs.sampler.prior, 0.3);
   scripted.run("set seed 7");
   scripted.run("set seed 7");
   EXPECT_EQ(worker.snapshot()->session, 2u) << "what is so already started the scan over";

@@ -61,6 +61,40 @@ TEST(GibbsSession, AnotherGainOfThePosteriorDoesNotRefineItAgain) {
   EXPECT_TRUE(same_candidates(session.records()[1].candidates, kept.records[1]->candidates));
 }
 
+TEST(GibbsSession, OtherSettingsRefineTheSameScansAnew) {
+  Session session(gibbs_scan());
+  for (int i = 0; i < 2; ++i) session.step();
+  PlanningConfig doubtful = session.planning();
+  doubtful.gibbs.sampler.prior = 0.3;
+  const auto posterior = session.state().known.posterior;
+  session.set_planning(doubtful);
+  ASSERT_EQ(session.records().size(), 2u);
+  EXPECT_NE(session.refinement()->posterior().touch, posterior->posterior().touch);
+
+  Configuration from_the_start = gibbs_scan();
+  from_the_start.gibbs = doubtful.gibbs;
+  Session other(from_the_start);
+  other.step();
+  other.override_next_view(std::size_t(session.records()[1].view));
+  other.step();
+  EXPECT_EQ(session.refinement()->posterior().touch, other.refinement()->posterior().touch);
+  EXPECT_TRUE(same_candidates(session.records()[1].candidates, other.records()[1].candidates));
+}
+
+TEST(GibbsSession, SettingsOfAMapThatNoGainNeedsChangeNothing) {
+  Session session(small_scan());
+  for (int i = 0; i < 2; ++i) session.step();
+  const ScanState before = session.state();
+  PlanningConfig doubtful = session.planning();
+  doubtful.gibbs.sampler.prior = 0.3;
+  session.set_planning(doubtful);
+  EXPECT_EQ(session.configuration().gibbs.sampler.prior, 0.3);
+  EXPECT_EQ(session.refinement(), nullptr);
+  EXPECT_TRUE(same_map(session.map(), before.known.map));
+  EXPECT_TRUE(same_candidates(session.records()[1].candidates, before.records[1]->candidates));
+  EXPECT_EQ(session.next_view().matrix(), before.next.view.T_world_camera.matrix());
+}
+
 TEST(GibbsSession, TheConventionalMapAndItsRankingAreKeptBeside) {
   Session session(gibbs_scan()), plain(small_scan());
   session.step();

@@ -25,13 +25,12 @@ TEST_F(KeptBranches, AreThereWhenASessionIsOpened) {
     c.history.memory = memory;
     first->load(c, job_control());
     for (int k = 0; k < 3; ++k) first->step(job_control());
-    PlannerConfig planner = first->configuration().planner;
-    planner.gain = "rear-side-voxel";
-    CandidateViewsConfig fewer = first->configuration().views;
-    fewer.count = 9;
+    PlanningConfig planning = planning_of(first->configuration());
+    planning.planner.gain = "rear-side-voxel";
+    planning.views.count = 9;
     first->go_to("", 1, job_control());
     first->begin_branch("by rear side");
-    first->set_planning({planner, fewer}, job_control());
+    first->set_planning(planning, job_control());
     for (int k = 0; k < 2; ++k) first->step(job_control());
     const auto aside = first->snapshot();
     first->go_to("main", 2, job_control());
@@ -119,9 +118,9 @@ TEST_F(KeptBranches, ABranchKeepsThePlannerThatWasSetAtItsEnd) {
     first.step(job_control());
     first.begin_branch("other");
     first.step(job_control());
-    PlannerConfig planner = first.configuration().planner;
-    planner.gain = "rear-side-voxel";
-    first.set_planning({planner, first.configuration().views}, job_control());
+    PlanningConfig planning = planning_of(first.configuration());
+    planning.planner.gain = "rear-side-voxel";
+    first.set_planning(planning, job_control());
     first.go_to("main", {}, job_control());
     EXPECT_EQ(first.configuration().planner.gain, long_scan().planner.gain);
   }

@@ -151,9 +151,9 @@ TEST_F(KeptSessionTest, AnotherPlannerShowsAllThatIsIts) {
   first->load(c, job_control());
   steps(*first, 2);
   const auto before = first->snapshot();
-  c = first->configuration();
-  c.planner.gain = "rear-side-voxel";
-  first->set_planning({c.planner, first->configuration().views}, job_control());
+  PlanningConfig planning = planning_of(first->configuration());
+  planning.planner.gain = "rear-side-voxel";
+  first->set_planning(planning, job_control());
   const auto after = first->snapshot();
   EXPECT_EQ(after->session, before->session);
   EXPECT_NE(after->gain_unit, before->gain_unit);
@@ -255,9 +255,9 @@ TEST_F(KeptSessionTest, CommandsAtRandomAreAllThereWhenItIsOpenedAgain) {
         runner_now->redo(job_control());
         break;
       case 5: {
-        PlannerConfig planner = runner_now->configuration().planner;
-        planner.gain = random() % 2 ? "rear-side-voxel" : "new-surface";
-        runner_now->set_planning({planner, runner_now->configuration().views}, job_control());
+        PlanningConfig planning = planning_of(runner_now->configuration());
+        planning.planner.gain = random() % 2 ? "rear-side-voxel" : "new-surface";
+        runner_now->set_planning(planning, job_control());
         break;
       }
       default: {

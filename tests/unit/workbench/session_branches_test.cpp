@@ -118,9 +118,9 @@ TEST_F(SessionBranches, NamedRenamedRemovedAndAllOfItUndone) {
 TEST_F(SessionBranches, AreComparedAtTheirEnds) {
   fork();
   const auto here = runner_.snapshot();
-  PlannerConfig planner = runner_.configuration().planner;
-  planner.gain = "rear-side-voxel";
-  runner_.set_planning({planner, runner_.configuration().views}, job_control());
+  PlanningConfig planning = planning_of(runner_.configuration());
+  planning.planner.gain = "rear-side-voxel";
+  runner_.set_planning(planning, job_control());
   runner_.compare("main", job_control());
   ASSERT_TRUE(now().compared);
   expect_same_scan(*now().compared->snapshot, *fresh(4, long_scan()));

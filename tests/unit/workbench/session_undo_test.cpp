@@ -56,6 +56,31 @@ TEST_F(SessionRunnerTest, RedoIsTheSameStep) {
   expect_same_scan(now(), *fresh(4));
 }
 
+// Also where the maps of then are made again, which begins with those of an earlier view.
+TEST_F(SessionRunnerTest, OtherSettingsOfTheGibbsMapAreUndoneAndRedone) {
+  Configuration c = small_scan();
+  c.planner.gain = "gibbs";
+  c.history.memory = 0.0;
+  runner_.load(c, job_control());
+  steps(2);
+  const auto before = runner_.snapshot();
+  PlanningConfig planning = planning_of(now().configuration);
+  planning.gibbs.sampler.prior = 0.3;
+  runner_.set_planning(planning, job_control());
+  const auto changed = runner_.snapshot();
+  EXPECT_EQ(changed->session, before->session);
+  steps(1);
+  const auto after = runner_.snapshot();
+  for (int i = 0; i < 2; ++i) runner_.undo(job_control());
+  expect_same_scan(now(), *before);
+  runner_.redo(job_control());
+  expect_same_scan(now(), *changed);
+  runner_.redo(job_control());
+  expect_same_scan(now(), *after);
+  runner_.undo(job_control());
+  expect_same_scan(now(), *changed);
+}
+
 TEST_F(SessionRunnerTest, AStepOnAnotherWayForgetsTheOldOne) {
   runner_.load(small_scan(), job_control());
   steps(3);
