@@ -16,6 +16,7 @@
 #include "core/gibbs/test_problems.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/setting_sources.hpp"
 
 namespace nextview {
 namespace {
@@ -35,6 +36,10 @@ ForwardModel model_named(const std::string& text) {
   throw std::invalid_argument(fmt::format("--model takes paper, cone, beam or attenuation, not '{}'", text));
 }
 
+/// What settings are called here.
+const SettingSources option_names = {
+    {"gibbs.prior", {"--prior", "", ""}}, {"gibbs.sigma", {"--sigma", "", ""}}, {"gibbs.sweeps", {"--sweeps", "", ""}}};
+
 PosteriorSamplerConfig make_config(const PosteriorArguments& arguments, const TestProblem& problem) {
   PosteriorSamplerConfig config;
   config.model.kind = model_named(arguments.model);
@@ -47,7 +52,11 @@ PosteriorSamplerConfig make_config(const PosteriorArguments& arguments, const Te
   config.until_stationary = false;
   config.ray_spacing = 0.0;
   config.seed = arguments.seed;
-  config.validate();
+  try {
+    config.validate();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_given(error.what(), option_names));
+  }
   return config;
 }
 

@@ -145,8 +145,10 @@ VoxelGrid SceneParameters::grid() const {
   grid.first = (map.lower / map.resolution).array().floor().matrix().cast<int>();
   grid.size = (map.upper / map.resolution).array().ceil().matrix().cast<int>() - grid.first;
   if (grid.voxel_count() > (std::size_t{1} << 28))
-    throw std::invalid_argument(
-        fmt::format("the bounding box holds {} voxels; at most {} are held", grid.voxel_count(), 1 << 28));
+    throw std::invalid_argument(fmt::format(
+        "the bounding box holds {} voxels; at most {} are held: let them be larger (parameter resolution_m; "
+        "of range scans --voxel), or the box smaller",
+        grid.voxel_count(), 1 << 28));
   return grid;
 }
 

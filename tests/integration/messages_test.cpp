@@ -86,6 +86,12 @@ TEST_F(Messages, ARangeErrorOnTheCommandLineNamesTheOption) {
       line("--sensor.range_noise must be from 0 to 1 m, not 5 m"));
 }
 
+TEST_F(Messages, AnOptionThatIsBehindASettingIsNamedInItsPlace) {
+  EXPECT_EQ(complaint("posterior --problem slot --prior 2"), line("--prior must be over 0 and below 1, not 2"));
+  EXPECT_EQ(complaint("posterior --problem slot --sweeps 1"), line("--sweeps must be from 4 to 1000000, not 1"));
+  EXPECT_EQ(complaint("posterior --problem slot --sigma 0"), line("--sigma must be over 0, not 0"));
+}
+
 TEST_F(Messages, OfTwoSettingsEachIsNamedAsItWasGiven) {
   const std::string near = write("near.toml", "[sensor]\nmax_range = 0.3\n"),
                     far = write("far.toml", "\nsensor.min_range = 0.4\n");
@@ -220,7 +226,9 @@ TEST_F(Messages, ANumberOrWordThatIsNotTakenIsToldWithThoseThatAre) {
   EXPECT_EQ(complaint("calibrate --fit map"),
             line("--fit: takes sensor-model or new-surface, not 'map'; see nextview calibrate --help"));
   EXPECT_EQ(complaint("refine out --voxel -1"),
-            line("--voxel: takes a number from 0 to 1, not '-1'; see nextview refine --help"));
+            line("--voxel: takes 0, or a length from 0.1 mm to 1 m, not -1 m; see nextview refine --help"));
+  EXPECT_EQ(complaint("refine out --voxel '10 um'"),
+            line("--voxel: takes 0, or a length from 0.1 mm to 1 m, not 0.01 mm; see nextview refine --help"));
   EXPECT_EQ(complaint("driver real"), line("not expected: real; see nextview driver --help"));
   EXPECT_EQ(complaint("driver"), line("driver: simulated is missing: nextview driver simulated OBJECT"));
 }

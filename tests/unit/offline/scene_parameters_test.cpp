@@ -74,7 +74,8 @@ TEST(SceneParameters, AGridHasAtMost268MillionVoxels) {
     grid_up_to(128.25);
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "the bounding box holds 268697600 voxels; at most 268435456 are held");
+    EXPECT_THAT(error.what(), HasSubstr("the bounding box holds 268697600 voxels; at most 268435456 are held: let them "
+                                        "be larger (parameter resolution_m; of range scans --voxel)"));
   }
 }
 
