@@ -37,6 +37,11 @@ std::string beside(const fs::path& file, const std::string& said, bool may_be_fo
   return !said.empty() && fs::path(said).is_relative() && is_there ? there.string() : said;
 }
 
+bool is_study(const toml::table& table) {
+  const auto is_block = [&](const char* key) { return table[key].is_array_of_tables(); };
+  return is_block("planning") || is_block("maps");
+}
+
 /// What a setting takes that is no text: "a number [m]".
 std::string bare_value(const Setting& setting) {
   if (std::holds_alternative<bool*>(setting.value)) return "true or false";
@@ -73,6 +78,9 @@ class TomlReader {
     } catch (const toml::parse_error& error) {
       throw failure(error.source().begin.line, std::string(error.description()));
     }
+    if (is_study(table))
+      throw std::runtime_error(
+          fmt::format("{0}: is a study, not a configuration; use `nextview study {0}`", file_.string()));
     // The preset first: what else the file says of the sensor overrides it.
     if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty())
       take("sensor.preset", preset->get(), preset->source().begin.line);

@@ -9,6 +9,7 @@
 #include "core/evaluation/baseline_maps.hpp"
 #include "core/file/read_file.hpp"
 #include "core/planner/policy.hpp"
+#include "core/setting/section_of.hpp"
 #include "core/study/study.hpp"
 
 namespace nextview {
@@ -49,6 +50,9 @@ class StudyReader {
           fmt::format("{}:{}: {}", file_.string(), error.source().begin.line, std::string(error.description())));
     }
     const auto is_block = [](std::string_view key) { return key == "planning" || key == "maps"; };
+    if (is_configuration(table))
+      throw std::runtime_error(
+          fmt::format("{0}: is a configuration, not a study; use `nextview scan --config {0}`", file_.string()));
     for (const bool blocks : {false, true})  // which use the names that all else gives
       for (const auto& [key, node] : table)
         if (is_block(key.str()) == blocks) read_entry(std::string(key.str()), node);
@@ -58,6 +62,15 @@ class StudyReader {
   }
 
  private:
+  /// A configuration has settings in their sections and nothing else; a study without its blocks compares nothing.
+  bool is_configuration(const toml::table& table) const {
+    const auto is_of_settings = [&](const auto& entry) {
+      const std::string name(entry.first.str());
+      return std::ranges::any_of(keys_, [&](const std::string& key) { return key == name || section_of(key) == name; });
+    };
+    return !table.empty() && std::all_of(table.begin(), table.end(), is_of_settings);
+  }
+
   void read_entry(const std::string& key, const toml::node& node) {
     if (key == "name")
       study_.name = text_of(node, key);

@@ -242,6 +242,18 @@ TEST_F(Messages, AConfigurationThatIsNotThereIsToldWithThoseThatAre) {
             line("--config: /tmp is a folder; that of a session is given as /tmp/config.toml"));
 }
 
+TEST_F(Messages, AStudyIsToldFromAConfiguration) {
+  const std::string study = NEXTVIEW_SOURCE_DIR "/assets/studies/smoke.toml",
+                    configuration = write("c.toml", "[sensor]\nwidth = 80\n[map]\nresolution = 0.04\n");
+  const std::string is_study = line(study + ": is a study, not a configuration; use `nextview study " + study + "`");
+  EXPECT_EQ(complaint(scan() + "--config " + study), is_study);
+  EXPECT_EQ(complaint("scan " + study + " --out " + in("out")), is_study);
+  EXPECT_EQ(
+      complaint("study " + configuration + " --out " + in("out")),
+      line(configuration + ": is a configuration, not a study; use `nextview scan --config " + configuration + "`"));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
 TEST_F(Messages, AStudyThatIsNotThereIsToldWithThoseThatAre) {
   EXPECT_EQ(complaint("study smok --out " + in("out")),
             line("smok: there is no such file; smoke and nextview are studies that come with the program"));
