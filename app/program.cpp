@@ -64,6 +64,11 @@ std::string too_much(const CLI::App& program) {
     for (const CLI::Option* option : command->get_options())
       for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   std::string text = fmt::format("not expected: {}", fmt::join(words, " "));
+  const CLI::App& command = program.get_subcommands().empty() ? program : *program.get_subcommands().front();
+  std::vector<std::string> under;
+  for (const CLI::App* subcommand : command.get_subcommands({})) under.push_back(subcommand->get_name());
+  if (!words.empty() && !words.front().starts_with('-'))
+    if (const std::string hint = nextview::did_you_mean(words.front(), under); !hint.empty()) return text + hint;
   const auto mistyped =
       std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-') && word.size() > 2; });
   if (mistyped == words.end()) return text;

@@ -11,6 +11,7 @@
 #include "core/config/configuration.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/file/read_file.hpp"
+#include "core/setting/mistyped_path.hpp"
 
 namespace nextview {
 namespace {
@@ -53,7 +54,7 @@ void require_file_or_object(const std::string& word) {
   const auto objects = known_objects();
   std::vector<std::string> known(subcommands.begin(), subcommands.end());
   known.insert(known.end(), objects.begin(), objects.end());
-  const std::string hint = did_you_mean(word, known, ";");
+  const std::string hint = did_you_mean_path(word, known, ";");
   throw std::runtime_error(
       fmt::format("no such command '{}', nor a file or an object of this name{} {} nextview --help", word, hint,
                   hint == ";" ? "see" : "See"));

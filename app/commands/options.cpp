@@ -9,6 +9,7 @@
 #include "core/config/asset_names.hpp"
 #include "core/config/opened_input.hpp"
 #include "core/file/read_file.hpp"
+#include "core/setting/mistyped_path.hpp"
 #include "core/setting/quantity.hpp"
 
 namespace nextview {
@@ -40,6 +41,8 @@ std::string describe(const Setting& setting) {
   return value.empty() ? text : fmt::format("{} (default {})", text, value);
 }
 
+bool is_toml(const std::filesystem::path& file) { return file.extension() == ".toml"; }
+
 /// A file, or the name of one that comes with the program.
 std::filesystem::path find_configuration(const std::string& name) {
   const auto named = assets_folder() / "configurations" / (name + ".toml");
@@ -49,8 +52,11 @@ std::filesystem::path find_configuration(const std::string& name) {
     throw std::runtime_error(
         fmt::format("--config: {0} is a folder; that of a session is given as {0}/config.toml", name));
   if (is_there(name)) return name;
-  throw std::runtime_error(fmt::format("--config: there is no file '{}'; those that come with the program are {}", name,
-                                       fmt::join(asset_names("configurations"), ", ")));
+  const std::vector<std::string> known = asset_names("configurations");
+  throw std::runtime_error(fmt::format(
+      "--config: there is no file '{}'{}", name,
+      did_you_mean_path(name, known, fmt::format("; those that come with the program are {}", fmt::join(known, ", ")),
+                        is_toml)));
 }
 
 }  // namespace

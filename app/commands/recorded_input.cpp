@@ -11,6 +11,7 @@
 #include "core/results/manifest.hpp"
 #include "core/session/saved_session.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/setting/mistyped_path.hpp"
 
 namespace nextview {
 
@@ -43,7 +44,9 @@ void RangeScanOptions::add_to(CLI::App& app) {
 
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,
                            const RangeScanOptions& range_scans, const Progress& progress, std::stop_token stop) {
-  if (!is_there(input)) throw std::runtime_error(fmt::format("{}: there is no such file or folder", input.string()));
+  if (!is_there(input))
+    throw std::runtime_error(
+        fmt::format("{}: there is no such file or folder{}", input.string(), did_you_mean_path(input)));
   const auto warn = [&](const std::string& text) {
     fmt::print(stderr, "{}\n", printable(fmt::format("{}: {}", input.string(), text)));
   };

@@ -7,10 +7,12 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/progress.hpp"
 #include "app/commands/shell_text.hpp"
+#include "core/config/asset_names.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/counted.hpp"
 #include "core/file/printable.hpp"
 #include "core/progress/stopped.hpp"
+#include "core/setting/mistyped_path.hpp"
 #include "core/study/study_loop.hpp"
 
 namespace nextview {
@@ -93,8 +95,12 @@ fs::path study_file(const std::string& wanted) {
   if (is_there(wanted)) return wanted;
   const fs::path own = assets_folder() / "studies" / fs::path(wanted).filename().replace_extension(".toml");
   if (is_there(own)) return own;
+  const std::vector<std::string> known = asset_names("studies");
   throw std::runtime_error(
-      fmt::format("{}: there is no such file; smoke and nextview are studies that come with the program", wanted));
+      fmt::format("{}: there is no such file{}", wanted,
+                  did_you_mean_path(wanted, known,
+                                    fmt::format("; studies that come with the program are {}", fmt::join(known, ", ")),
+                                    [](const fs::path& file) { return file.extension() == ".toml"; })));
 }
 
 int run_file(const StudyArguments& a) {

@@ -18,6 +18,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/planner/gain_policies.hpp"
 #include "core/setting/length_text.hpp"
+#include "core/setting/mistyped_path.hpp"
 #include "core/setting/rounded.hpp"
 #include "core/setting/section_of.hpp"
 
@@ -281,8 +282,10 @@ void apply_sensor_preset(Configuration& configuration, const std::string& preset
   fs::path file = named_sensor(preset);
   if (!is_there(file)) file = preset;
   if (!is_there(file))
-    throw std::runtime_error(fmt::format("sensor.preset: there is no sensor '{}'; there are {}, or give a file", preset,
-                                         fmt::join(asset_names("sensors"), ", ")));
+    throw std::runtime_error(fmt::format(
+        "sensor.preset: there is no sensor '{}'{}", preset,
+        did_you_mean_path(preset, asset_names("sensors"),
+                          fmt::format("; there are {}, or give a file", fmt::join(asset_names("sensors"), ", ")))));
   configuration.sensor = {};
   std::erase_if(configuration.sources, [](const auto& source) { return source.first.starts_with("sensor."); });
   TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));

@@ -4,9 +4,11 @@
 #include <stdexcept>
 
 #include "core/config/configuration.hpp"
+#include "core/config/known_objects.hpp"
 #include "core/file/installation.hpp"
 #include "core/file/read_file.hpp"
 #include "core/results/output_folder.hpp"
+#include "core/setting/mistyped_path.hpp"
 
 namespace nextview {
 
@@ -52,8 +54,10 @@ fs::path resolve_object(const std::string& name) {
     if (fs::is_regular_file(file)) return file;
   }
   if (is_folder) return name;  // which its reader refuses; those of known names are no hindrance
+  const std::vector<std::string> objects(known_objects().begin(), known_objects().end());
   throw std::runtime_error(
-      fmt::format("{}: there is no such file, nor an object of this name that comes with the program", name));
+      fmt::format("{}: there is no such file, nor an object of this name that comes with the program{}", name,
+                  did_you_mean_path(name, objects)));
 }
 
 fs::path resolve_object(const Configuration& configuration) {

@@ -1,7 +1,11 @@
 #include "core/gibbs/test_problems.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
+
+#include "core/setting/setting.hpp"
 
 namespace nextview {
 namespace {
@@ -91,12 +95,14 @@ std::span<const TestProblem> test_problems() {
 }
 
 const TestProblem& test_problem(std::string_view name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const TestProblem& problem : test_problems()) {
     if (problem.name == name) return problem;
-    names += (names.empty() ? "" : ", ") + std::string(problem.name);
+    names.emplace_back(problem.name);
   }
-  throw std::invalid_argument("there is no test problem '" + std::string(name) + "'; there are " + names);
+  throw std::invalid_argument(
+      fmt::format("there is no test problem '{}'{}", name,
+                  did_you_mean(std::string(name), names, fmt::format("; there are {}", fmt::join(names, ", ")))));
 }
 
 }  // namespace nextview

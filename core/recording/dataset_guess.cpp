@@ -11,6 +11,7 @@
 #include "core/recording/frame_files.hpp"
 #include "core/recording/number_lines.hpp"
 #include "core/sensor/recorded_scans.hpp"
+#include "core/setting/mistyped_path.hpp"
 
 namespace nextview {
 namespace {
@@ -249,7 +250,8 @@ DescribedDataset describe_dataset(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) {
     if (!fs::exists(path, ignored))
-      throw std::runtime_error(fmt::format("{}: there is no such file or folder", path.string()));
+      throw std::runtime_error(
+          fmt::format("{}: there is no such file or folder{}", path.string(), did_you_mean_path(path)));
     return described_file(path);
   }
   if (fs::is_empty(path, ignored))

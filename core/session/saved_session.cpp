@@ -15,6 +15,7 @@
 #include "core/session/session_folder.hpp"
 #include "core/session/state_file.hpp"
 #include "core/session/taken_views.hpp"
+#include "core/setting/mistyped_path.hpp"
 
 namespace nextview {
 namespace {
@@ -100,8 +101,9 @@ void require_session(const fs::path& folder) {
   const std::string reason = !is_there(folder)                   ? "there is no such folder"
                              : !fs::is_directory(folder, unseen) ? "is a file"
                                                                  : "holds no session";
-  throw std::runtime_error(
-      fmt::format("{}: {}; give the folder of a session, as `nextview scan --out` leaves it", folder.string(), reason));
+  const std::string advice = "; give the folder of a session, as `nextview scan --out` leaves it";
+  throw std::runtime_error(fmt::format("{}: {}{}", folder.string(), reason,
+                                       is_there(folder) ? advice : did_you_mean_path(folder, {}, advice, is_session)));
 }
 
 }  // namespace

@@ -178,10 +178,15 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
       known, {}, [&](const std::string& name) { return std::pair(!name.starts_with(word), distance(word, name)); });
 }
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise) {
-  if (known.empty()) return otherwise;
+std::optional<std::string> meant(const std::string& word, const std::vector<std::string>& known) {
+  if (known.empty()) return std::nullopt;
   const std::string name = nearest(word, known);
-  return is_near(word, name) ? fmt::format("; did you mean '{}'?", name) : otherwise;
+  return is_near(word, name) ? std::optional(name) : std::nullopt;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise) {
+  const auto name = meant(word, known);
+  return name ? fmt::format("; did you mean '{}'?", *name) : otherwise;
 }
 
 }  // namespace nextview

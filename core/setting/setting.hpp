@@ -65,8 +65,11 @@ Setting& find_setting(std::vector<Setting>& settings, const std::string& key);
 /// Of `known`, the one that `word` is most likely meant to be. @pre there is one
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
-/// "; did you mean 'scan'?", with the nearest of `known`; `otherwise` if that is not near: `word` is neither its
-/// beginning, nor one of its words, nor the same but for slips in at most a third of its letters.
+/// The nearest of `known`, if it is near: `word` is its beginning, or one of its words, or the same but for slips in at
+/// most a third of its letters.
+std::optional<std::string> meant(const std::string& word, const std::vector<std::string>& known);
+
+/// "; did you mean 'scan'?", with what is meant; `otherwise` if nothing is.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
                          const std::string& otherwise = "");
 

@@ -234,12 +234,30 @@ TEST_F(Messages, ANumberOrWordThatIsNotTakenIsToldWithThoseThatAre) {
 }
 
 TEST_F(Messages, AConfigurationThatIsNotThereIsToldWithThoseThatAre) {
-  EXPECT_EQ(
-      complaint("scan box --config papr"),
-      line("--config: there is no file 'papr'; those that come with the program are calibrated, new_surface, paper, "
-           "published_bunny"));
+  EXPECT_EQ(complaint("scan box --config mine"),
+            line("--config: there is no file 'mine'; those that come with the program are calibrated, new_surface, "
+                 "paper, published_bunny"));
+  EXPECT_EQ(complaint("scan box --config papr"), line("--config: there is no file 'papr'; did you mean 'paper'?"));
   EXPECT_EQ(complaint("scan box --config /tmp"),
             line("--config: /tmp is a folder; that of a session is given as /tmp/config.toml"));
+}
+
+TEST_F(Messages, WhatIsMeantByAMistypedNameIsGuessed) {
+  EXPECT_THAT(complaint("scan bunnny --out " + in("out")), HasSubstr("; did you mean 'bunny'?"));
+  EXPECT_THAT(complaint(scan() + "--sensor narow"), HasSubstr("there is no sensor 'narow'; did you mean 'narrow'?"));
+  EXPECT_THAT(complaint("posterior --problem corridoor"), HasSubstr("; did you mean 'corridor'?"));
+  EXPECT_THAT(complaint("driver simulatd box"),
+              HasSubstr("not expected: simulatd box; did you mean 'simulated'? See nextview driver --help"));
+  write("part.stl", "");
+  EXPECT_THAT(complaint("info " + in("prat.stl")), HasSubstr("; did you mean '" + in("part.stl") + "'?"));
+  ASSERT_EQ(nextview("scan box --no-pictures --no-surfaces --views 1 --sensor.width 40 --sensor.height 30 "
+                     "--map.resolution 0.04 --out " +
+                     in("mine"))
+                .exit_code,
+            0);
+  for (const std::string command : {"score ", "scan --resume "})
+    EXPECT_EQ(complaint(command + in("mien")),
+              line(in("mien") + ": there is no such folder; did you mean '" + in("mine") + "'?"));
 }
 
 TEST_F(Messages, AStudyIsToldFromAConfiguration) {
@@ -255,8 +273,9 @@ TEST_F(Messages, AStudyIsToldFromAConfiguration) {
 }
 
 TEST_F(Messages, AStudyThatIsNotThereIsToldWithThoseThatAre) {
-  EXPECT_EQ(complaint("study smok --out " + in("out")),
-            line("smok: there is no such file; smoke and nextview are studies that come with the program"));
+  EXPECT_EQ(complaint("study mine --out " + in("out")),
+            line("mine: there is no such file; studies that come with the program are nextview, smoke"));
+  EXPECT_EQ(complaint("study smok --out " + in("out")), line("smok: there is no such file; did you mean 'smoke'?"));
   EXPECT_FALSE(fs::exists(in("out")));
 }
 

@@ -8,6 +8,7 @@
 #include "core/config/configuration.hpp"
 #include "core/file/installation.hpp"
 #include "core/file/read_file.hpp"
+#include "core/setting/mistyped_path.hpp"
 #include "ui/commands/file_commands.hpp"
 #include "ui/commands/recording_commands.hpp"
 #include "ui/commands/script.hpp"
@@ -29,8 +30,9 @@ fs::path file_of(const std::string& file_or_name) {
   if (!is_name) return file_or_name;
   const auto names = demo_names();
   if (std::ranges::find(names, file_or_name) == names.end())
-    throw std::runtime_error(fmt::format("there is no demo '{}', nor a file of this name; there are {}", file_or_name,
-                                         fmt::join(names, ", ")));
+    throw std::runtime_error(fmt::format(
+        "there is no demo '{}', nor a file of this name{}", file_or_name,
+        did_you_mean_path(file_or_name, names, fmt::format("; there are {}", fmt::join(names, ", ")), is_demo_file)));
   return demos() / (file_or_name + ending);
 }
 

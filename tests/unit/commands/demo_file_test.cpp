@@ -47,12 +47,14 @@ TEST(DemoNames, EachIsReadByItsName) {
   EXPECT_GT(tour.calls.size(), 10u);
   EXPECT_EQ(tour.needs, "") << "it opens what comes with the program";
   EXPECT_EQ(read_demo("recorded").needs, "Debian's package visp-images-data");
-  try {
-    read_demo("toor");
-    ADD_FAILURE() << "there is none of this name";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(),
-                 "there is no demo 'toor', nor a file of this name; there are compare, gibbs, recorded, tour");
+  for (const auto& [wanted, hint] :
+       {std::pair{"toor", "; did you mean 'tour'?"}, {"show", "; there are compare, gibbs, recorded, tour"}}) {
+    try {
+      read_demo(wanted);
+      ADD_FAILURE() << "there is none of this name";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), fmt::format("there is no demo '{}', nor a file of this name{}", wanted, hint));
+    }
   }
 }
 
