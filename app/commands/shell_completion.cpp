@@ -11,11 +11,21 @@ namespace {
 
 using Words = std::vector<std::string>;
 
+// Sessions that the window keeps are known by their names, too, of which those that scanned the same part differ by the
+// time before it. With `filenames` bash puts backslashes before blanks, and a slash behind folders.
 constexpr std::string_view script = R"(# Made by `nextview help --completion` from what the program declares.
+_nextview_sessions() {{
+  local journal session
+  for journal in "${{XDG_STATE_HOME:-$HOME/.local/state}}"/nextview/*/journal; do
+    session=${{journal%/journal}}
+    if [[ -e $journal && ($session == "$1"* || ${{session##*/}} == *"$1"*) ]]; then printf '%s\n' "$session"; fi
+  done
+}}
 _nextview() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} option=${{COMP_WORDS[COMP_CWORD - 1]}} command='' words='' files='' i
   # --option=value is three words to bash
   if [ "$word" = = ]; then word=''; elif [ "$option" = = ]; then option=${{COMP_WORDS[COMP_CWORD - 2]}}; fi
+  word=${{word//\\/}} word=${{word#[\"\']}}
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${{COMP_WORDS[i]}} in {}) command=${{COMP_WORDS[i]}}; break ;; esac
   done
@@ -28,12 +38,17 @@ _nextview() {{
     case $command in
 {}    esac
     files=$(compgen -f -- "$word")
+    case $command in {}) files+=$'\n'$(_nextview_sessions "$word") ;; esac
+  elif [ "$command $option" = 'scan --resume' ]; then
+    files=$(compgen -d -- "$word"; _nextview_sessions "$word")
   fi
-  local IFS=$'\n'
-  COMPREPLY=($(IFS=' '; compgen -W "$words" -- "$word") $files)
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word"; printf '%s' "$files" | grep .)
+  if [[ $files == *[!$'\n']* ]]; then compopt -o filenames 2>/dev/null; fi
 }}
 complete -o default -F _nextview nextview
 )";
+
+constexpr std::string_view takers_of_sessions = "export | score | figure | refine | calibrate | info | window";
 
 Words long_options(const CLI::App& command) {
   Words names;
@@ -78,7 +93,7 @@ std::string bash_completion(const CLI::App& program, const std::map<std::string,
       of_names += "  " + when({taker}, words);
   of_names += "  " + when({"''"}, commands);
   for (const auto& [words, options] : options_by_choices(program)) values += when(options, words);
-  return fmt::format(script, fmt::join(commands, " | "), values, of_commands, of_names);
+  return fmt::format(script, fmt::join(commands, " | "), values, of_commands, of_names, takers_of_sessions);
 }
 
 }  // namespace nextview

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/file/atomic_file.hpp"
 #include "tests/integration/manual_pages.hpp"
@@ -12,6 +13,8 @@
 
 namespace nextview {
 namespace {
+
+namespace fs = std::filesystem;
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -134,6 +137,30 @@ TEST(Manual, TheShellCompletesWhatACommandTakes) {
   EXPECT_EQ(completed("nextview scan --resu", 2), "--resume\n");
   EXPECT_EQ(completed("nextview scan gearbox --gibbs.sampler alg", 4), "algorithm1\n");
   EXPECT_EQ(completed("nextview refine scan_", 2), "\n") << "bash completes files";
+}
+
+TEST(Manual, TheShellCompletesSessionsThatAreKept) {
+  const TemporaryFolder folder;
+  const fs::path state = folder.path() / "state", kept = state / "nextview/2026-01-31 23.59.59 gearbox";
+  fs::create_directories(kept);
+  fs::create_directories(state / "nextview/2026-01-31 23.59.59 gear without views");
+  fs::create_directories(folder.path() / "my part");
+  write_file(kept / "journal", "");
+  const auto completed = [&](const std::string& words, int at) {
+    return nextview_behind(
+               fmt::format("env XDG_STATE_HOME={} bash -c 'cd {}; source <(\"$0\" help --completion); COMP_WORDS=({}); "
+                           "COMP_CWORD={}; _nextview; printf \"<%s>\" \"${{COMPREPLY[@]}}\"'",
+                           state.string(), folder.path().string(), words, at),
+               "")
+        .out;
+  };
+  const std::string session = "<" + kept.string() + ">";
+  EXPECT_EQ(completed("nextview export gear", 2), session);
+  EXPECT_EQ(completed("nextview scan --resume gear", 3), session);
+  EXPECT_EQ(completed("nextview score " + state.string() + "/", 2),
+            "<" + (state / "nextview").string() + ">" + session);
+  EXPECT_EQ(completed("nextview refine \\\"my", 2), "<my part>") << "in a quote that is still open";
+  EXPECT_EQ(completed("nextview study gear", 2), "<>") << "which takes none";
 }
 
 TEST(Manual, AnOptionThatWouldDoNothingIsRefused) {
