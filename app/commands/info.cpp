@@ -9,6 +9,7 @@
 #include "app/commands/options.hpp"
 #include "app/commands/session_info.hpp"
 #include "app/commands/study_info.hpp"
+#include "app/commands/written_file_info.hpp"
 #include "core/cloud/point_cloud.hpp"
 #include "core/cloud/range_scan_folder.hpp"
 #include "core/config/configuration_text.hpp"
@@ -232,6 +233,11 @@ std::string toml_info(const fs::path& path) {
   return fmt::format("a study of {}: nextview study {} --out DIR", counted(runs, "run"), printable(path.string()));
 }
 
+std::string journal_info(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  return "the journal of a session\n" + session_info(folder);
+}
+
 std::string info(const fs::path& path) {
   std::error_code ignored;  // what cannot be looked at is told by who reads it
   if (fs::is_directory(path, ignored)) return folder_info(path);
@@ -241,6 +247,11 @@ std::string info(const fs::path& path) {
   if (extension == ".png") return picture_info(path);
   if (extension == ".toml") return toml_info(path);
   if (is_scene_file(path)) return text_info(path);
+  if (path.filename() == journal_name && !is_there(path / journal_name)) return journal_info(path);
+  if (is_there(path) && (extension == ".csv" || extension == ".json")) {
+    if (const auto written = written_file_info(path)) return *written;
+    throw std::runtime_error(path.string() + ": is no table or report that Nextview writes");
+  }
   const fs::path object = resolve_object(path.string());
   return is_cloud(object) ? cloud_info(object) : mesh_info(object);
 }
@@ -262,10 +273,11 @@ void add_info_command(CLI::App& program) {
   auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* app =
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
-  app->add_option("PATH", *paths,
-                  "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
-                  "configuration or study (.toml), picture (.png), "
-                  "a folder of results or of recorded data, or gearbox, bunny, …")
+  app->add_option(
+         "PATH", *paths,
+         "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
+         "configuration or study (.toml), picture (.png), tables and reports that were written (.csv, .json), journal, "
+         "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required()
       ->check(not_empty());
   auto writes_dataset = std::make_shared<bool>(false);

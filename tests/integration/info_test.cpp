@@ -64,6 +64,34 @@ TEST(Info, TellsViewsAndStudies) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("candidate views: 2 views\n  1 x 2 x 0 m"), HasSubstr("a study of 2 runs")));
 }
 
+TEST(Info, TellsTablesReportsAndJournals) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  ASSERT_EQ(
+      nextview("scan box --views 2 --sensor.width 40 --sensor.height 30 --map.resolution 0.04 --no-pictures --out " +
+               out.string())
+          .exit_code,
+      0);
+  const auto told = [&](const std::string& name) {
+    const Result run = nextview("info " + (out / name).string());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_THAT(told("steps.csv"), AllOf(HasSubstr("steps.csv: the steps of a scan: 2 steps\n"),
+                                       HasSubstr("\n  path[m] after the last: "), HasSubstr("\n  coverage_visible@")));
+  EXPECT_THAT(told("scores.csv"), HasSubstr("the candidates of a scan after each view: 96 rows\n"));
+  EXPECT_THAT(told("views.csv"), HasSubstr("poses of the camera in the world: 2 views\n"));
+  EXPECT_THAT(told("timings.csv"), HasSubstr("the seconds that each step of a scan took: 2 steps\n"));
+  EXPECT_THAT(told("metrics.json"), AllOf(HasSubstr("metrics.json: what a scan reached\n  object: box.ply\n"),
+                                          HasSubstr("\n  views: 2\n"), HasSubstr("\n  coverage: d_reg_m: ")));
+  EXPECT_THAT(told("manifest.json"), HasSubstr("\n  command: scan\n"));
+  EXPECT_THAT(told("surfaces.json"), HasSubstr("the surfaces that were made of a scan\n  surface_map: "));
+  EXPECT_THAT(told("journal"), AllOf(HasSubstr("the journal of a session\n  a session of "), HasSubstr(": 2 views")));
+  write_file(out / "other.csv", "time,voltage\n1,2\n");
+  EXPECT_THAT(nextview("info " + (out / "other.csv").string()).err,
+              HasSubstr("other.csv: is no table or report that Nextview writes"));
+}
+
 TEST(Info, DescribesRecordedDataAndWritesItDownOnce) {
   const TemporaryFolder folder;
   const fs::path scans = folder.path() / "scans", unknown = folder.path() / "unknown";
