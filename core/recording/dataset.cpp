@@ -125,7 +125,7 @@ bool says_something(const DatasetDescription& d, const std::string& key) {
   if (key == "camera_offset") return !d.camera_offset.empty();
   if (key == "intrinsics" || key.starts_with("depth.")) return images;
   if (key == "mask") return !d.mask.empty();
-  if (key == "unit") return clouds || d.format == RecordingFormat::stanford;
+  if (key == "unit") return clouds || d.format == RecordingFormat::stanford || d.unit != CloudUnit::automatic;
   return !d.region.empty();
 }
 
@@ -163,7 +163,8 @@ std::vector<Setting> settings(DatasetDescription& d) {
        &d.camera_offset},
       {"intrinsics", "px", "fx, fy, cx, cy", &d.intrinsics},
       {"mask", "", "image of pixels to ignore: those that are not 0", &d.mask},
-      {"unit", "", "of the clouds and of their poses", choice(d.unit, {"auto", "m", "cm", "mm"})},
+      {"unit", "", "of the clouds and their poses; of images, of the poses alone",
+       choice(d.unit, {"auto", "m", "cm", "mm"})},
       {"region", "m", "box of interest: least x, y, z, greatest x, y, z", &d.region},
       {"depth.scale", "m", "what a value of 1 stands for", &d.depth.scale, over_to(0.0, 1000.0)},
       {"depth.measures", "", "along the camera's z axis, or along the ray", choice(d.depth.measures, {"z", "range"})},

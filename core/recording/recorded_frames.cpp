@@ -51,7 +51,12 @@ void place_frames(Recording& recording, const FramePoses& poses, const Pose& T_p
   recording.files.insert(recording.files.end(), poses.files.begin(), poses.files.end());
 }
 
-void list_images(const DescribedDataset& dataset, Recording& recording) {
+void scale(FramePoses& poses, double unit) {
+  for (auto& pose : poses.T_world_camera)
+    if (pose) pose->translation() *= unit;
+}
+
+void list_images(const DescribedDataset& dataset, double unit, Recording& recording) {
   const DatasetDescription& d = dataset.description;
   const std::vector<FrameFile> files = find_frames(dataset);
   std::shared_ptr<const ImageMask> mask;
@@ -68,7 +73,9 @@ void list_images(const DescribedDataset& dataset, Recording& recording) {
            return read_depth_image(file, format, camera, mask.get());
          }});
   }
-  place_frames(recording, find_poses(dataset.folder, files, d), d.offset());
+  FramePoses poses = find_poses(dataset.folder, files, d);
+  scale(poses, unit);
+  place_frames(recording, poses, d.offset());
 }
 
 std::vector<Vector3> cloud_points(const fs::path& file, double unit, PoseAxes axes,
@@ -105,8 +112,7 @@ void list_clouds(const DescribedDataset& dataset, double unit, Recording& record
          }});
   }
   FramePoses poses = d.poses.empty() ? viewpoints(files, d.pose_axes) : find_poses(dataset.folder, files, d);
-  for (auto& pose : poses.T_world_camera)
-    if (pose) pose->translation() *= unit;
+  scale(poses, unit);
   place_frames(recording, poses, d.offset());
 }
 
@@ -164,7 +170,7 @@ void list_scene(const DescribedDataset& dataset, Recording& recording) {
 
 }  // namespace
 
-Recording list_frames(const DescribedDataset& dataset, const RecordingOptions& options, double cloud_unit) {
+Recording list_frames(const DescribedDataset& dataset, const RecordingOptions& options, double unit) {
   Recording recording;
   recording.format = name(dataset.description.format);
   recording.guessed = dataset.guessed;
@@ -172,13 +178,13 @@ Recording list_frames(const DescribedDataset& dataset, const RecordingOptions& o
   if (!dataset.description_file.empty()) recording.files.push_back(dataset.description_file);
   switch (dataset.description.format) {
     case RecordingFormat::depth_images:
-      list_images(dataset, recording);
+      list_images(dataset, unit, recording);
       break;
     case RecordingFormat::clouds:
-      list_clouds(dataset, cloud_unit, recording);
+      list_clouds(dataset, unit, recording);
       break;
     case RecordingFormat::stanford:
-      list_stanford(dataset, options.stand_off, cloud_unit, recording);
+      list_stanford(dataset, options.stand_off, unit, recording);
       break;
     case RecordingFormat::scan_graph:
       list_graph(dataset, recording);

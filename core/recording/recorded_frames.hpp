@@ -5,8 +5,8 @@
 namespace nextview {
 
 /// The frames of a recording, none of them read as yet but those of formats that come as a whole; its camera, extent
-/// and points are not known then. Unit: [m] for one of the clouds or Stanford's scans.
+/// and points are not known then. Unit: [m] for one of the clouds or Stanford's scans, and of poses.
 /// @throws std::runtime_error with one line that names the file or folder and the reason
-Recording list_frames(const DescribedDataset& dataset, const RecordingOptions& options, double cloud_unit);
+Recording list_frames(const DescribedDataset& dataset, const RecordingOptions& options, double unit);
 
 }  // namespace nextview

@@ -10,6 +10,7 @@
 #include "core/progress/stopped.hpp"
 #include "core/recording/cloud_camera.hpp"
 #include "core/recording/cloud_file.hpp"
+#include "core/recording/doubted_unit.hpp"
 #include "core/recording/recorded_frames.hpp"
 
 namespace nextview {
@@ -30,14 +31,17 @@ class Survey {
   }
 
   /// With lengths times `unit` [m].
-  void tell(Recording& recording, double unit) const {
+  void tell(Recording& recording, double unit, const DescribedDataset& dataset) const {
     recording.camera = camera_ ? *camera_ : cloud_camera_.camera();
     recording.extent = {extent_.min() * unit, extent_.max() * unit};
     recording.max_range = 1.01 * farthest_ * unit;
     recording.points = points_;
     if (const std::string outside = cloud_camera_.outside(); !camera_ && !outside.empty())
       recording.guessed.push_back(outside);
-    if (const std::string far = far_apart(recording, unit); !far.empty()) recording.guessed.push_back(far);
+    Eigen::AlignedBox3d cameras;
+    for (const RecordedFrame& frame : recording.frames) cameras.extend(frame.T_world_camera.translation());
+    recording.doubt = doubted_unit(dataset, cameras.diagonal().norm(), unit * ranges_ / double(points_));
+    if (!recording.doubt.empty()) recording.guessed.push_back(recording.doubt);
     if (!empty_.empty())
       recording.guessed.push_back(
           fmt::format("{} measured nothing, {} for example", counted(empty_.size(), "frame"), empty_.front()));
@@ -46,18 +50,6 @@ class Survey {
   double longest_side() const { return extent_.sizes().maxCoeff(); }
 
  private:
-  /// That poses are of another unit than the ranges; empty if it does not seem so.
-  std::string far_apart(const Recording& recording, double unit) const {
-    constexpr double too_many = 100.0;  // times as far apart as they see
-    Eigen::AlignedBox3d cameras;
-    for (const RecordedFrame& frame : recording.frames) cameras.extend(frame.T_world_camera.translation());
-    const double apart = cameras.diagonal().norm(), range = unit * ranges_ / double(points_);
-    if (!(apart > too_many * range)) return "";
-    return fmt::format(
-        "the cameras stand {:.3g} m apart and see {:.3g} m far on average: are their poses in millimetres, not metres?",
-        apart, range);
-  }
-
   void add_point(const Pose& T_world_camera, const Vector3& point) {
     extent_.extend(T_world_camera * point);
     farthest_ = std::max(farthest_, point.norm());
@@ -133,7 +125,7 @@ Recording open_recording(const fs::path& path, const RecordingOptions& options, 
     recording.guessed.push_back(fmt::format("the clouds' unit is taken as {}, for they span {:.4g} (unit overrules it)",
                                             in_mm ? "mm" : "m", found.longest_side()));
   if (left_out > 0) recording.guessed.push_back("clouds of " + points_text(found.points(), left_out));
-  found.tell(recording, in_mm ? unit_length(CloudUnit::mm) : 1.0);
+  found.tell(recording, in_mm ? unit_length(CloudUnit::mm) : 1.0, dataset);
   return recording;
 }
 

@@ -39,6 +39,7 @@ struct Recording {
   /// Points that are not finite, of all clouds that have been read, each time.
   std::shared_ptr<std::atomic<std::size_t>> left_out = std::make_shared<std::atomic<std::size_t>>(0);
   std::vector<std::string> guessed = {};          ///< what was guessed, a line each, for people
+  std::string doubt = {};                         ///< the one of these that says of which unit it likely is
   std::vector<std::filesystem::path> files = {};  ///< that it was read from, frames among them
 };
 

@@ -133,38 +133,44 @@ void follow_end(Configuration& c, const Recording& recording) {
   for (const Setting& setting : settings(endless.termination)) set_unless_given(c, setting.key, setting.text());
 }
 
-Recording open_and_fit(Configuration& c, const Progress& progress, const std::stop_token& stop) {
+void open_and_fit(Configuration& c, Recording& recording, const Progress& progress, const std::stop_token& stop) {
   const fs::path path = c.recorded.folder;
-  if (is_scan_folder(path)) return open_scan_folder(c, path, progress, stop);
-  Recording recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
+  if (is_scan_folder(path)) {
+    recording = open_scan_folder(c, path, progress, stop);
+    return;
+  }
+  recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
   const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
   // A region that follows from the recording has a margin; to go by that would give the next session other lengths.
   const Eigen::AlignedBox3d region = is_given(c, "map.region") ? c.map.region_box() : seen;
   fit_lengths(c, region.sizes().maxCoeff());
-  return recording;
 }
 
 }  // namespace
 
 std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, const Progress& progress,
-                                                          const std::stop_token& stop) try {
-  Recording recording = open_and_fit(c, progress, stop);
-  follow_camera(c, recording.camera);
-  set_unless_given(c, "sensor.min_range", "0");
-  if (!c.sources.contains("sensor.max_range")) {
-    c.sensor.max_range = recording.max_range;
-    c.fitted["sensor.max_range"] = fmt::format("{}", recording.max_range);
+                                                          const std::stop_token& stop) {
+  Recording recording;
+  try {
+    open_and_fit(c, recording, progress, stop);
+    follow_camera(c, recording.camera);
+    set_unless_given(c, "sensor.min_range", "0");
+    if (!c.sources.contains("sensor.max_range")) {
+      c.sensor.max_range = recording.max_range;
+      c.fitted["sensor.max_range"] = fmt::format("{}", recording.max_range);
+    }
+    recording.max_range = std::min(recording.max_range, c.sensor.max_range);
+    follow_region(c, recording);
+    lengthen_rays(c, poses_of(recording));
+    set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
+    follow_end(c, recording);
+    recording.region.reset();  // which is the configuration's from here on
+    c = affordable(validated(std::move(c)));
+    return std::make_unique<RecordedSource>(std::move(recording));
+  } catch (const std::invalid_argument& error) {
+    // Of a wrong unit lengths follow that no setting may have.
+    throw std::invalid_argument(c.as_given(error.what()) + (recording.doubt.empty() ? "" : "; " + recording.doubt));
   }
-  recording.max_range = std::min(recording.max_range, c.sensor.max_range);
-  follow_region(c, recording);
-  lengthen_rays(c, poses_of(recording));
-  set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
-  follow_end(c, recording);
-  recording.region.reset();  // which is the configuration's from here on
-  c = affordable(validated(std::move(c)));
-  return std::make_unique<RecordedSource>(std::move(recording));
-} catch (const std::invalid_argument& error) {
-  throw std::invalid_argument(c.as_given(error.what()));
 }
 
 std::vector<View> frames_listed(const fs::path& file, const RecordedSource& source) {

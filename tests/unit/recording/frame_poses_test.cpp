@@ -121,6 +121,12 @@ TEST(FramePoses, InMillimetresAreDoubted) {
     folder.write(fmt::format("frame-{:06}.pose.txt", 9 + i), matrix(pose));
   }
   EXPECT_THAT(open_recording(folder / "").guessed, Contains(HasSubstr("are their poses in millimetres, not metres?")));
+  DatasetDescription description = guess_dataset(folder / "")->description;
+  description.unit = CloudUnit::mm;
+  folder.write("dataset.toml", to_toml(description));
+  const Recording mended = open_recording(folder / "");
+  expect_walls(mended);
+  EXPECT_EQ(mended.doubt, "");
 }
 
 TEST(GuessedDataset, RealNumbersAreMetres) {

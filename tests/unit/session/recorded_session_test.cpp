@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include "core/export/scan_files.hpp"
+#include "core/recording/dataset_guess.hpp"
 #include "core/session/recording_setup.hpp"
 #include "core/session/session.hpp"
 #include "core/session/session_folder.hpp"
+#include "tests/unit/recording/made_walls.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -64,6 +66,23 @@ TEST(RecordedLengths, AreTheSameWhenItStartsOver) {
   const Session smaller(own);
   EXPECT_LT(smaller.configuration().map.resolution, first.configuration().map.resolution)
       << "it follows a given region";
+}
+
+// Of depths in millimetres that are read as metres follow lengths that no setting may have.
+TEST(RecordedLengths, AWrongUnitIsToldWhereItIsRefused) {
+  const TemporaryFolder folder;
+  made_walls::write_3dmatch(folder);
+  DatasetDescription description = guess_dataset(folder / "")->description;
+  description.depth.scale = 1.0;
+  folder.write("dataset.toml", to_toml(description));
+  Configuration c;
+  c.recorded.folder = folder.path().string();
+  try {
+    open_configured_recording(c, {}, {});
+    ADD_FAILURE() << "a wall 2 km away is scanned";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("in millimetres, not metres? Then depth.scale = 0.001 in"));
+  }
 }
 
 TEST_F(RecordedSession, AScanReplayedInItsOrderGivesItsMapToTheBit) {
