@@ -119,6 +119,16 @@ void warn_of_views(const Configuration& c, const TriangleMesh& object, std::span
                              stand, c.sensor.field_of_view));
 }
 
+/// What makes the voxels of an object fine enough: there is a limit to how fine they are.
+std::string finer_voxels(double longest) {
+  MapConfig map;
+  auto all = settings(map);
+  const double finest = find_setting(all, "map.resolution").bounds->low;
+  if (longest < min_voxels * finest)
+    return fmt::format("none are finer than {}, so scan it larger: object.longest_side", length_text(finest));
+  return fmt::format("lower map.resolution, for example to {}", length_text(std::max(finest, longest / 50.0)));
+}
+
 }  // namespace
 
 std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMesh& object,
@@ -136,10 +146,9 @@ std::vector<std::string> setup_warnings(const Configuration& c, const TriangleMe
     views.push_back(start);
   warn_of_views(c, object, views, {own_start ? "candidates" : "candidates and start view", stand, radius}, warnings);
   if (longest < min_voxels * c.map.resolution)
-    warnings.push_back(fmt::format(
-        "voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: lower "
-        "map.resolution, for example to {}",
-        length_text(c.map.resolution), length_text(longest), longest / c.map.resolution, length_text(longest / 50.0)));
+    warnings.push_back(fmt::format("voxels of {} are too coarse for an object {} long, which spans {:.1f} of them: {}",
+                                   length_text(c.map.resolution), length_text(longest), longest / c.map.resolution,
+                                   finer_voxels(longest)));
   if (!c.views.file.empty() && !from_file)
     warnings.push_back("views.file is not read: views.layout must be file for that");
   for (std::string& warning : warnings) warning = c.as_given(warning);

@@ -12,6 +12,7 @@ namespace nextview {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -45,6 +46,19 @@ TEST(SetupWarnings, CamerasInsideTheObject) {
   c.views.radius = 0.2;
   EXPECT_THAT(of_the_sphere(c), ElementsAre(AllOf(HasSubstr("49 of 49 views"), HasSubstr("inside the object"),
                                                   HasSubstr("views.radius (200 mm)"), HasSubstr("it reaches 4"))));
+}
+
+TEST(SetupWarnings, VoxelsAreProposedAsFineAsThereAreAny) {
+  Configuration c;
+  const auto of_size = [&](float factor) {
+    TriangleMesh small = sphere_part().mesh;  // half a metre large
+    for (Eigen::Vector3f& vertex : small.vertices) vertex *= factor;
+    return setup_warnings(c, small, {});
+  };
+  EXPECT_THAT(of_size(0.01f), Contains(HasSubstr("map.resolution, for example to 0.1 mm")));
+  EXPECT_THAT(of_size(0.0005f), Contains(HasSubstr("map.resolution, for example to 0.01 mm")));
+  EXPECT_THAT(of_size(0.00005f),
+              Contains(HasSubstr("none are finer than 0.01 mm, so scan it larger: object.longest_side")));
 }
 
 TEST(SetupWarnings, AViewsFileThatIsNotRead) {
