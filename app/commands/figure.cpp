@@ -26,12 +26,14 @@ namespace fs = std::filesystem;
 
 constexpr const char *time_table_name = "table_1", *report_name = "report";
 constexpr double design_dpi = 96.0;  // at which a pixel of a drawing is one of its picture
+constexpr double mm_an_inch = 25.4, points_a_mm = 72.0 / mm_an_inch;
+constexpr double least_points = 7.0;  // of letters, as journals ask for
 
 struct FigureArguments {
   std::string name, study, out, size;
   std::vector<std::string> sessions;
   std::vector<int> views;
-  double dpi = 2 * design_dpi;
+  double dpi = 2 * design_dpi, width = 0;  ///< width: of the print [mm]; 0: none
   bool list = false, dark = false;
 };
 
@@ -47,14 +49,37 @@ void print_list() {
 
 Look look_of(const FigureArguments& a) { return a.dark ? Look::dark() : Look::light(); }
 
+/// Pixels of the picture a pixel of the drawing, which has its width in print.
+double scale_of(const FigureArguments& a, const VectorDrawing& drawing) {
+  return a.width > 0 ? a.width * a.dpi / (mm_an_inch * drawing.width()) : a.dpi / design_dpi;
+}
+
+/// No wider than what keeps its smallest letters as large as they must be.
+Sheet sheet_of(const FigureArguments& a) {
+  if (a.width <= 0) return look_of(a);
+  return {look_of(a), theme::small_text * a.width * points_a_mm / least_points};
+}
+
+/// Where a figure has its own width letters follow from it.
+void warn_of_letters(const FigureArguments& a, const std::string& name, const VectorDrawing& drawing) {
+  if (a.width <= 0 || !drawing.smallest_text()) return;
+  const double points = *drawing.smallest_text() * points_a_mm * a.width / drawing.width();
+  if (points > least_points - 0.05) return;
+  fmt::print(stderr,
+             "warning: {}: its smallest letters are {:.1f} pt at --width {:g}; from {:.0f} on they are {:g} pt\n", name,
+             points, a.width, std::ceil(a.width * least_points / points), least_points);
+}
+
 /// A drawing, and beside it what it shows and what it was made from.
 void write_drawing(const FigureArguments& a, const std::string& name, const VectorDrawing& drawing,
                    nlohmann::ordered_json about, const std::string& configuration) {
   const fs::path out = a.out;
   const Image image =
-      a.size.empty() ? drawing.image(a.dpi / design_dpi) : drawing.image(picture_size(a.size, "--size"));
+      a.size.empty() ? drawing.image(scale_of(a, drawing)) : drawing.image(picture_size(a.size, "--size"));
   write_png(image, out / (name + ".png"), configuration, a.dpi);
-  if (drawing.is_vector()) write_file(out / (name + ".svg"), drawing.svg());
+  if (drawing.is_vector())
+    write_file(out / (name + ".svg"), drawing.svg(a.width > 0 ? std::optional(a.width) : std::nullopt));
+  warn_of_letters(a, name, drawing);
   about["configuration"] = configuration;
   write_file(out / (name + ".json"), json_text(about, 2) + "\n");
   fmt::print("{}.png,{} .json\n", name, drawing.is_vector() ? " .svg," : "");
@@ -73,7 +98,7 @@ void write_time_table(const fs::path& study, const fs::path& out) {
 /// A figure that the study has nothing of is passed over, or, if it was asked for by name, an error.
 void write_figure(const FigureArguments& a, const StudyFigure& figure, const SummaryTable& table,
                   const fs::path& study) {
-  const auto drawing = figure.draw(table, look_of(a));
+  const auto drawing = figure.draw(table, sheet_of(a));
   if (!drawing && a.name != "all")
     throw std::invalid_argument(fmt::format("{}: the study has nothing that {} shows, which needs {}", study.string(),
                                             figure.name, figure.needs));
@@ -102,10 +127,11 @@ void write_study_figures(const FigureArguments& a, const SummaryTable& table, co
 VectorDrawing drawn(const FigureArguments& a, const ScanFigure& figure, std::span<ReportScan> scans) {
   FigurePaper paper{look_of(a), a.dpi / design_dpi, a.views};
   if (a.views.empty()) paper.views = {1, 2, 3, 4, 5, 6, 7, 8};
-  if (a.size.empty()) return figure.draw(scans, paper);
+  if (a.size.empty() && a.width <= 0) return figure.draw(scans, paper);
   constexpr double coarse = 0.2;
   paper.scale = coarse;
-  paper.scale = figure.draw(scans, paper).scale_within(picture_size(a.size, "--size"));
+  const VectorDrawing first = figure.draw(scans, paper);
+  paper.scale = a.size.empty() ? scale_of(a, first) : first.scale_within(picture_size(a.size, "--size"));
   return figure.draw(scans, paper);
 }
 
@@ -211,7 +237,14 @@ void add_figure_command(CLI::App& program) {
   app->add_option("--dpi", a->dpi, "of the pictures; 96 draws a pixel a pixel")
       ->check(within(48.0, 600.0))
       ->capture_default_str();
-  app->add_option("--size", a->size, "of the pictures in pixels, whatever the dpi")->type_name("WxH");
+  CLI::Option* size =
+      app->add_option("--size", a->size, "of the pictures in pixels, whatever the dpi")->type_name("WxH");
+  app->add_option("--width", a->width,
+                  "of the figures in print, for a column of 85 mm for instance: charts are laid out anew so that their "
+                  "letters are 7 pt there, and what cannot be is told")
+      ->check(within(40.0, 1000.0))
+      ->type_name("MM")
+      ->excludes(size);
   app->add_option("--views", a->views, "that `strategy` has as columns, from 1 (default 1 to 8)")
       ->delimiter(',')
       ->check(within(1, 1000000))
@@ -220,7 +253,8 @@ void add_figure_command(CLI::App& program) {
   app->add_flag("--list", a->list, "prints all figures and ends");
   app->footer(
       "Examples:\n  nextview figure all --out figures\n  nextview figure gap_closed --study mine --out figures --dpi "
-      "300\n  nextview figure strategy my-scan --views 1,2,4,8 --out figures");
+      "300\n  nextview figure coverage_by_view --width 85 --out figures\n  nextview figure strategy my-scan --views "
+      "1,2,4,8 --out figures");
   app->callback([a] { throw CLI::RuntimeError(run(*a)); });
 }
 

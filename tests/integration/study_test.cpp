@@ -93,6 +93,21 @@ TEST_F(StudyCommand, ABrokenObjectIsReportedAndTheOthersGoOn) {
   EXPECT_THAT(is_study.err, HasSubstr("is the folder of a study, which is given as --study"));
 }
 
+TEST_F(StudyCommand, FiguresAreMadeForTheColumnOfAPaper) {
+  const Result column = nextview("figure coverage_by_view --width 85 --dpi 300 --out " + quoted("column"));
+  EXPECT_EQ(column.exit_code, 0) << column.err;
+  EXPECT_EQ(column.err, "");
+  EXPECT_THAT(read_file(file("column") / "coverage_by_view.svg"), HasSubstr("width=\"85mm\""));
+  EXPECT_THAT(nextview("info " + quoted("column/coverage_by_view.png")).out, HasSubstr("a picture of 1004 x "));
+  const Result narrow = nextview("figure log_loss_by_object --width 60 --out " + quoted("narrow"));
+  EXPECT_EQ(narrow.exit_code, 0);
+  EXPECT_THAT(narrow.err, testing::MatchesRegex(
+                              "warning: log_loss_by_object: its smallest letters are [0-9.]+ pt at --width 60; from "
+                              "[0-9]+ on they are 7 pt\n"));
+  EXPECT_THAT(nextview("figure gap_closed --width 85 --size 800x600 --out " + quoted("both")).err,
+              HasSubstr("--width"));
+}
+
 TEST_F(StudyCommand, IsTheSameOnAnyNumberOfThreadsAndHoweverSharded) {
   ASSERT_EQ(study("whole", "--threads 1").exit_code, some_failed);
   std::string folders;

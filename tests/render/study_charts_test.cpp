@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 #include "core/planner/policy.hpp"
@@ -39,6 +40,32 @@ TEST(Figures, ChartsOfAStudyOnDarkPaper) {
     if (figure.name == "coverage_by_view" || figure.name == "gap_closed" || figure.name == "stationarity" ||
         figure.name == "log_loss_by_sensor")
       expect_screenshot("study_" + figure.name + "_dark", figure.draw(own_study(), Look::dark())->image());
+}
+
+/// A text of an SVG that reaches beyond its sides, by about how wide it is; empty if none does.
+std::string beyond_sides(const std::string& svg, double width) {
+  const std::regex text("<text x=\"([0-9.-]+)\"[^>]*font-size=\"([0-9]+)\"[^>]*text-anchor=\"([a-z]+)\"[^>]*>([^<]*)<");
+  for (std::sregex_iterator found(svg.begin(), svg.end(), text), end; found != end; ++found) {
+    const double x = std::stod((*found)[1]), wide = text_width((*found)[4], std::stoi((*found)[2]));
+    const double left = x - ((*found)[3] == "end" ? wide : (*found)[3] == "middle" ? 0.5 * wide : 0.0);
+    if (left < 0.0 || left + wide > width) return (*found)[4];
+  }
+  return "";
+}
+
+TEST(StudyCharts, AreLaidOutForTheColumnOfAPaper) {
+  constexpr double column = 447;  // 85 mm with letters of 7 pt [px]
+  for (const StudyFigure& figure : study_figures()) {
+    const auto drawing = figure.draw(own_study(), Sheet(Look::light(), column));
+    ASSERT_TRUE(drawing) << figure.name;
+    EXPECT_EQ(beyond_sides(drawing->svg(), drawing->width()), "") << figure.name;
+    EXPECT_EQ(drawing->smallest_text(), theme::small_text) << figure.name;
+    const bool is_matrix = figure.name.ends_with("_by_object") || figure.name.ends_with("_by_sensor");
+    EXPECT_TRUE(is_matrix || drawing->width() == column) << figure.name;
+  }
+  const auto figures = study_figures();
+  const auto curves = std::ranges::find(figures, "coverage_by_view", &StudyFigure::name);
+  EXPECT_THAT(curves->draw(own_study(), Sheet(Look::light(), column))->svg(85.0), HasSubstr("width=\"85mm\""));
 }
 
 /// Divergences of as many objects after six and after nine views, made up.

@@ -28,7 +28,7 @@ std::string views_and_sensor(const StudySetting& setting) {
 }
 
 /// A row a map, a column a sensor, each the mean over the objects.
-StudyChart by_sensor(const SummaryTable& table, const Look& look, const std::string& measure, MatrixPlot plot) {
+StudyChart by_sensor(const SummaryTable& table, const Sheet& sheet, const std::string& measure, MatrixPlot plot) {
   // Those of one block and number of views, under which most sensors and maps were tried.
   std::map<std::pair<std::size_t, int>, std::vector<StudySetting>> together;
   for (const StudySetting& setting : table.settings(StudyPart::maps, measure))
@@ -52,14 +52,12 @@ StudyChart by_sensor(const SummaryTable& table, const Look& look, const std::str
     }
   }
   const double height = 120 + 28.0 * double(plot.rows.size());
-  VectorDrawing drawing(860, height, look);
-  draw_matrix(drawing, {0, 0, 860, height}, plot);
-  return drawing;
+  return one_matrix(plot, sheet, height);
 }
 
 }  // namespace
 
-StudyChart divergence_by_object(const SummaryTable& table, const Look& look) {
+StudyChart divergence_by_object(const SummaryTable& table, const Sheet& sheet) {
   const auto setting = maps_setting(table, "d_kl[nats]");
   if (!setting) return std::nullopt;
   MatrixPlot plot;
@@ -67,10 +65,10 @@ StudyChart divergence_by_object(const SummaryTable& table, const Look& look) {
   plot.note = "darker: less, better";
   plot.digits = 0;
   plot.dark_is_high = false;
-  return by_object(table, look, *setting, "d_kl[nats]", plot, 1e3);
+  return by_object(table, sheet, *setting, "d_kl[nats]", plot, 1e3);
 }
 
-StudyChart log_loss_by_object(const SummaryTable& table, const Look& look) {
+StudyChart log_loss_by_object(const SummaryTable& table, const Sheet& sheet) {
   const auto setting = maps_setting(table, "log_loss_near_surface[nats]");
   if (!setting) return std::nullopt;
   MatrixPlot plot;
@@ -78,35 +76,36 @@ StudyChart log_loss_by_object(const SummaryTable& table, const Look& look) {
   plot.note = "darker: less, better. Truth: the surface touches the voxel";
   plot.digits = 3;
   plot.dark_is_high = false;
-  return by_object(table, look, *setting, "log_loss_near_surface[nats]", plot);
+  return by_object(table, sheet, *setting, "log_loss_near_surface[nats]", plot);
 }
 
-StudyChart log_loss_by_sensor(const SummaryTable& table, const Look& look) {
+StudyChart log_loss_by_sensor(const SummaryTable& table, const Sheet& sheet) {
   MatrixPlot plot;
   plot.title = "Log loss within 3 voxels of the surface by noise and field of view [nats per voxel]";
   plot.note = "darker: less, better. Truth: the surface touches the voxel";
   plot.digits = 3;
   plot.dark_is_high = false;
-  return by_sensor(table, look, "log_loss_near_surface[nats]", plot);
+  return by_sensor(table, sheet, "log_loss_near_surface[nats]", plot);
 }
 
-StudyChart openings_by_sensor(const SummaryTable& table, const Look& look) {
+StudyChart openings_by_sensor(const SummaryTable& table, const Sheet& sheet) {
   MatrixPlot plot;
   plot.title = "Rows of slots and bores with an open line through [%]";
   plot.note = "darker: more";
   plot.dark_is_high = true;
   plot.digits = 0;
-  return by_sensor(table, look, "rows_open[%]", plot);
+  return by_sensor(table, sheet, "rows_open[%]", plot);
 }
 
-StudyChart openings_by_width(const SummaryTable& table, const Look& look) {
+StudyChart openings_by_width(const SummaryTable& table, const Sheet& sheet) {
   const std::pair<const char*, const char*> measures[] = {
       {"rows_open_by_width[%]", "Open rows of slots and bores by their width"},
       {"leaks_by_width[%]", "Rows called open through solid wall beside them"}};
   const auto setting = maps_setting(table, measures[0].first);
   if (!setting) return std::nullopt;
   constexpr double height = 400;
-  VectorDrawing drawing(760, 2 * height, look);
+  const double width = chart_width(sheet);
+  VectorDrawing drawing(width, 2 * height, sheet.look);
   for (int i = 0; i < 2; ++i) {
     Plot plot = courses(table, *setting, measures[i].first);
     for (PlotSeries& series : plot.series) series.spread.clear();
@@ -115,12 +114,12 @@ StudyChart openings_by_width(const SummaryTable& table, const Look& look) {
     plot.x_label = "width [mm]";
     plot.y_label = "rows [%]";
     plot.y_high = i == 0 ? std::optional(100.0) : std::nullopt;
-    draw_plot(drawing, {0, i * height, 760, height}, plot);
+    draw_plot(drawing, {0, i * height, width, height}, plot);
   }
   return drawing;
 }
 
-StudyChart reliability(const SummaryTable& table, const Look& look) {
+StudyChart reliability(const SummaryTable& table, const Sheet& sheet) {
   // Bins are told of the mean over objects alone; the main measure has the objects.
   const auto setting = maps_setting(table, main_measure(StudyPart::maps));
   if (!setting || table.methods(*setting, "reliability_true").empty()) return std::nullopt;
@@ -139,7 +138,7 @@ StudyChart reliability(const SummaryTable& table, const Look& look) {
     for (std::size_t i = 0; i < series.x.size(); ++i) series.x[i] = 100.0 * said.at(i).mean;
     series.spread.clear();
   }
-  return one_plot(plot, look, 520);
+  return one_plot(plot, sheet, 520);
 }
 
 /// Each chain in a colour of its own, the default one strong.
@@ -154,14 +153,15 @@ void tell_apart(Plot& plot) {
 }
 
 /// Under which the most chains were tried.
-StudyChart stationarity(const SummaryTable& table, const Look& look) {
+StudyChart stationarity(const SummaryTable& table, const Sheet& sheet) {
   const std::string trace = "log_posterior_below_last[nats]", divergence = "d_kl_of_mean[nats]";
   auto settings = table.settings(StudyPart::maps, trace);
   if (settings.empty()) return std::nullopt;
   const StudySetting setting =
       *std::ranges::max_element(settings, {}, [&](const StudySetting& s) { return table.methods(s, trace).size(); });
   constexpr double height = 420;
-  VectorDrawing drawing(760, 2 * height, look);
+  const double width = chart_width(sheet);
+  VectorDrawing drawing(width, 2 * height, sheet.look);
   Plot way = courses(table, setting, trace, 1e3);
   for (PlotSeries& series : way.series)
     for (double& y : series.y) y = std::abs(y);
@@ -176,8 +176,8 @@ StudyChart stationarity(const SummaryTable& table, const Look& look) {
   change.y_label = "D_KL between successive means [nats]";
   change.logarithmic_y = true;
   tell_apart(way), tell_apart(change);
-  draw_plot(drawing, {0, 0, 760, height}, way);
-  draw_plot(drawing, {0, height, 760, height}, change);
+  draw_plot(drawing, {0, 0, width, height}, way);
+  draw_plot(drawing, {0, height, width, height}, change);
   return drawing;
 }
 

@@ -12,7 +12,7 @@ namespace nextview {
 namespace {
 
 /// Coverage over something that was spent on it.
-StudyChart coverage_by(const SummaryTable& table, const Look& look, const std::string& spent,
+StudyChart coverage_by(const SummaryTable& table, const Sheet& sheet, const std::string& spent,
                        const std::string& label) {
   const auto setting = main_setting(table, StudyPart::planning, "coverage[%]");
   if (!setting) return std::nullopt;
@@ -30,12 +30,12 @@ StudyChart coverage_by(const SummaryTable& table, const Look& look, const std::s
   plot.y_label = "coverage [%]";
   plot.x_low = 0.0;
   plot.y_high = 100.0;
-  return one_plot(plot, look);
+  return one_plot(plot, sheet);
 }
 
 }  // namespace
 
-StudyChart coverage_by_view(const SummaryTable& table, const Look& look) {
+StudyChart coverage_by_view(const SummaryTable& table, const Sheet& sheet) {
   const auto setting = main_setting(table, StudyPart::planning, "coverage[%]");
   if (!setting) return std::nullopt;
   Plot plot = courses(table, *setting, "coverage[%]");
@@ -43,33 +43,34 @@ StudyChart coverage_by_view(const SummaryTable& table, const Look& look) {
   plot.x_label = "views";
   plot.y_label = "coverage [%]";
   plot.y_high = 100.0;
-  return one_plot(plot, look);
+  return one_plot(plot, sheet);
 }
 
-StudyChart coverage_by_path(const SummaryTable& table, const Look& look) {
-  return coverage_by(table, look, "path[m]", "path of the camera [m]");
+StudyChart coverage_by_path(const SummaryTable& table, const Sheet& sheet) {
+  return coverage_by(table, sheet, "path[m]", "path of the camera [m]");
 }
-StudyChart coverage_by_time(const SummaryTable& table, const Look& look) {
-  return coverage_by(table, look, "robot_time[s]", "time of moves and scans [s]");
+StudyChart coverage_by_time(const SummaryTable& table, const Sheet& sheet) {
+  return coverage_by(table, sheet, "robot_time[s]", "time of moves and scans [s]");
 }
 
 /// Under each setting there is: plans, and plans with the Gibbs map in the loop.
-StudyChart entropy_by_view(const SummaryTable& table, const Look& look) {
+StudyChart entropy_by_view(const SummaryTable& table, const Sheet& sheet) {
   const auto settings = table.settings(StudyPart::planning, "entropy[bits]");
   if (settings.empty()) return std::nullopt;
   constexpr double height = 440;
-  VectorDrawing drawing(760, height * double(settings.size()), look);
+  const double width = chart_width(sheet);
+  VectorDrawing drawing(width, height * double(settings.size()), sheet.look);
   for (std::size_t i = 0; i < settings.size(); ++i) {
     Plot plot = courses(table, settings[i], "entropy[bits]", 1e6);
     plot.title = "Unmeasured entropy of the map (Eq. 18): " + scope(table, settings[i], "entropy[bits]");
     plot.x_label = "views";
     plot.y_label = "unmeasured entropy [Mbit]";
-    draw_plot(drawing, {0, height * double(i), 760, height}, plot);
+    draw_plot(drawing, {0, height * double(i), width, height}, plot);
   }
   return drawing;
 }
 
-StudyChart gap_closed(const SummaryTable& table, const Look& look) {
+StudyChart gap_closed(const SummaryTable& table, const Sheet& sheet) {
   const auto setting = main_setting(table, StudyPart::planning, "gap_closed");
   if (!setting) return std::nullopt;
   DotPlot plot;
@@ -88,23 +89,24 @@ StudyChart gap_closed(const SummaryTable& table, const Look& look) {
   }
   std::ranges::stable_sort(plot.rows, std::greater(), &DotPlot::Row::value);
   const double height = 120 + 26.0 * double(plot.rows.size());
-  VectorDrawing drawing(760, height, look);
-  draw_dot_plot(drawing, {0, 0, 760, height}, plot);
+  const double width = chart_width(sheet);
+  VectorDrawing drawing(width, height, sheet.look);
+  draw_dot_plot(drawing, {0, 0, width, height}, plot);
   return drawing;
 }
 
-StudyChart coverage_by_object(const SummaryTable& table, const Look& look) {
+StudyChart coverage_by_object(const SummaryTable& table, const Sheet& sheet) {
   const auto setting = main_setting(table, StudyPart::planning, "mean_coverage[%]");
   if (!setting) return std::nullopt;
   MatrixPlot plot;
   plot.title =
       fmt::format("Mean coverage of the visible surface over {} [%]", counted(std::size_t(setting->views), "view"));
   plot.note = "darker: more";
-  return by_object(table, look, *setting, "mean_coverage[%]", plot);
+  return by_object(table, sheet, *setting, "mean_coverage[%]", plot);
 }
 
 /// Each object's means, view by view, of every plan that predicts new surface.
-StudyChart predicted_and_seen(const SummaryTable& table, const Look& look) {
+StudyChart predicted_and_seen(const SummaryTable& table, const Sheet& sheet) {
   const std::string predicted = "predicted_gain[cm²]", seen = "new_surface[cm²]";
   const auto setting = main_setting(table, StudyPart::planning, predicted);
   if (!setting) return std::nullopt;
@@ -129,7 +131,7 @@ StudyChart predicted_and_seen(const SummaryTable& table, const Look& look) {
           if (other.at == point.at) points.x.push_back(point.mean), points.y.push_back(other.mean);
     }
   }
-  return one_plot(plot, look, 480);
+  return one_plot(plot, sheet, 480);
 }
 
 }  // namespace nextview

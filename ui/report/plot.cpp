@@ -37,7 +37,9 @@ class Axes {
         y.add(logarithmic_ ? s.y[i] : s.y[i] - spread_of(s, i)), y.add(s.y[i] + spread_of(s, i));
       }
     if (x.low > x.high) x = {0, 1}, y = {0, 1};
-    x_ticks = round_ticks(plot.x_low.value_or(x.low), plot.x_high.value_or(x.high), 8, plot.whole_x);
+    constexpr double tick_room = 45;  // [px]
+    const int most_ticks = std::clamp(int(area.width / tick_room), 2, 8);
+    x_ticks = round_ticks(plot.x_low.value_or(x.low), plot.x_high.value_or(x.high), most_ticks, plot.whole_x);
     const double low = plot.y_low.value_or(logarithmic_ ? y.low : std::min(0.0, y.low)),
                  high = plot.y_high.value_or(y.high);
     if (logarithmic_)
@@ -129,14 +131,23 @@ void draw_names(VectorDrawing& d, const DrawingArea& inner, const Plot& plot, co
 
 }  // namespace
 
+double draw_plot_title(VectorDrawing& d, const DrawingArea& area, const std::string& title) {
+  constexpr double line_height = 20;
+  const auto lines = broken_to(area.width - 24, title, theme::caption);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    d.text(area.left + 16, area.top + 26 + line_height * double(i), lines[i], theme::caption, d.look().ink,
+           TextAlign::left, true);
+  return line_height * (std::max<double>(1.0, double(lines.size())) - 1.0);
+}
+
 void draw_plot(VectorDrawing& d, const DrawingArea& area, const Plot& plot) {
   double names = 28;  // of the last tick's half
   for (const PlotSeries& s : plot.series)
     if (!s.name.empty()) names = std::max(names, leaders_room + 18 + text_width(s.name, theme::small_text));
-  const DrawingArea inner{area.left + left_room, area.top + top_room, area.width - left_room - names,
-                          area.height - top_room - bottom_room};
+  const double top = top_room + draw_plot_title(d, area, plot.title);
+  const DrawingArea inner{area.left + left_room, area.top + top, area.width - left_room - names,
+                          area.height - top - bottom_room};
   const Axes axes(plot, inner);
-  d.text(area.left + 16, area.top + 26, plot.title, theme::caption, d.look().ink, TextAlign::left, true);
   draw_axes(d, inner, plot, axes);
   if (plot.diagonal) {
     const double low = std::max(axes.x_ticks.front(), axes.y_ticks.front()),

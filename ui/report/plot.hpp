@@ -24,6 +24,9 @@ struct PlotSeries {
   bool joined = true;  ///< a line; else dots alone
 };
 
+/// A plot's title, in as many lines as it needs; returns how much lower what is beneath it lies than beneath one line.
+double draw_plot_title(VectorDrawing& drawing, const DrawingArea& area, const std::string& title);
+
 /// Curves over two axes, each named at its right end: told apart by place, not by colour alone.
 struct Plot {
   std::string title;
@@ -59,6 +62,8 @@ struct MatrixPlot {
   bool diverging = false;           ///< from blue over grey to red, instead of from light to dark
   std::optional<double> low, high;  ///< of the shades; else the values'
 };
+/// In which its names and numbers do not run into each other [px].
+double least_width(const MatrixPlot& plot);
 void draw_matrix(VectorDrawing& drawing, const DrawingArea& area, const MatrixPlot& plot);
 
 }  // namespace nextview

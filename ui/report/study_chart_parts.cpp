@@ -111,14 +111,15 @@ std::string scope(const SummaryTable& table, const StudySetting& setting, const 
                      in_words(setting.sensor));
 }
 
-StudyChart one_plot(const Plot& plot, const Look& look, double height) {
-  VectorDrawing drawing(760, height, look);
-  draw_plot(drawing, {0, 0, 760, height}, plot);
+StudyChart one_plot(const Plot& plot, const Sheet& sheet, double height) {
+  const double width = chart_width(sheet);
+  VectorDrawing drawing(width, height, sheet.look);
+  draw_plot(drawing, {0, 0, width, height}, plot);
   return drawing;
 }
 
 /// A row a method, a column an object, and the mean.
-StudyChart by_object(const SummaryTable& table, const Look& look, const StudySetting& setting,
+StudyChart by_object(const SummaryTable& table, const Sheet& sheet, const StudySetting& setting,
                      const std::string& measure, MatrixPlot plot, double unit) {
   std::vector<std::string> objects = table.objects(setting, measure);
   objects.emplace_back(mean_object);
@@ -132,9 +133,20 @@ StudyChart by_object(const SummaryTable& table, const Look& look, const StudySet
     }
   }
   const double height = 120 + 28.0 * double(plot.rows.size());
-  VectorDrawing drawing(860, height, look);
-  draw_matrix(drawing, {0, 0, 860, height}, plot);
+  return one_matrix(plot, sheet, height);
+}
+
+StudyChart one_matrix(const MatrixPlot& plot, const Sheet& sheet, double height) {
+  constexpr double usual = 860;
+  const double width = std::clamp(sheet.width, std::min(usual, least_width(plot)), usual);
+  VectorDrawing drawing(width, height, sheet.look);
+  draw_matrix(drawing, {0, 0, width, height}, plot);
   return drawing;
+}
+
+double chart_width(const Sheet& sheet) {
+  constexpr double usual = 760, least = 320;
+  return std::clamp(sheet.width, least, usual);
 }
 
 }  // namespace nextview

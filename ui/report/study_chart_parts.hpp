@@ -21,29 +21,32 @@ std::vector<PlotSeries> curves_of(const std::vector<std::string>& methods);
 Plot courses(const SummaryTable& table, const StudySetting& setting, const std::string& measure, double unit = 1.0);
 /// "mean of 8 objects, clean"
 std::string scope(const SummaryTable& table, const StudySetting& setting, const std::string& measure);
-StudyChart one_plot(const Plot& plot, const Look& look, double height = 460);
+/// Of a chart of curves or dots on this sheet [px].
+double chart_width(const Sheet& sheet);
+StudyChart one_plot(const Plot& plot, const Sheet& sheet, double height = 460);
+StudyChart one_matrix(const MatrixPlot& plot, const Sheet& sheet, double height);
 /// A row a method, a column an object, and the mean.
-StudyChart by_object(const SummaryTable& table, const Look& look, const StudySetting& setting,
+StudyChart by_object(const SummaryTable& table, const Sheet& sheet, const StudySetting& setting,
                      const std::string& measure, MatrixPlot plot, double unit = 1.0);
 /// "average_entropy_eq13" as it is read: "average entropy eq13"; "prior_0_5": "prior 0.5"
 std::string in_words(std::string name);
 
 // Charts of plans.
-StudyChart coverage_by_view(const SummaryTable& table, const Look& look);
-StudyChart coverage_by_path(const SummaryTable& table, const Look& look);
-StudyChart coverage_by_time(const SummaryTable& table, const Look& look);
-StudyChart coverage_by_object(const SummaryTable& table, const Look& look);
-StudyChart entropy_by_view(const SummaryTable& table, const Look& look);
-StudyChart gap_closed(const SummaryTable& table, const Look& look);
-StudyChart predicted_and_seen(const SummaryTable& table, const Look& look);
+StudyChart coverage_by_view(const SummaryTable& table, const Sheet& sheet);
+StudyChart coverage_by_path(const SummaryTable& table, const Sheet& sheet);
+StudyChart coverage_by_time(const SummaryTable& table, const Sheet& sheet);
+StudyChart coverage_by_object(const SummaryTable& table, const Sheet& sheet);
+StudyChart entropy_by_view(const SummaryTable& table, const Sheet& sheet);
+StudyChart gap_closed(const SummaryTable& table, const Sheet& sheet);
+StudyChart predicted_and_seen(const SummaryTable& table, const Sheet& sheet);
 
 // Charts of maps.
-StudyChart divergence_by_object(const SummaryTable& table, const Look& look);
-StudyChart log_loss_by_object(const SummaryTable& table, const Look& look);
-StudyChart log_loss_by_sensor(const SummaryTable& table, const Look& look);
-StudyChart openings_by_sensor(const SummaryTable& table, const Look& look);
-StudyChart openings_by_width(const SummaryTable& table, const Look& look);
-StudyChart reliability(const SummaryTable& table, const Look& look);
-StudyChart stationarity(const SummaryTable& table, const Look& look);
+StudyChart divergence_by_object(const SummaryTable& table, const Sheet& sheet);
+StudyChart log_loss_by_object(const SummaryTable& table, const Sheet& sheet);
+StudyChart log_loss_by_sensor(const SummaryTable& table, const Sheet& sheet);
+StudyChart openings_by_sensor(const SummaryTable& table, const Sheet& sheet);
+StudyChart openings_by_width(const SummaryTable& table, const Sheet& sheet);
+StudyChart reliability(const SummaryTable& table, const Sheet& sheet);
+StudyChart stationarity(const SummaryTable& table, const Sheet& sheet);
 
 }  // namespace nextview

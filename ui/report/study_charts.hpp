@@ -12,9 +12,9 @@ namespace nextview {
 /// A figure of a study's summary.
 struct StudyFigure {
   std::string name;
-  std::string caption;                                                     ///< what it shows, and how it is read
-  std::string needs;                                                       ///< that the study compares
-  std::optional<VectorDrawing> (*draw)(const SummaryTable&, const Look&);  ///< none: the study has nothing of it
+  std::string caption;                                                      ///< what it shows, and how it is read
+  std::string needs;                                                        ///< that the study compares
+  std::optional<VectorDrawing> (*draw)(const SummaryTable&, const Sheet&);  ///< none: the study has nothing of it
 };
 std::span<const StudyFigure> study_figures();
 

@@ -28,11 +28,23 @@ std::string cell_text(double value, int digits) {
 /// Dark letters on light cells, light ones on dark cells.
 Colour letters_on(const Colour& cell) { return lightness(cell) > 0.66 ? theme::ink : theme::paper; }
 
+/// A mark's name stands over it, or away from one that is too near.
+template <class Place>
+TextAlign mark_align(const DotPlot& plot, const Place& x, double at, const std::string& name) {
+  constexpr double apart = 6;  // [px]
+  for (const auto& [other, its_name] : plot.marks) {
+    const double room = 0.5 * (text_width(name, theme::small_text) + text_width(its_name, theme::small_text)) + apart;
+    if (other != at && std::abs(x(other) - x(at)) < room) return other > at ? TextAlign::right : TextAlign::left;
+  }
+  return TextAlign::centre;
+}
+
 }  // namespace
 
 void draw_dot_plot(VectorDrawing& d, const DrawingArea& area, const DotPlot& plot) {
   const Look& look = d.look();
-  d.text(area.left + 16, area.top + 26, plot.title, theme::caption, look.ink, TextAlign::left, true);
+  const double lower = draw_plot_title(d, area, plot.title);
+  const auto label = broken_to(area.width - 32, plot.label, theme::small_text);
   double low = 0.0, high = 0.0;
   std::vector<std::string> names;
   for (const DotPlot::Row& row : plot.rows) {
@@ -42,7 +54,9 @@ void draw_dot_plot(VectorDrawing& d, const DrawingArea& area, const DotPlot& plo
   for (const auto& [at, name] : plot.marks) low = std::min(low, at), high = std::max(high, at);
   const std::vector<double> ticks = round_ticks(low, std::max(high, low + 1e-9), 6, false);
   const double left = area.left + 28 + widest(names), right = area.right() - 64;
-  const double top = area.top + title_height + 20, bottom = area.bottom() - 48;
+  constexpr double line_height = 17;
+  const double more = line_height * double(label.size() > 1 ? label.size() - 1 : 0);
+  const double top = area.top + title_height + 20 + lower, bottom = area.bottom() - 48 - more;
   const auto x = [&](double v) { return left + (v - ticks.front()) / (ticks.back() - ticks.front()) * (right - left); };
   for (const double tick : ticks) {
     d.line(x(tick), top, x(tick), bottom, look.hairline);
@@ -50,9 +64,13 @@ void draw_dot_plot(VectorDrawing& d, const DrawingArea& area, const DotPlot& plo
   }
   for (const auto& [at, name] : plot.marks) {
     d.line(x(at), top - 4, x(at), bottom, look.soft_ink, 1.0, true);
-    d.text(x(at), top - 9, name, theme::small_text, look.soft_ink, TextAlign::centre);
+    d.text(x(at), top - 9, name, theme::small_text, look.soft_ink, mark_align(plot, x, at, name));
   }
-  d.text(0.5 * (left + right), bottom + 38, plot.label, theme::small_text, look.soft_ink, TextAlign::centre);
+  // What is too wide for its axis stands in the middle of the drawing.
+  const double middle = label.size() > 1 ? 0.5 * (area.left + area.right()) : 0.5 * (left + right);
+  for (std::size_t i = 0; i < label.size(); ++i)
+    d.text(middle, bottom + 38 + line_height * double(i), label[i], theme::small_text, look.soft_ink,
+           TextAlign::centre);
   const double step = (bottom - top) / std::max<double>(1.0, double(plot.rows.size()));
   for (std::size_t i = 0; i < plot.rows.size(); ++i) {
     const DotPlot::Row& row = plot.rows[i];
@@ -66,9 +84,18 @@ void draw_dot_plot(VectorDrawing& d, const DrawingArea& area, const DotPlot& plo
   }
 }
 
+double least_width(const MatrixPlot& plot) {
+  constexpr double apart = 6;
+  double cell = 0.5 * (widest(plot.columns) + apart);  // names stand in two heights
+  for (const auto& row : plot.values)
+    for (const auto& value : row)
+      if (value) cell = std::max(cell, text_width(cell_text(*value, plot.digits), theme::small_text) + apart);
+  return 44 + widest(plot.rows) + cell * double(plot.columns.size());
+}
+
 void draw_matrix(VectorDrawing& d, const DrawingArea& area, const MatrixPlot& plot) {
   const Look& look = d.look();
-  d.text(area.left + 16, area.top + 26, plot.title, theme::caption, look.ink, TextAlign::left, true);
+  const double lower = draw_plot_title(d, area, plot.title);
   d.text(area.left + 16, area.bottom() - 14, plot.note, theme::small_text, look.soft_ink);
   double low = INFINITY, high = -INFINITY;
   for (const auto& row : plot.values)
@@ -76,7 +103,7 @@ void draw_matrix(VectorDrawing& d, const DrawingArea& area, const MatrixPlot& pl
       if (value) low = std::min(low, *value), high = std::max(high, *value);
   low = plot.low.value_or(low), high = plot.high.value_or(high);
   const double left = area.left + 28 + widest(plot.rows), right = area.right() - 16;
-  const double top = area.top + title_height + 26, bottom = area.bottom() - 36;
+  const double top = area.top + title_height + 26 + lower, bottom = area.bottom() - 36;
   const double width = (right - left) / std::max<double>(1.0, double(plot.columns.size()));
   const double height = (bottom - top) / std::max<double>(1.0, double(plot.rows.size()));
   // Long names of narrow columns stand in two heights.

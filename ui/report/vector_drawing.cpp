@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/charts/page.hpp"
@@ -73,6 +74,13 @@ bool VectorDrawing::is_vector() const {
   return std::ranges::none_of(shapes_, [](const auto& shape) { return std::holds_alternative<Picture>(shape); });
 }
 
+std::optional<int> VectorDrawing::smallest_text() const {
+  std::optional<int> smallest;
+  for (const auto& shape : shapes_)
+    if (const auto* text = std::get_if<Text>(&shape)) smallest = std::min(smallest.value_or(text->size), text->size);
+  return smallest;
+}
+
 void VectorDrawing::text(double x, double y, const std::string& words, int size, const Colour& colour, TextAlign align,
                          bool bold) {
   shapes_.emplace_back(Text{x, y, words, size, colour, align, bold});
@@ -107,11 +115,12 @@ class VectorDrawing::SvgWriter {
   }
 };
 
-std::string VectorDrawing::svg() const {
+std::string VectorDrawing::svg(std::optional<double> printed_width) const {
+  const double scale = printed_width ? *printed_width / width_ : 1.0;
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{3:g}{5}\" height=\"{4:g}{5}\" viewBox=\"0 0 {0:g} {1:g}\" "
       "font-family=\"Inter, Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"{2}\"/>\n",
-      width_, height_, hex(look_.paper));
+      width_, height_, hex(look_.paper), scale * width_, scale * height_, printed_width ? "mm" : "");
   for (const auto& shape : shapes_) svg += std::visit(SvgWriter(), shape);
   return svg + "</svg>\n";
 }
@@ -196,6 +205,19 @@ double text_width(const std::string& words, int size) {
   std::size_t letters = 0;
   for (const char c : words) letters += (c & 0xC0) != 0x80;  // of UTF-8
   return 0.55 * size * double(letters);
+}
+
+std::vector<std::string> broken_to(double width, const std::string& words, int size) {
+  std::vector<std::string> lines;
+  std::istringstream text(words);
+  for (std::string word; text >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    if (lines.empty() || text_width(longer, size) > width)
+      lines.push_back(word);
+    else
+      lines.back() = longer;
+  }
+  return lines;
 }
 
 }  // namespace nextview

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,6 +23,15 @@ struct Look {
   Colour series(std::size_t i) const;
   Colour on_paper(const Colour& colour) const;
   bool is_dark() const { return ink[0] > paper[0]; }
+};
+
+/// What charts are drawn on: those that can are no wider than it, in letters of the same size.
+struct Sheet {
+  Sheet(const Look& its_look, double its_width = std::numeric_limits<double>::infinity())
+      : look(its_look), width(its_width) {}
+
+  Look look;
+  double width;  ///< [px]
 };
 
 /// A flat drawing as a list of shapes, laid out once and drawn as SVG or as pixels. Places in pixels, the origin in the
@@ -50,7 +61,10 @@ class VectorDrawing {
 
   /// Whether it is lines and letters alone, which svg() can draw.
   bool is_vector() const;
-  std::string svg() const;  ///< @pre is_vector()
+  /// With a width for print [mm], or in pixels. @pre is_vector()
+  std::string svg(std::optional<double> printed_width = {}) const;
+  /// Of its letters; none if it has none [px].
+  std::optional<int> smallest_text() const;
   /// Drawn headless (ensure_headless). `scale`: pixels a pixel of the drawing.
   Image image(double scale = 1.0) const;
   /// In the middle of a page of this size, as large as it fits.
@@ -93,5 +107,8 @@ class VectorDrawing {
 
 /// About so wide is a text: fonts differ from reader to reader.
 double text_width(const std::string& words, int size);
+
+/// In lines that are no wider than `width`, broken between words.
+std::vector<std::string> broken_to(double width, const std::string& words, int size);
 
 }  // namespace nextview
