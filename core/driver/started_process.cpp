@@ -8,7 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -68,7 +71,8 @@ void give_usual_signals(SpawnOrders& orders) {
 
 std::string reason_of(const std::string& program, int error) {
   const bool has_folder = program.find('/') != program.npos;
-  if (error == ENOENT && has_folder && is_there(program)) return "what its first line (#!) names is not there";
+  if (error == ENOENT && (has_folder ? is_there(program) : is_on_path(program)))
+    return "what its first line (#!) names is not there";
   if (error == ENOENT) return has_folder ? "there is no such file" : "there is no such program on the PATH";
   if (error == EACCES) return "it may not be run; is it executable (chmod +x)?";
   if (error == ENOEXEC) return "it is no program; a script begins with a line as #!/usr/bin/env python3";
@@ -76,6 +80,14 @@ std::string reason_of(const std::string& program, int error) {
 }
 
 }  // namespace
+
+bool is_on_path(const std::string& program) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && ::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
 
 StartedProcess start_process(const std::vector<std::string>& words) {
   Pipe input, output, errors;

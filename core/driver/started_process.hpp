@@ -14,6 +14,9 @@ struct StartedProcess {
   Descriptor input, output, errors;
 };
 
+/// Whether a program of this name may be run from a folder of the PATH.
+bool is_on_path(const std::string& program);
+
 /// Starts a program, looked for on the PATH, in a process group of its own, with the usual signals and without any
 /// other open file. @throws std::runtime_error with one line that says why it cannot be started
 StartedProcess start_process(const std::vector<std::string>& words);

@@ -66,6 +66,11 @@ TEST(DriverProcess, WhatCannotBeStartedIsSaid) {
     return file.string();
   };
   EXPECT_THAT(reason({script("#!/no/such/interpreter\n")}), HasSubstr("first line"));
+  const std::string path = std::getenv("PATH");
+  std::filesystem::copy_file(folder / "script", folder / "scanner-without-interpreter");
+  ::setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
+  EXPECT_THAT(reason({"scanner-without-interpreter"}), HasSubstr("first line")) << "its name is right";
+  ::setenv("PATH", path.c_str(), 1);
   EXPECT_THAT(reason({script("echo hello\n")}), HasSubstr("no program"));
   EXPECT_THAT(reason({script("#!/bin/sh\n")}), HasSubstr("it was started"));
 }
