@@ -42,7 +42,8 @@ void open_standard_streams() {
 }
 
 int fail(std::string_view reason) {
-  fmt::print(stderr, "nextview: {}\n", nextview::printable(reason));
+  const bool is_name_too_long = reason.ends_with(std::strerror(ENAMETOOLONG));
+  fmt::print(stderr, "nextview: {}{}\n", nextview::printable(reason), is_name_too_long ? "; give a shorter one" : "");
   return nextview::exit_bad_input;
 }
 
@@ -77,10 +78,15 @@ std::string too_much(const CLI::App& program) {
   return text + nextview::did_you_mean("--" + name, options);
 }
 
-/// What CLI11 says, but for what it says of options as "At Most 1 required but received 2", "1 required INT missing".
+/// What CLI11 says, but for what it says of options as "At Most 1 required but received 2", "1 required INT missing",
+/// "--out excludes --resume".
 std::string reason_of(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::size_t twice = text.find(": At Most 1 required but received "), without = text.find(": 1 required ");
+  const std::string excludes = " excludes ";
+  if (const std::size_t other = text.find(excludes); other != text.npos)
+    return fmt::format("{} and {} do not go together: leave one of them out", text.substr(0, other),
+                       text.substr(other + excludes.size()));
   if (twice != text.npos) return text.substr(0, twice) + " is given more than once";
   return without == text.npos ? text : text.substr(0, without) + " is given no value";
 }

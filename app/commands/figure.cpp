@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "core/file/counted.hpp"
 #include "core/file/json_text.hpp"
 #include "core/file/printable.hpp"
+#include "core/file/readable_folder.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/results/made_folder.hpp"
 #include "core/study/study_folder.hpp"
@@ -201,6 +203,7 @@ int run(const FigureArguments& a) {
   const fs::path study = a.study.empty() ? assets_folder() / "studies" / "nextview" : fs::path(a.study);
   std::optional<SummaryTable> table;
   if (draws_study(a)) {
+    require_readable(study);
     if (!is_there(study / "summary.csv"))
       throw std::invalid_argument(fmt::format(
           "{}: is no folder of a finished study, which has a summary.csv; give --study what `nextview study` wrote",

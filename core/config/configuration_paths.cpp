@@ -51,7 +51,7 @@ fs::path resolve_object(const std::string& name) {
   if (name == "bunny") return "/usr/share/glmark2/models/bunny.obj";
   for (const char* ending : {"", ".ply"}) {
     fs::path file = assets_folder() / "objects" / (name + ending);
-    if (fs::is_regular_file(file)) return file;
+    if (fs::is_regular_file(file, ignored)) return file;
   }
   if (is_folder) return name;  // which its reader refuses; those of known names are no hindrance
   const std::vector<std::string> objects(known_objects().begin(), known_objects().end());

@@ -8,6 +8,7 @@
 #include "core/config/configuration_text.hpp"
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
+#include "core/file/readable_folder.hpp"
 #include "core/file/temporary_file.hpp"
 #include "core/journal/capture_file.hpp"
 #include "core/progress/part.hpp"
@@ -96,6 +97,7 @@ bool holds_nothing_but(std::span<const InputFile> inputs, const fs::path& folder
 }
 
 void require_session(const fs::path& folder) {
+  require_readable(folder);
   if (is_session(folder)) return;
   std::error_code unseen;  // what cannot be looked at holds none for us
   const std::string reason = !is_there(folder)                   ? "there is no such folder"

@@ -10,6 +10,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
 #include "core/file/json_text.hpp"
+#include "core/file/readable_folder.hpp"
 #include "core/file/temporary_file.hpp"
 #include "core/results/output_folder.hpp"
 
@@ -123,6 +124,7 @@ std::optional<StudyContents> study_contents(const fs::path& folder) {
 }
 
 StudyFolder StudyFolder::open(const fs::path& folder) {
+  require_readable(folder);
   if (!study_of(folder) || !is_there(folder / study_keys_name))
     throw std::runtime_error(fmt::format("{}: is no folder of a study", folder.string()));
   return StudyFolder(folder);

@@ -88,8 +88,8 @@ TEST_F(LiveScanner, OtherThingsToScanConflictWithIt) {
     EXPECT_FALSE(fs::exists(in("out"))) << arguments;
     return run.err;
   };
-  EXPECT_THAT(refusal("bunny " + simulated("box")), HasSubstr("OBJECT excludes --driver"));
-  EXPECT_THAT(refusal("--recorded scans " + simulated("box")), HasSubstr("--recorded excludes --driver"));
+  EXPECT_THAT(refusal("bunny " + simulated("box")), HasSubstr("OBJECT and --driver do not go together"));
+  EXPECT_THAT(refusal("--recorded scans " + simulated("box")), HasSubstr("--recorded and --driver do not go together"));
   write_file(in("scan.toml"), "recorded.folder = 'scans'\n");
   EXPECT_THAT(refusal("--config " + in("scan.toml") + " " + simulated("box")),
               HasSubstr("scan.toml:1: recorded.folder"));

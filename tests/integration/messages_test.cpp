@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -115,7 +116,8 @@ TEST_F(Messages, WhatIsGivenTwiceEmptyOrInVainIsToldSo) {
             line("--views is given more than once; see nextview scan --help"));
   EXPECT_EQ(complaint(scan() + "--threads"), line("--threads is given no value; see nextview scan --help"));
   EXPECT_EQ(complaint("info ''"), line("PATH: is empty; give a name, or leave it out; see nextview info --help"));
-  EXPECT_THAT(complaint("scan sphere --resume " + in("out")), HasSubstr("OBJECT excludes --resume"));
+  EXPECT_THAT(complaint("scan sphere --resume " + in("out")),
+              HasSubstr("OBJECT and --resume do not go together: leave one of them out"));
   EXPECT_THAT(complaint(scan() + "--truth part.stl"), HasSubstr("only recorded scans are compared with a mesh"));
   EXPECT_THAT(complaint("--verion"), HasSubstr("did you mean '--version'?"));
   fs::create_symlink(in("loop.stl"), in("loop.stl"));
@@ -258,6 +260,25 @@ TEST_F(Messages, WhatIsMeantByAMistypedNameIsGuessed) {
   for (const std::string command : {"score ", "scan --resume "})
     EXPECT_EQ(complaint(command + in("mien")),
               line(in("mien") + ": there is no such folder; did you mean '" + in("mine") + "'?"));
+}
+
+TEST_F(Messages, ANameThatIsTooLongAndAFolderThatIsLockedAreToldAsSuch) {
+  EXPECT_THAT(complaint("scan box --no-pictures --out " + in(std::string(300, 'a'))),
+              HasSubstr("cannot be made a folder: File name too long; give a shorter one\n"));
+  const std::string locked = in("locked");
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms::none);
+  fs::permissions(folder_.path(), fs::perms::all);
+  const std::string user = ::geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups" : "";
+  for (const std::string& command :
+       {std::string("scan --resume "), std::string("score "), "study --out " + in("out") + " --merge ",
+        "figure gap_closed --out " + in("out") + " --study "}) {
+    const Result run = nextview_behind(user, command + locked);
+    EXPECT_EQ(run.exit_code, 2) << command;
+    EXPECT_EQ(run.err,
+              line(locked + ": cannot be read: Permission denied; its owner can let you read it (chmod a+rX)"));
+  }
+  fs::permissions(locked, fs::perms::owner_all);
 }
 
 TEST_F(Messages, AStudyIsToldFromAConfiguration) {
