@@ -13,6 +13,8 @@ namespace {
 constexpr float widest = 100.0f;         // a point's place in the image at depth 1; those farther out stay as they are
 constexpr float cells_across = 2048.0f;  // the image, at most
 constexpr float same_surface = 4.0f;     // [standard deviations]
+constexpr double wanted_deviations = 6.0;
+constexpr double most_across = 24.0;  // points of a window; with more it takes longer than the map does
 
 /// A point in the image: where, and how far from the camera.
 struct ImagePoint {
@@ -94,12 +96,15 @@ double way_to_plane(const ImageCells& cells, const ImagePoint& point, const Smoo
 }  // namespace
 
 Smoothing Smoothing::down_to(double wanted, double noise, double solid_angle) {
-  const double points = 6.0 * noise / wanted;  // along either axis of the window
-  return {noise, 0.5 * points * std::sqrt(solid_angle)};
+  const double across = std::min(most_across, wanted_deviations * noise / wanted);
+  return {noise, 0.5 * across * std::sqrt(solid_angle)};
 }
+
+double Smoothing::least(double noise) { return wanted_deviations * noise / most_across; }
 
 PointCloud smoothed_points(const Scan& scan, const Pose& T_world_camera, const Smoothing& smoothing) {
   PointCloud smoothed = scan.hits;
+  if (!(smoothing.half_window > 0.0)) return smoothed;
   const ImageCells cells(scan, T_world_camera, smoothing.half_window);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.points().size(), 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {

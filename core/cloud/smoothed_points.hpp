@@ -8,9 +8,11 @@ struct Smoothing {
   double noise = 0.0;        ///< standard deviation of the points along their rays [m]
   double half_window = 0.0;  ///< around a point in the image, at depth 1, along both of its axes
 
-  /// With which points lie a sixth of `wanted` [m] off at most: the noise of a mean falls with the root of the number
-  /// of points, each of which stands for `solid_angle` [sr] of the image.
+  /// With which six standard deviations are `wanted` [m], or the least that is affordable: the noise of a mean falls
+  /// with the root of the number of points, each of which stands for `solid_angle` [sr] of the image.
   static Smoothing down_to(double wanted, double noise, double solid_angle);
+  /// What six standard deviations are at least after it [m].
+  static double least(double noise);
 };
 
 /// The hits, each moved along its ray onto the plane that fits those best that lie around it in the image, as far as

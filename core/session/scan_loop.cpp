@@ -84,8 +84,9 @@ constexpr double standard_deviations = 3.0, most_registration_distances = 1.6;
 
 /// By how much points of one surface are told from another's [m].
 double told_apart(const ScanSetup& setup) {
-  const double d_reg = setup.configuration.evaluation.d_reg;
-  return std::clamp(standard_deviations * setup.source.range_noise, d_reg, most_registration_distances * d_reg);
+  const double d_reg = setup.configuration.evaluation.d_reg, noise = setup.source.range_noise;
+  const double smoothed = std::max(most_registration_distances * d_reg, Smoothing::least(noise));
+  return std::clamp(standard_deviations * noise, d_reg, smoothed);
 }
 
 /// What the scan of a step shows for the first time [cm^2].

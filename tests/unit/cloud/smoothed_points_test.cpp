@@ -88,6 +88,14 @@ TEST(SmoothedPoints, AloneOrBehindTheCameraStay) {
   EXPECT_TRUE(smoothed_points({}, Pose::Identity(), smoothing).empty());
 }
 
+TEST(SmoothedPoints, AreNoMoreThanIsAffordable) {
+  const double most = Smoothing::down_to(1e-9, 1.0, pitch * pitch).half_window;
+  EXPECT_NEAR(most, Smoothing::down_to(Smoothing::least(1.0), 1.0, pitch * pitch).half_window, 1e-12);
+  EXPECT_LT(most, 15 * pitch);
+  const NoisyScan noisy(slanted_plane);
+  EXPECT_EQ(smoothed_points(noisy.scan, noisy.T_world_camera, {noise, 0.0}), noisy.scan.hits);
+}
+
 TEST(SmoothedPoints, TheSameOnOneThreadAndTwo) {
   const NoisyScan noisy(slanted_plane);
   const auto run = [&](std::size_t threads) {
