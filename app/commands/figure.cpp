@@ -181,12 +181,12 @@ bool draws_study(const FigureArguments& a) {
 
 /// @throws std::invalid_argument
 void check(const FigureArguments& a) {
-  if (a.name.empty() || a.out.empty())
-    throw std::invalid_argument("figure: give a NAME, or all, and --out DIR; or --list");
+  if (a.name.empty()) throw std::invalid_argument("figure: give a NAME, or all, and --out DIR; or --list");
   const auto names = figure_names();
   if (std::ranges::find(names, a.name) == names.end())
     throw std::invalid_argument(
         fmt::format("there is no figure '{}'{}", a.name, did_you_mean(a.name, names, "; see nextview figure --list")));
+  if (a.out.empty()) throw std::invalid_argument(fmt::format("figure {}: give its folder, --out DIR", a.name));
   const auto is_scene = [&](const ScanFigure& figure) { return is_wanted(a, figure.name); };
   if (!a.sessions.empty() && std::ranges::none_of(scan_figures(), is_scene))
     throw std::invalid_argument(

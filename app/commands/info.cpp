@@ -8,6 +8,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
 #include "app/commands/session_info.hpp"
+#include "app/commands/session_parts_info.hpp"
 #include "app/commands/study_info.hpp"
 #include "app/commands/written_file_info.hpp"
 #include "core/cloud/point_cloud.hpp"
@@ -240,11 +241,13 @@ std::string journal_info(const fs::path& file) {
 
 std::string info(const fs::path& path) {
   std::error_code ignored;  // what cannot be looked at is told by who reads it
+  if (const auto part = session_part_info(path)) return *part;
   if (fs::is_directory(path, ignored)) return folder_info(path);
   const std::string extension = path.extension().string();
   if (extension == ".ot" || extension == ".bt") return map_info(path);
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".png") return picture_info(path);
+  if (extension == ".npy") return depth_image_info(path);
   if (extension == ".toml") return toml_info(path);
   if (is_scene_file(path)) return text_info(path);
   if (path.filename() == journal_name && !is_there(path / journal_name)) return journal_info(path);
@@ -273,11 +276,11 @@ void add_info_command(CLI::App& program) {
   auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* app =
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
-  app->add_option(
-         "PATH", *paths,
-         "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
-         "configuration or study (.toml), picture (.png), tables and reports that were written (.csv, .json), journal, "
-         "a folder of results or of recorded data, or gearbox, bunny, …")
+  app->add_option("PATH", *paths,
+                  "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
+                  "configuration or study (.toml), picture (.png), depth image (.npy), tables and reports that were "
+                  "written (.csv, .json), journal, "
+                  "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required()
       ->check(not_empty());
   auto writes_dataset = std::make_shared<bool>(false);

@@ -169,9 +169,10 @@ int merge(const StudyArguments& a) {
 }
 
 int run(const StudyArguments& a) {
-  if (a.merge.empty() == a.file.empty() || a.out.empty())
+  if (a.merge.empty() == a.file.empty())
     throw std::invalid_argument(
         "study: give either a study's FILE or --merge and its folders, and --out DIR; see nextview study --help");
+  if (a.out.empty()) throw std::invalid_argument("study: give the folder for its results, --out DIR");
   return a.merge.empty() ? run_file(a) : merge(a);
 }
 

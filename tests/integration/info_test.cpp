@@ -87,6 +87,12 @@ TEST(Info, TellsTablesReportsAndJournals) {
   EXPECT_THAT(told("manifest.json"), HasSubstr("\n  command: scan\n"));
   EXPECT_THAT(told("surfaces.json"), HasSubstr("the surfaces that were made of a scan\n  surface_map: "));
   EXPECT_THAT(told("journal"), AllOf(HasSubstr("the journal of a session\n  a session of "), HasSubstr(": 2 views")));
+  EXPECT_THAT(told("scans/"), AllOf(HasSubstr("the captures of a session: 2 files\n"), HasSubstr(": 2 views")));
+  EXPECT_THAT(told("scans/0001.npy"), AllOf(HasSubstr("a session's capture of 40 x 30 pixels: "),
+                                            HasSubstr(" measured, from "), HasSubstr(" m, ")));
+  EXPECT_THAT(told("state"), HasSubstr("what was computed of a session"));
+  fs::copy(out / "scans/0001.npy", out / "depth.npy");
+  EXPECT_THAT(told("depth.npy"), AllOf(HasSubstr("a depth image of 40 x 30 pixels: "), HasSubstr("dataset.toml")));
   write_file(out / "other.csv", "time,voltage\n1,2\n");
   EXPECT_THAT(nextview("info " + (out / "other.csv").string()).err,
               HasSubstr("other.csv: is no table or report that Nextview writes"));

@@ -212,11 +212,15 @@ TEST_F(StudyCommand, OptionsThatMakeNoSenseAreRefused) {
 }
 
 TEST(Study, WhatIsMissingOfItIsToldInOneLine) {
-  for (const char* without : {"study", "study x.toml", "study --out x"})
+  for (const char* without : {"study", "study --out x"})
     EXPECT_EQ(
         nextview(without).err,
         "nextview: study: give either a study's FILE or --merge and its folders, and --out DIR; see nextview study "
         "--help\n");
+  for (const char* without : {"study smoke", "study --merge a b"})
+    EXPECT_EQ(nextview(without).err, "nextview: study: give the folder for its results, --out DIR\n");
+  EXPECT_EQ(nextview("figure report").err, "nextview: figure report: give its folder, --out DIR\n");
+  EXPECT_EQ(nextview("figure reprt").err, "nextview: there is no figure 'reprt'; did you mean 'report'?\n");
   EXPECT_EQ(
       nextview("figure report --study /no/such --out x").err,
       "nextview: /no/such: is no folder of a finished study, which has a summary.csv; give --study what `nextview "
