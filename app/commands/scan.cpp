@@ -158,6 +158,7 @@ int begin(const ScanArguments& arguments) {
   const std::vector<InputFile> inputs = input_files(configuration);
   OutputFolder out(wanted, inputs);
   require_free(wanted, arguments.overwrite, inputs);
+  const MadeFolder made = out.make();  // a folder that cannot be written to is told before the object is prepared
   const StopOnInterrupt stop;
   const ProgressLine progress;
   std::optional<Scanner> scanner;

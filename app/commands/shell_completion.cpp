@@ -37,7 +37,7 @@ _nextview() {{
   elif [ -z "$words" ] && [[ $option != -* ]]; then
     case $command in
 {}    esac
-    files=$(compgen -f -- "$word")
+    case $command in help | posterior) ;; *) files=$(compgen -f -- "$word") ;; esac
     case $command in {}) files+=$'\n'$(_nextview_sessions "$word") ;; esac
   elif [ "$command $option" = 'scan --resume' ]; then
     files=$(compgen -d -- "$word"; _nextview_sessions "$word")

@@ -115,18 +115,22 @@ TEST(Manual, TheShellIsToldWhatAnOptionTakes) {
 }
 
 TEST(Manual, TheShellCompletesWhatACommandTakes) {
-  const auto completed = [](const std::string& words, int at) {
-    return nextview_behind(fmt::format("bash -c 'source <(\"$0\" help --completion); COMP_WORDS=({}); COMP_CWORD={}; "
-                                       "_nextview; echo \"${{COMPREPLY[@]}}\"'",
-                                       words, at),
-                           "")
+  const TemporaryFolder folder;  // whatever lies in the folder where the tests run
+  write_file(folder.path() / "planning_notes", "");
+  const auto completed = [&](const std::string& words, int at) {
+    return nextview_behind(
+               fmt::format("bash -c 'cd {}; source <(\"$0\" help --completion); COMP_WORDS=({}); COMP_CWORD={}; "
+                           "_nextview; echo \"${{COMPREPLY[@]}}\"'",
+                           folder.path().string(), words, at),
+               "")
         .out;
   };
   EXPECT_EQ(completed("nextview fig", 1), "figure\n");
   EXPECT_EQ(completed("nextview figure rep", 2), "report\n");
   EXPECT_EQ(completed("nextview demo to", 2), "tour\n");
   EXPECT_EQ(completed("nextview scan gear", 2), "gearbox\n");
-  EXPECT_EQ(completed("nextview help planni", 2), "planning\n");
+  EXPECT_EQ(completed("nextview help planni", 2), "planning\n") << "which takes no file";
+  EXPECT_EQ(completed("nextview refine plann", 2), "planning_notes\n");
   EXPECT_EQ(completed("nextview help planner.cost", 2), "planner.cost_weight\n");
   EXPECT_EQ(completed("nextview study smo", 2), "smoke\n");
   EXPECT_EQ(completed("nextview export out clo", 3), "cloud\n");
@@ -136,7 +140,6 @@ TEST(Manual, TheShellCompletesWhatACommandTakes) {
   EXPECT_EQ(completed("nextview export out picture a.png --layers obj", 6), "object\n");
   EXPECT_EQ(completed("nextview scan --resu", 2), "--resume\n");
   EXPECT_EQ(completed("nextview scan gearbox --gibbs.sampler alg", 4), "algorithm1\n");
-  EXPECT_EQ(completed("nextview refine scan_", 2), "\n") << "bash completes files";
 }
 
 TEST(Manual, TheShellCompletesSessionsThatAreKept) {

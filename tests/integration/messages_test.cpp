@@ -265,6 +265,7 @@ TEST_F(Messages, WhatIsMeantByAMistypedNameIsGuessed) {
 TEST_F(Messages, ANameThatIsTooLongAndAFolderThatIsLockedAreToldAsSuch) {
   EXPECT_THAT(complaint("scan box --no-pictures --out " + in(std::string(300, 'a'))),
               HasSubstr("cannot be made a folder: File name too long; give a shorter one\n"));
+  EXPECT_EQ(nextview("scan box --no-pictures --out /dev/null/f").out, "") << "before the object is prepared";
   const std::string locked = in("locked");
   fs::create_directory(locked);
   fs::permissions(locked, fs::perms::none);
