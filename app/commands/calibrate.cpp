@@ -96,6 +96,7 @@ void add_calibrate_command(CLI::App& program) {
   app->add_option("INPUT", arguments->fitted,
                   "objects to fit to: as for `scan`; or, for the sensor model, finished scans: as for `refine`. For "
                   "new surface by default parts made up for it")
+      ->transform(kept_session())
       ->capture_default_str();
   app->add_option("--fit", *fit, "the sensor model (map.hit, …), or what the gain new-surface expects (new_surface.…)")
       ->capture_default_str()

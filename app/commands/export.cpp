@@ -168,7 +168,9 @@ std::string kinds_text() {
 void add_export_command(CLI::App& program) {
   auto a = std::make_shared<ExportArguments>();
   CLI::App* app = program.add_subcommand("export", "Write one thing of a session: cloud, map, surface, views, …");
-  app->add_option("SESSION", a->session, "folder of a session, as `scan --out` leaves it")->required();
+  app->add_option("SESSION", a->session, "folder of a session, as `scan --out` leaves it")
+      ->transform(kept_session())
+      ->required();
   app->add_option("WHAT", a->what, kinds_text())->required();
   app->add_option("FILE", a->file, "where to; its ending says the format, and a file of this name is replaced")
       ->required();

@@ -234,6 +234,7 @@ void add_figure_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("figure", "Draw figures and tables of a study, and of scans");
   app->add_option("NAME", a->name, "of a figure, or all");
   app->add_option("SESSION", a->sessions, "folders of sessions that scenes are drawn of; else scans made for it")
+      ->transform(kept_session())
       ->type_name("DIR");
   app->add_option("--study", a->study, "folder of a study; else the one that comes with the program")->type_name("DIR");
   app->add_option("--out", a->out, "folder for them: new, empty, or of figures")->type_name("DIR");

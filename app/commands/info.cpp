@@ -282,7 +282,8 @@ void add_info_command(CLI::App& program) {
                   "written (.csv, .json), journal, "
                   "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required()
-      ->check(not_empty());
+      ->check(not_empty())
+      ->transform(kept_session());
   auto writes_dataset = std::make_shared<bool>(false);
   app->add_flag(
       "--write-dataset", *writes_dataset,

@@ -9,6 +9,7 @@
 #include "core/config/asset_names.hpp"
 #include "core/config/opened_input.hpp"
 #include "core/file/read_file.hpp"
+#include "core/session/untitled_sessions.hpp"
 #include "core/setting/mistyped_path.hpp"
 #include "core/setting/quantity.hpp"
 
@@ -66,6 +67,14 @@ CLI::Validator not_empty() {
           ""};
 }
 
+CLI::Validator kept_session() {
+  return {[](std::string& text) {
+            text = folder_of_kept(text).string();
+            return std::string();
+          },
+          ""};
+}
+
 CLI::Validator quantity(const std::string& unit) {
   return {[unit](std::string& text) {
             double value = 0.0;
@@ -89,7 +98,8 @@ void ConfigurationOptions::add_to(CLI::App& app) {
          "OBJECT", object_,
          "mesh file (PLY, OBJ, STL, OFF, 3MF, glTF, …), or gearbox, bunny, slotted_plate, …; or recorded scans: "
          "a folder, .graph, .log or .txt")
-      ->check(not_empty());
+      ->check(not_empty())
+      ->transform(kept_session());
   add_settings_to(app, {""});
 }
 

@@ -14,6 +14,9 @@ namespace nextview {
 /// Of names: an empty one, as a script has of a variable that is not set, would be taken for none.
 CLI::Validator not_empty();
 
+/// Of sessions: one that the window keeps is called by its name alone, as its lists have it, too.
+CLI::Validator kept_session();
+
 /// Of numbers with this unit: they are taken as settings take theirs, "1 mm" for 0.001 [m].
 CLI::Validator quantity(const std::string& unit);
 

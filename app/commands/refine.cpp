@@ -147,6 +147,7 @@ void add_refine_command(CLI::App& program) {
       "refine", "Refine the map of finished scans by Gibbs sampling: the posterior without independence assumptions");
   app->add_option("INPUT", arguments->input,
                   "folder that `scan` wrote, folder of range scans (Stanford's: .conf and .ply), or scene file")
+      ->transform(kept_session())
       ->required();
   arguments->options.add_settings_to(*app, {"gibbs.", "seed"});
   app->add_option("--out", arguments->out, "folder for the results; those of an earlier run are replaced")

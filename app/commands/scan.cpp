@@ -237,6 +237,7 @@ void add_scan_command(CLI::App& program) {
                   "goes on with the session in this folder, whatever ended it; termination.* and the limits of "
                   "registration may be changed")
       ->type_name("DIR")
+      ->transform(kept_session())
       ->excludes(out)
       ->excludes(app->get_option("OBJECT"));
   app->add_flag("--no-pictures", arguments->no_pictures, "write no pictures: faster");

@@ -145,7 +145,8 @@ void add_score_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("score", "Rank the candidate views of a session, or of a scene of recorded scans");
   CLI::Option* session =
-      app->add_option("SESSION", arguments->session, "folder of a session, as `scan --out` leaves it: as it stands");
+      app->add_option("SESSION", arguments->session, "folder of a session, as `scan --out` leaves it: as it stands")
+          ->transform(kept_session());
   CLI::Option* scene =
       app->add_option("--scene", arguments->scene, "scene file: lines `param`, `scan` with its points, `view`")
           ->type_name("FILE")

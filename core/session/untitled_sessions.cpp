@@ -125,6 +125,12 @@ fs::path state_folder() {
   return home && fs::path(home).is_absolute() ? fs::path(home) / ".local/state/nextview" : fs::path();
 }
 
+fs::path folder_of_kept(const fs::path& name) {
+  if (name.empty() || name.has_parent_path() || is_there(name)) return name;
+  const fs::path state = state_folder();
+  return !state.empty() && has_journal(state / name) ? state / name : name;
+}
+
 fs::path untitled_folder(const fs::path& state, const std::string& name) {
   const std::vector<fs::path> sessions = untitled_sessions(state);
   for (std::size_t k = kept_sessions - 1; k < sessions.size(); ++k) remove_session(sessions[k]);

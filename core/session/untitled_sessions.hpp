@@ -20,6 +20,9 @@ struct EarlierSession {
 
 /// Sessions that no one gave a folder: $XDG_STATE_HOME/nextview, or ~/.local/state/nextview. Empty if there is no home.
 std::filesystem::path state_folder();
+/// The folder of a session there that is called by its name alone, "2026-01-31 23.59.59 gearbox", from wherever; what
+/// is no such name, or is there itself, stays as it is.
+std::filesystem::path folder_of_kept(const std::filesystem::path& name);
 /// A folder in there for a session of this name, by the time; it is not made. What is older than the ten newest goes,
 /// unless another program writes it.
 std::filesystem::path untitled_folder(const std::filesystem::path& state, const std::string& name);

@@ -231,6 +231,23 @@ TEST_F(SessionFolders, MayBeMovedWithTheObjectThatLiesInside) {
             0);
 }
 
+TEST_F(SessionFolders, ThatTheWindowKeepsAreKnownByTheirNamesAlone) {
+  const std::string name = "'2026-01-31 23.59.59 box'", state = in("state");
+  fs::create_directories(state + "/nextview");
+  ASSERT_EQ(nextview("scan box --views 1 " + quick + camera + "--out " + state + "/nextview/" + name).exit_code, 0);
+  const auto run = [&](const std::string& arguments) {
+    return nextview_behind("env XDG_STATE_HOME=" + state, arguments);
+  };
+  for (const std::string& arguments : {"info " + name, "scan --no-pictures --no-surfaces --resume " + name,
+                                       "score " + name, "export " + name + " views " + in("views.csv")}) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << arguments << result.err;
+  }
+  for (const std::string& window : {"window " + name, name})
+    EXPECT_THAT(run(window + " --gain random").err, HasSubstr("box: a session goes on with its own settings"));
+  expect_refused("info " + name, "there is no such file");
+}
+
 TEST_F(SessionFolders, AnObjectThatIsGoneIsToBePutBack) {
   fs::copy(NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply", in("part.ply"));
   ASSERT_EQ(nextview("scan " + in("part.ply") + " --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
