@@ -117,7 +117,8 @@ std::string configuration_info(const fs::path& file) {
   read_settings(file, configuration);
   configuration.validate();
   std::string text = fmt::format("a configuration that gives {}", counted(configuration.sources.size(), "setting"));
-  for (const auto& [key, source] : configuration.sources) text += fmt::format("\n  {} = {}", key, source.text);
+  for (const auto& [key, source] : configuration.sources)
+    text += fmt::format("\n  {} = {}", key, printable(source.text));
   return text;
 }
 

@@ -16,6 +16,7 @@
 #include "core/config/configuration_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/printable.hpp"
 #include "core/planner/gain_policies.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/setting/mistyped_path.hpp"
@@ -83,8 +84,10 @@ class TomlReader {
       throw std::runtime_error(
           fmt::format("{0}: is a study, not a configuration; use `nextview study {0}`", file_.string()));
     // The preset first: what else the file says of the sensor overrides it.
-    if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty())
+    if (const auto* preset = table.at_path("sensor.preset").as_string(); preset && only_.empty()) {
+      require_text("sensor.preset", *preset);
       take("sensor.preset", preset->get(), preset->source().begin.line);
+    }
     apply(table, "");
     configuration_.read_from.push_back(file_);
   }
@@ -106,12 +109,20 @@ class TomlReader {
         continue;
       }
       const auto line = node.source().begin.line;
+      require_text(key, node);
       const Setting& setting = known(key, line);
       if (!only_.empty() && (!key.starts_with(only_) || key == "sensor.preset"))
         throw failure(line, fmt::format("'{}' has no place in a file of {} settings", key, only_));
       if (key == "sensor.preset" && node.is_string()) continue;  // is taken already
       take(key, value_text(setting, node), line);
     }
+  }
+
+  /// A NUL would end each message about it, and the name of a file.
+  void require_text(const std::string& key, const toml::node& node) const {
+    const auto* value = node.as_string();
+    if (key.find('\0') != key.npos || (value && value->get().find('\0') != std::string::npos))
+      throw failure(node.source().begin.line, fmt::format("{} holds a NUL, which no text has", printable(key)));
   }
 
   const Setting& known(const std::string& key, std::uint32_t line) try {

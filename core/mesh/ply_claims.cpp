@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/file/printable.hpp"
 #include "core/mesh/file_claims.hpp"
 
 namespace nextview {
@@ -94,7 +95,8 @@ std::string read_header(std::string_view bytes, ClaimedHeader& header) {
                       : keyword == "property"
                           ? read_property(words, header)
                           : keyword == "ply" || keyword == "comment" || keyword == "obj_info" || keyword.empty();
-    if (!good) return fmt::format("its PLY header has a line that is not understood: '{}'", line.substr(0, 60));
+    if (!good)
+      return fmt::format("its PLY header has a line that is not understood: '{}'", printable(line.substr(0, 60)));
   }
   return "its PLY header has no end; it may be truncated";
 }

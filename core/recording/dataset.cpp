@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/setting/numbers.hpp"
 #include "core/setting/section_of.hpp"
@@ -63,6 +64,9 @@ class DatasetReader {
         continue;
       }
       const auto line = node.source().begin.line;
+      const auto* text = node.as_string();
+      if (key.find('\0') != key.npos || (text && text->get().find('\0') != std::string::npos))
+        throw failure(line, fmt::format("{} holds a NUL, which no text has", printable(key)));
       Setting& setting = known(key, line);
       try {
         setting.set(value_text(setting, node));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/evaluation/baseline_maps.hpp"
+#include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
 #include "core/planner/policy.hpp"
 #include "core/setting/section_of.hpp"
@@ -244,7 +245,7 @@ class StudyReader {
     return fmt::format("{}:{}", file_.string(), node.source().begin.line);
   }
   std::runtime_error failure(const toml::node& node, const std::string& reason) const {
-    return std::runtime_error(place(node) + ": " + reason);
+    return std::runtime_error(place(node) + ": " + printable(reason));
   }
   std::runtime_error unknown(const toml::node& node, const std::string& key,
                              const std::vector<std::string>& known) const {

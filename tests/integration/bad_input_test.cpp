@@ -45,6 +45,24 @@ class BadInput : public ::testing::Test {
 const char* const ply_head =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 
+TEST_F(BadInput, ANulCutsNoMessageShort) {
+  const auto with_nul = [&](const std::string& name, std::string content) {
+    std::replace(content.begin(), content.end(), '@', '\0');
+    return write(name, content).string();
+  };
+  expect_error("info " + with_nul("a.ply", "ply\nformat asc@ii 1.0\n"), {"'format asc\\x00ii 1.0'\n"});
+  expect_error("demo " + with_nul("a.nextview", "\nst@ep\n") + " --out " + out(), {"a.nextview:2: holds a NUL"});
+  const std::string nul = "holds a NUL, which no text has\n";
+  expect_error("info " + write("a.toml", "[object]\nfile = \"a\\u0000b\"\n").string(), {":2: object.file " + nul});
+  expect_error("info " + write("b.toml", "[map]\n\"re\\u0000s\" = 3\n").string(), {":2: map.re\\x00s " + nul});
+  expect_error("info " + write("c.toml", "sensor.preset = \"a\\u0000b\"\n").string(), {":1: sensor.preset " + nul});
+  write("dataset.toml", "frames = \"a\\u0000b\"\n");
+  expect_error("scan --recorded " + folder_.path().string() + " --out " + out(), {"dataset.toml:1: frames " + nul});
+  const std::string study = "[[planning]]\nobjects = ['box']\npolicies = [\"ran\\u0000dom\"]\nseeds = [1]\nviews = 2\n";
+  expect_error("study " + write("d.toml", study).string() + " --out " + out(),
+               {"'policies' has no 'ran\\x00dom'; did"});
+}
+
 TEST_F(BadInput, Objects) {
   expect_error("scan " + (folder_.path() / "missing.ply").string() + " --no-pictures --out " + out(), {"missing.ply"});
   expect_error("scan " + folder_.path().string() + " --no-pictures --out " + out(), {folder_.path().string()});

@@ -70,6 +70,7 @@ std::vector<CommandCall> parse_script(std::string_view text, std::string_view pl
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
     try {
+      if (line.find('\0') != line.npos) throw std::invalid_argument("holds a NUL: it is no text");
       if (words(line).empty()) continue;
       calls.push_back(parse_call(line));
       calls.back().line = number;
