@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "core/gibbs/chain_ensemble.hpp"
 #include "core/gibbs/independence.hpp"
@@ -19,6 +20,7 @@ namespace {
 constexpr int first_window = SamplerDiagnostics::fewest_telling_sweeps;
 constexpr int sweeps_of_r_hat = 4;  ///< that R-hat needs for its halves
 constexpr int sweeps_between_reports = 4;
+constexpr double done_of_first_test = 0.9;  ///< most chains are stationary then; the rest is for those that are not
 
 /// Sweeps until stopped, stationary, or all sweeps are made.
 class Schedule {
@@ -32,6 +34,7 @@ class Schedule {
         std::min(warm ? config_.burn_in / 2 : config_.burn_in, std::max(0, config_.sweeps - sweeps_of_r_hat));
     const int first = config_.until_stationary ? first_window : config_.sweeps;
     may_end_ = std::min(burn_in + first, config_.sweeps);
+    next_done_ = config_.until_stationary ? done_of_first_test : 1.0;
     sweep(burn_in, false);
     // Where a start is still felt, or seems to be, the next mean is of as many sweeps, those after it of twice as many.
     if (ends_in_mean_of(first)) return;
@@ -47,7 +50,7 @@ class Schedule {
     chains_.begin_mean(std::min(window, config_.sweeps - diagnostics_.sweeps));
     for (int next = window;; next = window / 4) {
       const int count = std::max(sweeps_of_r_hat, std::min(next, config_.sweeps - diagnostics_.sweeps));
-      may_end_ = diagnostics_.sweeps + count;
+      go_on_to(diagnostics_.sweeps + count);
       sweep(count, true);
       chains_.diagnose();
       report();
@@ -67,10 +70,19 @@ class Schedule {
     }
   }
 
+  /// Sweeps that were not enough leave half as much of the bar to those after them: it is never full before the end,
+  /// and never goes back.
+  void go_on_to(int end) {
+    if (end == may_end_) return;
+    began_ = diagnostics_.sweeps;
+    may_end_ = end;
+    done_ = std::exchange(next_done_, (1.0 + next_done_) / 2);
+  }
+
   void report() {
     // Of what it takes until it is asked again whether that is enough.
-    done_ = std::max(done_, std::min(1.0, double(diagnostics_.sweeps) / may_end_));
-    if (progress_) progress_(done_, "refining the map", diagnostics_);
+    const double share = std::min(1.0, double(diagnostics_.sweeps - began_) / std::max(1, may_end_ - began_));
+    if (progress_) progress_(done_ + share * (next_done_ - done_), "refining the map", diagnostics_);
   }
 
   ChainEnsemble& chains_;
@@ -78,8 +90,8 @@ class Schedule {
   SamplerDiagnostics& diagnostics_;
   const SamplerProgress& progress_;
   std::stop_token stop_;
-  double done_ = 0.0;  ///< as told last: it never goes back
-  int may_end_ = 1;    ///< after so many sweeps it is asked whether they are enough
+  int began_ = 0, may_end_ = 1;          ///< after so many sweeps it was, and will be, asked whether they are enough
+  double done_ = 0.0, next_done_ = 0.0;  ///< of the whole, as told then
 };
 
 std::string warning(const SamplerDiagnostics& d) {
