@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 #include <type_traits>
 
@@ -38,7 +39,12 @@ Setting setting(Configuration& configuration, const std::string& key) {
 /// As the Session panel calls a setting.
 std::string field_name(const Setting& setting) { return setting.key == "map.resolution" ? "Voxel" : setting.label(); }
 
-std::string shown_name(const Setting& setting) { return fmt::format("{} ({})", field_name(setting), setting.key); }
+/// As a message begins with it: "Views (termination.views)".
+std::string shown_name(const Setting& setting) {
+  std::string name = field_name(setting);
+  name.front() = char(std::toupper(static_cast<unsigned char>(name.front())));
+  return setting.key.find('.') == setting.key.npos ? name : fmt::format("{} ({})", name, setting.key);
+}
 
 constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, too
 

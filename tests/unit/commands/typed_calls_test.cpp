@@ -94,6 +94,12 @@ TEST_F(TypedCallsOnAWindow, ALengthThatIsNoneIsAskedForWithAUnit) {
   EXPECT_THAT(error_of(command::set("map.resolution", "0,5 mm")), testing::HasSubstr("did you mean '0.5 mm'?"));
 }
 
+TEST_F(TypedCallsOnAWindow, SettingsAreCalledAsThePanelCallsThem) {
+  EXPECT_EQ(error_of(command::set("termination.views", "1e9")),
+            "Views (termination.views) takes a whole number, not '1e9'");
+  EXPECT_EQ(error_of(command::set("seed", "-5")), "Seed takes a whole number, 0 or more, not '-5'") << "said once";
+}
+
 TEST(Set, GivesOneSettingAndNoOther) {
   SessionWorker worker;
   WindowState window;
