@@ -127,8 +127,9 @@ NpyTable table_of(const std::string& bytes) {
 
 }  // namespace
 
-NpyTable read_npy(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
+NpyTable read_npy(const std::filesystem::path& file) { return npy_of(read_file(file), file); }
+
+NpyTable npy_of(const std::string& bytes, const std::filesystem::path& file) {
   try {
     return table_of(bytes);
   } catch (const std::invalid_argument& error) {

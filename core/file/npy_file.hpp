@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace nextview {
@@ -14,6 +15,8 @@ struct NpyTable {
 /// @throws std::runtime_error naming the file and the reason: missing, no regular file, another type or order,
 ///         not as many values as its shape says
 NpyTable read_npy(const std::filesystem::path& file);
+/// The same of a file's bytes that are at hand. @throws likewise
+NpyTable npy_of(const std::string& bytes, const std::filesystem::path& file);
 /// Written beside the file, then renamed. @throws std::runtime_error naming the file and the reason
 void write_npy(const NpyTable& table, const std::filesystem::path& file);
 

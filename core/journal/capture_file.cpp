@@ -9,7 +9,6 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/npy_file.hpp"
-#include "core/file/read_file.hpp"
 
 namespace nextview {
 namespace {
@@ -28,8 +27,7 @@ void write_points(const std::vector<Vector3>& points, const fs::path& file) {
   out.commit();
 }
 
-std::vector<Vector3> read_points(const fs::path& file) {
-  const std::string bytes = read_file(file);
+std::vector<Vector3> points_of(const std::string& bytes, const fs::path& file) {
   const auto refuse = [&](const char* why) { throw std::runtime_error(fmt::format("{}: {}", file.string(), why)); };
   if (!bytes.starts_with(before_count)) refuse("is no PLY of points as sessions have them");
   std::size_t count = 0;
@@ -47,8 +45,8 @@ std::vector<Vector3> read_points(const fs::path& file) {
   return points;
 }
 
-DepthImage read_ranges(const fs::path& file, const PinholeCamera& camera) {
-  NpyTable table = read_npy(file);
+DepthImage ranges_of(const std::string& bytes, const fs::path& file, const PinholeCamera& camera) {
+  NpyTable table = npy_of(bytes, file);
   if (table.columns != camera.width || table.rows != camera.height)
     throw std::runtime_error(fmt::format("{}: has {} x {} pixels; the camera has {} x {}", file.string(), table.columns,
                                          table.rows, camera.width, camera.height));
@@ -72,9 +70,10 @@ std::string write_capture(const Capture& capture, std::uint32_t number, const fs
   return name;
 }
 
-std::variant<DepthImage, std::vector<Vector3>> read_captured(const fs::path& file, const PinholeCamera& camera) {
-  if (file.extension() == ".ply") return read_points(file);
-  return read_ranges(file, camera);
+std::variant<DepthImage, std::vector<Vector3>> captured_of(const std::string& bytes, const fs::path& file,
+                                                           const PinholeCamera& camera) {
+  if (file.extension() == ".ply") return points_of(bytes, file);
+  return ranges_of(bytes, file, camera);
 }
 
 }  // namespace nextview

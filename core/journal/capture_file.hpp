@@ -21,9 +21,10 @@ std::string capture_name(const Capture& capture, std::uint32_t number);
 /// @throws std::runtime_error naming the file and the reason
 std::string write_capture(const Capture& capture, std::uint32_t number, const std::filesystem::path& folder);
 
-/// Reads it again. Ranges need the camera that took them; points ignore it.
+/// What was captured, of the bytes of its file: those whose hash was looked at. Ranges need the camera that took them;
+/// points ignore it.
 /// @throws std::runtime_error naming the file and the reason
-std::variant<DepthImage, std::vector<Vector3>> read_captured(const std::filesystem::path& file,
-                                                             const PinholeCamera& camera);
+std::variant<DepthImage, std::vector<Vector3>> captured_of(const std::string& bytes, const std::filesystem::path& file,
+                                                           const PinholeCamera& camera);
 
 }  // namespace nextview

@@ -85,9 +85,10 @@ Capture read_capture(const JournalStep& step, const fs::path& folder) {
   if (type == fs::file_type::not_found) throw CaptureLost(fmt::format("{}: is gone", file.string()));
   if (type != fs::file_type::regular && type != fs::file_type::none)
     throw CaptureLost(fmt::format("{}: is no regular file", file.string()));
-  if (!(file_hash(file) == step.hash))
+  const std::string bytes = read_file(file);
+  if (!(hash_of(bytes) == step.hash))
     throw CaptureLost(fmt::format("{}: is not what was captured: it is damaged, or was changed", file.string()));
-  Capture capture{read_captured(file, step.camera), step.T_world_camera, step.max_range};
+  Capture capture{captured_of(bytes, file, step.camera), step.T_world_camera, step.max_range};
   if (std::holds_alternative<DepthImage>(capture.measured) && !(step.camera.fx > 0 && step.camera.fy > 0))
     throw CaptureLost(fmt::format("{}: the journal does not say by what camera", file.string()));
   return capture;

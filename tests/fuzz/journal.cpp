@@ -1,4 +1,5 @@
 // Journals: as a file, whose check sums few inputs have, and as records; and the captures of a session.
+#include "core/file/read_file.hpp"
 #include "core/journal/capture_file.hpp"
 #include "core/journal/journal_records.hpp"
 #include "core/session/camera_bookmarks.hpp"
@@ -23,7 +24,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   is_read([&] { read_cameras(folder); });
   for (const char* name : {"0001.npy", "0001.ply"}) {
     const auto file = fuzzed_file(name, bytes);
-    is_read([&] { read_captured(file, {4, 3, 10.0, 10.0, 2.0, 1.5}); });
+    is_read([&] { captured_of(read_file(file), file, {4, 3, 10.0, 10.0, 2.0, 1.5}); });
   }
   return 0;
 }

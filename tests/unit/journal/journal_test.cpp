@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -157,6 +160,17 @@ TEST_F(JournalTest, ACaptureThatChangedIsRefused) {
   bytes[bytes.size() - 3] ^= 1;
   write_file(file, bytes);
   EXPECT_THROW(read_capture(s, folder_ / ""), std::runtime_error);
+}
+
+TEST_F(JournalTest, WhatIsReadOfACaptureIsWhatWasLookedAt) {
+  write({{1, 0}});
+  const JournalStep s = read_journal(folder_ / "").steps.at(1);
+  const Descriptor watch(::inotify_init1(IN_NONBLOCK));
+  ASSERT_GE(::inotify_add_watch(watch.get(), (folder_ / "scans/0001.npy").c_str(), IN_OPEN | IN_CLOSE), 0);
+  read_capture(s, folder_ / "");
+  std::array<inotify_event, 8> events;
+  EXPECT_EQ(::read(watch.get(), events.data(), sizeof(events)), ssize_t(2 * sizeof(inotify_event)))
+      << "it is opened and closed once";
 }
 
 TEST_F(JournalTest, LeadsNowhereElse) {
