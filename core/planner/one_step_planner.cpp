@@ -81,10 +81,13 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
 }
 
 /// " About 12 % of the surface is left: 7 views, 5.12 m." Proven to be the fewest: "7 views (no fewer do), 5.12 m."
-/// Where the scan ends before: "7 views, 5.12 m; the limit of 25 views leaves 3."
+/// Where the scan ends before: "7 views, 5.12 m; the limit of 25 views leaves 3." A scan that is to go on to the very
+/// last of the surface has views for each of its crumbs: of less than half a percent they are not told.
 std::string outlook(const Valuation& valuation, const PlanningState& state, std::size_t most_views) {
   const std::string left = fmt::format(" About {} of the surface is left", percent_text(*valuation.surface_left));
-  if (valuation.remaining.empty() || state.taken.empty()) return left + ".";
+  constexpr double crumbs = 0.005;
+  const bool is_of_crumbs = state.negligible_share == 0.0 && *valuation.surface_left < crumbs;
+  if (valuation.remaining.empty() || state.taken.empty() || is_of_crumbs) return left + ".";
   std::vector<Vector3> stops;
   for (const std::size_t v : valuation.remaining) stops.push_back(state.candidates[v].T_world_camera.translation());
   const std::size_t count = stops.size();

@@ -25,7 +25,7 @@ struct GivenValues : Policy {
 
 Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candidates, const PlannerConfig& config = {},
                std::optional<double> surface_left = {}, const std::vector<std::size_t>& remaining = {},
-               std::size_t most_views = 100, const VoxelGrid& region = {}) {
+               std::size_t most_views = 100, const VoxelGrid& region = {}, double negligible = 0.005) {
   const RayBundle bundle;
   auto policy = std::make_unique<GivenValues>(values);
   policy->left = surface_left, policy->remaining = remaining;
@@ -36,8 +36,8 @@ Ranking ranked(const std::vector<double>& values, std::vector<Candidate> candida
   if (region.voxel_count() > 0) known.map = OccupancyMap(region);
   known.taken.emplace_back();  // at the origin
   return planner
-      .plan({config, 1, 60.0, 4.0, bundle, nullptr, 0.005, nullptr, most_views}, known, views, std::move(candidates),
-            {})
+      .plan({config, 1, 60.0, 4.0, bundle, nullptr, negligible, nullptr, most_views}, known, views,
+            std::move(candidates), {})
       .ranking;
 }
 
@@ -78,6 +78,13 @@ TEST(Reason, SaysWhichWayTheRestWouldTake) {
               HasSubstr(" About 10 % of the surface is left: 2 views, 3 m."));
   EXPECT_THAT(ranked({0, 10, 20, 30}, all, {}, 0.004, {2}).reason,
               HasSubstr(" About 0.4 % of the surface is left: 1 view, 2 m."));
+}
+
+TEST(Reason, SaysNoViewsForTheLastCrumbs) {
+  const std::vector<Candidate> all = {at(0, false), at(1), at(2), at(3)};
+  const auto reason = [&](double left) { return ranked({0, 10, 20, 30}, all, {}, left, {2, 3}, 100, {}, 0.0).reason; };
+  EXPECT_TRUE(reason(0.004).ends_with(" About 0.4 % of the surface is left."));
+  EXPECT_THAT(reason(0.01), HasSubstr(" About 1 % of the surface is left: 2 views, 3 m."));
 }
 
 TEST(Reason, SaysWhereTheLimitOfViewsEndsTheScanBefore) {
