@@ -32,6 +32,7 @@
 #include "core/setting/length_text.hpp"
 #include "core/study/study.hpp"
 #include "core/view/pose.hpp"
+#include "ui/demo/demo_window.hpp"
 
 namespace nextview {
 namespace {
@@ -235,6 +236,11 @@ std::string toml_info(const fs::path& path) {
   return fmt::format("a study of {}: nextview study {} --out DIR", counted(runs, "run"), printable(path.string()));
 }
 
+std::string demo_info(const fs::path& file) {
+  const Demo demo = read_demo(file.string(), "out");
+  return fmt::format("a demo of {}: nextview demo {}", counted(demo.calls.size(), "command"), printable(file.string()));
+}
+
 std::string journal_info(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   return "the journal of a session\n" + session_info(folder);
@@ -249,6 +255,7 @@ std::string info(const fs::path& path) {
   if (extension == ".graph" || extension == ".log" || path.filename() == "dataset.toml") return recording_info(path);
   if (extension == ".png") return picture_info(path);
   if (extension == ".npy") return depth_image_info(path);
+  if (is_demo_file(path)) return demo_info(path);
   if (extension == ".toml") return toml_info(path);
   if (is_scene_file(path)) return text_info(path);
   if (path.filename() == journal_name && !is_there(path / journal_name)) return journal_info(path);
@@ -279,8 +286,8 @@ void add_info_command(CLI::App& program) {
       program.add_subcommand("info", "What a file or folder holds: counts, extents, unit, what was guessed");
   app->add_option("PATH", *paths,
                   "mesh, cloud (PLY, PCD), map (.ot, .bt), scene of scans or views (.txt), scan graph (.graph, .log), "
-                  "configuration or study (.toml), picture (.png), depth image (.npy), tables and reports that were "
-                  "written (.csv, .json), journal, "
+                  "configuration or study (.toml), picture (.png), depth image (.npy), demo (.nextview), tables and "
+                  "reports that were written (.csv, .json), journal, "
                   "a folder of results or of recorded data, or gearbox, bunny, …")
       ->required()
       ->check(not_empty())

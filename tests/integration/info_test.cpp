@@ -64,6 +64,17 @@ TEST(Info, TellsViewsAndStudies) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("candidate views: 2 views\n  1 x 2 x 0 m"), HasSubstr("a study of 2 runs")));
 }
 
+TEST(Info, TellsDemos) {
+  const TemporaryFolder folder;
+  const std::string good = (folder.path() / "mine.nextview").string(), bad = (folder.path() / "bad.nextview").string();
+  write_file(good, "open gearbox\nstep\nexport-cloud cloud.ply\n");
+  write_file(bad, "stap\n");
+  EXPECT_THAT(nextview("info " + good).out, HasSubstr("a demo of 3 commands: nextview demo "));
+  const Result run = nextview("info " + bad);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("bad.nextview:1: there is no command 'stap'"));
+}
+
 TEST(Info, TellsTablesReportsAndJournals) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
