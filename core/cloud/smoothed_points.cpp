@@ -10,7 +10,7 @@
 namespace nextview {
 namespace {
 
-constexpr float widest = 100.0f;         // a point's place in the image at depth 1; those farther out stay as they are
+constexpr float widest = 6.0f;           // at depth 1 in the image, 80 degrees off its axis; points beyond stay
 constexpr float cells_across = 2048.0f;  // the image, at most
 constexpr float same_surface = 4.0f;     // [standard deviations]
 constexpr double wanted_deviations = 6.0;

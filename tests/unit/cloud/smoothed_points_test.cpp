@@ -85,6 +85,8 @@ TEST(SmoothedPoints, AloneOrBehindTheCameraStay) {
   Scan scan;
   scan.hits = {{0.0f, 0.0f, 1.0f}, {0.5f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
   EXPECT_EQ(smoothed_points(scan, Pose::Identity(), smoothing), scan.hits);
+  scan.hits = {{7.0f, 0.0f, 1.0f}, {7.0f, 0.0f, 1.001f}};  // 82 degrees off the axis
+  EXPECT_EQ(smoothed_points(scan, Pose::Identity(), smoothing), scan.hits);
   EXPECT_TRUE(smoothed_points({}, Pose::Identity(), smoothing).empty());
 }
 
