@@ -16,7 +16,7 @@
 #include "core/config/configuration_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
-#include "core/file/printable.hpp"
+#include "core/file/nul_text.hpp"
 #include "core/planner/gain_policies.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/setting/mistyped_path.hpp"
@@ -118,11 +118,9 @@ class TomlReader {
     }
   }
 
-  /// A NUL would end each message about it, and the name of a file.
   void require_text(const std::string& key, const toml::node& node) const {
-    const auto* value = node.as_string();
-    if (key.find('\0') != key.npos || (value && value->get().find('\0') != std::string::npos))
-      throw failure(node.source().begin.line, fmt::format("{} holds a NUL, which no text has", printable(key)));
+    const std::string reason = why_no_text(key, node.value_or(std::string_view()));
+    if (!reason.empty()) throw failure(node.source().begin.line, reason);
   }
 
   const Setting& known(const std::string& key, std::uint32_t line) try {
@@ -292,11 +290,12 @@ std::string to_toml(const Configuration& configuration) {
 void apply_sensor_preset(Configuration& configuration, const std::string& preset) {
   fs::path file = named_sensor(preset);
   if (!is_there(file)) file = preset;
-  if (!is_there(file))
+  if (!is_there(file)) {
+    const std::vector<std::string> known = asset_names("sensors");
     throw std::runtime_error(fmt::format(
         "sensor.preset: there is no sensor '{}'{}", preset,
-        did_you_mean_path(preset, asset_names("sensors"),
-                          fmt::format("; there are {}, or give a file", fmt::join(asset_names("sensors"), ", ")))));
+        did_you_mean_path(preset, known, fmt::format("; there are {}, or give a file", fmt::join(known, ", ")))));
+  }
   configuration.sensor = {};
   std::erase_if(configuration.sources, [](const auto& source) { return source.first.starts_with("sensor."); });
   TomlReader(file, configuration, "sensor.").read(read_file(file, largest_file));

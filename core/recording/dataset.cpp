@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/file/printable.hpp"
+#include "core/file/nul_text.hpp"
 #include "core/file/read_file.hpp"
 #include "core/setting/numbers.hpp"
 #include "core/setting/section_of.hpp"
@@ -64,9 +64,8 @@ class DatasetReader {
         continue;
       }
       const auto line = node.source().begin.line;
-      const auto* text = node.as_string();
-      if (key.find('\0') != key.npos || (text && text->get().find('\0') != std::string::npos))
-        throw failure(line, fmt::format("{} holds a NUL, which no text has", printable(key)));
+      const std::string no_text = why_no_text(key, node.value_or(std::string_view()));
+      if (!no_text.empty()) throw failure(line, no_text);
       Setting& setting = known(key, line);
       try {
         setting.set(value_text(setting, node));
