@@ -241,11 +241,6 @@ std::string demo_info(const fs::path& file) {
   return fmt::format("a demo of {}: nextview demo {}", counted(demo.calls.size(), "command"), printable(file.string()));
 }
 
-std::string journal_info(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  return "the journal of a session\n" + session_info(folder);
-}
-
 std::string info(const fs::path& path) {
   std::error_code ignored;  // what cannot be looked at is told by who reads it
   if (const auto part = session_part_info(path)) return *part;
@@ -258,7 +253,6 @@ std::string info(const fs::path& path) {
   if (is_demo_file(path)) return demo_info(path);
   if (extension == ".toml") return toml_info(path);
   if (is_scene_file(path)) return text_info(path);
-  if (path.filename() == journal_name && !is_there(path / journal_name)) return journal_info(path);
   if (is_there(path) && (extension == ".csv" || extension == ".json")) {
     if (const auto written = written_file_info(path)) return *written;
     throw std::runtime_error(path.string() + ": is no table or report that Nextview writes");

@@ -16,15 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the folder that something lies in, however it was named: with a slash at its end, or from within.
-fs::path folder_around(const fs::path& path) {
+/// With its folders and its own name, however it was named: with a slash at its end, or from within.
+fs::path whole(const fs::path& path) {
   const fs::path normal = fs::absolute(path).lexically_normal();
-  return (normal.has_filename() ? normal : normal.parent_path()).parent_path();
-}
-
-std::string last_name(const fs::path& path) {
-  const fs::path normal = fs::absolute(path).lexically_normal();
-  return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
+  return normal.has_filename() ? normal : normal.parent_path();
 }
 
 }  // namespace
@@ -40,8 +35,8 @@ std::string depth_image_info(const fs::path& file) {
     nearest = std::min(nearest, value);
     farthest = std::max(farthest, value);
   }
-  const bool is_capture =
-      last_name(folder_around(file)) == scans_name && has_journal(folder_around(folder_around(file)));
+  const fs::path folder = whole(file).parent_path();
+  const bool is_capture = folder.filename() == scans_name && has_journal(folder.parent_path());
   std::string text = fmt::format("a {} of {} x {} pixels: {} measured",
                                  is_capture ? "session's capture" : "depth image", table.columns, table.rows, measured);
   if (measured > 0) text += fmt::format(", from {:.4g} to {:.4g}{}", nearest, farthest, is_capture ? " m" : "");
@@ -51,14 +46,16 @@ std::string depth_image_info(const fs::path& file) {
 }
 
 std::optional<std::string> session_part_info(const fs::path& path) {
-  const fs::path folder = folder_around(path);
+  const fs::path part = whole(path), folder = part.parent_path();
   if (!has_journal(folder)) return std::nullopt;
   std::error_code error;
-  if (fs::is_directory(path, error) && last_name(path) == scans_name) {
+  if (fs::is_directory(path, error) && part.filename() == scans_name) {
     const auto files = std::distance(fs::directory_iterator(path), fs::directory_iterator());
     return fmt::format("the captures of a session: {}\n{}", counted(std::size_t(files), "file"), session_info(folder));
   }
-  if (fs::is_regular_file(path, error) && last_name(path) == state_file_name)
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  if (part.filename() == journal_name) return "the journal of a session\n" + session_info(folder);
+  if (part.filename() == state_file_name)
     return "what was computed of a session, so that --resume need not compute it again; deleting it loses nothing";
   return std::nullopt;
 }
