@@ -4,6 +4,7 @@
 
 #include "core/planner/planner.hpp"
 #include "core/planner/remaining_plan.hpp"
+#include "core/planner/termination.hpp"
 #include "core/planner/way_text.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/setting/percent_text.hpp"
@@ -82,10 +83,10 @@ std::string reason(const Policy& policy, const PlanningState& state, std::span<c
 
 /// " About 12 % of the surface is left: 7 views, 5.12 m." Proven to be the fewest: "7 views (no fewer do), 5.12 m."
 /// Where the scan ends before: "7 views, 5.12 m; the limit of 25 views leaves 3." A scan that is to go on to the very
-/// last of the surface has views for each of its crumbs: of less than half a percent they are not told.
+/// last of the surface has views for each of its crumbs: of less than what usually ends a scan they are not told.
 std::string outlook(const Valuation& valuation, const PlanningState& state, std::size_t most_views) {
   const std::string left = fmt::format(" About {} of the surface is left", percent_text(*valuation.surface_left));
-  constexpr double crumbs = 0.005;
+  const double crumbs = TerminationConfig().surface_left;
   const bool is_of_crumbs = state.negligible_share == 0.0 && *valuation.surface_left < crumbs;
   if (valuation.remaining.empty() || state.taken.empty() || is_of_crumbs) return left + ".";
   std::vector<Vector3> stops;

@@ -55,9 +55,8 @@ void change_setting(CommandTarget& target, const std::string& key, const Configu
   wanted.validate();
   if (to_toml(wanted) == to_toml(target.session.configuration)) return;
   if (key.starts_with("termination.")) return target.worker.post(request::SetTermination{wanted.termination});
-  if (key.starts_with("planner.") || key.starts_with("gibbs.") ||
-      (key.starts_with("views.") && !target.session.records.empty()))
-    return target.worker.post(request::SetPlanning{planning_of(wanted)});
+  const bool changes_share = key.starts_with("views.") && target.session.records.empty();
+  if (keeps_scan(key) && !changes_share) return target.worker.post(request::SetPlanning{planning_of(wanted)});
   target.worker.post(request::Load{wanted});
 }
 
