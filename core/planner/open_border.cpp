@@ -13,12 +13,15 @@ OpenBorder open_border(const Knowledge& known) {
   OpenBorder open{{}, border.spacing, std::move(border.within)};
   const VoxelGrid& grid = known.map.grid();
   const double beyond = std::max(border_reach(*known.scanned), grid.resolution);
+  const auto may_go_on = [&](const Eigen::Vector3f& at) {
+    const Eigen::Vector3i cell = grid.cell_at(at.cast<double>());
+    if (!grid.contains(cell)) return false;
+    const Voxel voxel = known.planning_voxels().at(cell.x(), cell.y(), cell.z());
+    return !voxel.measured || voxel.probability >= known.map.model().occupancy_threshold;
+  };
   for (const SurfaceBorder::Point& point : border.points) {
     const Eigen::Vector3f at = point.at + float(beyond) * point.outward;
-    const Eigen::Vector3i cell = grid.cell_at(at.cast<double>());
-    if (!grid.contains(cell)) continue;
-    const Voxel voxel = known.planning_voxels().at(cell.x(), cell.y(), cell.z());
-    if (!voxel.measured || voxel.probability >= known.map.model().occupancy_threshold) open.beyond.push_back(at);
+    if (may_go_on(at) && may_go_on(at + float(grid.resolution) * point.outward)) open.beyond.push_back(at);
   }
   return open;
 }

@@ -77,9 +77,9 @@ void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRe
   state.evaluation = std::move(evaluation);
 }
 
-/// Noise makes points of one surface lie apart. Up to so many d_reg they are told from others' by that much more; where
-/// noise is more, scans are smoothed before they are compared (with 5 mm of noise views show most nearly what they
-/// promise with 1.6).
+/// Noise makes points of one surface lie apart: by that much more they are told from others', up to so many d_reg.
+/// Where that is more than d_reg, scans are smoothed before they are compared, so that their borders stay sharp, too.
+/// With 5 mm of noise views show most nearly what they promise with 1.6.
 constexpr double standard_deviations = 3.0, most_registration_distances = 1.6;
 
 /// By how much points of one surface are told from another's [m].
@@ -97,7 +97,7 @@ double see_surface(const ScanSetup& setup, Knowledge& known, const Scan& scan, c
   const double solid_angle = pixels_per_point / (camera.fx * camera.fy), noise = setup.source.range_noise;
   auto scanned = std::make_shared<ScannedSurface>(*known.scanned);
   const Vector3 optical_axis = record.T_world_camera.linear().col(2);
-  const bool is_smoothed = standard_deviations * noise > scanned->radius();
+  const bool is_smoothed = standard_deviations * noise > setup.configuration.evaluation.d_reg;
   const auto smoothing = Smoothing::down_to(scanned->radius(), noise, solid_angle);
   const double across =
       is_smoothed

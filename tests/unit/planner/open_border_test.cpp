@@ -46,6 +46,13 @@ TEST(OpenBorder, ASheetThatEndsInFreeSpaceIsDone) {
   EXPECT_EQ(open_border(known).length(), 0.0);
 }
 
+TEST(OpenBorder, ASheetThatEndsWithinAVoxelIsDone) {
+  Knowledge known = scanned_plate();
+  measure(known, 1.0f, [](const Vector3& at) { return at.head<2>().cwiseAbs().maxCoeff() < 0.11; });
+  measure(known, -1.0f, [](const Vector3& at) { return at.head<2>().cwiseAbs().maxCoeff() > 0.11; });
+  EXPECT_EQ(open_border(known).length(), 0.0) << "the last voxel that it touches is occupied, the next is free";
+}
+
 TEST(OpenBorder, OneSideOfFour) {
   Knowledge known = scanned_plate();
   const double all = open_border(known).length();
