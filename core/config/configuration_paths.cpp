@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -55,6 +56,11 @@ fs::path resolve_object(const std::string& name) {
   }
   if (is_folder) return name;  // which its reader refuses; those of known names are no hindrance
   const std::vector<std::string> objects(known_objects().begin(), known_objects().end());
+  if (std::ranges::find(objects, name) != objects.end())
+    throw std::runtime_error(fmt::format(
+        "{}: comes with the program, but is not in {}; install the program whole, or set NEXTVIEW_ASSETS to "
+        "its folder assets",
+        name, (assets_folder() / "objects").string()));
   throw std::runtime_error(
       fmt::format("{}: there is no such file, nor an object of this name that comes with the program{}", name,
                   did_you_mean_path(name, objects)));

@@ -20,6 +20,7 @@
 
 #include "core/planner/set_cover.hpp"
 #include "core/session/session.hpp"
+#include "tests/benchmarks/known_part_plan.hpp"
 #include "ui/charts/planner_chart.hpp"
 #include "ui/render_target/headless.hpp"
 
@@ -122,9 +123,13 @@ Configuration configuration(const Options& options, const std::string& object, c
   return c;
 }
 
-Course scan(const Configuration& c) {
-  Session session(c);
-  while (session.finished().empty()) session.step();
+/// The views of `ahead`, then as it is planned.
+Course scan(const Configuration& c, Session& session, const std::vector<std::size_t>& ahead = {}) {
+  while (session.finished().empty()) {
+    const std::size_t taken = session.records().size();
+    if (taken > 0 && taken <= ahead.size()) session.override_next_view(ahead[taken - 1]);
+    session.step();
+  }
   Course course(c.termination.views);
   double path = 0.0;
   for (std::size_t i = 0; i < course.coverage.size(); ++i) {
@@ -136,7 +141,23 @@ Course scan(const Configuration& c) {
   return course;
 }
 
+Course scan(const Configuration& c) {
+  Session session(c);
+  return scan(c, session);
+}
+
+/// "known-part:2": who knows the part, and would see a share of the surface two views later for each metre less.
+constexpr std::string_view known_part = "known-part:";
+
 Course course_of(const Options& options, const std::string& object, const std::string& policy) {
+  if (policy.starts_with(known_part)) {
+    const Configuration c = configuration(options, object, "fixed-order");
+    Session session(c);
+    double weight = 0.0;
+    if (!CLI::detail::lexical_cast(policy.substr(known_part.size()), weight) || !(weight >= 0.0))
+      throw std::runtime_error(fmt::format("--policy {}: the weight must be a number of at least 0", policy));
+    return scan(c, session, known_part_plan(*session.known_object(), session.next_view(), options.views, weight));
+  }
   Configuration c = configuration(options, object, policy);
   if (policy != "random") return scan(c);
   Course mean(options.views);
@@ -269,7 +290,8 @@ int main(int argc, char** argv) {
   CLI::App app("Coverage against views of planners, random views and the greedy oracle");
   app.add_option("--object", options.objects, "objects as for scan, separated by commas")->delimiter(',');
   CLI::Option* policies =
-      app.add_option("--policy", options.policies, "default, paper, or gains; random and oracle always")
+      app.add_option("--policy", options.policies,
+                     "default, paper, gains, or known-part:WEIGHT of the way; random and oracle always")
           ->delimiter(',');
   CLI::Option* config = app.add_option("--config", options.config, "a table as this configuration has it");
   app.add_option("--set", options.set,

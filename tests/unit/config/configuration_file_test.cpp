@@ -157,6 +157,16 @@ TEST(ResolveObject, FindsPathsAndNames) {
   EXPECT_THROW(resolve_object("no such thing"), std::runtime_error);
 }
 
+TEST_F(ConfigurationFile, WhatComesWithTheProgramIsMissedByItsFolder) {
+  const char* const before = std::getenv("NEXTVIEW_ASSETS");
+  const std::string was = before ? before : "", empty = std::filesystem::path(folder_).string();
+  ::setenv("NEXTVIEW_ASSETS", empty.c_str(), 1);
+  EXPECT_EQ(complaint([] { resolve_object("box"); }),
+            "box: comes with the program, but is not in " + empty +
+                "/objects; install the program whole, or set NEXTVIEW_ASSETS to its folder assets");
+  before ? ::setenv("NEXTVIEW_ASSETS", was.c_str(), 1) : ::unsetenv("NEXTVIEW_ASSETS");
+}
+
 TEST_F(ConfigurationFile, WhatMakesNoSenseNamesItsPlace) {
   std::ofstream(file()) << "[sensor]\nrange_noise = 5\n";
   EXPECT_EQ(complaint([&] { read_configuration(file()); }),
