@@ -22,10 +22,10 @@ SurfaceBorder surface_border(const ScannedSurface& surface, std::size_t most = 2
 
 /// Where what was scanned ends and the surface may go on.
 struct OpenBorder {
-  std::vector<Eigen::Vector3f> beyond;                               ///< the border, past it [m, world]
-  double spacing = 0.0;                                              ///< SurfaceBorder::spacing
-  std::vector<Eigen::Vector3f> within = {};                          ///< SurfaceBorder::within
-  double length() const { return double(beyond.size()) * spacing; }  ///< [m]
+  std::vector<Eigen::Vector3f> beyond;       ///< the border, past it [m, world]
+  double spacing = 0.0;                      ///< SurfaceBorder::spacing
+  std::vector<Eigen::Vector3f> within = {};  ///< SurfaceBorder::within
+  double length = 0.0;  ///< of it, without what may be a sheet that ends in free space within a voxel [m]
 };
 
 /// As far as a point's surroundings reach [m].

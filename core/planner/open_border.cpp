@@ -21,7 +21,9 @@ OpenBorder open_border(const Knowledge& known) {
   };
   for (const SurfaceBorder::Point& point : border.points) {
     const Eigen::Vector3f at = point.at + float(beyond) * point.outward;
-    if (may_go_on(at) && may_go_on(at + float(grid.resolution) * point.outward)) open.beyond.push_back(at);
+    if (!may_go_on(at)) continue;
+    open.beyond.push_back(at);
+    if (may_go_on(at + float(grid.resolution) * point.outward)) open.length += border.spacing;
   }
   return open;
 }

@@ -32,7 +32,7 @@ void measure(Knowledge& known, float log_odds, Where where) {
 TEST(OpenBorder, GoesOnIntoWhatNobodyMeasured) {
   const Knowledge known = scanned_plate();
   const OpenBorder border = open_border(known);
-  EXPECT_NEAR(border.length(), 4 * 0.2, 0.05);
+  EXPECT_NEAR(border.length, 4 * 0.2, 0.05);
   for (const Eigen::Vector3f& at : border.beyond) {
     EXPECT_GT(at.head<2>().cwiseAbs().maxCoeff(), 0.1f) << "past the edge";
     EXPECT_LT(at.head<2>().cwiseAbs().maxCoeff(), 0.112f) << "by a voxel";
@@ -43,31 +43,31 @@ TEST(OpenBorder, GoesOnIntoWhatNobodyMeasured) {
 TEST(OpenBorder, ASheetThatEndsInFreeSpaceIsDone) {
   Knowledge known = scanned_plate();
   measure(known, -1.0f, [](const Vector3& at) { return at.head<2>().cwiseAbs().maxCoeff() > 0.1; });
-  EXPECT_EQ(open_border(known).length(), 0.0);
+  EXPECT_EQ(open_border(known).length, 0.0);
 }
 
 TEST(OpenBorder, ASheetThatEndsWithinAVoxelIsDone) {
   Knowledge known = scanned_plate();
   measure(known, 1.0f, [](const Vector3& at) { return at.head<2>().cwiseAbs().maxCoeff() < 0.11; });
   measure(known, -1.0f, [](const Vector3& at) { return at.head<2>().cwiseAbs().maxCoeff() > 0.11; });
-  EXPECT_EQ(open_border(known).length(), 0.0) << "the last voxel that it touches is occupied, the next is free";
+  EXPECT_EQ(open_border(known).length, 0.0) << "the last voxel that it touches is occupied, the next is free";
 }
 
 TEST(OpenBorder, OneSideOfFour) {
   Knowledge known = scanned_plate();
-  const double all = open_border(known).length();
+  const double all = open_border(known).length;
   measure(known, -1.0f, [](const Vector3& at) { return std::max({at.x(), at.y(), -at.y()}) > 0.1; });
-  EXPECT_NEAR(open_border(known).length(), all / 4.0, all / 10.0);
+  EXPECT_NEAR(open_border(known).length, all / 4.0, all / 10.0);
   measure(known, 1.0f, [](const Vector3& at) { return at.x() < -0.1; });
-  EXPECT_NEAR(open_border(known).length(), all / 4.0, all / 10.0) << "what is occupied may be the back of a wall";
+  EXPECT_NEAR(open_border(known).length, all / 4.0, all / 10.0) << "what is occupied may be the back of a wall";
 }
 
 TEST(OpenBorder, OfNothingIsNothing) {
   Knowledge known = scanned_plate();
   known.scanned = std::make_shared<const ScannedSurface>(0.005);
-  EXPECT_EQ(open_border(known).length(), 0.0);
+  EXPECT_EQ(open_border(known).length, 0.0);
   known.scanned = nullptr;
-  EXPECT_EQ(open_border(known).length(), 0.0);
+  EXPECT_EQ(open_border(known).length, 0.0);
 }
 
 }  // namespace

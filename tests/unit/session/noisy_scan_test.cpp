@@ -47,7 +47,7 @@ double open_length(double range_noise, double d_reg) {
   c.views.count = 48;
   Session session(c);
   finish(session);
-  return open_border(session.state().known).length();
+  return open_border(session.state().known).length;
 }
 
 TEST(NoisyScan, EndsWhereAnExactOneDoes) {
