@@ -85,9 +85,9 @@ std::shared_ptr<const NewSurfacePolicy::Seen> NewSurfacePolicy::see(const Knowle
   }
   const OpenBorder border = open_border(known);
   const SurfaceEvidence evidence = surface_evidence(known, border);
-  auto seen = std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), known.scanned,
-                                                evidence.object().center(), border.length,
-                                                NewSurfaceField(evidence, model_)});
+  auto seen =
+      std::make_shared<const Seen>(Seen{known.planning_voxels(), known.map.voxels(), known.scanned,
+                                        evidence.object().center(), border.length, NewSurfaceField(evidence, model_)});
   const std::scoped_lock lock(seeing_);
   last_seen_ = seen;
   return seen;
