@@ -6,9 +6,10 @@
 #include <vtkContextScene.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
-#include <vtkRenderer.h>
 
 #include "ui/render_target/offscreen_target.hpp"
+#include "ui/scene/scene.hpp"
+#include "ui/scene/scene_renderer.hpp"
 
 namespace nextview {
 namespace {
@@ -19,7 +20,7 @@ constexpr int width = 500, height = 320;  // [px of the design]
 Image drawn(double scale, const std::function<void(SceneOverlay&)>& fill,
             const Eigen::Vector2i& size = {width, height}) {
   OffscreenTarget target(int(size.x() * scale), int(size.y() * scale));
-  vtkNew<vtkRenderer> renderer;
+  vtkNew<SceneRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   vtkNew<vtkContextActor> actor;
   vtkNew<SceneOverlay> overlay;
@@ -197,6 +198,42 @@ TEST(SceneOverlay, OnlyStrongLabelsOfWhatLiesBesideThePictureStandAtItsBorder) {
   EXPECT_TRUE(is_drawn({0.1, 0.1, 0}, false));
   EXPECT_FALSE(is_drawn({3.0, 0.1, 0}, false));
   EXPECT_TRUE(is_drawn({3.0, 0.1, 0}, true));
+}
+
+/// A square, and a number at so much behind it [m], as it is drawn from before the square.
+bool number_is_seen(double behind, DrawingQuality quality, bool orthographic, MeshStyle style) {
+  TriangleMesh square;
+  square.vertices = {{-0.5, 0, -0.5}, {0.5, 0, -0.5}, {0.5, 0, 0.5}, {-0.5, 0, 0.5}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto drawn_with = [&](bool number) {
+    OffscreenTarget target(width, height);
+    Scene scene;
+    scene.attach(target);
+    scene.mesh().show(square, style);
+    const std::array path{look_at(Vector3(0.1, behind, 0.2), Vector3::Zero())};
+    ViewsPicture views;
+    views.path = path;
+    views.numbered_path = number;
+    scene.views().show(views);
+    const std::array corners{Vector3(-1, 0, -1), Vector3(1, 0, 1)};
+    scene.frame(corners, {.azimuth = -80, .elevation = 10});
+    scene.set_orthographic(orthographic, Vector3::Zero());
+    scene.set_quality(quality);
+    target.render();
+    return target.read_back().rgba;
+  };
+  return drawn_with(true) != drawn_with(false);
+}
+
+// An operator took the number of a view behind the object for one before it.
+TEST(SceneOverlay, NumbersOfViewsBehindTheObjectAreHidden) {
+  for (const DrawingQuality quality : {DrawingQuality::still, DrawingQuality::quick, DrawingQuality::coarse})
+    for (const bool orthographic : {false, true}) {
+      EXPECT_TRUE(number_is_seen(-0.3, quality, orthographic, MeshStyle::solid)) << int(quality) << orthographic;
+      EXPECT_TRUE(number_is_seen(0.05, quality, orthographic, MeshStyle::solid)) << "nearly in the square";
+      EXPECT_FALSE(number_is_seen(0.5, quality, orthographic, MeshStyle::solid)) << int(quality) << orthographic;
+      EXPECT_TRUE(number_is_seen(0.5, quality, orthographic, MeshStyle::ghost)) << "through a ghost it is seen";
+    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,6 +38,7 @@ struct Label {
   std::string text;
   Colour colour;
   bool strong = false;
+  double room = std::numeric_limits<double>::infinity();  ///< left away behind what is farther before its place [m]
 };
 
 }  // namespace nextview

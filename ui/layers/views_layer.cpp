@@ -157,6 +157,10 @@ void ViewsLayer::show(const ViewsPicture& picture) {
   const auto at_eye = [&](const Pose& view) {
     return picture.eye && stands_at(*picture.eye, view.translation(), picture.size);
   };
+  // Hidden by the object as its frustum is, but not by that frustum.
+  const auto number = [&](const Vector3& place, std::size_t n) {
+    return Label{{place}, std::to_string(n), theme::soft_ink, false, 2 * picture.size};
+  };
   for (std::size_t i = 0; i < picture.candidates.size(); ++i) {
     if (scores.hidden[i]) continue;
     const Frustum frustum(picture.camera, picture.candidates[i], picture.size);
@@ -166,8 +170,7 @@ void ViewsLayer::show(const ViewsPicture& picture) {
       if (!scores.taken[i] || picture.chosen == i) frustum.add_faces(frustums, colour, true);
       frustum.add_outline(outlines, scores.taken[i] ? colour : mix(colour, tone(theme::ink), 0.45));
     }
-    if (std::ranges::find(picture.numbered, i) != picture.numbered.end())
-      labels.push_back({{frustum.apex}, std::to_string(i), theme::soft_ink});
+    if (std::ranges::find(picture.numbered, i) != picture.numbered.end()) labels.push_back(number(frustum.apex, i));
     points.push_back(frustum.apex);
     points.insert(points.end(), frustum.base.begin(), frustum.base.end());
   }
@@ -176,7 +179,7 @@ void ViewsLayer::show(const ViewsPicture& picture) {
     if (at_eye(picture.path[i])) continue;
     if (i > 0 && !at_eye(picture.path[i - 1]))
       path.add_line(picture.path[i - 1].translation(), points.back(), theme::muted);
-    if (picture.numbered_path) labels.push_back({{points.back()}, std::to_string(i + 1), theme::soft_ink});
+    if (picture.numbered_path) labels.push_back(number(points.back(), i + 1));
   }
   const Pose* full = picture.custom_view ? &*picture.custom_view
                      : picture.chosen    ? &picture.candidates[*picture.chosen]

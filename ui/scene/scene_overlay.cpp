@@ -5,7 +5,6 @@
 #include <vtkContext2D.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
-#include <vtkRenderer.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 
 #include "core/setting/length_text.hpp"
 #include "ui/drawing/painter.hpp"
+#include "ui/scene/scene_renderer.hpp"
 
 namespace nextview {
 namespace {
@@ -92,15 +92,29 @@ void paint_scale_bar(Painter& painter, vtkRenderer& renderer, double scale, cons
   painter.text(x + width / 2, y + 6, text, theme::small_text, theme::ink, TextWeight::regular, TextAlign::centre);
 }
 
-/// Pixels at scale 1, if no nearer to the camera than what is drawn.
-std::optional<Eigen::Vector2d> project(vtkRenderer& renderer, double scale, const Vector3& point) {
+/// Pixels at scale 1 and how deep it lies, 0 to 1, if no nearer to the camera than what is drawn.
+std::optional<Vector3> project_deep(vtkRenderer& renderer, double scale, const Vector3& point) {
   vtkMatrix4x4* projection =
       renderer.GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer.GetTiledAspectRatio(), -1, 1);
   double clip[4] = {point.x(), point.y(), point.z(), 1.0};
   projection->MultiplyPoint(clip, clip);
   if (clip[3] <= 0 || clip[2] < -clip[3]) return {};
   const Eigen::Vector2d size = picture_size(renderer, scale);
-  return Eigen::Vector2d((clip[0] / clip[3] + 1) / 2 * size.x(), (clip[1] / clip[3] + 1) / 2 * size.y());
+  return Vector3((clip[0] / clip[3] + 1) / 2 * size.x(), (clip[1] / clip[3] + 1) / 2 * size.y(),
+                 (clip[2] / clip[3] + 1) / 2);
+}
+
+std::optional<Eigen::Vector2d> project(vtkRenderer& renderer, double scale, const Vector3& point) {
+  const auto pixel = project_deep(renderer, scale, point);
+  if (!pixel) return {};
+  return Eigen::Vector2d(pixel->head<2>());
+}
+
+/// From a place so far towards the viewer.
+Vector3 nearer(vtkCamera& camera, const Vector3& place, double way) {
+  const Vector3 back = camera.GetParallelProjection() ? Vector3(-Vector3(camera.GetDirectionOfProjection()))
+                                                      : Vector3(Vector3(camera.GetPosition()) - place);
+  return place + std::min(way, back.norm()) * back.normalized();
 }
 
 /// The lower left part of the picture that axes and scale bar take [px].
@@ -181,6 +195,30 @@ double SceneOverlay::legends_height() const {
 
 Eigen::Vector2d SceneOverlay::axes_size() const { return corner_size(true, false); }
 
+/// All but those that have not their room: something is before them at three of the four pixels around their place.
+std::vector<Label> SceneOverlay::seen_labels() const {
+  std::vector<Label> seen;
+  std::vector<std::size_t> asked;
+  std::vector<Eigen::Vector2d> places;
+  std::vector<double> limits;
+  for (const Label& label : labels) {
+    seen.push_back(label);
+    if (!std::isfinite(label.room)) continue;
+    const auto place = project(*renderer, scale, label.places.front());
+    const auto limit =
+        project_deep(*renderer, scale, nearer(*renderer->GetActiveCamera(), label.places.front(), label.room));
+    if (!place || !limit) continue;
+    asked.push_back(seen.size() - 1);
+    places.push_back(scale * *place);
+    limits.push_back(limit->z());
+  }
+  const auto depths = renderer->depths(places);
+  for (std::size_t i = depths.size(); i-- > 0;)
+    if (std::ranges::count_if(depths[i], [&](float depth) { return depth < limits[i]; }) >= 3)
+      seen.erase(seen.begin() + std::ptrdiff_t(asked[i]));
+  return seen;
+}
+
 bool SceneOverlay::Paint(vtkContext2D* context) {
   Painter painter(*context, scale, dark);
   const Eigen::Vector2d size = picture_size(*renderer, scale);
@@ -202,7 +240,7 @@ bool SceneOverlay::Paint(vtkContext2D* context) {
     y -= height + legend_size * legend_gap;
   }
   if (axes || scale_bar) taken.emplace_back(Eigen::Vector2d(0, 0), corner_size(axes, scale_bar));
-  for (const Label& label : labels) paint_label(painter, *renderer, scale, label, taken);
+  for (const Label& label : seen_labels()) paint_label(painter, *renderer, scale, label, taken);
   if (!caption.empty())
     painter.text(margin, size.y() - margin - 18, caption, theme::caption, theme::ink, TextWeight::semi_bold);
   y = size.y() - legends_begin();

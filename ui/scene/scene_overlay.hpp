@@ -8,11 +8,10 @@
 #include "core/view/pose.hpp"
 #include "ui/appearance/legend.hpp"
 
-class vtkRenderer;
-
 namespace nextview {
 
 class Painter;
+class SceneRenderer;
 
 /// The flat part of a 3D scene: caption, orientation axes, scale bar, legends. Follows the renderer's camera.
 class SceneOverlay : public vtkContextItem {
@@ -25,7 +24,7 @@ class SceneOverlay : public vtkContextItem {
   Eigen::Vector2d axes_size() const;  ///< of the lower left corner that the axes take [px at scale 1]
   bool Paint(vtkContext2D* context) override;
 
-  vtkRenderer* renderer = nullptr;            ///< whose camera is followed; it owns this item's scene
+  SceneRenderer* renderer = nullptr;          ///< whose camera is followed; it owns this item's scene
   bool backed = false;                        ///< paper lies behind the legends
   bool dark = false;                          ///< on dark paper
   std::string caption;                        ///< upper left
@@ -40,6 +39,8 @@ class SceneOverlay : public vtkContextItem {
   const Eigen::Vector2d& legends_reach() const { return legends_reach_; }
 
  private:
+  std::vector<Label> seen_labels() const;
+
   Eigen::Vector2d legends_reach_ = Eigen::Vector2d::Zero();
 };
 

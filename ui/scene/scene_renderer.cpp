@@ -4,7 +4,11 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtkPixelBufferObject.h>
 #include <vtkProp.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "ui/render_target/gl_constants.hpp"
 
@@ -12,7 +16,9 @@ namespace nextview {
 
 vtkStandardNewMacro(SceneRenderer);
 
-SceneRenderer::SceneRenderer() : small_(vtkSmartPointer<vtkOpenGLFramebufferObject>::New()) {}
+SceneRenderer::SceneRenderer()
+    : small_(vtkSmartPointer<vtkOpenGLFramebufferObject>::New()),
+      depths_(vtkSmartPointer<vtkOpenGLFramebufferObject>::New()) {}
 
 SceneRenderer::~SceneRenderer() = default;
 
@@ -73,8 +79,51 @@ void SceneRenderer::enlarge(const Part& small, const Part& whole) {
   state.PopFramebufferBindings();
 }
 
+/// Copied beside each other first, as buffers of several samples a pixel cannot be read; and read at once, as each
+/// reading waits until all is drawn.
+std::vector<std::array<float, 4>> SceneRenderer::depths(std::span<const Eigen::Vector2d> places) {
+  constexpr int side = 7;  // [px] of the square around a place: a thin line that crosses it is not at its corners
+  if (places.empty()) return {};
+  auto& window = *static_cast<vtkOpenGLRenderWindow*>(RenderWindow);
+  vtkOpenGLState& state = *window.GetState();
+  vtkOpenGLFramebufferObject& picture = *window.GetRenderFramebuffer();
+  Part whole;
+  GetTiledSizeAndOrigin(&whole.width, &whole.height, &whole.x, &whole.y);
+  const int width = side * int(places.size());
+  state.PushFramebufferBindings();
+  depths_->SetContext(&window);
+  if (depths_->GetFBOIndex() == 0) {
+    depths_->PopulateFramebuffer(width, side, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0);  // deep as the picture
+  } else {
+    depths_->Resize(width, side);
+  }
+  picture.Bind(gl_read_framebuffer);
+  depths_->Bind(gl_draw_framebuffer);
+  draw_into({0, 0, width, side});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector2d place = places[i] * (coarse_ ? 0.5 : 1.0);
+    const int x = whole.x + int(std::floor(place.x())) - side / 2, y = whole.y + int(std::floor(place.y())) - side / 2;
+    const int to = side * int(i);
+    state.vtkglBlitFramebuffer(x, y, x + side, y + side, to, 0, to + side, side, gl_depth_buffer_bit, gl_nearest);
+  }
+  depths_->Bind(gl_read_framebuffer);
+  int all[] = {0, width - 1, 0, side - 1};
+  const auto read = vtkSmartPointer<vtkPixelBufferObject>::Take(depths_->DownloadDepth(all, VTK_FLOAT));
+  const auto* values = static_cast<const float*>(read->MapPackedBuffer());
+  std::vector<std::array<float, 4>> result;
+  for (int left = 0; left < width; left += side) {
+    const int right = left + side - 1, top = (side - 1) * width;
+    result.push_back({values[left], values[right], values[top + left], values[top + right]});
+  }
+  read->UnmapPackedBuffer();
+  state.PopFramebufferBindings();
+  draw_into(whole);
+  return result;
+}
+
 void SceneRenderer::ReleaseGraphicsResources(vtkWindow* window) {
   if (window) small_->ReleaseGraphicsResources(window);
+  if (window) depths_->ReleaseGraphicsResources(window);
   Superclass::ReleaseGraphicsResources(window);
 }
 

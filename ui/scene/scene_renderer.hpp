@@ -2,6 +2,11 @@
 #include <vtkOpenGLRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
 class vtkOpenGLFramebufferObject;
 
 namespace nextview {
@@ -20,6 +25,10 @@ class SceneRenderer : public vtkOpenGLRenderer {
     coarse_ = coarse;
   }
 
+  /// At four pixels around each place of the picture [px, from its lower left corner]: how deep what is opaque lies
+  /// there, 0 nearest to 1 farthest. While what is flat is drawn only: all else is there by then.
+  std::vector<std::array<float, 4>> depths(std::span<const Eigen::Vector2d> places);
+
   void DeviceRenderTranslucentPolygonalGeometry(vtkFrameBufferObjectBase* buffer) override;
   int UpdateGeometry(vtkFrameBufferObjectBase* buffer) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -37,7 +46,7 @@ class SceneRenderer : public vtkOpenGLRenderer {
   void enlarge(const Part& small, const Part& whole);
 
   bool coarse_ = false;
-  vtkSmartPointer<vtkOpenGLFramebufferObject> small_;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> small_, depths_;
 };
 
 }  // namespace nextview
