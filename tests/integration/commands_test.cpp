@@ -195,7 +195,7 @@ TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
   walk(user, endless_refinement);
   const auto log = *user.worker().log().entries();
   expect_words_for_people(log);
-  EXPECT_EQ(std::ranges::count(log, "Cancelled", &LogEntry::text), 1);
+  EXPECT_EQ(std::ranges::count(log, "The refinement is cancelled: there is no Gibbs map yet", &LogEntry::text), 1);
 }
 
 TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {

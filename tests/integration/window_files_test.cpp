@@ -6,6 +6,7 @@
 #include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
 #include "tests/unit/map/in_temporary_folder.hpp"
+#include "ui/commands/window_commands.hpp"
 
 namespace nextview {
 namespace {
@@ -56,6 +57,22 @@ TEST_F(WindowFiles, LinesOfAScriptThatFailAreToldAndTheOthersDone) {
   EXPECT_EQ(failures[5].substr(0, 7), "11 set:");
   EXPECT_EQ(user.session().records.size(), 2u);
   EXPECT_TRUE(user.window().script_is_done());
+}
+
+TEST_F(WindowFiles, WhatFailedIsToldUntilSomethingElseIsDone) {
+  User user(small_scan());
+  const auto is_told = [&] {
+    const WorkerProgress rest;
+    return command::dismiss.available({user.session(), rest, user.window().state()});
+  };
+  user.run("step\n");
+  EXPECT_FALSE(is_told());
+  for (const std::string& other : {"export-picture " + file("p.png"), "export-cloud " + file("c.ply")}) {
+    user.run("open /no/such/file.ply\n");
+    EXPECT_TRUE(is_told());
+    user.run(other + "\n");
+    EXPECT_FALSE(is_told()) << other;
+  }
 }
 
 TEST_F(WindowFiles, OfSeveralFilesThatAreDroppedItIsSaidWhichIsOpened) {

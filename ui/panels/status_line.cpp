@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/file/counted.hpp"
@@ -39,13 +38,6 @@ std::string coordinates(const Vector3& point) {
   const Vector3 p = (steps * point).array().round() + 0.0;  // 0 has no sign
   return in_millimetres ? fmt::format("x {:.1f}  y {:.1f}  z {:.1f} mm", p.x() / 10, p.y() / 10, p.z() / 10)
                         : fmt::format("x {:.3f}  y {:.3f}  z {:.3f} m", p.x() / 1e3, p.y() / 1e3, p.z() / 1e3);
-}
-
-/// That something failed is no news once anything else failed, or went well.
-bool is_newest(const std::string& message, const SessionLog::Entries& log) {
-  const auto matters = [](const LogEntry& entry) { return entry.level != LogEntry::Level::note; };
-  const auto newest = std::find_if(log.rbegin(), log.rend(), matters);
-  return newest == log.rend() || newest->text == message;
 }
 
 /// What failed last, until it is clicked or something else was done.
@@ -87,9 +79,7 @@ void draw_status_line(const PanelContext& context, const Rectangle& rectangle) {
   ImGui::PushFont(style.small);
   const float y = (float(rectangle.height) - ImGui::GetTextLineHeight()) / 2;
   ImGui::SetCursorPos({style.px(14), y});
-  const bool has_failed =
-      command::dismiss.available(context.state()) && is_newest(context.snapshot.message, context.log);
-  const auto draw = has_failed ? draw_message : draw_last_step;
+  const auto draw = command::dismiss.available(context.state()) ? draw_message : draw_last_step;
   draw(context, float(rectangle.width), y);
   ImGui::PopFont();
 }

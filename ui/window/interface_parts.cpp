@@ -165,8 +165,10 @@ void Interface::Parts::follow_tooltip() {
 }
 
 void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
-  if (!calls.empty()) settling = frames_to_settle;
+  if (calls.empty()) return;
+  settling = frames_to_settle;
   for (const CommandCall& call : calls) do_for_people(call);
+  state.dismissed_failure = news.snapshot->failures;  // what failed before is no news once something else is done
 }
 
 /// Asks before what costs something; a script's calls are done as they are.

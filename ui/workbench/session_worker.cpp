@@ -191,7 +191,8 @@ void SessionWorker::attempt(std::uint64_t number, const SessionRequest& request)
       return job_.stop_requested();
     }();
     if (!cancelled) runner_.set_message(error.what());
-    log_.add(cancelled ? LogEntry::Level::note : LogEntry::Level::warning, cancelled ? "Cancelled" : error.what());
+    if (cancelled) log_.add(LogEntry::Level::note, what_was_cancelled(request, *before));
+    if (!cancelled) log_.add(LogEntry::Level::warning, error.what());
   }
   const auto after = runner_.snapshot();
   if (!failed) finish(request, *before);

@@ -96,4 +96,7 @@ class SessionWorker {
   std::jthread thread_;  ///< the last member: it ends before the others do
 };
 
+/// For the log: what a request that was cancelled leaves undone, and what is there.
+std::string what_was_cancelled(const SessionRequest& request, const SessionSnapshot& before);
+
 }  // namespace nextview

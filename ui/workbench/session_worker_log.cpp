@@ -84,7 +84,8 @@ void log_branch(const SessionSnapshot& before, const SessionSnapshot& now, Sessi
 void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
   const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
   const std::string map = "Gibbs map of " + counted(gibbs.views, "view"), sweeps = counted(d.sweeps, "sweep");
-  if (cancelled) return log.add(Level::note, fmt::format("Cancelled: the {} keeps its {}", map, sweeps));
+  if (cancelled)
+    return log.add(Level::note, fmt::format("The refinement is cancelled: the {} keeps its {}", map, sweeps));
   if (d.stationary) return log.add(Level::success, fmt::format("{}: stationary after {}", map, sweeps));
   log.add(Level::warning, fmt::format("{}: {}", map, d.warning));
 }
@@ -100,6 +101,19 @@ std::string going_on(const SessionSnapshot& now) {
 }
 
 }  // namespace
+
+std::string what_was_cancelled(const SessionRequest& request, const SessionSnapshot& before) {
+  if (is<request::Refine>(request)) {
+    if (!before.gibbs) return "The refinement is cancelled: there is no Gibbs map yet";
+    return fmt::format("The refinement is cancelled: the Gibbs map of {} stays as it was",
+                       counted(before.gibbs->views, "view"));
+  }
+  if (is<request::Step>(request)) return "The view is cancelled: it is not part of the scan";
+  if (is<request::Export>(request) || is<request::ExportOne>(request)) return "The export is cancelled";
+  if (!opens_another(request)) return "Cancelled";
+  return before.loaded() ? fmt::format("Opening is cancelled: {} stays as it was", before.object_name)
+                         : "Opening is cancelled";
+}
 
 void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
   const SessionSnapshot& s = *runner_.snapshot();

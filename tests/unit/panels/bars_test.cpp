@@ -175,10 +175,6 @@ TEST_F(Bars, TheStatusLineSumsUpTheLastStepAndTheScan) {
   EXPECT_FALSE(command::dismiss.available(desk_.state())) << "it was taken away";
   scan_->failures = 2;
   EXPECT_EQ(status(), "it went wrong") << "again";
-  desk_.log = {{LogEntry::Level::warning, "it went wrong"}, {LogEntry::Level::note, "a note"}};
-  EXPECT_EQ(status(), "it went wrong");
-  desk_.log.push_back({LogEntry::Level::success, "Picture written"});
-  EXPECT_THAT(status(), HasSubstr("View 2: 500 points")) << "what was done since went well";
   desk_.snapshot = scanned(small_scan(), 0);
   EXPECT_THAT(status(), HasSubstr("Nothing measured yet"));
 }

@@ -130,7 +130,7 @@ TEST_F(WorkerQueue, ARefinementIsHeldAndCancelled) {
   EXPECT_EQ(worker_.progress(), WorkerProgress{});
   EXPECT_EQ(now()->records.size(), 1u);
   EXPECT_EQ(now()->gibbs, nullptr) << "nothing was sampled yet";
-  EXPECT_EQ(last_entry().text, "Cancelled");
+  EXPECT_EQ(last_entry().text, "The refinement is cancelled: there is no Gibbs map yet");
   EXPECT_EQ(last_entry().level, LogEntry::Level::note) << "it is what was asked for";
 }
 
