@@ -10,6 +10,7 @@
 #include "core/config/known_objects.hpp"
 #include "core/config/opened_input.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/read_file.hpp"
 #include "core/setting/quantity.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/demo_file.hpp"
@@ -128,6 +129,13 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
   return restart_question(t, change_text(wanted));
 }
 
+/// By its name: only the worker reads what is in it.
+bool may_be_opened(const std::filesystem::path& file) {
+  if (std::ranges::count(known_objects(), file.string()) > 0) return true;
+  std::error_code ignored;
+  return std::filesystem::is_directory(file, ignored) || (is_there(file) && not_an_input(file).empty());
+}
+
 /// The settings of a file start the scan over as any other does; another object, everybody knows, takes its place.
 CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std::string>& values) {
   const std::filesystem::path file = values.at(0);
@@ -140,6 +148,7 @@ CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std:
       return {};  // it will be refused, and nothing is lost
     }
   }
+  if (!may_be_opened(file)) return {};
   return {what_is_lost(t, true), "Open"};
 }
 

@@ -276,6 +276,10 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
               HasSubstr("The Gibbs map of 2 views is kept nowhere: to keep it, cancel and export the scan (Ctrl+E)."));
   session.gibbs = nullptr;
   EXPECT_THAT(question(), HasSubstr("cancel, go to its view and export the scan")) << "one stands elsewhere";
+  const auto of_opening = [&](const char* file) { return command::open.question({session, {}, {}}, {file}).text; };
+  EXPECT_NE(of_opening("sphere"), "");
+  EXPECT_EQ(of_opening("/no/such/part.stl"), "") << "it will be refused, and nothing is lost";
+  EXPECT_EQ(of_opening("/dev/null"), "") << "nor is this an object";
   session.gibbs_lost = 0;
   EXPECT_EQ(question(), "");
 }
