@@ -58,9 +58,16 @@ void draw_captions(const Style& style, const ChartContent& content, ImVec2 corne
   list.AddText(style.semi_bold, style.semi_bold->FontSize, corner, to_imgui_u32(theme::ink), content.title.c_str());
   float x = corner.x;
   const float y = corner.y + title_height(style, content), size = style.small->FontSize;
-  const float mark = style.px(21), gap = style.px(14), least = style.px(40);
+  const float mark = style.px(21), least = style.px(40);
+  const auto width = [&](const std::string& name) {
+    return mark + style.small->CalcTextSizeA(size, FLT_MAX, 0, name.c_str()).x;
+  };
   const bool others = !content.series.empty() && content.series.back().earlier;
-  const float room = right - (others ? mark + style.small->CalcTextSizeA(size, FLT_MAX, 0, "others").x : 0);
+  const std::size_t named = std::min<std::size_t>(content.series.size(), 5);  // more have no room
+  float gap = style.px(14), all = x + (others ? width("others") : -gap);
+  for (std::size_t i = 0; i < named && !content.series[i].earlier; ++i) all += width(content.series[i].name) + gap;
+  if (all > right) gap = style.px(7);
+  const float room = right - (others ? gap + width("others") : 0);
   const auto caption = [&](const std::string& whole, ImU32 colour, bool dot) {
     ImGui::PushFont(style.small);
     const std::string name = shortened(whole, (dot ? room : right) - x - mark);
@@ -68,9 +75,8 @@ void draw_captions(const Style& style, const ChartContent& content, ImVec2 corne
     list.AddLine({x, y + size / 2}, {x + style.px(16), y + size / 2}, colour, style.px(2));
     if (dot) list.AddCircleFilled({x + style.px(8), y + size / 2}, style.px(3), colour);
     list.AddText(style.small, size, {x + mark, y}, to_imgui_u32(theme::soft_ink), name.c_str());
-    x += mark + gap + style.small->CalcTextSizeA(size, FLT_MAX, 0, name.c_str()).x;
+    x += width(name) + gap;
   };
-  const std::size_t named = std::min<std::size_t>(content.series.size(), 5);  // more have no room
   for (std::size_t i = 0; i < named && !content.series[i].earlier && room - x > mark + least; ++i)
     caption(content.series[i].name, series_colour(i), true);
   if (others) caption("others", earlier_colour(), false);

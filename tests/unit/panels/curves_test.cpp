@@ -142,6 +142,18 @@ TEST(Curves, ThePlotsShowWhatWasChosenAndTheValuesAtThePointer) {
   EXPECT_EQ(read_tooltip(), "view 2 of visible surface: 62.5 % of all surface: 37.5 %");
 }
 
+/// Beside the longest names that two curves have, in a window of the usual width.
+TEST(Curves, OthersAreNamedInWhole) {
+  Desk desk;
+  auto scan = std::make_shared<SessionSnapshot>(*made_scan());
+  scan->earlier_runs =
+      std::make_shared<const std::vector<nextview::Run>>(1, nextview::Run{"sphere, random", scan->records, "sphere"});
+  desk.snapshot = scan;
+  desk.window.curves = {CurveKind::entropy, CurveKind::coverage};
+  desk.frames();
+  EXPECT_THAT(read("Curves"), HasSubstr("unmeasured entropy total entropy others"));
+}
+
 TEST(Curves, AChoiceOfOnePlotLeavesTheOther) {
   Desk desk;
   desk.snapshot = made_scan();
