@@ -149,6 +149,19 @@ TEST(SceneOverlay, ALabelStaysNearItsPlace) {
   EXPECT_LT((free.center() - moved.center()).norm(), 120);
 }
 
+/// As of two scenes beside each other, whose captions name them.
+TEST(SceneOverlay, LabelsKeepClearOfTheCaption) {
+  const auto add = [](SceneOverlay& overlay) {
+    overlay.caption = "branch 2, 3 views";
+    overlay.labels.push_back({{Vector3(-0.37, 0.193, 0)}, "candidate 46", {1, 0, 0}, true});
+  };
+  const Image image = drawn(1.0, add);
+  const Box label = box_of(image, 1.0, is_red);
+  ASSERT_FALSE(label.isEmpty());
+  const Box caption = box_of(drawn(1.0, [](SceneOverlay& o) { o.caption = "branch 2, 3 views"; }), 1.0, is_dark);
+  EXPECT_TRUE(label.intersection(caption).isEmpty());
+}
+
 /// Perpendicular to the view, one metre away: its picture is as high as the angle says.
 TEST(SceneOverlay, TheScaleBarIsAsLongAsItSays) {
   constexpr double angle = 30.0;  // [deg], VTK's usual one

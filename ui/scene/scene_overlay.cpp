@@ -240,6 +240,10 @@ bool SceneOverlay::Paint(vtkContext2D* context) {
     y -= height + legend_size * legend_gap;
   }
   if (axes || scale_bar) taken.emplace_back(Eigen::Vector2d(0, 0), corner_size(axes, scale_bar));
+  if (!caption.empty()) {
+    const double length = painter.text_width(caption, theme::caption, TextWeight::semi_bold);
+    taken.emplace_back(Eigen::Vector2d(margin, size.y() - margin - 22), Eigen::Vector2d(margin + length, size.y()));
+  }
   for (const Label& label : seen_labels()) paint_label(painter, *renderer, scale, label, taken);
   if (!caption.empty())
     painter.text(margin, size.y() - margin - 18, caption, theme::caption, theme::ink, TextWeight::semi_bold);
