@@ -26,8 +26,10 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
   if (t.progress.refining)
     lost = "The Gibbs map is being sampled.";
   else if (s.gibbs_lost > 0 && !s.planned_on_posterior)
-    lost = fmt::format("The Gibbs map of {} is kept nowhere: to keep it, cancel{} and export the scan (Ctrl+E).",
-                       counted(s.gibbs_lost, "view"), s.gibbs ? "" : ", go to its view");
+    lost = fmt::format(
+        "The Gibbs map of {} is not kept with the session: refining (G) makes it again. To have it as a "
+        "file, cancel{} and export the scan (Ctrl+E).",
+        counted(s.gibbs_lost, "view"), s.gibbs ? "" : ", go to its view");
   const std::size_t views = s.views_on_branches();
   if (!undoable && !s.kept && views > 0)
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",

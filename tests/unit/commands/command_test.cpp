@@ -273,7 +273,8 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   session.gibbs_lost = 2;
   const auto question = [&] { return command::quit.question({session, {}, {}}, {}).text; };
   EXPECT_THAT(question(),
-              HasSubstr("The Gibbs map of 2 views is kept nowhere: to keep it, cancel and export the scan (Ctrl+E)."));
+              HasSubstr("The Gibbs map of 2 views is not kept with the session: refining (G) makes it again. To have "
+                        "it as a file, cancel and export the scan (Ctrl+E)."));
   session.gibbs = nullptr;
   EXPECT_THAT(question(), HasSubstr("cancel, go to its view and export the scan")) << "one stands elsewhere";
   const auto of_opening = [&](const char* file) { return command::open.question({session, {}, {}}, {file}).text; };
