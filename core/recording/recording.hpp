@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -38,9 +39,10 @@ struct Recording {
   std::size_t points = 0;                          ///< that all frames measured
   /// Points that are not finite, of all clouds that have been read, each time.
   std::shared_ptr<std::atomic<std::size_t>> left_out = std::make_shared<std::atomic<std::size_t>>(0);
-  std::vector<std::string> guessed = {};          ///< what was guessed, a line each, for people
-  std::string doubt = {};                         ///< the one of these that says of which unit it likely is
-  std::vector<std::filesystem::path> files = {};  ///< that it was read from, frames among them
+  std::vector<std::string> guessed = {};            ///< what was guessed, a line each, for people
+  std::string doubt = {};                           ///< the one of these that says of which unit it likely is
+  std::vector<std::filesystem::path> files = {};    ///< that it was read from, frames among them
+  std::map<std::string, std::string> follows = {};  ///< from it alone: settings, by key
 };
 
 struct RecordingOptions {

@@ -20,7 +20,10 @@ namespace fs = std::filesystem;
 
 constexpr double margin = 0.1;  // around what was measured, of its longest side
 
-bool is_scan_folder(const fs::path& folder) { return is_there(folder / "config.toml"); }
+/// Settings alone may lie beside frames, and name their folder.
+bool is_scan_folder(const fs::path& folder) {
+  return is_there(folder / "config.toml") && (has_journal(folder) || is_there(folder / "views.csv"));
+}
 
 /// What a session captured, in its order, from where it was believed to be.
 Recording captured_by(const fs::path& folder, const Configuration& of_scan) {
@@ -133,17 +136,30 @@ void follow_end(Configuration& c, const Recording& recording) {
   for (const Setting& setting : settings(endless.termination)) set_unless_given(c, setting.key, setting.text());
 }
 
-void open_and_fit(Configuration& c, Recording& recording, const Progress& progress, const std::stop_token& stop) {
-  const fs::path path = c.recorded.folder;
-  if (is_scan_folder(path)) {
-    recording = open_scan_folder(c, path, progress, stop);
-    return;
-  }
-  recording = open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
-  const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
+/// All that follows from a recording, where nothing was given.
+void follow(Configuration& c, const Recording& recording) {
   // A region that follows from the recording has a margin; to go by that would give the next session other lengths.
+  const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
   const Eigen::AlignedBox3d region = is_given(c, "map.region") ? c.map.region_box() : seen;
-  fit_lengths(c, region.sizes().maxCoeff());
+  if (!is_scan_folder(c.recorded.folder)) fit_lengths(c, region.sizes().maxCoeff());
+  follow_camera(c, recording.camera);
+  set_unless_given(c, "sensor.min_range", "0");
+  if (!c.sources.contains("sensor.max_range")) {
+    c.sensor.max_range = recording.max_range;
+    c.fitted["sensor.max_range"] = fmt::format("{}", recording.max_range);
+  }
+  follow_region(c, recording);
+  lengthen_rays(c, poses_of(recording));
+  set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
+  follow_end(c, recording);
+}
+
+/// As Configuration::fitted.
+std::map<std::string, std::string> followed_alone(const Recording& recording, const RecordedConfig& recorded) {
+  Configuration alone;
+  alone.recorded = recorded;
+  follow(alone, recording);
+  return alone.fitted;
 }
 
 }  // namespace
@@ -152,18 +168,12 @@ std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, cons
                                                           const std::stop_token& stop) {
   Recording recording;
   try {
-    open_and_fit(c, recording, progress, stop);
-    follow_camera(c, recording.camera);
-    set_unless_given(c, "sensor.min_range", "0");
-    if (!c.sources.contains("sensor.max_range")) {
-      c.sensor.max_range = recording.max_range;
-      c.fitted["sensor.max_range"] = fmt::format("{}", recording.max_range);
-    }
+    const fs::path path = c.recorded.folder;
+    recording = is_scan_folder(path) ? open_scan_folder(c, path, progress, stop)
+                                     : open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
+    follow(c, recording);
+    recording.follows = followed_alone(recording, c.recorded);
     recording.max_range = std::min(recording.max_range, c.sensor.max_range);
-    follow_region(c, recording);
-    lengthen_rays(c, poses_of(recording));
-    set_unless_given(c, "planner.cost_weight", "0");  // every frame is at hand, and nothing moves
-    follow_end(c, recording);
     recording.region.reset();  // which is the configuration's from here on
     c = affordable(validated(std::move(c)));
     return std::make_unique<RecordedSource>(std::move(recording));

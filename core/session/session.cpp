@@ -118,8 +118,14 @@ void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, c
 }
 
 void Session::recognise_fitted() {
-  if (!object_ || recording_) return;
   Configuration& c = setup_.configuration;
+  if (recording_) {
+    auto all = settings(c);
+    for (const auto& [key, text] : recording_->follows)
+      if (find_setting(all, key).text() == text) c.fitted[key] = text;
+    return;
+  }
+  if (!object_) return;
   const Eigen::AlignedBox3d box = object_->mesh.bounding_box();
   c.fitted = lengths_as_fitted(c, box.sizes().maxCoeff());
   Configuration around = c;

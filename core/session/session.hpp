@@ -98,8 +98,8 @@ class Session {
   /// Why the scan is done; empty while it is not.
   const std::string& finished() const { return state_.finished; }
 
-  /// Takes lengths for fitted (Configuration::fitted) that are what the object's size would give, though they were read
-  /// from a file: what is opened next has its own. Without an object nothing is.
+  /// Takes lengths for fitted (Configuration::fitted) that are what the object's size, or the recording, would give,
+  /// though they were read from a file: what is opened next has its own. Without either nothing is.
   void recognise_fitted();
 
   const ScanSetup& setup() const { return setup_; }

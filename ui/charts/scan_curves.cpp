@@ -58,7 +58,7 @@ ChartContent entropy_chart(const ScanCourse& course) {
 }
 
 ChartContent recorded_coverage_chart(const ScanCourse& course) {
-  const std::string title = fmt::format("Of what all frames show, within {} [%]", length_text(course.d_reg));
+  const std::string title = fmt::format("Of all frames, within {} [%]", length_text(course.d_reg));
   ChartContent content{title, "view", "", "coverage", "%", {}, 100.0, true};
   if (!course.orders) return content;
   const auto add = [&](const char* name, const std::vector<double>& shares) {

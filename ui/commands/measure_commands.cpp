@@ -26,7 +26,8 @@ void add_point(CommandTarget& t, double x, double y, double z) {
   measurement.points.emplace_back(x, y, z);
   if (!measurement.complete()) return;
   const auto circle = measured_circle(measurement, t.session.cloud->points);
-  const auto level = circle && circle->doubtful ? LogEntry::Level::warning : LogEntry::Level::success;
+  // It stands in the scene: told beside that, it would lie on what was measured.
+  const auto level = circle && circle->doubtful ? LogEntry::Level::warning : LogEntry::Level::note;
   t.worker.log().add(level, measured_text(measurement, circle));
 }
 

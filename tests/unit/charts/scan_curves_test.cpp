@@ -73,7 +73,7 @@ TEST_F(ScanCurves, ARecordingsViewsAreComparedWithOtherOrders) {
   course_.orders = &orders;
   course_.d_reg = 0.0025;
   const ChartContent chart = recorded_coverage_chart(course_);
-  EXPECT_EQ(chart.title, "Of what all frames show, within 2.5 mm [%]");
+  EXPECT_EQ(chart.title, "Of all frames, within 2.5 mm [%]");
   EXPECT_THAT(names(chart), ElementsAre("planned", "as recorded", "random"));
   EXPECT_THAT(chart.series.at(0).x, ElementsAre(1, 2));
   EXPECT_THAT(chart.series.at(0).y, ElementsAre(50, 100));
@@ -168,7 +168,7 @@ TEST_F(ScanCurves, OnlyWhatIsKnownIsDrawn) {
   EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "New surface of a view [cm²]"));
   const CoverageByOrder orders{{0.5}, {0.5}, {0.5}};
   course_.orders = &orders;
-  EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "Of what all frames show, within 5 mm [%]",
+  EXPECT_THAT(titles(), ElementsAre("Entropy of the map [Mbit]", "Of all frames, within 5 mm [%]",
                                     "New surface of a view [cm²]"));
   course_.is_evaluated = true;
   EXPECT_EQ(titles().size(), 4u) << "frames' own surface in place of the truth's";

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/config/opened_input.hpp"
 #include "core/export/scan_files.hpp"
 #include "core/recording/dataset_guess.hpp"
 #include "core/session/recording_setup.hpp"
@@ -66,6 +67,27 @@ TEST(RecordedLengths, AreTheSameWhenItStartsOver) {
   const Session smaller(own);
   EXPECT_LT(smaller.configuration().map.resolution, first.configuration().map.resolution)
       << "it follows a given region";
+}
+
+// A session's file names all settings. The next object once had to lie in the recording's region, if a window had gone
+// on with that.
+TEST(RecordedLengths, AreNotThoseOfTheNextObjectAfterASessionThatWasOpened) {
+  const TemporaryFolder folder;
+  made_walls::write_3dmatch(folder);
+  Configuration c;
+  c.recorded.folder = folder.path().string();
+  folder.write("config.toml", to_toml(Session(c).configuration()));
+  Configuration of_file = read_configuration(folder.path() / "config.toml");
+  of_file.planner.gain = "occlusion-aware";
+  Session opened(of_file);
+  opened.recognise_fitted();
+  const Configuration next = with_next_input(opened.configuration(), "sphere"), usual;
+  EXPECT_NE(opened.configuration().map.region, "");
+  EXPECT_EQ(next.map.region, "");
+  EXPECT_EQ(next.map.resolution, usual.map.resolution);
+  EXPECT_EQ(next.sensor.intrinsics, usual.sensor.intrinsics);
+  EXPECT_EQ(next.termination, usual.termination);
+  EXPECT_EQ(next.planner.gain, "occlusion-aware") << "that was set";
 }
 
 // Of depths in millimetres that are read as metres follow lengths that no setting may have.
