@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "core/config/object_lengths.hpp"
-#include "core/file/read_file.hpp"
 #include "core/journal/journal.hpp"
 #include "core/recording/frame_files.hpp"
+#include "core/session/saved_session.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/taken_views.hpp"
 #include "core/source/simulated_source.hpp"
@@ -19,11 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double margin = 0.1;  // around what was measured, of its longest side
-
-/// Settings alone may lie beside frames, and name their folder.
-bool is_scan_folder(const fs::path& folder) {
-  return is_there(folder / "config.toml") && (has_journal(folder) || is_there(folder / "views.csv"));
-}
 
 /// What a session captured, in its order, from where it was believed to be.
 Recording captured_by(const fs::path& folder, const Configuration& of_scan) {
@@ -141,7 +136,7 @@ void follow(Configuration& c, const Recording& recording) {
   // A region that follows from the recording has a margin; to go by that would give the next session other lengths.
   const Eigen::AlignedBox3d seen = recording.region.value_or(recording.extent);
   const Eigen::AlignedBox3d region = is_given(c, "map.region") ? c.map.region_box() : seen;
-  if (!is_scan_folder(c.recorded.folder)) fit_lengths(c, region.sizes().maxCoeff());
+  if (!is_session(c.recorded.folder)) fit_lengths(c, region.sizes().maxCoeff());
   follow_camera(c, recording.camera);
   set_unless_given(c, "sensor.min_range", "0");
   if (!c.sources.contains("sensor.max_range")) {
@@ -169,8 +164,8 @@ std::unique_ptr<RecordedSource> open_configured_recording(Configuration& c, cons
   Recording recording;
   try {
     const fs::path path = c.recorded.folder;
-    recording = is_scan_folder(path) ? open_scan_folder(c, path, progress, stop)
-                                     : open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
+    recording = is_session(path) ? open_scan_folder(c, path, progress, stop)
+                                 : open_recording(path, {c.recorded.every, c.recorded.stand_off}, progress, stop);
     follow(c, recording);
     recording.follows = followed_alone(recording, c.recorded);
     recording.max_range = std::min(recording.max_range, c.sensor.max_range);
