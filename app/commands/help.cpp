@@ -17,6 +17,7 @@
 #include "core/config/known_objects.hpp"
 #include "core/export/export_kind.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/make_folder.hpp"
 #include "core/gibbs/test_problems.hpp"
 #include "core/setting/section_of.hpp"
 #include "core/setting/setting.hpp"
@@ -89,7 +90,7 @@ void print_topic(const std::string& topic, const CLI::App& program) {
 
 /// The pages with their tables as the declarations say them now.
 void write_pages(const std::filesystem::path& folder, const CLI::App& program) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   for (const std::string& topic : manual_topics())
     write_file(folder / (topic + ".md"), with_tables(read_manual_page(topic).text, program));
 }

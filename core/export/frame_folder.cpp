@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/file/atomic_file.hpp"
+#include "core/file/make_folder.hpp"
 #include "core/results/manifest.hpp"
 
 namespace nextview {
@@ -28,8 +29,6 @@ std::string frame_name(int number) { return fmt::format("frame_{:05}.png", numbe
 
 void make_frame_folder(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw std::runtime_error(fmt::format("{}: cannot be made a folder: there is a file of this name", folder.string()));
   std::vector<fs::path> earlier;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (!is_frame_name(entry->path().filename().string()) || !is_plain_file(entry->path()))
@@ -37,8 +36,7 @@ void make_frame_folder(const fs::path& folder) {
                                               folder.string(), entry->path().filename().string()));
     earlier.push_back(entry->path());
   }
-  fs::create_directories(folder, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+  make_folder(folder);
   require_writable_folder(folder);
   for (const fs::path& file : earlier) fs::remove(file, error);
 }

@@ -30,7 +30,7 @@ class Descriptor {
   int number_;
 };
 
-/// "FILE: cannot be VERB: the reason that stands for `error`", an errno.
+/// "FILE: cannot be VERB: the reason that stands for `error`", an errno, and what to do where that is known.
 std::runtime_error file_error(const std::filesystem::path& file, const char* verb, int error);
 
 }  // namespace nextview

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/file/make_folder.hpp"
 #include "core/file/read_file.hpp"
 #include "core/file/unchanged.hpp"
 #include "core/journal/capture_file.hpp"
@@ -100,11 +101,7 @@ void require_same_input(const Journal& journal, const fs::path& folder) {
 }
 
 JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::move(folder)), file_(std::move(file)) {
-  std::error_code error;
-  fs::create_directories(folder_ / scans_name, error);
-  if (error)
-    throw std::runtime_error(
-        fmt::format("{}: cannot be made a folder: {}", (folder_ / scans_name).string(), error.message()));
+  make_folder(folder_ / scans_name);
 }
 
 JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input, const std::string& settings) {

@@ -1,10 +1,7 @@
 #include "core/results/made_folder.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
 #include "core/file/atomic_file.hpp"
+#include "core/file/make_folder.hpp"
 
 namespace nextview {
 
@@ -12,11 +9,7 @@ namespace fs = std::filesystem;
 
 MadeFolder::MadeFolder(const fs::path& folder) {
   for (fs::path path = folder; !path.empty() && !is_there(path); path = path.parent_path()) made_.push_back(path);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw std::runtime_error(fmt::format("{}: cannot be made a folder: {}", folder.string(),
-                                         error ? error.message() : "there is a file of this name"));
+  make_folder(folder);
   require_writable_folder(folder);
 }
 

@@ -10,6 +10,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/file/csv_cell.hpp"
 #include "core/file/json_text.hpp"
+#include "core/file/make_folder.hpp"
 #include "core/file/readable_folder.hpp"
 #include "core/file/temporary_file.hpp"
 #include "core/results/output_folder.hpp"
@@ -19,14 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw std::runtime_error(fmt::format("{}: cannot be made a folder: {}", folder.string(),
-                                         error ? error.message() : "there is a file of this name"));
-}
 
 bool holds_nothing(const fs::path& folder) {
   std::error_code error;
@@ -94,11 +87,10 @@ StudyFolder StudyFolder::begin_merged(const fs::path& path, const StudyFolder& o
 StudyFolder::StudyFolder(const fs::path& path, const StudyTexts& study, bool resume) : folder_(path) {
   if (path.empty()) throw std::invalid_argument("the folder for the study has no name");
   std::error_code ignored;
-  if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
-    throw std::invalid_argument(
-        fmt::format("{}: cannot be made a folder: there is a file of this name", path.string()));
-  if (is_there(path)) remove_abandoned_temporary_files(path);
-  if (is_there(path) && !holds_nothing(path)) require_suitable(path, study, resume);
+  if (fs::is_directory(path, ignored)) {
+    remove_abandoned_temporary_files(path);
+    if (!holds_nothing(path)) require_suitable(path, study, resume);
+  }
   make_folder(path);
   lock();
   clean_up(path);

@@ -97,6 +97,8 @@ TEST(DescriptorBuffer, KeepsWhyAWriteFailed) {
   EXPECT_EQ(buffer.flush(), ENOSPC) << "nothing is written any more";
   EXPECT_THAT(file_error("a.ply", "written", ENOSPC).what(),
               testing::StrEq("a.ply: cannot be written: No space left on device"));
+  EXPECT_THAT(file_error("a.ply", "written", ENAMETOOLONG).what(),
+              testing::StrEq("a.ply: cannot be written: File name too long; give a shorter one"));
 }
 
 TEST(Counted, OneIsSingular) {
