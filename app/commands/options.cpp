@@ -85,6 +85,17 @@ CLI::Validator quantity(const std::string& unit) {
           ""};
 }
 
+CLI::Validator within(const Bounds& bounds, const std::string& unit) {
+  return {[=](std::string& text) {
+            double value = 0.0;
+            if (!read_quantity(text, unit, value) || !bounds.allow(value))
+              return fmt::format("takes {}, not '{}'", bounds.text(unit), text);
+            text = fmt::format("{}", value);
+            return std::string();
+          },
+          bounds.text(unit)};
+}
+
 CLI::Validator one_of(const std::vector<std::string>& names) {
   return {[names](std::string& text) {
             const bool known = std::ranges::find(names, text) != names.end();

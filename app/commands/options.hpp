@@ -32,6 +32,9 @@ CLI::Validator within(Number least, Number most) {
           fmt::format("in [{} - {}]", least, most)};
 }
 
+/// Of quantities within these bounds, in the same words.
+CLI::Validator within(const Bounds& bounds, const std::string& unit);
+
 /// Of a word that is one of these.
 CLI::Validator one_of(const std::vector<std::string>& names);
 

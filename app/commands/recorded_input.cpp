@@ -10,36 +10,19 @@
 #include "core/file/read_file.hpp"
 #include "core/results/manifest.hpp"
 #include "core/session/saved_session.hpp"
-#include "core/setting/length_text.hpp"
 #include "core/setting/mistyped_path.hpp"
 
 namespace nextview {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// As the range scans are read with (read_range_scan_folder).
-CLI::Validator voxel_edge() {
-  return {[](std::string& text) {
-            double edge = 0.0;
-            const bool good = CLI::detail::lexical_cast(text, edge) && (edge == 0.0 || (edge >= 1e-4 && edge <= 1.0));
-            return good ? "" : fmt::format("takes 0, or a length from 0.1 mm to 1 m, not {}", length_text(edge));
-          },
-          "in [0 - 1]"};
-}
-
-}  // namespace
-
 void RangeScanOptions::add_to(CLI::App& app) {
   app.add_option("--voxel", resolution, "range scans: voxel edge [m]; 0: a hundredth of their extent")
       ->capture_default_str()
-      ->check(voxel_edge())
-      ->transform(quantity("m"));
+      ->transform(within(range_scan_voxel_bounds, "m"));
   app.add_option("--stand-off", stand_off, "range scans: the scanner's distance, which they do not tell [m]")
       ->capture_default_str()
-      ->check(within(0.01, 100.0))
-      ->transform(quantity("m"));
+      ->transform(within(stand_off_bounds, "m"));
 }
 
 RefinementJob recorded_job(const fs::path& input, const ConfigurationOptions& options,

@@ -165,11 +165,12 @@ void add_parameters_and_views(RecordedScene& scene, const Eigen::AlignedBox3d& p
 
 RecordedScene read_range_scan_folder(const fs::path& folder, double stand_off, double resolution,
                                      const std::function<void(const std::string&)>& notice, double unit) {
-  if (!(stand_off >= 0.01 && stand_off <= 100.0))
-    throw std::invalid_argument(fmt::format("range scans: stand_off must be from 0.01 to 100 m, not {}", stand_off));
-  if (resolution != 0.0 && !(resolution >= 1e-4 && resolution <= 1.0))
-    throw std::invalid_argument(
-        fmt::format("range scans: resolution must be 0 or from 0.0001 to 1 m, not {}", resolution));
+  const auto require = [](const char* name, double value, const Bounds& bounds) {
+    if (!bounds.allow(value))
+      throw std::invalid_argument(fmt::format("range scans: {} must be {}, not {} m", name, bounds.text("m"), value));
+  };
+  require("stand_off", stand_off, stand_off_bounds);
+  require("resolution", resolution, range_scan_voxel_bounds);
   const std::vector<ConfLine> lines = read_conf(find_conf(folder));
   const std::vector<fs::path> files = find_scans(folder, lines);
   RecordedScene scene;

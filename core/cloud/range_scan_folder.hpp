@@ -2,12 +2,15 @@
 #include <functional>
 
 #include "core/sensor/recorded_scans.hpp"
+#include "core/setting/bounds.hpp"
 
 namespace nextview {
 
 /// From the scanner to the nearest point of a scan, along the axis it looks along [m]. A guess: the range images do not
 /// tell it.
 inline constexpr double default_stand_off = 0.7;
+inline constexpr Bounds stand_off_bounds = from_to(0.01, 100);       // [m]
+inline constexpr Bounds range_scan_voxel_bounds = zero_or(1e-4, 1);  // [m]
 
 /// Reads the range scans of a folder as the Stanford 3D Scanning Repository has them: one file `*.conf` with a line
 /// `bmesh FILE.ply tx ty tz qx qy qz qw` a scan, and beside it each FILE.ply, or FILE.ply.gz. Other lines of the .conf
@@ -23,8 +26,7 @@ inline constexpr double default_stand_off = 0.7;
 /// that box and a tenth of its longest side around it, snapped outwards to the resolution; `max_sensor_range_m`, 1 %
 /// beyond the farthest point; `max_ray_depth_m`, from a view to behind the box. Views: 48 on a sphere around the box's
 /// centre, its radius 1.8 times the box's longest side.
-/// @throws std::invalid_argument if `stand_off` is not from 0.01 to 100 m or `resolution` neither 0 nor from 0.0001 to
-///         1 m.
+/// @throws std::invalid_argument if `stand_off` or `resolution` is out of its bounds.
 /// @throws std::runtime_error with one line that names the folder or file and the reason: none or several .conf, a line
 ///         that is wrong, missing or unreadable scans, scans without points, points that span less than 1 cm or over
 ///         40 m (other units?).

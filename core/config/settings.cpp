@@ -73,7 +73,7 @@ std::vector<Setting> settings(RecordedConfig& c) {
       {"recorded.start", "", "frame to begin with, its name or the last number in that; empty: the first", &c.start},
       {"recorded.every", "", "takes each n-th frame", &c.every, from_to(1, 1e6)},
       {"recorded.stand_off", "m", "distance of the scanner, which Stanford's range images do not tell", &c.stand_off,
-       from_to(0.01, 100)},
+       stand_off_bounds},
   };
 }
 

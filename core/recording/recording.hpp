@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/cloud/range_scan_folder.hpp"
 #include "core/progress/progress.hpp"
 #include "core/sensor/depth_image.hpp"
 #include "core/view/pose.hpp"
@@ -46,8 +47,9 @@ struct Recording {
 };
 
 struct RecordingOptions {
-  int every = 1;           ///< takes each n-th frame, the first one among them
-  double stand_off = 0.7;  ///< Stanford's range images: the scanner's distance, which they do not tell [m]
+  int every = 1;  ///< takes each n-th frame, the first one among them
+  double stand_off =
+      default_stand_off;  ///< Stanford's range images: the scanner's distance, which they do not tell [m]
 };
 
 /// Opens recorded data: a folder of depth images or clouds with poses, of Stanford's range images, OctoMap's scan graph

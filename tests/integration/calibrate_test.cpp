@@ -214,10 +214,10 @@ TEST_F(Calibrate, AnObjectLargerThanTheRegionIsRefusedAsByScan) {
 TEST_F(Calibrate, ItsHelpTellsBoundsAndDefaults) {
   const Result help = nextview("help calibrate");
   ASSERT_EQ(help.exit_code, 0) << help.err;
-  for (const char* told :
-       {"INPUT TEXT=[bunny,slotted_plate]", "--fit TEXT:{sensor-model,new-surface}=sensor-model",
-        "--views INT:in [1 - 100]=[4,20]", "--parts INT:in [1 - 1000]=24", "--band INT:in [0 - 100]=3",
-        "--out DIR=calibration", "--voxel FLOAT:in [0 - 1]=0", "--stand-off FLOAT:in [0.01 - 100]=0.7"})
+  for (const char* told : {"INPUT TEXT=[bunny,slotted_plate]", "--fit TEXT:{sensor-model,new-surface}=sensor-model",
+                           "--views INT:in [1 - 100]=[4,20]", "--parts INT:in [1 - 1000]=24",
+                           "--band INT:in [0 - 100]=3", "--out DIR=calibration",
+                           "--voxel FLOAT:0 or from 0.1 mm to 1 m=0", "--stand-off FLOAT:from 10 mm to 100 m=0.7"})
     EXPECT_THAT(help.out, HasSubstr(told));
 }
 

@@ -228,9 +228,11 @@ TEST_F(Messages, ANumberOrWordThatIsNotTakenIsToldWithThoseThatAre) {
   EXPECT_EQ(complaint("calibrate --fit map"),
             line("--fit: takes sensor-model or new-surface, not 'map'; see nextview calibrate --help"));
   EXPECT_EQ(complaint("refine out --voxel -1"),
-            line("--voxel: takes 0, or a length from 0.1 mm to 1 m, not -1 m; see nextview refine --help"));
+            line("--voxel: takes 0 or from 0.1 mm to 1 m, not '-1'; see nextview refine --help"));
   EXPECT_EQ(complaint("refine out --voxel '10 um'"),
-            line("--voxel: takes 0, or a length from 0.1 mm to 1 m, not 0.01 mm; see nextview refine --help"));
+            line("--voxel: takes 0 or from 0.1 mm to 1 m, not '10 um'; see nextview refine --help"));
+  EXPECT_EQ(complaint("refine out --stand-off 1cm5"),
+            line("--stand-off: takes from 10 mm to 100 m, not '1cm5'; see nextview refine --help"));
   EXPECT_EQ(complaint("driver real"), line("not expected: real; see nextview driver --help"));
   EXPECT_EQ(complaint("driver"), line("driver: simulated is missing: nextview driver simulated OBJECT"));
 }
