@@ -42,8 +42,7 @@ void open_standard_streams() {
 }
 
 int fail(std::string_view reason) {
-  const bool is_name_too_long = reason.ends_with(std::strerror(ENAMETOOLONG));
-  fmt::print(stderr, "nextview: {}{}\n", nextview::printable(reason), is_name_too_long ? "; give a shorter one" : "");
+  fmt::print(stderr, "nextview: {}\n", nextview::printable(reason));
   return nextview::exit_bad_input;
 }
 
@@ -79,9 +78,12 @@ std::string too_much(const CLI::App& program) {
 }
 
 /// What CLI11 says, but for what it says of options as "At Most 1 required but received 2", "1 required INT missing",
-/// "--out excludes --resume".
-std::string reason_of(const CLI::ParseError& error) {
-  const std::string text = error.what();
+/// "--out excludes --resume"; and what an argument is that is missing.
+std::string reason_of(const CLI::ParseError& error, const CLI::App& command) {
+  const std::string text = error.what(), required = " is required";
+  if (text.ends_with(required))
+    if (const auto* missing = command.get_option_no_throw(text.substr(0, text.size() - required.size())))
+      return fmt::format("{}: {}", text, missing->get_description());
   const std::size_t twice = text.find(": At Most 1 required but received "), without = text.find(": 1 required ");
   const std::string excludes = " excludes ";
   if (const std::size_t other = text.find(excludes); other != text.npos)
@@ -112,7 +114,8 @@ int run(int argc, char** argv) {
     const auto commands = program.get_subcommands();
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
     const bool is_too_much = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError);
-    const std::string reason = is_too_much ? too_much(program) : reason_of(error);
+    const std::string reason =
+        is_too_much ? too_much(program) : reason_of(error, commands.empty() ? program : *commands.front());
     return fail(fmt::format("{} nextview {}--help", reason + (reason.ends_with('?') ? " See" : "; see"), command));
   }
   return 0;

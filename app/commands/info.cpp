@@ -6,13 +6,14 @@
 #include <sstream>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/extents_text.hpp"
 #include "app/commands/options.hpp"
+#include "app/commands/recording_info.hpp"
 #include "app/commands/session_info.hpp"
 #include "app/commands/session_parts_info.hpp"
 #include "app/commands/study_info.hpp"
 #include "app/commands/written_file_info.hpp"
 #include "core/cloud/point_cloud.hpp"
-#include "core/cloud/range_scan_folder.hpp"
 #include "core/config/configuration_text.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/atomic_file.hpp"
@@ -24,11 +25,9 @@
 #include "core/map/octree_file.hpp"
 #include "core/recording/cloud_file.hpp"
 #include "core/recording/dataset_guess.hpp"
-#include "core/recording/recording.hpp"
 #include "core/results/manifest.hpp"
 #include "core/sensor/recorded_scans.hpp"
 #include "core/session/object_mesh.hpp"
-#include "core/session/saved_session.hpp"
 #include "core/setting/length_text.hpp"
 #include "core/study/study.hpp"
 #include "core/view/pose.hpp"
@@ -38,18 +37,6 @@ namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "from (…) to (…)", in the unit that suits.
-std::string extents(const Eigen::AlignedBox3d& box) {
-  const Vector3 size = box.sizes();
-  const bool small = size.maxCoeff() < 1.0;
-  const double unit = small ? 1e3 : 1.0;
-  const auto triple = [&](const Vector3& v) {
-    return fmt::format("({:.4g}, {:.4g}, {:.4g})", unit * v.x(), unit * v.y(), unit * v.z());
-  };
-  return fmt::format("{:.4g} x {:.4g} x {:.4g} {}, from {} to {}", unit * size.x(), unit * size.y(), unit * size.z(),
-                     small ? "mm" : "m", triple(box.min()), triple(box.max()));
-}
 
 template <class Points>
 Eigen::AlignedBox3d box_of(const Points& points) {
@@ -70,7 +57,7 @@ std::string mesh_info(const fs::path& file) {
   const PlacedMesh placed = load_object_mesh(file, placement(as_it_stands, file));
   return fmt::format("a mesh of {} and {}; {}\n  {}\n  {}", counted(placed.mesh.triangles.size(), "triangle"),
                      counted(placed.mesh.vertices.size(), "vertex", "vertices"), placed.topology.summary(),
-                     extents(placed.mesh.bounding_box().cast<double>()), unit_text(placed.unit));
+                     extents_text(placed.mesh.bounding_box().cast<double>()), unit_text(placed.unit));
 }
 
 /// As an object that is scanned, but for its surface, which takes long to make.
@@ -83,7 +70,7 @@ std::string cloud_info(const fs::path& file) {
   const LengthUnit unit = in_mm ? LengthUnit::millimetres : LengthUnit::metres;
   const double scale = metres_per(unit);
   return fmt::format("a cloud of {}\n  {}\n  {}", points_text(cloud.size(), read.left_out),
-                     extents({box.min() * scale, box.max() * scale}), unit_text(unit));
+                     extents_text({box.min() * scale, box.max() * scale}), unit_text(unit));
 }
 
 std::string map_info(const fs::path& file) {
@@ -96,21 +83,7 @@ std::string map_info(const fs::path& file) {
   const Eigen::Vector3i size = map.grid().size;
   return fmt::format("an occupancy map (OctoMap): {} x {} x {} voxels of {}, {} of them measured, {} occupied\n  {}",
                      size.x(), size.y(), size.z(), length_text(map.grid().resolution), measured, occupied,
-                     extents({map.grid().lower(), map.grid().upper()}));
-}
-
-std::string scene_info(const RecordedScene& scene) {
-  std::size_t points = 0;
-  Eigen::AlignedBox3d box;
-  for (const RecordedScan& scan : scene.scans) {
-    points += scan.points.size();
-    for (const Vector3& point : scan.points) box.extend(scan.T_world_camera * point);
-  }
-  std::string text = fmt::format("{} with {}, and {} to be scored", counted(scene.scans.size(), "scan"),
-                                 counted(points, "point"), counted(scene.views.size(), "view"));
-  if (points > 0) text += "\n  " + extents(box);
-  for (const auto& [name, value] : scene.parameters) text += fmt::format("\n  {} {:g}", name, value);
-  return text;
+                     extents_text({map.grid().lower(), map.grid().upper()}));
 }
 
 std::string configuration_info(const fs::path& file) {
@@ -123,16 +96,12 @@ std::string configuration_info(const fs::path& file) {
   return text;
 }
 
-bool is_study_text(const std::string& toml) {
-  return toml.find("[[planning]]") != toml.npos || toml.find("[[maps]]") != toml.npos;
-}
-
 std::string picture_info(const fs::path& file) {
   const PngInfo info = read_png_info(file);
   const std::string text = png_configuration(file);
   const std::string size = fmt::format("{} x {} pixels", info.width, info.height);
   if (text.empty()) return fmt::format("a picture of {}; it carries no settings", size);
-  const bool is_of_study = is_study_text(text);
+  const bool is_of_study = is_study(text);
   if (!is_of_study) configuration_of(text, file);  // it is one
   std::string lines =
       fmt::format("a picture of {} by Nextview, with the {} that it shows:", size, is_of_study ? "study" : "settings");
@@ -154,60 +123,6 @@ std::string results_info(const fs::path& folder, const Manifest& manifest) {
   return text;
 }
 
-std::string recording_info(const fs::path& path) {
-  const Recording recording = open_recording(path);
-  const PinholeCamera& camera = recording.camera;
-  std::string text = fmt::format(
-      "recorded data ({}): {} with {}\n  {}\n  camera of {} x {} pixels, fx {:.6g}, fy {:.6g}, cx {:.6g}, cy {:.6g}; "
-      "ranges up to {}",
-      recording.format, counted(recording.frames.size(), "frame"), counted(recording.points, "point"),
-      extents(recording.extent), camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy,
-      length_text(recording.max_range));
-  if (recording.region) text += "\n  region of interest: " + extents(*recording.region);
-  for (const std::string& line : recording.guessed) text += "\n  " + printable(line);
-  return text;
-}
-
-/// Writes down what was guessed of a folder, to be corrected by hand; of one that nothing is known of, a template.
-std::string write_dataset(const fs::path& folder) {
-  const fs::path file = folder / "dataset.toml";
-  if (!fs::is_directory(folder))
-    throw std::runtime_error(fmt::format("{}: is no folder; --write-dataset takes folders", folder.string()));
-  if (is_session(folder))
-    throw std::runtime_error(
-        fmt::format("{}: is a session, whose captures are read as they are; no dataset.toml is needed: "
-                    "nextview scan --recorded {}",
-                    folder.string(), folder.string()));
-  if (is_there(file))
-    throw std::runtime_error(fmt::format("{}: is there already; it is not written over", file.string()));
-  const auto guess = guess_dataset(folder);
-  if (!guess) {
-    DatasetDescription example;
-    example.frames = "depth/*.png";
-    example.poses = "poses/*.txt";
-    example.intrinsics = "525 525 319.5 239.5";
-    write_file(file, to_toml(example));
-    return "dataset.toml is written as a template: nothing about the folder is known, so fill it in";
-  }
-  write_file(file, to_toml(guess->description));
-  try {
-    return "dataset.toml is written\n  " + recording_info(folder);
-  } catch (const std::runtime_error& error) {  // a wrong guess is what the file is for
-    return fmt::format("dataset.toml is written, and is to be corrected: {}", error.what());
-  }
-}
-
-/// Stanford's range images as scenes to be scored.
-std::string range_scans_info(const fs::path& folder) {
-  std::string notice;
-  const RecordedScene scene =
-      read_range_scan_folder(folder, default_stand_off, 0.0, [&](const std::string& text) { notice += "\n  " + text; });
-  return fmt::format(
-      "range scans (Stanford): {}{}\n  the scanner's distance is not told: it is taken to stand {} m off each scan's "
-      "nearest point (recorded.stand_off, --stand-off)",
-      scene_info(scene), notice, default_stand_off);
-}
-
 std::string folder_info(const fs::path& folder) {
   if (const auto study = study_contents(folder)) return study_info(folder, *study);
   if (const auto manifest = read_manifest(folder)) return results_info(folder, *manifest);
@@ -226,12 +141,12 @@ std::string text_info(const fs::path& path) {
   }
   Eigen::AlignedBox3d box;
   for (const Pose& view : views) box.extend(view.translation());
-  return fmt::format("candidate views: {}\n  {}", counted(views.size(), "view"), extents(box));
+  return fmt::format("candidate views: {}\n  {}", counted(views.size(), "view"), extents_text(box));
 }
 
 std::string toml_info(const fs::path& path) {
   const std::string text = read_file(path, std::uintmax_t{1} << 20);
-  if (!is_study_text(text)) return configuration_info(path);
+  if (!is_study(text)) return configuration_info(path);
   const std::size_t runs = read_study(path).size();
   return fmt::format("a study of {}: nextview study {} --out DIR", counted(runs, "run"), printable(path.string()));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/cloud/point_cloud.hpp"
+#include "core/cloud/range_scan_folder.hpp"
 #include "core/config/gibbs_config.hpp"
 #include "core/map/occupancy_map.hpp"
 #include "core/mesh/mesh_file.hpp"
@@ -32,11 +33,11 @@ struct ObjectConfig {
 
 /// Scans that were taken elsewhere, in the place of a simulated camera's (core/recording).
 struct RecordedConfig {
-  std::string folder;      ///< or the file that holds them; empty: there are none
-  std::string truth;       ///< mesh of what was scanned, which is aligned with it; empty: none is known
-  std::string start;       ///< name or number of the frame to begin with; empty: the first
-  int every = 1;           ///< takes each n-th frame
-  double stand_off = 0.7;  ///< of the scanner that took Stanford's range images, which do not tell [m]
+  std::string folder;                    ///< or the file that holds them; empty: there are none
+  std::string truth;                     ///< mesh of what was scanned, which is aligned with it; empty: none is known
+  std::string start;                     ///< name or number of the frame to begin with; empty: the first
+  int every = 1;                         ///< takes each n-th frame
+  double stand_off = default_stand_off;  ///< of the scanner that took Stanford's range images, which do not tell [m]
 };
 
 /// A live scanner (core/driver). Its command is no setting: no file may start a program.

@@ -5,9 +5,8 @@
 //   build/release/planner_comparison                                       the objects of the table, four minutes
 //   build/release/planner_comparison --object part.stl --policy paper      some of it
 //   build/release/planner_comparison --from FILE.csv --chart FILE.png      README's picture of what it printed
-//   build/release/planner_comparison --config FILE --at 1,2,4,6,10         a table of coverage of all samples, as FILE
-//   has
-//                                                                          it; the manual's published table
+//   build/release/planner_comparison --config FILE --at 1,2,4,6,10         coverage of all samples, as FILE has it: the
+//                                                                          manual's published table
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -134,7 +134,8 @@ TEST_F(Export, BadCallsAreToldInOneLineAndNothingIsLost) {
   expect_refused(out + "picture " + in("a.png") + " --size 64", "WIDTHxHEIGHT");
   expect_refused(out + "picture " + in("a.png") + " --look-from 3", "--look-from");
   expect_refused(out + "picture " + in("a.png") + " --layers ground", "'ground'");
-  expect_refused(out + "cloud", "FILE is required");
+  expect_refused(out + "cloud", "FILE is required: where to; its ending says the format");
+  expect_refused(out, "WHAT is required: cloud (.ply or .pcd), map (.ot or .bt), ");
   EXPECT_EQ(bytes("out/journal"), journal);
   EXPECT_EQ(bytes("out/config.toml"), config);
   for (const char* name : {"a.ply", "a.xyz", "a.png", "no"}) EXPECT_FALSE(fs::exists(in(name))) << name;

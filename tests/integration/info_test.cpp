@@ -62,6 +62,8 @@ TEST(Info, TellsViewsAndStudies) {
   const Result run = nextview("info " + views + " " + study);
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, AllOf(HasSubstr("candidate views: 2 views\n  1 x 2 x 0 m"), HasSubstr("a study of 2 runs")));
+  write_file(study, "# no [[planning]]\nseed = 3\n");
+  EXPECT_THAT(nextview("info " + study).out, HasSubstr("a configuration that gives 1 setting"));
 }
 
 TEST(Info, TellsDemos) {

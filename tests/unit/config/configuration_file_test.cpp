@@ -238,5 +238,22 @@ TEST_F(ConfigurationFile, ATextIsTakenAsThatFileWouldBe) {
   }
 }
 
+// A picture's text may be longer than any file that is read: taken apart, this one would overflow the stack.
+TEST_F(ConfigurationFile, ATextThatNestsTooDeepIsRefused) {
+  std::string deep = "a";
+  for (int i = 0; i < 500'000; ++i) deep += ".a";
+  EXPECT_THAT(complaint([&] { configuration_of(deep + " = 1\n", file()); }),
+              testing::HasSubstr("bytes of settings; at most 32768 are read"));
+  EXPECT_FALSE(is_study(deep + " = 1\n"));
+}
+
+// What of its text is a study's is told by its tables, wherever their names stand else.
+TEST_F(ConfigurationFile, AStudyIsKnownByItsBlocks) {
+  EXPECT_TRUE(is_study("[[ planning ]]\nobjects = ['box']\n"));
+  EXPECT_TRUE(is_study("name = 's'\nmaps = [{objects = ['box']}]\n"));
+  for (const char* none : {"", "seed = 1", "# [[planning]]\nseed = 1\n", "map.start = '[[maps]]'\n", "[[maps"})
+    EXPECT_FALSE(is_study(none)) << none;
+}
+
 }  // namespace
 }  // namespace nextview
