@@ -152,6 +152,7 @@ void print_end(const Session& session, const std::string& failure) {
 }
 
 void print_files(const Session& session, const std::filesystem::path& out, bool pictures, const std::string& surfaces) {
+  const char* const driver = session.configuration().driver.name.empty() ? "" : " --driver …";  // no file starts one
   fmt::print("\n{}/\n", printable(out.string()));
   if (pictures) fmt::print("  step_01.png …   a picture of each step: views and scores, the map, the curves\n");
   fmt::print(
@@ -159,14 +160,13 @@ void print_files(const Session& session, const std::filesystem::path& out, bool 
       "{}  cloud.ply       the cleaned point cloud\n{}"
       "  steps.csv, scores.csv, views.csv, timings.csv, metrics.json   the numbers\n{}"
       "  journal, scans/ what was captured, and the choices: the scan can be gone on from, or shown:\n"
-      "                  nextview scan --resume {}; nextview window {}\n"
+      "                  nextview scan --resume {}{}; nextview window {}\n"
       "  config.toml     the configuration; this repeats the scan:\n"
       "                  nextview scan --config {}{} --out {}\n",
       session.refinement() ? "  posterior.ot    the Gibbs map; refinement.csv: what each refinement did\n" : "",
       surfaces,
       session.recording() ? "  orders.csv      coverage by views: this order, the recorded one, random ones\n" : "",
-      shell_text(out), shell_text(out), shell_text(out / "config.toml"),
-      session.configuration().driver.name.empty() ? "" : " --driver …", shell_text(free_folder(out)));
+      shell_text(out), driver, shell_text(out), shell_text(out / "config.toml"), driver, shell_text(free_folder(out)));
 }
 
 }  // namespace nextview

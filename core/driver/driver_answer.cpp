@@ -50,6 +50,12 @@ std::string text_in(const Json& object, const char* key) {
   return value.get<std::string>();
 }
 
+/// Of who writes a driver.
+const char* likely_mistake(const std::string& line) {
+  if (line.find("NaN") != line.npos || line.find("Infinity") != line.npos) return " (which has no NaN and no Infinity)";
+  return line.starts_with('{') ? "" : " (what is for people goes to standard error)";
+}
+
 }  // namespace
 
 struct DriverAnswer::Object {
@@ -60,10 +66,7 @@ DriverAnswer::DriverAnswer(const std::string& line) : object_(std::make_unique<O
   object_->json = parse_json_if_it_is<Json>(line);
   const Json& json = object_->json;
   if (json.is_discarded())
-    throw std::invalid_argument(fmt::format("its answer is no JSON{}: {}",
-                                            line.find("NaN") != line.npos || line.find("Infinity") != line.npos
-                                                ? " (which has no NaN and no Infinity)"
-                                                : "",
+    throw std::invalid_argument(fmt::format("its answer is no JSON{}: {}", likely_mistake(line),
                                             line.empty() ? "an empty line" : excerpt(line)));
   if (!json.is_object()) throw std::invalid_argument("its answer is no JSON object: " + excerpt(line));
   const auto id = json.find("id");

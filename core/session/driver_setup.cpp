@@ -66,9 +66,11 @@ std::string region_of_first_scan(const Configuration& c, DriverConnection& conne
   const Result<Capture> capture = connection.capture(1, c.seed, stop);
   if (const auto* failure = std::get_if<Failure>(&capture)) {
     if (failure->kind == Failure::cancelled) throw Stopped();
-    throw std::runtime_error(fmt::format(
-        "{}; the first scan was to show where the object stands: or give its box as map.region, six numbers [m]",
-        failure->reason));
+    const bool may_look_elsewhere = failure->kind != Failure::disconnected;
+    throw std::runtime_error(failure->reason + (may_look_elsewhere
+                                                    ? "; the first scan is to show where the object stands, unless "
+                                                      "map.region gives its box: six numbers [m]"
+                                                    : ""));
   }
   const auto scan = std::make_shared<const Scan>(to_scan(std::get<Capture>(capture), &c.cloud, stop).scan);
   ObjectRegionConfig config;

@@ -67,6 +67,15 @@ TEST_F(LiveScanner, TheConfigurationStartsNoProgram) {
   EXPECT_THAT(read_file(in("live") + "/config.toml"), testing::Not(HasSubstr("driver simulated")));
 }
 
+TEST_F(LiveScanner, WhoseObjectNobodyKnowsIsNeededAgainToGoOn) {
+  write_file(in("driver.sh"),
+             "exec '" NEXTVIEW_PROGRAM "' driver simulated box " + camera + "| sed -u 's/\"object\":[^,]*,//'\n");
+  const Result run = nextview("scan --driver 'sh " + in("driver.sh") + "' " + quick +
+                              "--map.region '-0.3 -0.3 -0.3 0.3 0.3 0.3' --out " + in("live"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("nextview scan --resume " + in("live") + " --driver …; nextview window"));
+}
+
 TEST_F(LiveScanner, ARealScanIsNotSimulatedInItsPlace) {
   write_file(in("scan.toml"), "driver.name = 'arm'\n");
   const Result run = nextview("scan --config " + in("scan.toml") + " " + quick + "--out " + in("out"));
@@ -106,7 +115,7 @@ TEST_F(LiveScanner, OfAnUnknownObjectTheFirstScanSaysWhereItIsOrTheRegionIsAsked
   const Result run = nextview("scan " + scripted(no_capture) + quick + "--out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("the lens cap is on"));
-  EXPECT_THAT(run.err, HasSubstr("give its box as map.region"));
+  EXPECT_THAT(run.err, HasSubstr("unless map.region gives its box"));
 }
 
 TEST_F(LiveScanner, AMoveThatNoOneCanConfirmIsNotMade) {

@@ -28,7 +28,7 @@ std::vector<Fault> faults_of_any_request(const char* request) {
   return {{"die", request, lost, "it ended with exit code 3"},
           {"killed", request, lost, "signal 9"},
           {"complain", request, lost, "exit code 4; it last said: the arm is not switched on"},
-          {"garbage", request, lost, "its answer is no JSON: hello, world"},
+          {"garbage", request, lost, "its answer is no JSON (what is for people goes to standard error): hello, world"},
           {"list", request, lost, "no JSON object"},
           {"no_id", request, lost, "no 'id'"},
           {"wrong_id", request, lost, "the id 123456"},

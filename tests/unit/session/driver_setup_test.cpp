@@ -16,11 +16,11 @@ class DriverSetup : public testing::Test {
  protected:
   DriverSetup() { c_.map.region = "-0.1 -0.1 0 0.1 0.1 0.2"; }
 
-  /// Greets a driver that says this too.
-  void connect(const std::string& more = {}) {
+  /// Greets a driver that says this too, and runs this where it is asked more.
+  void connect(const std::string& more = {}, const std::string& then = {}) {
     const std::string hello = R"({"id":1,"ok":true,"protocol":1,"name":"canned","abilities":[],)"
                               R"("intrinsics":[4,4,1.5,1],"width":4,"height":3,"max_range":9,"range_noise":0.001)";
-    const auto script = folder_.write("driver.sh", "read line\necho '" + hello + more + "}'\nread line\n");
+    const auto script = folder_.write("driver.sh", "read line\necho '" + hello + more + "}'\nread line\n" + then);
     connect_scanner(c_, {"sh '" + script.string() + "'"});
   }
   std::string refusal(const std::string& more = {}) {
@@ -72,6 +72,25 @@ TEST_F(DriverSetup, ASimulatorsSettingsAreFollowed) {
   give(c_, "sensor.dropout", "0.1", "--sensor.dropout");
   EXPECT_THAT(refusal(R"(,"settings":{"sensor.dropout":"0.25"})"),
               StartsWith("--sensor.dropout: the scanner has its own, 0.25"));
+}
+
+// Without a region the object is looked for in a first scan. That a region would do helps whoever can look elsewhere.
+TEST_F(DriverSetup, AFirstScanThatFailsIsToldWithWhatHelps) {
+  const auto reason = [&](const std::string& then) -> std::string {
+    c_ = {};
+    try {
+      connect({}, then);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "it is connected";
+  };
+  EXPECT_EQ(reason(R"(echo '{"id":2,"error":"it is dark"}')"),
+            "driver canned: capture: it is dark; the first scan is to show where the object stands, unless map.region "
+            "gives its box: six numbers [m]");
+  EXPECT_EQ(reason("exit 3"), "driver canned: it ended with exit code 3");
+  EXPECT_EQ(reason("echo done"),
+            "driver canned: capture: its answer is no JSON (what is for people goes to standard error): done");
 }
 
 TEST_F(DriverSetup, MadeUpErrorsOfARobotAreRefused) {
