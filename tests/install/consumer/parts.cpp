@@ -1,7 +1,8 @@
-// A program of someone else's: a scan with a robot, a source and a planner of its own. Usage: consumer MESH
+// A program of someone else's: a scan with a robot, a source and a planner of its own. Usage: parts MESH
 #include <cstdio>
 #include <exception>
 
+#include "core/config/object_lengths.hpp"
 #include "core/session/session.hpp"
 using namespace nextview;
 
@@ -30,10 +31,11 @@ struct NearestFirst : Planner {
 };
 
 int main(int, char** argv) try {
-  const Configuration configuration{.object = {.file = argv[1]}};
+  Configuration configuration{.object = {.file = argv[1]}};
   const auto object = std::make_shared<PlacedMesh>(load_placed_mesh(argv[1], {configuration.object.longest_side}));
+  fit_lengths(configuration, object->mesh.bounding_box().sizes().maxCoeff());  // voxels, ranges, noise, …
   const auto world = std::make_shared<SimulatedWorld>(object, configuration.sensor);
-  const Pose start = look_at({0.9, 0.0, 0.3}, {0.0, 0.0, 0.0});
+  const Pose start = look_at({configuration.views.radius, 0.0, 0.0}, {0.0, 0.0, 0.0});
   Session session(configuration, {std::make_unique<Scanner>(world, 1), std::make_unique<Turntable>(start),
                                   std::make_unique<NearestFirst>()});
   for (int step = 0; step < 2; ++step) session.step();
