@@ -116,10 +116,10 @@ void ConfigurationOptions::add_to(CLI::App& app) {
 
 void ConfigurationOptions::add_settings_to(CLI::App& app, const std::vector<std::string>& prefixes) {
   prefixes_ = prefixes;
-  app.add_option(
-         "--config", files_,
-         "configuration file (TOML), or paper, calibrated, new_surface or published_bunny; may be given several times: "
-         "later ones override, options all")
+  app.add_option("--config", files_,
+                 "configuration file (TOML), a picture that carries one, or paper, calibrated, new_surface or "
+                 "published_bunny; may be given several times: "
+                 "later ones override, options all")
       ->type_name("FILE")
       ->allow_extra_args(false);
   Configuration defaults;

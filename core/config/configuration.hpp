@@ -126,9 +126,9 @@ std::vector<Setting> settings(Configuration& configuration);
 void give(Configuration& configuration, const std::string& key, const std::string& text, const std::string& name,
           const std::string& place = "");
 
-/// Reads TOML over `configuration`: keys that the file leaves out stay as they are; an unknown key is an error that
-/// names the nearest known one. Relative paths in it are relative to its folder; what is not there, to the working
-/// folder. The caller validates what becomes of it.
+/// Reads TOML, or what a picture (PNG) carries of it, over `configuration`: keys that the file leaves out stay as they
+/// are; an unknown key is an error that names the nearest known one. Relative paths in it are relative to its folder;
+/// what is not there, to the working folder. The caller validates what becomes of it.
 /// @throws std::runtime_error "file:line: reason".
 void read_settings(const std::filesystem::path& file, Configuration& configuration);
 /// read_settings and Configuration::validate. @throws std::runtime_error, std::invalid_argument

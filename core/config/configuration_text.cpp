@@ -11,6 +11,7 @@
 
 #include "core/config/asset_names.hpp"
 #include "core/file/nul_text.hpp"
+#include "core/file/png_text.hpp"
 #include "core/file/read_file.hpp"
 #include "core/setting/mistyped_path.hpp"
 #include "core/setting/section_of.hpp"
@@ -34,6 +35,13 @@ toml::table parsed(const std::string& text, const fs::path& file) {
     throw std::runtime_error(
         fmt::format("{}:{}: {}", file.string(), error.source().begin.line, std::string(error.description())));
   }
+}
+
+std::string settings_in(const fs::path& file) {
+  if (file.extension() != ".png") return read_file(file, largest_text);
+  std::string carried = png_configuration(file);
+  if (carried.empty()) throw std::runtime_error(file.string() + ": is a picture that carries no settings of Nextview");
+  return carried;
 }
 
 /// Where a file says that another one is: beside it, if there is one, or as it stands.
@@ -178,7 +186,7 @@ void give(Configuration& configuration, const std::string& key, const std::strin
 }
 
 void read_settings(const fs::path& file, Configuration& configuration) {
-  TomlReader(file, configuration).read(read_file(file, largest_text));
+  TomlReader(file, configuration).read(settings_in(file));
 }
 
 Configuration configuration_of(const std::string& text, const fs::path& file) {

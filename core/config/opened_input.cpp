@@ -5,12 +5,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "core/config/configuration_text.hpp"
 #include "core/config/known_objects.hpp"
 #include "core/config/object_lengths.hpp"
 #include "core/file/gzip_file.hpp"
 #include "core/file/lower_case.hpp"
-#include "core/file/png_text.hpp"
 #include "core/file/same_file.hpp"
 #include "core/mesh/mesh_types.hpp"
 #include "core/sensor/recorded_scans.hpp"
@@ -42,11 +40,7 @@ bool is_recording(const std::filesystem::path& input) {
 
 Configuration with_input(Configuration configuration, const std::filesystem::path& input) {
   if (input.extension() == ".toml") return read_configuration(input, configuration);
-  if (input.extension() == ".png") {
-    const std::string text = png_configuration(input);
-    if (text.empty()) throw std::runtime_error(input.string() + ": is a picture that carries no settings of Nextview");
-    return configuration_of(text, input);
-  }
+  if (input.extension() == ".png") return read_configuration(input);
   if (input.extension() == ".nextview")
     throw std::runtime_error(input.string() +
                              ": is a demo: `nextview demo` plays it, and in the window Demo > Play another");

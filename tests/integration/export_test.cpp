@@ -94,6 +94,10 @@ TEST_F(Export, PicturesHaveTheirSizeAndTheirConfiguration) {
   EXPECT_EQ(told.exit_code, 0) << told.err;
   EXPECT_THAT(told.out, HasSubstr("320 x 200 pixels by Nextview"));
   EXPECT_THAT(told.out, HasSubstr("gain = 'occlusion-aware'"));
+  const Result again =
+      nextview("scan --config " + in("p.png") + " --views 1 --no-pictures --no-surfaces --out " + in("again"));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(bytes("again/config.toml"), HasSubstr("gain = 'occlusion-aware'"));
 }
 
 TEST_F(Export, PicturesAreLookedAtFromAnyDirectionOfTheSphere) {
