@@ -20,6 +20,7 @@
 #include "core/planner/set_cover.hpp"
 #include "core/session/session.hpp"
 #include "tests/benchmarks/known_part_plan.hpp"
+#include "tests/benchmarks/scan_course.hpp"
 #include "ui/charts/planner_chart.hpp"
 #include "ui/render_target/headless.hpp"
 
@@ -38,50 +39,6 @@ struct Options {
   std::string config;
   std::vector<std::string> set;
   std::vector<int> at;
-};
-
-/// Coverage of the visible surface and metres after each view.
-struct Course {
-  std::vector<double> coverage, path;
-
-  explicit Course(int views) : coverage(static_cast<std::size_t>(views)), path(coverage.size()) {}
-  void add(const Course& other, double weight) {
-    for (std::size_t i = 0; i < coverage.size(); ++i) {
-      coverage[i] += weight * other.coverage[i];
-      path[i] += weight * other.path[i];
-    }
-  }
-  double mean() const {
-    double sum = 0.0;
-    for (const double c : coverage) sum += c;
-    return sum / double(coverage.size());
-  }
-  /// Metres to a coverage, as if it grew evenly from view to view. @pre it is reached, and not by the first view
-  double way_to(double share) const {
-    const auto after = std::size_t(std::ranges::lower_bound(coverage, share) - coverage.begin());
-    const double part = (share - coverage[after - 1]) / (coverage[after] - coverage[after - 1]);
-    return path[after - 1] + part * (path[after] - path[after - 1]);
-  }
-};
-
-/// The way of a plan beside the oracle's, to the same coverage: mean over all that both reach after their first view
-/// [m].
-struct EqualCoverage {
-  double way = 0.0, oracles = 0.0;
-
-  static EqualCoverage of(const Course& course, const Course& oracle) {
-    constexpr int levels = 200;
-    const double first = std::max(course.coverage.front(), oracle.coverage.front());
-    const double last = std::min(course.coverage.back(), oracle.coverage.back());
-    EqualCoverage equal;
-    if (last <= first) return equal;  // the first view showed all there is
-    for (int i = 1; i <= levels; ++i) {
-      const double share = first + (last - first) * (i - 0.5) / levels;
-      equal.way += course.way_to(share) / levels, equal.oracles += oracle.way_to(share) / levels;
-    }
-    return equal;
-  }
-  double share() const { return way / oracles; }
 };
 
 /// Parts that come with Debian and with the program. None was learned from.
@@ -122,47 +79,25 @@ Configuration configuration(const Options& options, const std::string& object, c
   return c;
 }
 
-/// The views of `ahead`, then as it is planned.
-Course scan(const Configuration& c, Session& session, const std::vector<std::size_t>& ahead = {}) {
-  while (session.finished().empty()) {
-    const std::size_t taken = session.records().size();
-    if (taken > 0 && taken <= ahead.size()) session.override_next_view(ahead[taken - 1]);
-    session.step();
-  }
-  Course course(c.termination.views);
-  double path = 0.0;
-  for (std::size_t i = 0; i < course.coverage.size(); ++i) {
-    const StepRecord& record = session.records().at(std::min(i, session.records().size() - 1));
-    path += i < session.records().size() ? record.motion.distance : 0.0;
-    course.coverage[i] = record.coverage_visible;
-    course.path[i] = path;
-  }
-  return course;
-}
-
-Course scan(const Configuration& c) {
-  Session session(c);
-  return scan(c, session);
-}
-
 /// "known-part:2": who knows the part, and would see a share of the surface two views later for each metre less.
 constexpr std::string_view known_part = "known-part:";
 
-Course course_of(const Options& options, const std::string& object, const std::string& policy) {
-  if (policy.starts_with(known_part)) {
-    const Configuration c = configuration(options, object, "fixed-order");
-    Session session(c);
-    double weight = 0.0;
-    if (!CLI::detail::lexical_cast(policy.substr(known_part.size()), weight) || !(weight >= 0.0))
-      throw std::runtime_error(fmt::format("--policy {}: the weight must be a number of at least 0", policy));
-    return scan(c, session, known_part_plan(*session.known_object(), session.next_view(), options.views, weight));
-  }
+ScanCourse course_of_known_part(const Options& options, const std::string& object, const std::string& policy) {
+  double weight = 0.0;
+  if (!CLI::detail::lexical_cast(policy.substr(known_part.size()), weight) || !(weight >= 0.0))
+    throw std::runtime_error(fmt::format("--policy {}: the weight must be a number of at least 0", policy));
+  Session session(configuration(options, object, "fixed-order"));
+  return course_of_scan(session, known_part_plan(*session.known_object(), session.next_view(), options.views, weight));
+}
+
+ScanCourse course_of(const Options& options, const std::string& object, const std::string& policy) {
+  if (policy.starts_with(known_part)) return course_of_known_part(options, object, policy);
   Configuration c = configuration(options, object, policy);
-  if (policy != "random") return scan(c);
-  Course mean(options.views);
+  if (policy != "random") return course_of_scan(c);
+  ScanCourse mean(options.views);
   for (int seed = 1; seed <= options.random_seeds; ++seed) {
     c.seed = static_cast<std::uint64_t>(seed);
-    mean.add(scan(c), 1.0 / options.random_seeds);
+    mean.add(course_of_scan(c), 1.0 / options.random_seeds);
   }
   return mean;
 }
@@ -193,9 +128,9 @@ struct Standing {
 
 std::string number_or_dash(double number) { return std::isfinite(number) ? fmt::format("{:.3f}", number) : "-"; }
 
-void print(const std::string& object, const std::string& policy, const Course& course, const Standing& standing,
+void print(const std::string& object, const std::string& policy, const ScanCourse& course, const Standing& standing,
            const LeastViews& least) {
-  fmt::print("{},{},{:.2f},{},{:.2f},{},{},{}", object, policy, 100.0 * course.mean(),
+  fmt::print("{},{},{:.2f},{},{:.2f},{},{},{}", object, policy, 100.0 * course.mean_coverage(),
              number_or_dash(standing.gap_closed), course.path.back(), number_or_dash(standing.way_share), least.of_95,
              least.of_99);
   for (const double coverage : course.coverage) fmt::print(",{:.2f}", 100.0 * coverage);
@@ -211,20 +146,20 @@ void compare(const Options& options) {
   fmt::print("object,policy,mean_coverage[%],gap_closed,path[m],path_to_same/oracle,least_views_95,least_views_99");
   for (int view = 1; view <= options.views; ++view) fmt::print(",{}", view);
   fmt::print("\n");
-  std::map<std::string, Course> means;
+  std::map<std::string, ScanCourse> means;
   std::map<std::string, EqualCoverage> ways;
-  const auto gap_closed = [](const Course& course, const Course& random, const Course& oracle) {
-    return (course.mean() - random.mean()) / (oracle.mean() - random.mean());
+  const auto gap_closed = [](const ScanCourse& course, const ScanCourse& random, const ScanCourse& oracle) {
+    return (course.mean_coverage() - random.mean_coverage()) / (oracle.mean_coverage() - random.mean_coverage());
   };
   for (const std::string& object : objects) {
-    std::map<std::string, Course> courses;
+    std::map<std::string, ScanCourse> courses;
     const LeastViews least = least_views(configuration(options, object, "default"));
     for (const std::string& policy : policies) {
-      const Course& course = courses.insert_or_assign(policy, course_of(options, object, policy)).first->second;
+      const ScanCourse& course = courses.insert_or_assign(policy, course_of(options, object, policy)).first->second;
       means.try_emplace(policy, options.views).first->second.add(course, 1.0 / double(objects.size()));
     }
     for (const std::string& policy : policies) {
-      const Course &course = courses.at(policy), &oracle = courses.at("oracle");
+      const ScanCourse &course = courses.at(policy), &oracle = courses.at("oracle");
       const EqualCoverage equal = EqualCoverage::of(course, oracle);
       ways[policy].way += equal.way, ways[policy].oracles += equal.oracles;
       print(fs::path(object).stem().string(), policy, course,
