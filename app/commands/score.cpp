@@ -82,7 +82,7 @@ void print_ranking(const SceneScores& scores) {
     const Ranking ranking = rank(candidates, {{1.0, 0.0}});
     const std::vector<std::size_t> order = best_first(values);
     const std::string unit = policy_entry(scores.gains[g]).make({})->unit();
-    fmt::print("{:<26}", unit.empty() ? scores.gains[g] : fmt::format("{} [{}]", scores.gains[g], unit));
+    fmt::print("{:<28}", unit.empty() ? scores.gains[g] : fmt::format("{} [{}]", scores.gains[g], unit));
     for (std::size_t i = 0; i < std::min(shown, order.size()); ++i)
       fmt::print("  {:>3}: {:<10.6g}", order[i], values[order[i]]);
     fmt::print("{}\n", ranking.degenerate.empty() ? "" : "  (no ranking: " + ranking.degenerate + ")");

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/file/png_text.hpp"
 #include "core/file/read_file.hpp"
@@ -149,6 +150,14 @@ TEST_F(Export, BadCallsAreToldInOneLineAndNothingIsLost) {
 TEST_F(Export, ScoreRanksTheSessionAsItStands) {
   const Result run = nextview("score " + in("out") + " --csv " + in("scores.csv"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::set<std::ptrdiff_t> numbers_begin;  // in letters: the columns stand one below the other
+  std::istringstream told(nextview("score " + in("out")).out);
+  std::string heading, empty;
+  std::getline(std::getline(told, heading), empty);
+  for (std::string row; std::getline(told, row) && row.find(':') != row.npos;)
+    numbers_begin.insert(
+        std::ranges::count_if(row.substr(0, row.find(':')), [](char c) { return (c & 0xc0) != 0x80; }));
+  EXPECT_EQ(numbers_begin.size(), 1u) << heading;
   std::istringstream scored(bytes("scores.csv")), ranked(bytes("out/scores.csv"));
   const auto cells = [](const std::string& line) {
     std::vector<std::string> result;
