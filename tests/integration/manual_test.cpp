@@ -93,7 +93,7 @@ TEST(Manual, EveryExampleIsACommandLineOfTheProgram) {
 TEST(Manual, ExamplesOfScriptsAndCodeAreRight) {
   announce_panels(standard_panels());
   std::set<std::string> built;  // with an installation, by tests/install
-  for (const char* file : {"CMakeLists.txt", "gain.cpp", "parts.cpp"})
+  for (const char* file : {"CMakeLists.txt", "gain.cpp", "map.cpp", "parts.cpp"})
     built.insert(read_file(source / "tests/install/consumer" / file));
   std::set<std::string> languages;
   for (const fs::path& file : manual_pages())
