@@ -253,7 +253,7 @@ void add_figure_command(CLI::App& program) {
       ->delimiter(',')
       ->check(within(1, 1000000))
       ->type_name("LIST");
-  app->add_flag("--dark,!--light", a->dark, "on dark paper");
+  app->add_flag("--dark", a->dark, "on dark paper");
   app->add_flag("--list", a->list, "prints all figures and ends");
   app->footer(
       "Examples:\n  nextview figure all --out figures\n  nextview figure gap_closed --study mine --out figures --dpi "
