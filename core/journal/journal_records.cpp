@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/file/json_text.hpp"
+#include "core/file/whole_number.hpp"
 
 namespace nextview {
 namespace {
@@ -47,7 +48,7 @@ double number_of(const Json& json) {
 Json to_json(const PinholeCamera& c) { return {c.width, c.height, c.fx, c.fy, c.cx, c.cy}; }
 
 PinholeCamera camera_of(const Json& json) {
-  const auto [width, height] = std::pair{json.at(0).get<int>(), json.at(1).get<int>()};
+  const auto [width, height] = std::pair{whole_number<int>(json.at(0)), whole_number<int>(json.at(1))};
   constexpr int most = 1 << 16;
   if (width < 1 || height < 1 || width > most || height > most) throw std::runtime_error("no camera");
   const PinholeCamera camera{
@@ -61,7 +62,7 @@ PinholeCamera camera_of(const Json& json) {
 Json to_json(const FileHash& hash) { return {{"bytes", hash.bytes}, {"crc32", hash.crc32}}; }
 
 FileHash hash_in(const Json& json) {
-  return {json.at("bytes").get<std::uintmax_t>(), json.at("crc32").get<std::string>()};
+  return {whole_number<std::uintmax_t>(json.at("bytes")), json.at("crc32").get<std::string>()};
 }
 
 Json to_json(const ScanRegistration& r) {
@@ -84,7 +85,7 @@ ScanRegistration registration_of(const Json& json) {
   r.overlap = number_of(json.at("overlap"));
   r.residual_before = number_of(json.at("residual_before"));
   r.residual_after = number_of(json.at("residual_after"));
-  json.at("constrained").get_to(r.constrained);
+  r.constrained = whole_number<int>(json.at("constrained"));
   json.at("reliable").get_to(r.reliable);
   json.at("why_not").get_to(r.why_not);
   return r;
@@ -92,12 +93,12 @@ ScanRegistration registration_of(const Json& json) {
 
 JournalStep step_of(const Json& json) {
   JournalStep step;
-  json.at("number").get_to(step.number);
-  json.at("after").get_to(step.after);
+  step.number = whole_number<std::uint32_t>(json.at("number"));
+  step.after = whole_number<std::uint32_t>(json.at("after"));
   if (step.number == 0 || step.after >= step.number) throw std::runtime_error("no step");
   step.wanted.T_world_camera = pose_of(json.at("wanted"));
-  if (json.contains("frame")) step.wanted.frame = json["frame"].get<std::uint32_t>();
-  if (json.contains("candidate")) step.candidate = json["candidate"].get<std::size_t>();
+  if (json.contains("frame")) step.wanted.frame = whole_number<std::uint32_t>(json["frame"]);
+  if (json.contains("candidate")) step.candidate = whole_number<std::size_t>(json["candidate"]);
   json.at("custom").get_to(step.is_custom);
   json.at("overridden").get_to(step.overridden);
   step.gain = number_of(json.at("gain"));
@@ -134,10 +135,10 @@ Branches branches_of(const Json& json, std::uint32_t last_number) {
   branches.all.clear();
   branches.next_id = 0;
   for (const Json& branch : json.at("branches")) {
-    branches.begin(branch.at("name").get<std::string>(), branch.at("tip").get<std::uint32_t>());
+    branches.begin(branch.at("name").get<std::string>(), whole_number<std::uint32_t>(branch.at("tip")));
     if (branches.current().tip > last_number) throw std::runtime_error("no step");
   }
-  branches.on = json.at("on").get<std::size_t>();
+  branches.on = whole_number<std::size_t>(json.at("on"));
   if (branches.on >= branches.all.size()) throw std::runtime_error("no branch");
   return branches;
 }
@@ -207,7 +208,7 @@ bool read_record(const std::string& record, Journal& journal) {
   const auto kind = json.at("record").get<std::string>();
   journal.closed = kind == "closed";
   if (kind == "session") {
-    if (json.at("version").get<int>() > version)
+    if (whole_number<int>(json.at("version")) > version)
       throw NewerJournal(fmt::format("was written by a newer version ({}) than this one, {}",
                                      json.value("program", "of an unknown name"), NEXTVIEW_VERSION));
     json.at("program").get_to(journal.program);
@@ -227,7 +228,7 @@ bool read_record(const std::string& record, Journal& journal) {
     journal.settings.push_back(json.at("toml").get<std::string>());
     journal.settings_at[journal.at] = journal.settings.size();
   } else if (kind == "at") {
-    const auto number = json.at("number").get<std::uint32_t>();
+    const auto number = whole_number<std::uint32_t>(json.at("number"));
     if (number > journal.last_number()) throw std::runtime_error("no step");
     journal.at = number;
   } else if (kind == "branches") {
@@ -235,11 +236,11 @@ bool read_record(const std::string& record, Journal& journal) {
   } else if (kind == "outcome") {
     std::map<std::string, double> outcome;
     for (const auto& [name, value] : json.at("values").items()) outcome[name] = number_of(value);
-    journal.steps.at(json.at("number").get<std::uint32_t>()).outcome = std::move(outcome);
+    journal.steps.at(whole_number<std::uint32_t>(json.at("number"))).outcome = std::move(outcome);
   } else if (kind == "reach") {
     std::vector<Reach> reach;
     for (const Json& one : json.at("candidates")) reach.push_back(reach_of(one));
-    journal.steps.at(json.at("number").get<std::uint32_t>()).reach = std::move(reach);
+    journal.steps.at(whole_number<std::uint32_t>(json.at("number"))).reach = std::move(reach);
   } else if (kind != "closed") {
     throw std::runtime_error("no record");
   }

@@ -9,6 +9,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/json_text.hpp"
+#include "core/file/whole_number.hpp"
 
 namespace nextview {
 namespace {
@@ -136,7 +137,7 @@ Manifest manifest_of(const Json& json) {
   if (const auto object = json.find("object"); object != json.end()) {
     manifest.object.emplace();
     object->at("file").get_to(manifest.object->file);
-    object->at("bytes").get_to(manifest.object->hash.bytes);
+    manifest.object->hash.bytes = whole_number<std::uintmax_t>(object->at("bytes"));
     object->at("crc32").get_to(manifest.object->hash.crc32);
   }
   const Json& files = json.at("files");

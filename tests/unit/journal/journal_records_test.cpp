@@ -1,6 +1,7 @@
 // What a journal's records say, and what is refused as one.
 #include "core/journal/journal_records.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -207,6 +208,19 @@ TEST(JournalRecords, WhatIsNoneIsRefused) {
   for (const char* bad : {"", "{}", "[]", "7", R"({"record":7})", R"({"record":"opened"})", R"({"record":""})",
                           R"({"record":"step"})", R"({"record":"at"})", R"({"record":"settings"})"})
     EXPECT_ANY_THROW(read_record(bad, journal)) << bad;
+  EXPECT_EQ(journal.settings.size(), 1u);
+}
+
+// Each of these would be taken for another number: for 0, for instance.
+TEST(JournalRecords, NumbersThatAreNoWholeOnesOrTooLargeAreRefused) {
+  Journal journal = begun();
+  for (const char* number : {"0.5", "1e71", "-1", "4294967296", "18446744073709551616", "true", "null"})
+    EXPECT_ANY_THROW(read_record(fmt::format(R"({{"record":"at","number":{}}})", number), journal)) << number;
+  for (const char* version : {"1e71", "-1e71", "1.0", "18446744073709551615"})
+    EXPECT_ANY_THROW(read_record(
+        fmt::format(R"({{"record":"session","version":{},"program":"nextview","input":"","toml":""}})", version),
+        journal))
+        << version;
   EXPECT_EQ(journal.settings.size(), 1u);
 }
 
