@@ -145,12 +145,17 @@ int run(PosteriorArguments arguments) {
   }
   const TestProblem& problem = test_problem(arguments.problem);
   const PosteriorSamplerConfig config = make_config(arguments, problem);
+  std::optional<AtomicFile> csv;  // first: where none can be written nobody waits for the answers
+  if (!arguments.csv.empty() && arguments.csv != "-") csv.emplace(arguments.csv);
   const Answers answers = answer(problem, config);
   if (arguments.csv == "-") {
     fmt::print("{}", to_csv(problem, answers));
     return 0;
   }
-  if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(problem, answers));
+  if (csv) {
+    csv->stream() << to_csv(problem, answers);
+    csv->commit();
+  }
   print_table(problem, config, answers);
   return 0;
 }
