@@ -47,9 +47,8 @@ struct Recording {
 };
 
 struct RecordingOptions {
-  int every = 1;  ///< takes each n-th frame, the first one among them
-  double stand_off =
-      default_stand_off;  ///< Stanford's range images: the scanner's distance, which they do not tell [m]
+  int every = 1;                         ///< takes each n-th frame, the first one among them
+  double stand_off = default_stand_off;  ///< of the scanner that took Stanford's range images, which do not tell [m]
 };
 
 /// Opens recorded data: a folder of depth images or clouds with poses, of Stanford's range images, OctoMap's scan graph

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
+#include <span>
 
 namespace nextview {
 namespace {
@@ -48,8 +50,9 @@ PartialPlan follow(const NextStep& step, const BitMask& view, const Pose& T_worl
 }
 
 /// Of the same views with the same last one, however they were ordered, only the best goes on.
-bool is_like(const PartialPlan& partial, const PartialPlan& other) {
-  return partial.views.back() == other.views.back() && std::ranges::is_permutation(partial.views, other.views);
+bool leads_to_like(const NextStep& step, const PartialPlan& other) {
+  const std::span before(other.views.begin(), other.views.end() - 1);
+  return step.view == other.views.back() && std::ranges::is_permutation(step.partial->views, before);
 }
 
 }  // namespace
@@ -78,9 +81,8 @@ std::vector<std::size_t> known_part_plan(const KnownObject& part, const Pose& T_
     std::vector<PartialPlan> best;
     for (const NextStep& step : steps) {
       if (best.size() == beam_width) break;
-      PartialPlan partial = follow(step, seen_from[step.view], sight.candidates[step.view]);
-      if (std::ranges::none_of(best, [&](const PartialPlan& other) { return is_like(partial, other); }))
-        best.push_back(std::move(partial));
+      if (std::ranges::none_of(best, [&](const PartialPlan& other) { return leads_to_like(step, other); }))
+        best.push_back(follow(step, seen_from[step.view], sight.candidates[step.view]));
     }
     partials = std::move(best);
   }

@@ -19,6 +19,7 @@
 
 #include "core/planner/set_cover.hpp"
 #include "core/session/session.hpp"
+#include "core/setting/quantity.hpp"
 #include "tests/benchmarks/known_part_plan.hpp"
 #include "tests/benchmarks/scan_course.hpp"
 #include "ui/charts/planner_chart.hpp"
@@ -84,7 +85,7 @@ constexpr std::string_view known_part = "known-part:";
 
 ScanCourse course_of_known_part(const Options& options, const std::string& object, const std::string& policy) {
   double weight = 0.0;
-  if (!CLI::detail::lexical_cast(policy.substr(known_part.size()), weight) || !(weight >= 0.0))
+  if (!read_quantity(policy.substr(known_part.size()), "", weight) || !(weight >= 0.0))
     throw std::runtime_error(fmt::format("--policy {}: the weight must be a number of at least 0", policy));
   Session session(configuration(options, object, "fixed-order"));
   return course_of_scan(session, known_part_plan(*session.known_object(), session.next_view(), options.views, weight));
