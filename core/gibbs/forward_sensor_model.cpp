@@ -126,9 +126,14 @@ double first_hit_log_likelihood(const VoxelGrid& grid, const ForwardSensorModel&
 
 double log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
                       const RangeMeasurement& ray, std::span<const std::uint8_t> levels) {
+  return log_likelihood(grid, model, measurements, ray, ray_segments(grid, measurements, ray, model), levels);
+}
+
+double log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
+                      const RangeMeasurement& ray, std::span<const VoxelSegment> segments,
+                      std::span<const std::uint8_t> levels) {
   const Vector3& origin = measurements.origins[ray.origin];
   const double z = measurements.range(ray);
-  const auto segments = ray_segments(grid, measurements, ray, model);
   if (model.is_first_hit()) {
     const auto first =
         std::find_if(segments.begin(), segments.end(), [&](const VoxelSegment& s) { return levels[s.voxel] > 0; });

@@ -86,5 +86,9 @@ double first_hit_log_likelihood(const VoxelGrid& grid, const ForwardSensorModel&
 /// `levels` has one entry a voxel of the grid. The sampler gets the same numbers from state that it keeps.
 double log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
                       const RangeMeasurement& ray, std::span<const std::uint8_t> levels);
+/// The same, for who has the ray's ray_segments already.
+double log_likelihood(const VoxelGrid& grid, const ForwardSensorModel& model, const RangeMeasurements& measurements,
+                      const RangeMeasurement& ray, std::span<const VoxelSegment> segments,
+                      std::span<const std::uint8_t> levels);
 
 }  // namespace nextview

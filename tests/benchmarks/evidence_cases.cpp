@@ -115,6 +115,24 @@ EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const E
   return result;
 }
 
+std::vector<float> centres_inside(const EvidenceCase& c) {
+  constexpr float nudge = 1e-5f;  // [m]
+  std::vector<float> inside(c.grid.voxel_count());
+  for (const float way : {-nudge, nudge}) {
+    TriangleMesh moved = *c.truth.mesh;
+    for (Eigen::Vector3f& vertex : moved.vertices) vertex.array() += way;
+    const GroundTruth truth = ground_truth(moved, c.grid);
+    for (std::size_t v = 0; v < inside.size(); ++v) inside[v] += 0.5f * float(truth.centre[v]);
+  }
+  return inside;
+}
+
+void leave_out_undecided_centres(EvidenceCase& c) {
+  const std::vector<float> inside = centres_inside(c);
+  for (std::size_t v = 0; v < inside.size(); ++v)
+    if (inside[v] == 0.5f) c.truth.visited[v] = 0;
+}
+
 std::vector<FittingPart> fitting_parts() {
   std::vector<FittingPart> parts;
   for (const Kind& kind : kinds)

@@ -50,6 +50,12 @@ struct EvidenceCase {
 /// Fibonacci sphere of 0.9 m. @throws std::runtime_error if there is no such object
 EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const EvidenceSensor& sensor, int views);
 
+/// Whether voxels' centres are inside; a half where a face goes right through one: on which side that is, rounding
+/// alone tells, and of another part it tells otherwise.
+std::vector<float> centres_inside(const EvidenceCase& c);
+/// Of those, nothing is scored any more, by either truth.
+void leave_out_undecided_centres(EvidenceCase& c);
+
 /// Made-up parts: everything that is fitted is fitted to these.
 struct FittingPart {
   std::string object;

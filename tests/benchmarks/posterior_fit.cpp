@@ -38,20 +38,6 @@ std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
   return mask;
 }
 
-/// Whether voxels' centres are inside; a half where a face goes right through one: on which side that is, rounding
-/// alone tells, and of another part it tells otherwise.
-std::vector<float> centres_inside(const EvidenceCase& c) {
-  constexpr float nudge = 1e-5f;  // [m]
-  std::vector<float> inside(c.grid.voxel_count());
-  for (const float way : {-nudge, nudge}) {
-    TriangleMesh moved = *c.truth.mesh;
-    for (Eigen::Vector3f& vertex : moved.vertices) vertex.array() += way;
-    const GroundTruth truth = ground_truth(moved, c.grid);
-    for (std::size_t v = 0; v < inside.size(); ++v) inside[v] += 0.5f * float(truth.centre[v]);
-  }
-  return inside;
-}
-
 /// Those near the surface, which scores are of, and a few of all others that were looked at, so that a voxel in the
 /// open is right too. No more than tell something of a case.
 std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& evidence) {
