@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/file/counted.hpp"
 #include "core/surface/seen_part.hpp"
 #include "ui/figures/surface_error_figure.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
 
-Image draw(const ScanSurface& surface, const std::string& name, std::size_t views) {
+Image draw(RenderTarget& target, const ScanSurface& surface, const std::string& name, std::size_t views) {
   SurfacePicture picture;
   picture.title = fmt::format("{}: the surface of {}", name, surface.source);
   picture.remark = counted(views, "view");
@@ -20,8 +22,8 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
   picture.openings =
       surface.openings.empty() && !all_seen ? "none: closed by what was not seen" : summary(surface.openings);
   picture.surface = &surface.surface;
-  return surface.surface_error ? draw_surface_error_figure(picture, *surface.surface_error)
-                               : draw_surface_figure(picture);
+  return surface.surface_error ? draw_surface_error_figure(target, picture, *surface.surface_error)
+                               : draw_surface_figure(target, picture);
 }
 
 }  // namespace
@@ -29,13 +31,15 @@ Image draw(const ScanSurface& surface, const std::string& name, std::size_t view
 std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
                                      OutputFolder& out, bool pictures) {
   std::vector<std::string> files = write_surfaces(surfaces, out);
-  if (surfaces.empty()) return "";  // stopped
+  if (surfaces.empty()) return "";        // stopped
+  std::optional<OffscreenTarget> target;  // one for all: what it takes to draw in it is made once
   fmt::print("\n");
   for (const ScanSurface& surface : surfaces) {
     fmt::print("Surface {}.\n", summary(surface));
     if (surface.surface.empty() || !pictures) continue;
     files.push_back(surface.name + ".png");
-    write_png(draw(surface, name, views), out.claim(files.back()));
+    if (!target) target.emplace(1600, 1000);
+    write_png(draw(*target, surface, name, views), out.claim(files.back()));
   }
   const bool unseen = std::any_of(files.begin(), files.end(), [](const auto& f) { return f.ends_with("_unseen.stl"); });
   return fmt::format(

@@ -60,7 +60,7 @@ class Commands : public InTemporaryFolder {
     SCOPED_TRACE(lines);
     const std::size_t before = user.worker().log().told().count;
     for (const CommandCall& call : parse_script(lines)) walked_.insert(call.command->name);
-    user.run(lines);
+    user.run_quickly(lines);
     const auto log = *user.worker().log().entries();
     for (std::size_t i = log.size() - (user.worker().log().told().count - before); i < log.size(); ++i)
       for (const CommandCall& call : parse_script(lines))

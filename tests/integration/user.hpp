@@ -19,12 +19,16 @@ class User {
     wait();
   }
 
-  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is paused. A script that waits
-  /// (command::wait) has its time.
+  /// Looks at frames until nothing new comes and both workers are idle, or a refinement is paused, and all edges are
+  /// smooth. A script that waits (command::wait) has its time.
   void wait() {
+    wait_for_news();
+    while (!interface_.is_drawn_well() || !interface_.is_still()) interface_.draw(frame);
+  }
+  /// Edges may be rough yet: to draw them takes a software renderer longer than most commands.
+  void wait_for_news() {
     constexpr auto pause = std::chrono::milliseconds(2);
-    constexpr double frame = 1.0 / 60;  // [s]
-    while (!interface_.is_still() || !interface_.is_drawn_well() || !interface_.script_is_done()) {
+    while (!interface_.is_still() || !interface_.script_is_done()) {
       const WorkerProgress progress = worker_.progress();
       const bool works = (progress.busy && !progress.paused) || inspector_.busy();
       if (works && interface_.seconds_to_next_frame() > 0.0) {
@@ -56,6 +60,11 @@ class User {
     interface_.run_script(parse_script(script));
     wait();
   }
+  /// Likewise, as somebody does who is in a hurry: with rough edges.
+  void run_quickly(std::string_view script) {
+    interface_.run_script(parse_script(script));
+    wait_for_news();
+  }
   void drop(const std::filesystem::path& file, std::size_t count = 1) { interface_.push(input::Drop{file, count}); }
 
   Image look() { return target_.read_back(); }
@@ -68,6 +77,8 @@ class User {
   SessionWorker& worker() { return worker_; }
 
  private:
+  static constexpr double frame = 1.0 / 60;  // [s]
+
   OffscreenTarget target_;
   SessionWorker worker_;
   InspectionWorker inspector_;

@@ -8,6 +8,7 @@
 #include "tests/render/render_test.hpp"
 #include "ui/figures/calibration_figure.hpp"
 #include "ui/figures/surface_error_figure.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -54,19 +55,23 @@ SurfacePicture picture_of(const ScanSurface& surface) {
 }
 
 TEST(Figures, InspectionOfTheCloudsSurface) {
+  OffscreenTarget page(1600, 1000);
   const ScanSurface& cloud = housing().surfaces.at(1);
   ASSERT_TRUE(cloud.surface_error);
-  expect_screenshot("surface_cloud", draw_surface_error_figure(picture_of(cloud), *cloud.surface_error));
+  expect_screenshot("surface_cloud", draw_surface_error_figure(page, picture_of(cloud), *cloud.surface_error));
 }
 
 TEST(Figures, InspectionOfThePosteriorsSurface) {
+  OffscreenTarget page(1600, 1000);
   const ScanSurface& posterior = housing().surfaces.at(0);
   ASSERT_TRUE(posterior.surface_error);
-  expect_screenshot("surface_posterior", draw_surface_error_figure(picture_of(posterior), *posterior.surface_error));
+  expect_screenshot("surface_posterior",
+                    draw_surface_error_figure(page, picture_of(posterior), *posterior.surface_error));
 }
 
 TEST(Figures, UncertaintyOfTheCloudsSurface) {
-  expect_screenshot("surface_uncertainty", draw_surface_figure(picture_of(housing().surfaces.at(1))));
+  OffscreenTarget page(1600, 1000);
+  expect_screenshot("surface_uncertainty", draw_surface_figure(page, picture_of(housing().surfaces.at(1))));
 }
 
 TEST(Figures, Calibration) {

@@ -10,6 +10,7 @@
 #include "tests/render/render_test.hpp"
 #include "ui/figures/surface_error_figure.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -90,11 +91,12 @@ TEST(SurfaceErrorFigure, RefusesWhatDoesNotBelongTogether) {
   const Surface surface = scanned_torus();
   SurfaceError error;
   error.at_vertices.assign(surface.mesh.vertices.size() - 1, 0.0f);
-  EXPECT_THROW(draw_surface_error_figure(picture_of(surface), error), std::invalid_argument);
-  EXPECT_THROW(draw_surface_figure({}), std::invalid_argument);
+  OffscreenTarget target(160, 100);
+  EXPECT_THROW(draw_surface_error_figure(target, picture_of(surface), error), std::invalid_argument);
+  EXPECT_THROW(draw_surface_figure(target, {}), std::invalid_argument);
   Surface without_marks = surface;
   without_marks.seen.clear();
-  EXPECT_THROW(draw_surface_figure(picture_of(without_marks)), std::invalid_argument);
+  EXPECT_THROW(draw_surface_figure(target, picture_of(without_marks)), std::invalid_argument);
 }
 
 /// Two squares of edge 1 m in the plane z = 0, side by side along x, each of two triangles.
@@ -111,7 +113,9 @@ TEST(SurfaceErrorFigure, DrawsASurfaceThatNobodySaw) {
   Surface surface = two_squares();
   surface.uncertainty.assign(6, 0.01f);
   surface.seen.assign(6, 0);
-  EXPECT_EQ(draw_surface_figure(picture_of(surface), 1200, 800).width, 1200);
+  OffscreenTarget target(1200, 800);
+  EXPECT_EQ(draw_surface_figure(target, picture_of(surface)).width, 1200);
+  EXPECT_EQ(target.height(), 800) << "it is not as it was given";
 }
 
 TEST(UncertaintySpread, IsTakenByArea) {

@@ -43,6 +43,10 @@ vtkStandardNewMacro(Page);
 
 Image draw_page(int width, int height, const std::function<void(vtkContext2D&)>& paint) {
   OffscreenTarget target(width, height);
+  return draw_page(target, paint);
+}
+
+Image draw_page(RenderTarget& target, const std::function<void(vtkContext2D&)>& paint) {
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkContextActor> actor;
   vtkNew<Page> page;

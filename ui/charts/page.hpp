@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ui/drawing/painter.hpp"
-#include "ui/render_target/image.hpp"
+#include "ui/render_target/render_target.hpp"
 
 class vtkContext2D;
 
@@ -26,7 +26,9 @@ inline constexpr double page_margin = 16.0;
 /// What a panel's heading takes off its top [px].
 inline constexpr double heading_height = 40.0;
 
-/// A flat picture, drawn headless (ensure_headless): `paint` draws over a blank page.
+/// A flat picture as large as the target: `paint` draws over a blank page.
+Image draw_page(RenderTarget& target, const std::function<void(vtkContext2D&)>& paint);
+/// The same, drawn headless (ensure_headless).
 Image draw_page(int width, int height, const std::function<void(vtkContext2D&)>& paint);
 
 /// A panel's border, its heading at the left and a remark at the right.

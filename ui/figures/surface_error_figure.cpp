@@ -23,9 +23,10 @@ constexpr double per_mm = 1e3;
 struct SurfaceErrorLayout {
   PageArea large, left, right, chart, numbers;
 
-  SurfaceErrorLayout(const SurfacePicture& picture, double share_of_numbers, int page_width, int page_height) {
+  SurfaceErrorLayout(RenderTarget& target, const SurfacePicture& picture, double share_of_numbers) {
+    const int page_width = target.width(), page_height = target.height();
     double top = page_height;
-    draw_page(page_width, page_height, [&](vtkContext2D& context) {  // what the title needs, only a page can tell
+    draw_page(target, [&](vtkContext2D& context) {  // what the title needs, only a page can tell
       Painter painter(context);
       top -= paint_title(painter, page_width, page_height, picture.title, picture.remark, picture.caption);
     });
@@ -210,34 +211,35 @@ const Surface& surface_of(const SurfacePicture& picture, std::size_t values) {
 
 }  // namespace
 
-Image draw_surface_error_figure(const SurfacePicture& picture, const SurfaceError& error, int width, int height) {
+Image draw_surface_error_figure(RenderTarget& target, const SurfacePicture& picture, const SurfaceError& error) {
   const Surface& surface = surface_of(picture, error.at_vertices.size());
   const std::vector<float> values = in_mm(error.at_vertices);
   const double limit = per_mm * error.histogram.limit;
   const MeshPaint paint{values,   surface.seen, ColourMap::deviation(), -limit, limit, "signed distance", "mm",
                         "inside", "outside"};
-  const SurfaceErrorLayout layout(picture, 0.56, width, height);
-  const SurfaceViews views(surface.mesh, paint, "How far it lies from the true surface", layout.large, layout.left,
-                           layout.right);
-  return draw_page(width, height, [&](vtkContext2D& context) {
+  const SurfaceErrorLayout layout(target, picture, 0.56);
+  const SurfaceViews views(target, surface.mesh, paint, "How far it lies from the true surface", layout.large,
+                           layout.left, layout.right);
+  return draw_page(target, [&](vtkContext2D& context) {
     Painter painter(context);
-    paint_title(painter, width, height, picture.title, picture.remark, picture.caption);
+    paint_title(painter, target.width(), target.height(), picture.title, picture.remark, picture.caption);
     views.paint(context);
     paint_curve_plot(context, layout.chart, distance_plot(error));
     paint_surface_error(painter, layout.numbers, picture, error);
   });
 }
 
-Image draw_surface_figure(const SurfacePicture& picture, int width, int height) {
+Image draw_surface_figure(RenderTarget& target, const SurfacePicture& picture) {
   const Surface& surface = surface_of(picture, picture.surface ? picture.surface->uncertainty.size() : 0);
   const std::vector<float> values = in_mm(surface.uncertainty);
   const UncertaintySpread spread = uncertainty_spread(surface);
   const MeshPaint paint{values, surface.seen, ColourMap::contribution(), 0.0, per_mm * spread.end, "uncertainty", "mm"};
-  const SurfaceErrorLayout layout(picture, 0.4, width, height);
-  const SurfaceViews views(surface.mesh, paint, "How far it may lie off", layout.large, layout.left, layout.right);
-  return draw_page(width, height, [&](vtkContext2D& context) {
+  const SurfaceErrorLayout layout(target, picture, 0.4);
+  const SurfaceViews views(target, surface.mesh, paint, "How far it may lie off", layout.large, layout.left,
+                           layout.right);
+  return draw_page(target, [&](vtkContext2D& context) {
     Painter painter(context);
-    paint_title(painter, width, height, picture.title, picture.remark, picture.caption);
+    paint_title(painter, target.width(), target.height(), picture.title, picture.remark, picture.caption);
     views.paint(context);
     paint_curve_plot(context, layout.chart, uncertainty_plot(spread));
     paint_uncertainty(painter, layout.numbers, picture, spread);

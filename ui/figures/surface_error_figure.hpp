@@ -3,7 +3,7 @@
 
 #include "core/evaluation/surface_error.hpp"
 #include "core/surface/surface.hpp"
-#include "ui/render_target/image.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 
@@ -17,15 +17,14 @@ struct SurfacePicture {
 };
 
 /// A reconstructed surface compared with the true one, as for a paper: painted by its signed distance, from three
-/// sides; how the distances are spread; accuracy, completeness and what else sums it up. Drawn headless
-/// (ensure_headless). Made for 1600 x 1000 pixels.
+/// sides; how the distances are spread; accuracy, completeness and what else sums it up. As large as the target; made
+/// for 1600 x 1000 pixels.
 /// @throws std::invalid_argument if there is no surface or the error is not one of it.
-Image draw_surface_error_figure(const SurfacePicture& picture, const SurfaceError& error, int width = 1600,
-                                int height = 1000);
+Image draw_surface_error_figure(RenderTarget& target, const SurfacePicture& picture, const SurfaceError& error);
 
 /// The same of a surface whose truth nobody knows, by its uncertainty.
 /// @throws std::invalid_argument if there is no surface or there is not for every vertex an uncertainty and a mark
 ///         whether it was seen.
-Image draw_surface_figure(const SurfacePicture& picture, int width = 1600, int height = 1000);
+Image draw_surface_figure(RenderTarget& target, const SurfacePicture& picture);
 
 }  // namespace nextview

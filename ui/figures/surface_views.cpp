@@ -1,8 +1,7 @@
 #include "ui/figures/surface_views.hpp"
 
 #include <vtkContext2D.h>
-
-#include "ui/render_target/offscreen_target.hpp"
+#include <vtkGenericOpenGLRenderWindow.h>
 
 namespace nextview {
 namespace {
@@ -18,9 +17,10 @@ std::vector<Vector3> points_to_frame(const TriangleMesh& mesh) {
   return points;
 }
 
-Image draw(const PageArea& panel, const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading,
-           const ViewDirection& direction, bool legend) {
-  OffscreenTarget target(int(panel.width), int(panel.height));
+Image draw(RenderTarget& target, const PageArea& panel, const TriangleMesh& mesh, const MeshPaint& paint,
+           const std::string& heading, const ViewDirection& direction, bool legend) {
+  const int width = target.width(), height = target.height();
+  target.window().SetSize(int(panel.width), int(panel.height));
   Scene scene;
   scene.attach(target);
   scene.set_caption(heading);
@@ -29,16 +29,19 @@ Image draw(const PageArea& panel, const TriangleMesh& mesh, const MeshPaint& pai
   scene.mesh().show(mesh, paint);
   scene.frame(points_to_frame(mesh), direction);
   target.render();
-  return target.read_back();
+  Image image = target.read_back();
+  target.window().SetSize(width, height);
+  return image;
 }
 
 }  // namespace
 
-SurfaceViews::SurfaceViews(const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading,
-                           const PageArea& large, const PageArea& other_side, const PageArea& below)
-    : views_{View{large, draw(large, mesh, paint, heading, {-50, 24}, true)},
-             View{other_side, draw(other_side, mesh, paint, "From the other side", {130, 24}, false)},
-             View{below, draw(below, mesh, paint, "From below", {-50, -50}, false)}} {}
+SurfaceViews::SurfaceViews(RenderTarget& target, const TriangleMesh& mesh, const MeshPaint& paint,
+                           const std::string& heading, const PageArea& large, const PageArea& other_side,
+                           const PageArea& below)
+    : views_{View{large, draw(target, large, mesh, paint, heading, {-50, 24}, true)},
+             View{other_side, draw(target, other_side, mesh, paint, "From the other side", {130, 24}, false)},
+             View{below, draw(target, below, mesh, paint, "From below", {-50, -50}, false)}} {}
 
 void SurfaceViews::paint(vtkContext2D& context) const {
   Painter painter(context);

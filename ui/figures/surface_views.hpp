@@ -10,9 +10,10 @@ namespace nextview {
 /// begun within another.
 class SurfaceViews {
  public:
-  /// `large` has the heading, the legend and the scale bar.
-  SurfaceViews(const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading, const PageArea& large,
-               const PageArea& other_side, const PageArea& below);
+  /// `large` has the heading, the legend and the scale bar. Each is drawn in the target, which is as large as it was
+  /// afterwards.
+  SurfaceViews(RenderTarget& target, const TriangleMesh& mesh, const MeshPaint& paint, const std::string& heading,
+               const PageArea& large, const PageArea& other_side, const PageArea& below);
 
   void paint(vtkContext2D& context) const;
 
