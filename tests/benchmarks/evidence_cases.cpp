@@ -127,10 +127,18 @@ std::vector<float> centres_inside(const EvidenceCase& c) {
   return inside;
 }
 
-void leave_out_undecided_centres(EvidenceCase& c) {
+double leave_out_undecided_centres(EvidenceCase& c) {
   const std::vector<float> inside = centres_inside(c);
-  for (std::size_t v = 0; v < inside.size(); ++v)
-    if (inside[v] == 0.5f) c.truth.visited[v] = 0;
+  const GroundTruth& truth = c.truth.voxels;
+  double near = 0, undecided = 0;
+  for (std::size_t v = 0; v < inside.size(); ++v) {
+    if (!c.truth.visited[v] || !truth.near_surface[v] || truth.hidden(v)) continue;
+    ++near;
+    if (inside[v] != 0.5f) continue;
+    ++undecided;
+    c.truth.visited[v] = 0;
+  }
+  return undecided / near;
 }
 
 std::vector<FittingPart> fitting_parts() {

@@ -53,8 +53,8 @@ EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const E
 /// Whether voxels' centres are inside; a half where a face goes right through one: on which side that is, rounding
 /// alone tells, and of another part it tells otherwise.
 std::vector<float> centres_inside(const EvidenceCase& c);
-/// Of those, nothing is scored any more, by either truth.
-void leave_out_undecided_centres(EvidenceCase& c);
+/// Of those, nothing is scored any more, by either truth. Returns their share of the voxels near the surface.
+double leave_out_undecided_centres(EvidenceCase& c);
 
 /// Made-up parts: everything that is fitted is fitted to these.
 struct FittingPart {

@@ -161,7 +161,9 @@ void compare(const Options& options) {
       for (const EvidencePose pose : options.poses)
         for (const std::string& object : options.objects) {
           EvidenceCase c = evidence_case(object, pose, sensor, views);
-          if (options.decided) leave_out_undecided_centres(c);
+          if (options.decided)
+            fmt::print("# {}: {:.1f} % of the voxels near the surface are left out\n", object,
+                       1e2 * leave_out_undecided_centres(c));
           Comparison(c, all[fmt::format("{}, {} views, {}", sensor.name, views, name_of(pose))]).run(options.before);
         }
   }

@@ -168,7 +168,8 @@ TEST_F(Commands, EachIsDoneByAScript) {
        "text-size bigger\nhide-panels\nhide-panels\ntext-size usual\nfull-screen\nfull-screen\n"
        "file-dialog export\nfile-dialog\nguide\nguide\n");
   walk(user,
-       "caption \"Why? {reason}\" 1\ntitle Title Subtitle 1\nhighlight view 1\norbit 10 0.2 5\nfly-to 20 30 0.2 1.2\n"
+       "caption \"Why? {reason}\" 0.1\ntitle Title Subtitle 0.1\nhighlight view 0.1\norbit 10 0.1 5\nfly-to 20 30 0.1 "
+       "1.2\n"
        "wait 0.1\nwait until done\nassert views >= 1\ncaption \"\"\n");
   walk(user, "record " + path("a recording.nextview") + "\nmanual\nmanual planning\nmanual\nrecord-stop\n");
   walk(user, "reset\nspeed 0\nplay\npause\n");
@@ -211,14 +212,14 @@ TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
 TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
   const std::string script = '"' + file("script.txt").string() + '"';
   User first(coarse_scan(), width, height, scale);
-  first.run(
+  first.run_quickly(
       "step\nstep\nselect-view 3\nzoom 1\nzoom 1\nslice-axis x\nslice-at 0.1 0.2\nslice-at 0.05\n"
       "set planner.combined_weights \"\"\nstep\ncustom-view 0.6 -0.6 0.5 0 0 0\ntake-custom-view\nstep\nundo\nstep\n"
       "inspect-ray 3\ninspect-voxel 0 0 0\nsave-script " +
       script + "\n");
   const std::string saved = read_file(file("script.txt"));
   User second(coarse_scan(), width, height, scale);
-  second.run(saved);
+  second.run_quickly(saved);
   expect_valid(second.session());
   ASSERT_EQ(second.session().records.size(), first.session().records.size());
   for (std::size_t k = 0; k < first.session().records.size(); ++k) {

@@ -59,7 +59,7 @@ class Comparison : public ::testing::Test {
   }
   std::size_t pixels() { return std::size_t(user_.target().width()) * std::size_t(user_.target().height()); }
 
-  User user_{small_scan()};
+  User user_{small_scan(), 960, 600, 0.75};  // each pixel is drawn twice
   const Layout layout_ = user_.window().layout();
   int drawn_partly_ = 0;
 };
@@ -82,7 +82,7 @@ TEST_F(Comparison, StepsAndPanels) {
 TEST_F(Comparison, PointerOverEverything) {
   user_.type(key('S'));
   user_.wait();
-  for (int i = 0; i <= 40; ++i) hover(1279 * i / 40.0, 12 + 780 * (i * 7 % 41) / 40.0);
+  for (int i = 0; i <= 40; ++i) hover(959 * i / 40.0, 9 + 585 * (i * 7 % 41) / 40.0);
   for (const Rectangle& r : {layout_.left, layout_.right, layout_.bottom, layout_.scene}) {
     hover(r.x + r.width / 2, r.y + r.height / 2);
     for (const double steps : {-1, -1, 1, 1}) {
@@ -91,13 +91,13 @@ TEST_F(Comparison, PointerOverEverything) {
     }
     look("after scrolling", 8);
   }
-  hover(50, layout_.control_bar.y + 25);
+  hover(38, layout_.control_bar.y + 19);
   look("a tooltip", 36);  // it comes after 27
-  for (double x = 10; x < 300; x += 40) {
-    user_.click(x, 12);
+  for (double x = 8; x < 225; x += 30) {
+    user_.click(x, 9);
     look("a menu", 5);
-    hover(x + 20, 60);
-    hover(x + 20, 90);
+    hover(x + 15, 45);
+    hover(x + 15, 68);
     user_.type(Key::escape);
     look("a menu is closed", 3);
   }
@@ -116,7 +116,7 @@ TEST_F(Comparison, TurningAndResizing) {
   user_.release();
   look("the camera comes to rest", 20);
   EXPECT_GT(drawn_partly_, 10);
-  for (const auto& [width, height] : {std::pair{1200, 720}, {1240, 760}, {1280, 800}}) {
+  for (const auto& [width, height] : {std::pair{900, 540}, {930, 570}, {960, 600}}) {
     user_.target().window().SetSize(width, height);
     look("another size", 4);
   }
@@ -127,8 +127,8 @@ TEST_F(Comparison, DrawsOnlyWhatIsNew) {
   user_.wait();
   EXPECT_FALSE(user_.window().draw(frame)) << "nothing happened";
   const Rectangle& panel = layout_.right;
-  hover(panel.x + 100, panel.y + 190);
-  user_.move(panel.x + 100, panel.y + 190 + 42);
+  hover(panel.x + 75, panel.y + 142);
+  user_.move(panel.x + 75, panel.y + 142 + 32);
   EXPECT_TRUE(user_.window().draw(frame));
   EXPECT_LT(user_.window().pixels_drawn(), pixels() / 2) << "another row is lit";
   user_.wait();

@@ -87,10 +87,10 @@ TEST(PanelPictures, CurvesOfSeveralRuns) {
   c.termination.views = 6;
   c.termination.surface_left = 0.0;
   User user(c);
-  user.run("play\n");
-  user.run("set planner.gain average-entropy\nreset\n");
-  user.run("play\n");
-  user.run("set planner.gain random\nreset\n");
+  user.run_quickly("play\n");
+  user.run_quickly("set planner.gain occlusion-aware\nreset\n");
+  user.run_quickly("play\n");
+  user.run_quickly("set planner.gain random\nreset\n");
   user.run("play\ncurves coverage gain\ncloud-colour distance\ntoggle-octree\n");
   user.run("wait until done\nwait 13\n");  // notices go, warnings last
   expect_screenshot("panel_curves", user.look(), bound());

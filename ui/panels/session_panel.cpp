@@ -130,10 +130,10 @@ void SessionPanel::draw_sensor(const PanelContext& context, const Setting& setti
   tooltip(setting_help(setting));
 }
 
-void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group) {
+void SessionPanel::draw_group(const PanelContext& context, const std::string& group) {
   ImGui::PushFont(context.style.small);
   ImGui::PushID(group.c_str());  // some stand above the groups, too
-  for (Setting& setting : settings) {
+  for (Setting& setting : settings_) {
     if (!setting.key.starts_with(group + ".")) continue;
     const bool shows_unit = setting.unit == "m" && std::holds_alternative<double*>(setting.value);
     const std::string unit = setting.unit.empty() || shows_unit ? "" : " [" + setting.unit + "]";
@@ -151,21 +151,25 @@ void SessionPanel::draw_group(const PanelContext& context, std::vector<Setting>&
   ImGui::PopFont();
 }
 
+/// What takes longer than to draw it is made once.
+void SessionPanel::take(const SessionSnapshot& snapshot) {
+  seen_ = &snapshot;
+  edited_ = snapshot.configuration;
+  settings_ = settings(edited_);
+  if (snapshot.mesh && snapshot.mesh != mesh_) size_ = size_text(*snapshot.mesh);
+  mesh_ = snapshot.mesh;
+  if (!defaults_.empty()) return;
+  Configuration configuration;
+  for (const Setting& setting : settings(configuration)) defaults_[setting.key] = setting.text();
+}
+
 void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle) {
   const Panel panel("Session", rectangle, 0, context.style.px(left_panel_width));
-  if (seen_ != &context.snapshot && !ImGui::IsAnyItemActive()) {
-    seen_ = &context.snapshot;
-    edited_ = context.snapshot.configuration;
-  }
-  if (defaults_.empty()) {
-    Configuration configuration;
-    for (const Setting& setting : settings(configuration)) defaults_[setting.key] = setting.text();
-  }
-  std::vector<Setting> settings = nextview::settings(edited_);
-  draw_setting(context, find_setting(settings, "object.file"), "Object");  // also when there is none yet
-  if (const auto& mesh = context.snapshot.mesh) {
+  if (!seen_ || (seen_ != &context.snapshot && !ImGui::IsAnyItemActive())) take(context.snapshot);
+  draw_setting(context, find_setting(settings_, "object.file"), "Object");  // also when there is none yet
+  if (mesh_) {
     const std::string& unit = context.snapshot.guessed_unit;
-    small_text(context.style, size_text(*mesh) + (unit.empty() ? "" : "; unit guessed: " + unit));
+    small_text(context.style, size_ + (unit.empty() ? "" : "; unit guessed: " + unit));
     if (!unit.empty()) tooltip("The file does not say its unit; Object › unit sets it.");
   }
   ImGui::BeginDisabled(!context.snapshot.loaded());
@@ -175,7 +179,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
                                   {"Voxel", "map.resolution"},
                                   {"Views", "termination.views"},
                                   {"Seed", "seed"}})
-    draw_setting(context, find_setting(settings, key), text);
+    draw_setting(context, find_setting(settings_, key), text);
   small_text(context.style, "Gain, Semantics, Views keep the scan.");
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, to_imgui(theme::paper));
@@ -186,7 +190,7 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {spacing.x, is_low ? context.style.px(2) : spacing.y});
   for (const auto& [group, title] : groups)
-    if (concerns(group, context.snapshot) && ImGui::CollapsingHeader(title)) draw_group(context, settings, group);
+    if (concerns(group, context.snapshot) && ImGui::CollapsingHeader(title)) draw_group(context, group);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor(3);
   ImGui::Spacing();

@@ -1,6 +1,8 @@
 #pragma once
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "ui/panels/panel.hpp"
 #include "ui/panels/panel_table.hpp"
@@ -19,9 +21,13 @@ class SessionPanel : public PanelContent {
   void draw_object(const PanelContext& context, Setting& setting);
   const std::string& default_of(const std::string& key) const;
   void draw_sensor(const PanelContext& context, const Setting& setting);
-  void draw_group(const PanelContext& context, std::vector<Setting>& settings, const std::string& group);
+  void draw_group(const PanelContext& context, const std::string& group);
+  void take(const SessionSnapshot& snapshot);
 
   Configuration edited_;
+  std::vector<Setting> settings_;  ///< of `edited_`
+  std::shared_ptr<const TriangleMesh> mesh_;
+  std::string size_;  ///< of `mesh_`, for people
   TypedSetting typed_;
   const SessionSnapshot* seen_ = nullptr;        ///< that `edited_` was taken from
   std::map<std::string, std::string> defaults_;  ///< of each setting by its key, as text
