@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/gain/ray.hpp"
+#include "core/gain/map_rays.hpp"
 
 namespace nextview {
 
@@ -16,10 +16,9 @@ struct ExpectedView {
   std::vector<std::uint8_t> unknown;  ///< 1: the ray crossed unmeasured voxels on its way
 };
 
-/// Casts the rays of a view in parallel. A ray is stopped by the last voxel that the caster has it visit, if that is
-/// measured and has p >= `occupancy_threshold`; `resolution` [m] is the voxel edge of the caster's map. Of a camera
-/// that stands inside of the voxel the depth is 0. @throws std::invalid_argument unless columns and rows are over 0.
-ExpectedView expected_view(const RayCaster& caster, const Pose& T_world_camera, const PinholeCamera& camera,
-                           int columns, int rows, double resolution, double occupancy_threshold);
+/// Casts the rays of a view in parallel. Of a camera that stands inside of the voxel that stops a ray the depth is 0.
+/// @throws std::invalid_argument unless columns and rows are over 0.
+ExpectedView expected_view(const MapRays& rays, const Pose& T_world_camera, const PinholeCamera& camera, int columns,
+                           int rows);
 
 }  // namespace nextview

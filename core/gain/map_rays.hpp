@@ -7,18 +7,27 @@
 
 namespace nextview {
 
+/// How a ray ends.
+struct RayEnd {
+  double range = -1.0;  ///< at which it enters the voxel that stops it [m]; negative: nothing does
+  bool crosses_unmeasured = false;
+};
+
 /// Rays through a map, clipped to its region of interest (published semantics). It has its own copy of the voxels.
 class MapRays : public RayCaster {
  public:
   MapRays(const VoxelGrid& grid, VoxelBricks voxels, double occupancy_threshold, double max_range);
   void cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const override;
   std::optional<WorthOfMap> worth_of_map(const Gain& gain, double occlusion_reach) const override;
+  /// Of the same ray, without all that gains ask of the voxels on it.
+  RayEnd end(const Vector3& origin, const Vector3& direction) const;
 
  private:
   VoxelGrid grid_;
   VoxelBricks voxels_;
   double occupancy_threshold_;
   double max_range_;
+  float surely_free_;  ///< log-odds below which no voxel of an occupancy map stops a ray
 };
 
 /// The map of the reference semantics: a real pruning octree, whose quirks are part of the numbers, with its rays.

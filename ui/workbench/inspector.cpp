@@ -47,8 +47,7 @@ ViewInspection Inspector::inspect_view(const SessionSnapshot& s, const Selection
   const int rows = std::max(1, expected_columns * s.camera.height / s.camera.width);
   const double threshold = s.configuration.map.model.occupancy_threshold;
   const MapRays rays(s.grid, s.state.known.planning_voxels(), threshold, s.configuration.planner.ray_length);
-  view.expected =
-      expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows, s.grid.resolution, threshold);
+  view.expected = expected_view(rays, view.T_world_camera, s.camera, expected_columns, rows);
   if (selection.view.kind == ViewSelection::Kind::taken) {
     view.measured = measured_depth(*s.scans.at(selection.view.index), view.T_world_camera, s.camera,
                                    view.expected.columns, view.expected.rows)

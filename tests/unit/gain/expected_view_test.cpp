@@ -41,7 +41,7 @@ TEST(ExpectedView, SeesABoxWhereItsFacesAre) {
   std::size_t met = 0, missed = 0;
   for (int view = 0; view < 30; ++view) {
     const Pose pose = look_at(0.9 * random_scans::direction(random), random_scans::point_in_box(random, 0.1));
-    const ExpectedView seen = expected_view(rays, pose, camera, 45, 30, around_origin.resolution, undecided);
+    const ExpectedView seen = expected_view(rays, pose, camera, 45, 30);
     ASSERT_EQ(seen.columns, 45);
     ASSERT_EQ(seen.rows, 30);
     ASSERT_EQ(seen.depth.size(), 45u * 30u);
@@ -68,8 +68,8 @@ TEST(ExpectedView, ADepthIsAlongTheOpticalAxis) {
   for (std::uint32_t v = 0; v < voxels.size(); ++v)
     if (around_origin.cell(v).x() == 0) voxels[v] = known(0.97);  // the wall at x = -0.4 .. -0.35
   const Pose pose = look_at(Vector3(0.3, 0.0, 0.0), Vector3::Zero());
-  const ExpectedView seen = expected_view(MapRays(around_origin, {around_origin.size, voxels}, undecided, 3.0), pose,
-                                          camera, 9, 6, 0.05, undecided);
+  const ExpectedView seen =
+      expected_view(MapRays(around_origin, {around_origin.size, voxels}, undecided, 3.0), pose, camera, 9, 6);
   for (const float depth : seen.depth) EXPECT_NEAR(depth, 0.65, 1e-6) << "a wall across the view has one depth";
 }
 
@@ -87,7 +87,7 @@ TEST(ExpectedView, AgreesWithTheSlabTestOfAllVoxels) {
     const Pose pose = look_at(view % 3 == 0 ? random_scans::point_in_box(random, 0.3)  // inside the region
                                             : Vector3(0.8 * random_scans::direction(random)),
                               random_scans::point_in_box(random, 0.3));
-    const ExpectedView seen = expected_view(rays, pose, camera, 12, 8, around_origin.resolution, undecided);
+    const ExpectedView seen = expected_view(rays, pose, camera, 12, 8);
     for (std::size_t i = 0; i < seen.depth.size(); ++i) {
       const Vector3 origin = pose.translation(), along = direction(pose, 12, 8, i);
       double stop = 0.9;
@@ -117,15 +117,13 @@ TEST(ExpectedView, AgreesWithTheSlabTestOfAllVoxels) {
 TEST(ExpectedView, AnEmptyMapShowsNothingAndAllOfItUnknown) {
   const std::vector<Voxel> voxels(around_origin.voxel_count());
   const MapRays rays(around_origin, {around_origin.size, voxels}, undecided, 3.0);
-  const ExpectedView towards =
-      expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3::Zero()), camera, 3, 3, 0.05, undecided);
-  const ExpectedView away =
-      expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3(2, 0, 0)), camera, 3, 3, 0.05, undecided);
+  const ExpectedView towards = expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3::Zero()), camera, 3, 3);
+  const ExpectedView away = expected_view(rays, look_at(Vector3(0.9, 0, 0), Vector3(2, 0, 0)), camera, 3, 3);
   EXPECT_TRUE(std::ranges::all_of(towards.depth, [](float d) { return d < 0.0f; }));
   EXPECT_TRUE(std::ranges::all_of(away.depth, [](float d) { return d < 0.0f; }));
   EXPECT_TRUE(std::ranges::all_of(towards.unknown, [](auto u) { return u == 1; }));
   EXPECT_TRUE(std::ranges::all_of(away.unknown, [](auto u) { return u == 0; })) << "these rays miss the region";
-  EXPECT_THROW(expected_view(rays, Pose::Identity(), camera, 0, 3, 0.05, undecided), std::invalid_argument);
+  EXPECT_THROW(expected_view(rays, Pose::Identity(), camera, 0, 3), std::invalid_argument);
 }
 
 TEST(ExpectedView, TheSameOnOneThreadAndTwo) {
@@ -135,7 +133,7 @@ TEST(ExpectedView, TheSameOnOneThreadAndTwo) {
   const MapRays rays(around_origin, {around_origin.size, voxels}, undecided, 3.0);
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return expected_view(rays, look_at(Vector3(0.7, 0.5, 0.3), Vector3::Zero()), camera, 80, 60, 0.05, undecided);
+    return expected_view(rays, look_at(Vector3(0.7, 0.5, 0.3), Vector3::Zero()), camera, 80, 60);
   };
   const ExpectedView one = run(1), two = run(2);
   EXPECT_EQ(one.depth, two.depth);
