@@ -16,9 +16,9 @@
 namespace nextview {
 namespace {
 
-// The window of 1280 x 800 at half its size: a software renderer takes its time for each pixel.
-constexpr int width = 640, height = 400;
-constexpr double scale = 0.5;
+// The window of 1280 x 800 at three eighths of its size: a software renderer takes its time for each pixel.
+constexpr int width = 480, height = 300;
+constexpr double scale = 0.375;
 
 /// Likewise.
 Configuration coarse_scan() {

@@ -65,6 +65,9 @@ Posterior::Posterior(const VoxelGrid& grid, const RangeMeasurements& measurement
                      double prior)
     : voxel_count_(grid.voxel_count()), model_(model), prior_(prior), max_range_(measurements.max_range) {
   for (const RangeMeasurement& ray : measurements.rays) rays_.push_back(make_ray(grid, measurements, ray));
+  rays_through_.resize(voxel_count_);
+  for (std::size_t r = 0; r < rays_.size(); ++r)
+    for (const Step& step : rays_[r].steps) rays_through_[step.voxel].push_back(r);
 }
 
 Ray Posterior::make_ray(const VoxelGrid& grid, const RangeMeasurements& measurements,
@@ -134,9 +137,8 @@ std::vector<double> Posterior::log_conditional(const Levels& map, std::uint32_t 
   for (int level = 0; level < levels(); ++level) {
     changed[voxel] = static_cast<std::uint8_t>(level);
     double sum = log_prior(level);
-    for (const Ray& ray : rays_)
-      if (std::any_of(ray.steps.begin(), ray.steps.end(), [&](const Step& step) { return step.voxel == voxel; }))
-        sum += ray.weight * model_.independence * log_likelihood(ray, changed);
+    for (const std::size_t r : rays_through_[voxel])
+      sum += rays_[r].weight * model_.independence * log_likelihood(rays_[r], changed);
     result.push_back(sum);
   }
   return result;

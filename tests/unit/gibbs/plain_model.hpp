@@ -61,6 +61,7 @@ class Posterior {
   ForwardSensorModel model_;
   double prior_, max_range_;
   std::vector<Ray> rays_;
+  std::vector<std::vector<std::size_t>> rays_through_;  ///< each voxel
 };
 
 /// What is known of each voxel.
