@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "core/gibbs/independence.hpp"
@@ -14,17 +15,22 @@ namespace {
 
 using Levels = std::vector<std::uint8_t>;  // one entry a voxel of the grid
 
-/// What one ray says, of every combination of the levels of the voxels on it: few, where the ray crosses few voxels.
-/// Combinations are numbered in base `levels`, the first voxel of the ray lowest.
-struct RayTable {
+struct Ray {
   std::vector<VoxelSegment> segments;
-  double weight = 0.0;                 ///< rays that it stands for
-  std::vector<double> log_likelihood;  ///< of each combination; weight and independence counted
+  double weight = 0.0;  ///< measured rays that it stands for
+};
+
+/// What the rays through the same voxels say, of every combination of these voxels' levels: few, where they are few.
+/// Combinations are numbered in base `levels`, the first voxel lowest.
+struct RayTable {
+  std::vector<Ray> rays;
+  std::vector<double> log_likelihood;  ///< of each combination, all rays together; weight and independence counted
   std::vector<double> share;           ///< P(combination | z), once maps are enumerated
 
+  const std::vector<VoxelSegment>& voxels() const { return rays.front().segments; }
   std::size_t combination(const Levels& map, std::size_t levels) const {
     std::size_t number = 0;
-    for (std::size_t k = segments.size(); k-- > 0;) number = number * levels + map[segments[k].voxel];
+    for (std::size_t k = voxels().size(); k-- > 0;) number = number * levels + map[voxels()[k].voxel];
     return number;
   }
 };
@@ -41,14 +47,12 @@ class Enumeration {
         log_prior_(levels_, std::log(prior / double(levels_ - 1))),
         ending_(grid.voxel_count()) {
     log_prior_[0] = std::log1p(-prior);
-    for (const RangeMeasurement& ray : measurements.rays) tables_.push_back(table_of(measurements, ray));
-    for (RayTable& table : tables_) {
-      if (table.segments.empty()) {
-        log_of_no_voxel_ += table.log_likelihood.front();
-        continue;
-      }
-      const auto last = std::ranges::max(table.segments, {}, &VoxelSegment::voxel).voxel;
-      ending_[last].push_back(&table);
+    for (const RangeMeasurement& ray : measurements.rays) tabulate(measurements, ray);
+    for (auto& [voxels, table] : tables_) {
+      if (voxels.empty())
+        log_of_no_voxel_ = table.log_likelihood.front();
+      else
+        ending_[std::ranges::max(voxels)].push_back(&table);
     }
   }
 
@@ -59,25 +63,29 @@ class Enumeration {
     const double evidence = add_below(0, log_of_no_voxel_, result);
     for (double& sum : result.occupied) sum /= evidence;
     for (double& sum : result.upper) sum /= evidence;
-    for (RayTable& table : tables_) add_reach(table, evidence, result.reach);
+    for (const auto& [voxels, table] : tables_)
+      for (const Ray& ray : table.rays) add_reach(ray, table.share, evidence, result.reach);
     result.log_evidence = largest_ + std::log(evidence);
     return result;
   }
 
  private:
-  RayTable table_of(const RangeMeasurements& measurements, const RangeMeasurement& ray) const {
-    RayTable table{ray_segments(grid_, measurements, ray, model_), double(ray.weight), {}, {}};
-    Levels map(map_.size());
+  void tabulate(const RangeMeasurements& measurements, const RangeMeasurement& measured) {
+    const Ray ray{ray_segments(grid_, measurements, measured, model_), double(measured.weight)};
+    std::vector<std::uint32_t> voxels;
     std::size_t combinations = 1;
-    for (std::size_t k = 0; k < table.segments.size(); ++k) combinations *= levels_;
+    for (const VoxelSegment& s : ray.segments) voxels.push_back(s.voxel), combinations *= levels_;
+    RayTable& table = tables_[voxels];
+    table.log_likelihood.resize(combinations);
+    table.share.resize(combinations);
+    table.rays.push_back(ray);
+    Levels map(map_.size());
     for (std::size_t number = 0; number < combinations; ++number) {
       std::size_t rest = number;
-      for (const VoxelSegment& s : table.segments) map[s.voxel] = std::uint8_t(rest % levels_), rest /= levels_;
-      table.log_likelihood.push_back(ray.weight * model_.independence *
-                                     log_likelihood(grid_, model_, measurements, ray, table.segments, map));
+      for (const std::uint32_t voxel : voxels) map[voxel] = std::uint8_t(rest % levels_), rest /= levels_;
+      table.log_likelihood[number] +=
+          ray.weight * model_.independence * log_likelihood(grid_, model_, measurements, measured, ray.segments, map);
     }
-    table.share.resize(combinations);
-    return table;
   }
 
   /// What giving the voxel its level adds to the log of the joint probability.
@@ -106,7 +114,6 @@ class Enumeration {
     for (std::size_t level = 0; level < levels_; ++level) {
       map_[voxel] = std::uint8_t(level);
       const double of_level = add_below(voxel + 1, log_joint + log_term(voxel), sums);
-      map_[voxel] = std::uint8_t(level);
       for (RayTable* table : ending_[voxel]) table->share[table->combination(map_, levels_)] += of_level;
       if (level > 0) sums.occupied[voxel] += of_level;
       if (level == levels_ - 1) sums.upper[voxel] += of_level;
@@ -116,12 +123,11 @@ class Enumeration {
   }
 
   /// How many of a measured ray reach each voxel on it.
-  void add_reach(const RayTable& table, double evidence, std::vector<double>& reach) const {
-    if (table.segments.empty()) return;
-    for (std::size_t number = 0; number < table.share.size(); ++number) {
-      double survival = table.share[number] / evidence * table.weight;
+  void add_reach(const Ray& ray, const std::vector<double>& share, double evidence, std::vector<double>& reach) const {
+    for (std::size_t number = 0; number < share.size(); ++number) {
+      double survival = share[number] / evidence * ray.weight;
       std::size_t rest = number;
-      for (const VoxelSegment& s : table.segments) {
+      for (const VoxelSegment& s : ray.segments) {
         reach[s.voxel] += survival;
         survival *= model_.transmission(int(rest % levels_), (s.exit - s.enter) / grid_.resolution);
         rest /= levels_;
@@ -133,10 +139,10 @@ class Enumeration {
   const ForwardSensorModel& model_;
   std::size_t levels_;
   Levels map_;
-  std::vector<double> log_prior_;  // of a voxel, by its level
-  std::vector<RayTable> tables_;
-  std::vector<std::vector<RayTable*>> ending_;  // by voxel: rays whose voxels have no higher number
-  double log_of_no_voxel_ = 0.0;                // rays that pass the grid by
+  std::vector<double> log_prior_;                          // of a voxel, by its level
+  std::map<std::vector<std::uint32_t>, RayTable> tables_;  // by the rays' voxels, in the rays' order
+  std::vector<std::vector<RayTable*>> ending_;             // by voxel: those whose voxels have no higher number
+  double log_of_no_voxel_ = 0.0;                           // of rays that pass the grid by
   double largest_ = 0.0;
 };
 
