@@ -31,8 +31,9 @@ Image draw(RenderTarget& target, const ScanSurface& surface, const std::string& 
 std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
                                      OutputFolder& out, bool pictures) {
   std::vector<std::string> files = write_surfaces(surfaces, out);
-  if (surfaces.empty()) return "";        // stopped
-  std::optional<OffscreenTarget> target;  // one for all: what it takes to draw in it is made once
+  if (surfaces.empty()) return "";  // stopped
+  // One for all: what it takes to draw in it is made once.
+  std::optional<OffscreenTarget> target;
   fmt::print("\n");
   for (const ScanSurface& surface : surfaces) {
     fmt::print("Surface {}.\n", summary(surface));

@@ -1,7 +1,6 @@
 #include "core/gain/map_rays.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/gain/state_field.hpp"
 #include "core/map/traversal.hpp"
@@ -14,7 +13,7 @@ MapRays::MapRays(const VoxelGrid& grid, VoxelBricks voxels, double occupancy_thr
       occupancy_threshold_(occupancy_threshold),
       max_range_(max_range),
       // Less by a margin for the rounding of probabilities, which near 1 are all the same.
-      surely_free_(float(std::min(std::log(occupancy_threshold / (1.0 - occupancy_threshold)), 10.0) - 1e-3)) {}
+      surely_free_(float(std::min(log_odds(occupancy_threshold), 10.0) - 1e-3)) {}
 
 void MapRays::cast(const Vector3& origin, const Vector3& direction, std::vector<RayVoxel>& visited) const {
   // Room for the longest ray through the grid, so that the loop writes through a bare pointer.

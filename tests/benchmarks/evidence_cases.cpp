@@ -115,6 +115,14 @@ EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const E
   return result;
 }
 
+std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
+  const GroundTruth& truth = c.truth.voxels;
+  std::vector<std::uint8_t> mask(truth.touch.size());
+  for (std::size_t v = 0; v < mask.size(); ++v)
+    mask[v] = c.truth.visited[v] && truth.near_surface[v] && !truth.hidden(v);
+  return mask;
+}
+
 std::vector<float> centres_inside(const EvidenceCase& c) {
   constexpr float nudge = 1e-5f;  // [m]
   std::vector<float> inside(c.grid.voxel_count());
@@ -129,16 +137,16 @@ std::vector<float> centres_inside(const EvidenceCase& c) {
 
 double leave_out_undecided_centres(EvidenceCase& c) {
   const std::vector<float> inside = centres_inside(c);
-  const GroundTruth& truth = c.truth.voxels;
-  double near = 0, undecided = 0;
-  for (std::size_t v = 0; v < inside.size(); ++v) {
-    if (!c.truth.visited[v] || !truth.near_surface[v] || truth.hidden(v)) continue;
-    ++near;
+  const std::vector<std::uint8_t> scored = scored_voxels(c);
+  double all = 0.0, undecided = 0.0;
+  for (std::size_t v = 0; v < scored.size(); ++v) {
+    if (!scored[v]) continue;
+    ++all;
     if (inside[v] != 0.5f) continue;
     ++undecided;
     c.truth.visited[v] = 0;
   }
-  return undecided / near;
+  return undecided / all;
 }
 
 std::vector<FittingPart> fitting_parts() {

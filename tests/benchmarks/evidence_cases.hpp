@@ -50,10 +50,12 @@ struct EvidenceCase {
 /// Fibonacci sphere of 0.9 m. @throws std::runtime_error if there is no such object
 EvidenceCase evidence_case(const std::string& object, EvidencePose pose, const EvidenceSensor& sensor, int views);
 
+/// The voxels that scores near the surface are of, a mark each.
+std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c);
 /// Whether voxels' centres are inside; a half where a face goes right through one: on which side that is, rounding
 /// alone tells, and of another part it tells otherwise.
 std::vector<float> centres_inside(const EvidenceCase& c);
-/// Of those, nothing is scored any more, by either truth. Returns their share of the voxels near the surface.
+/// Of those of a half, nothing near the surface is scored any more, by either truth. Returns their share of it.
 double leave_out_undecided_centres(EvidenceCase& c);
 
 /// Made-up parts: everything that is fitted is fitted to these.

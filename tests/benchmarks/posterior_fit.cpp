@@ -29,15 +29,6 @@ GibbsPosterior posterior_of(const EvidenceCase& c) {
   return sample_posterior(c.grid, measurements_of(c.scans), sampler_of(c), octomap_of(c));
 }
 
-/// The voxels that scores near the surface are of.
-std::vector<std::uint8_t> scored_voxels(const EvidenceCase& c) {
-  const GroundTruth& truth = c.truth.voxels;
-  std::vector<std::uint8_t> mask(truth.touch.size());
-  for (std::size_t v = 0; v < mask.size(); ++v)
-    mask[v] = c.truth.visited[v] && truth.near_surface[v] && !truth.hidden(v);
-  return mask;
-}
-
 /// Those near the surface, which scores are of, and a few of all others that were looked at, so that a voxel in the
 /// open is right too. No more than tell something of a case.
 std::array<ReadOutSamples, 2> samples_of(const EvidenceCase& c, const Evidence& evidence) {

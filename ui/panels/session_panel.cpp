@@ -156,8 +156,6 @@ void SessionPanel::take(const SessionSnapshot& snapshot) {
   seen_ = &snapshot;
   edited_ = snapshot.configuration;
   settings_ = settings(edited_);
-  if (snapshot.mesh && snapshot.mesh != mesh_) size_ = size_text(*snapshot.mesh);
-  mesh_ = snapshot.mesh;
   if (!defaults_.empty()) return;
   Configuration configuration;
   for (const Setting& setting : settings(configuration)) defaults_[setting.key] = setting.text();
@@ -167,7 +165,8 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   const Panel panel("Session", rectangle, 0, context.style.px(left_panel_width));
   if (!seen_ || (seen_ != &context.snapshot && !ImGui::IsAnyItemActive())) take(context.snapshot);
   draw_setting(context, find_setting(settings_, "object.file"), "Object");  // also when there is none yet
-  if (mesh_) {
+  if (const auto& mesh = context.snapshot.mesh) {
+    if (mesh != mesh_) mesh_ = mesh, size_ = size_text(*mesh);
     const std::string& unit = context.snapshot.guessed_unit;
     small_text(context.style, size_ + (unit.empty() ? "" : "; unit guessed: " + unit));
     if (!unit.empty()) tooltip("The file does not say its unit; Object › unit sets it.");
