@@ -30,9 +30,10 @@ std::string unit_text(const PlacedMesh& object, double longest) {
 }
 
 std::string object_text(const Session& session) {
-  const double longest = session.mesh()->bounding_box().sizes().maxCoeff();
+  const Eigen::AlignedBox3d box = session.mesh()->bounding_box();
+  const double longest = box.sizes().maxCoeff();
   std::string text = fmt::format("{}: {}{}; {}\n{}\n", printable(session.object_file().filename().string()),
-                                 size_text(*session.mesh()), unit_text(session.object(), longest),
+                                 size_text(box), unit_text(session.object(), longest),
                                  session.object_topology().summary(), lengths_text(session.configuration()));
   if (const std::string moved = centring_text(session.object().placement, longest); !moved.empty())
     text += fmt::format("  {}, in what is written, too; object.centred false keeps the file's\n", moved);

@@ -166,8 +166,6 @@ MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::pat
           .ground = object.ground};
 }
 
-std::string size_text(const TriangleMesh& object) { return size_text(object.bounding_box()); }
-
 std::string size_text(const Eigen::AlignedBox3d& box) {
   const Vector3 size = box.sizes();
   const bool small = size.maxCoeff() < 1.0;

@@ -44,7 +44,6 @@ double declared_longest_side(const std::filesystem::path& file);
 MeshFileOptions placement(const ObjectConfig& object, const std::filesystem::path& file);
 
 /// "506 x 500.5 x 320.5 mm"
-std::string size_text(const TriangleMesh& object);
 std::string size_text(const Eigen::AlignedBox3d& box);
 /// Lengths that fit_lengths sets, as they are now: "voxels 10 mm, region 1.3 m, …".
 std::string lengths_text(const Configuration& configuration);

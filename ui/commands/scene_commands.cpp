@@ -10,16 +10,13 @@
 namespace nextview {
 namespace {
 
-/// The box of what is cut [m, world].
-Eigen::AlignedBox3d solid_box(const SessionSnapshot& s) { return s.mesh ? s.mesh->bounding_box() : s.grid.box(); }
-
 /// Across an axis, through the middle of the object at first; what is nearer to the camera goes.
 void section_across(CommandTarget& t, const std::optional<SliceAxis>& chosen) {
   auto& section = t.window.layers.section;
   const SliceAxis wanted = chosen.value_or(section ? SliceAxis::none : SliceAxis::x);
   if (wanted == SliceAxis::none) return section.reset();
   const int axis = static_cast<int>(wanted) - 1;
-  const double middle = solid_box(t.session).center()[axis];
+  const double middle = t.session.object_box.center()[axis];
   section = Section{axis, middle, t.window.scene_camera.translation()[axis] < middle};
 }
 

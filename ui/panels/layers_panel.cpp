@@ -114,7 +114,7 @@ void draw_section(const PanelContext& context) {
     context.post(command::section_axis(static_cast<SliceAxis>(*axis)));
   if (!section || !context.snapshot.loaded()) return;
   const SessionSnapshot& s = context.snapshot;
-  const Eigen::AlignedBox3d box = s.mesh ? s.mesh->bounding_box() : s.grid.box();
+  const Eigen::AlignedBox3d& box = s.object_box;
   slider(context, command::section_at, "at [mm]", section->at, box.min()[section->axis], box.max()[section->axis],
          "%.1f", 1000);
   if (ImGui::Button("Turn over")) context.post(command::flip_section());

@@ -165,10 +165,9 @@ void SessionPanel::draw(const PanelContext& context, const Rectangle& rectangle)
   const Panel panel("Session", rectangle, 0, context.style.px(left_panel_width));
   if (!seen_ || (seen_ != &context.snapshot && !ImGui::IsAnyItemActive())) take(context.snapshot);
   draw_setting(context, find_setting(settings_, "object.file"), "Object");  // also when there is none yet
-  if (const auto& mesh = context.snapshot.mesh) {
-    if (mesh != mesh_) mesh_ = mesh, size_ = size_text(*mesh);
+  if (context.snapshot.mesh) {
     const std::string& unit = context.snapshot.guessed_unit;
-    small_text(context.style, size_ + (unit.empty() ? "" : "; unit guessed: " + unit));
+    small_text(context.style, size_text(context.snapshot.object_box) + (unit.empty() ? "" : "; unit guessed: " + unit));
     if (!unit.empty()) tooltip("The file does not say its unit; Object › unit sets it.");
   }
   ImGui::BeginDisabled(!context.snapshot.loaded());

@@ -26,8 +26,6 @@ class SessionPanel : public PanelContent {
 
   Configuration edited_;
   std::vector<Setting> settings_;  ///< of `edited_`
-  std::shared_ptr<const TriangleMesh> mesh_;
-  std::string size_;  ///< of `mesh_`, for people: its whole mesh is measured for it
   TypedSetting typed_;
   const SessionSnapshot* seen_ = nullptr;        ///< that `edited_` was taken from
   std::map<std::string, std::string> defaults_;  ///< of each setting by its key, as text

@@ -91,6 +91,7 @@ void SessionRunner::show_session(SessionSnapshot& next) const {
   next.notes = session_->notes();
   next.grid = session_->map().grid();
   next.camera = session_->camera();
+  next.object_box = next.mesh ? next.mesh->bounding_box() : next.grid.box();
 }
 
 void SessionRunner::show_map(SessionSnapshot next) {

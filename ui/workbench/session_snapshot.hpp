@@ -88,7 +88,8 @@ struct SessionSnapshot {
   bool live = false;                                    ///< scans with a live scanner
   bool scanner_lost = false;                            ///< which must be reached again
   std::vector<std::string> notes;                       ///< Session::notes
-  std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, as the next
+  std::shared_ptr<const TriangleMesh> mesh;             ///< null where none is known, with the surface points
+  Eigen::AlignedBox3d object_box;                       ///< of the mesh; without one of the grid [m, world]
   std::string guessed_unit;                             ///< of the mesh's file: "mm"; empty if nothing was guessed
   std::shared_ptr<const SurfacePoints> surface_points;  ///< some of the mesh's, evenly spread
   LaidOutVoxels voxels;                                 ///< the conventional map; null without a session

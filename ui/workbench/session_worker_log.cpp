@@ -39,7 +39,7 @@ void log_start(const SessionRequest& request, const SessionSnapshot& before, con
   }
   const std::string unit =
       now.guessed_unit.empty() ? "" : fmt::format(" (its unit taken as {}; object.unit sets it)", now.guessed_unit);
-  log.add(Level::note, fmt::format("{}: {}{}, {}, {}, {:g} mm voxels", now.object_name, size_text(*now.mesh), unit,
+  log.add(Level::note, fmt::format("{}: {}{}, {}, {}, {:g} mm voxels", now.object_name, size_text(now.object_box), unit,
                                    counted(now.mesh->triangles.size(), "triangle"),
                                    counted(now.candidates.size(), "candidate view"), 1e3 * now.grid.resolution));
   for (const std::string& note : now.notes) log.add(Level::note, note);

@@ -75,8 +75,7 @@ std::string why_empty(const SessionSnapshot& s, const Pose& T_world_camera) {
   const SurfacePoints surface = surface_of(s);
   if (surface.points.empty()) return "";
   const Vector3 camera = T_world_camera.translation();
-  if (s.mesh && s.mesh->bounding_box().contains(camera) && is_within(*s.mesh, camera))
-    return "the camera is inside the object";
+  if (s.mesh && s.object_box.contains(camera) && is_within(*s.mesh, camera)) return "the camera is inside the object";
   const Sight sight = sight_of(s, surface, T_world_camera);
   if (sight.measurable > 0) return "";
   const DepthCameraConfig& sensor = s.configuration.sensor;
