@@ -96,6 +96,17 @@ bool holds_nothing_but(std::span<const InputFile> inputs, const fs::path& folder
          std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(), is_input);
 }
 
+/// No view was ever taken in it: its first move failed, for example. False where that cannot be told.
+bool is_without_views(const fs::path& folder) {
+  if (!has_journal(folder)) return false;
+  try {
+    const Journal journal = read_journal(folder);
+    return journal.steps.empty() && journal.damage.empty();
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 void require_session(const fs::path& folder) {
   require_readable(folder);
   if (is_session(folder)) return;
@@ -143,7 +154,7 @@ SavedSession read_session(const fs::path& folder) {
 InTheWay in_the_way(const fs::path& folder, std::span<const InputFile> inputs) {
   if (!is_there(folder)) return InTheWay::nothing;
   remove_abandoned_temporary_files(folder);  // of a session that was ended as it began
-  if (holds_nothing_but(inputs, folder)) return InTheWay::nothing;
+  if (holds_nothing_but(inputs, folder) || is_without_views(folder)) return InTheWay::nothing;
   const auto manifest = read_manifest(folder);
   return is_session(folder) || (manifest && manifest->command == "scan") ? InTheWay::session : InTheWay::others;
 }

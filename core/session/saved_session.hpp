@@ -25,7 +25,8 @@ bool is_session(const std::filesystem::path& folder);
 /// @throws std::runtime_error, std::invalid_argument naming the file and the reason: none of a session, a newer
 /// version's, the object has changed
 SavedSession read_session(const std::filesystem::path& folder);
-/// What is in the way of a session that is yet to be written to a folder; what it reads is not.
+/// What is in the way of a session that is yet to be written to a folder; what it reads is not, nor is a session
+/// without views.
 enum class InTheWay { nothing, session, others };
 InTheWay in_the_way(const std::filesystem::path& folder, std::span<const InputFile> inputs);
 /// For what replaces earlier results and is no session: captures cannot be made again. @throws std::invalid_argument

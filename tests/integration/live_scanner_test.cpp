@@ -134,6 +134,23 @@ TEST_F(LiveScanner, AMoveThatNoOneCanConfirmIsNotMade) {
   EXPECT_FALSE(fs::exists(in("out"))) << "the next try may have the folder";
 }
 
+TEST_F(LiveScanner, AfterAFirstMoveThatFailedTheSameCommandTriesAgain) {
+  const std::string jammed =
+      "while read line; do id=${line#*\\\"id\\\":}; id=${id%%,*}\n"
+      "case \"$line\" in *reach*) echo "
+      "\"{\\\"id\\\":$id,\\\"ok\\\":true,\\\"reach\\\":[{\\\"distance\\\":1,\\\"rotation\\\":1,\\\"seconds\\\":1}]}\";;"
+      "\n"
+      "*) echo \"{\\\"id\\\":$id,\\\"error\\\":\\\"the arm is jammed\\\"}\";; esac; done\n";
+  const std::string command = "scan " + scripted(jammed) + "--driver-confirm never " + quick +
+                              "--map.region '-0.2 -0.2 -0.2 0.2 0.2 0.2' --out " + in("out");
+  for (const char* attempt : {"first", "second"}) {
+    const Result run = nextview(command);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("the arm is jammed")) << attempt;
+    EXPECT_THAT(run.err, testing::Not(HasSubstr("holds a session"))) << attempt;
+  }
+}
+
 TEST_F(LiveScanner, ADriverThatCannotBeStartedIsToldInOneLine) {
   const Result run = nextview("scan --driver no-such-program --out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
