@@ -215,16 +215,16 @@ void SessionRunner::adopt(HistoryEntry entry) {
   tree_->set_stand(entry.at, std::move(entry.stand));
   if (same_scan && planner == &session_->planner()) return show_next();
   const auto& scans = session_->scans();
-  // What was refined of views that are no more belongs to nothing; that of a session that is back, to it again.
-  const auto begin_with = [&](const std::vector<std::shared_ptr<const Scan>>& first, std::size_t views) {
-    return views <= scans.size() && std::equal(first.begin(), first.begin() + views, scans.begin());
+  // What was refined of views that are no more belongs to nothing; the map of a session that is back, to it again.
+  const auto begin_with = [&](const std::vector<std::shared_ptr<const Scan>>& first) {
+    return first.size() <= scans.size() && std::equal(first.begin(), first.end(), scans.begin());
   };
-  if (!same_session || !begin_with(refined_scans_, refined_scans_.size())) {
+  if (!same_session || !begin_with(refined_scans_)) {
     refinement_.reset();
     refined_scans_.clear();
   }
-  next.gibbs =
-      gibbs_ && gibbs_->views <= gibbs_scans_.size() && begin_with(gibbs_scans_, gibbs_->views) ? gibbs_ : nullptr;
+  const RefinedMap& refined = tree_->refined;
+  next.gibbs = refined.map && begin_with(refined.scans) ? refined.map : nullptr;
   if (!same_session) {
     next.compared = nullptr;
     ++next.session;
@@ -264,8 +264,8 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
   if (is_there) throw_if_stopped(control.stop);
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
-  gibbs_ = next.gibbs;
-  gibbs_scans_ = session_->scans();
+  tree_->refined.map = next.gibbs;
+  tree_->refined.scans = session_->scans();
   publish(std::move(next));
 }
 

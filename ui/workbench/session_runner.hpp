@@ -125,13 +125,10 @@ class SessionRunner {
   std::shared_ptr<SeenSurface> seen_;                       ///< null without a session
   Configuration wanted_;  ///< of the last session that could not be made; while there is none
   ScanHistory history_;
-  std::uint64_t change_when_gone_ = 0;                    ///< the last one when the timeline was gone along
-  std::shared_ptr<const GibbsMap> gibbs_;                 ///< the last one that was asked for
-  std::vector<std::shared_ptr<const Scan>> gibbs_scans_;  ///< that it is of
-  std::shared_ptr<const GibbsMap> written_gibbs_;         ///< the last one that was exported
-  std::shared_ptr<DriverConnection> scanner_;             ///< of the session, if it is a live one
-  Configuration before_scanner_;                          ///< to go back to
-  std::filesystem::path state_folder_;                    ///< empty: sessions are not kept
+  std::uint64_t change_when_gone_ = 0;         ///< the last one when the timeline was gone along
+  std::shared_ptr<DriverConnection> scanner_;  ///< of the session, if it is a live one
+  Configuration before_scanner_;               ///< to go back to
+  std::filesystem::path state_folder_;         ///< empty: sessions are not kept
   KeptSession::Notice notice_;
   std::shared_ptr<KeptSession> kept_;   ///< of the session; null without one
   std::shared_ptr<StepTree> tree_;      ///< likewise

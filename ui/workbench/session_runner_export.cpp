@@ -42,7 +42,7 @@ std::vector<std::string> SessionRunner::write_results(OutputFolder& out, const J
   write_surfaces(surfaces, out);
   std::vector<std::string> summaries;
   for (const ScanSurface& surface : surfaces) summaries.push_back("Surface " + summary(surface));
-  written_gibbs_ = gibbs;
+  if (gibbs) tree_->refined.written = gibbs;
   publish(*snapshot_);
   return summaries;
 }
@@ -57,7 +57,7 @@ std::vector<std::filesystem::path> SessionRunner::write_one(const request::Expor
     map = {to_occupancy_map(*wanted.gibbs->posterior, session_->map().model()), wanted.gibbs->config.prior};
   auto files = export_file(*session_, wanted.kind, wanted.file, wanted.surface, &map, control.progress, control.stop);
   if (wanted.gibbs && wanted.kind == ExportKind::map && wanted.file.extension() == ".ot") {
-    written_gibbs_ = wanted.gibbs;
+    tree_->refined.written = wanted.gibbs;
     publish(*snapshot_);
   }
   return files;

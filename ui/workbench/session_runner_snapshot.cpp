@@ -48,9 +48,8 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   snapshot.kept = kept_ && kept_->folder();
   snapshot.keeping_fails = kept_ && kept_->fails();
   // Also where the session stands elsewhere: the map comes back with its views.
-  const bool is_of_this = session_ && !gibbs_scans_.empty() && !session_->scans().empty() &&
-                          gibbs_scans_.front() == session_->scans().front();
-  snapshot.gibbs_lost = gibbs_ && is_of_this && gibbs_ != written_gibbs_ ? gibbs_->views : 0;
+  const bool is_in_memory_alone = tree_ && tree_->refined.map && tree_->refined.map != tree_->refined.written;
+  snapshot.gibbs_lost = is_in_memory_alone ? tree_->refined.map->views : 0;
   snapshot.cameras =
       std::make_shared<const std::vector<CameraBookmark>>(kept_ ? kept_->cameras() : std::vector<CameraBookmark>());
   snapshot.live = scanner_ != nullptr;

@@ -13,6 +13,8 @@
 
 namespace nextview {
 
+struct GibbsMap;
+
 /// Where a session stands: all that is there again when one comes back.
 struct Stand {
   TerminationConfig termination;
@@ -20,6 +22,13 @@ struct Stand {
   PolicyNeeds needs;                  ///< of its planner
   std::shared_ptr<ScanState> state;   ///< never null; its maps may have been dropped
   std::shared_ptr<SeenSurface> seen;  ///< never null; it may have fewer scans than the state
+};
+
+/// The Gibbs map of a session that was asked for last.
+struct RefinedMap {
+  std::shared_ptr<const GibbsMap> map;             ///< null: none was
+  std::vector<std::shared_ptr<const Scan>> scans;  ///< that the session had then
+  std::shared_ptr<const GibbsMap> written;         ///< the last one that was exported; null: none was
 };
 
 /// Every step that a session has taken, those that it went back from among them, by number; 0 is where nothing was
@@ -31,6 +40,7 @@ class StepTree {
 
   std::uint32_t at = 0;  ///< where the session stands
   Branches branches;     ///< it stands on the current one
+  RefinedMap refined;    ///< set aside and brought back with the session
 
   /// What a saved session has taken: it is known from its journal, and taken again where one goes there.
   void add(std::shared_ptr<SavedSession> saved);

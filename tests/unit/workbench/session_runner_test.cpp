@@ -77,6 +77,30 @@ TEST_F(SessionRunnerTest, TheGibbsMapOfAScanThatWasStartedOverComesBackWithIt) {
   EXPECT_EQ(now().gibbs->views, 2u);
 }
 
+TEST_F(SessionRunnerTest, TheGibbsMapComesBackThoughAnotherObjectWasRefinedMeanwhile) {
+  runner_.load(small_scan(), job_control());
+  steps(2);
+  runner_.refine(2, 8, job_control());
+  const auto of_sphere = now().gibbs;
+  runner_.write(folder_ / "export", job_control());
+  runner_.open("box", job_control());
+  steps(1);
+  runner_.refine(2, 8, job_control());
+  const auto of_box = now().gibbs;
+  ASSERT_NE(of_box, of_sphere);
+  runner_.undo(job_control());
+  runner_.undo(job_control());
+  EXPECT_EQ(now().object_name, "sphere");
+  EXPECT_EQ(now().gibbs, of_sphere);
+  EXPECT_EQ(now().gibbs_lost, 0u) << "it was exported";
+  runner_.redo(job_control());
+  EXPECT_EQ(now().object_name, "box");
+  EXPECT_EQ(now().gibbs, nullptr) << "its view is not there yet";
+  runner_.redo(job_control());
+  EXPECT_EQ(now().gibbs, of_box);
+  EXPECT_EQ(now().gibbs_lost, 1u);
+}
+
 TEST_F(SessionRunnerTest, RefiningTwiceIsAsOnceAnew) {
   runner_.load(small_scan(), job_control());
   steps(2);
