@@ -49,6 +49,7 @@ void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> vi
   const std::size_t last = views.value_or(line.size());
   after.at = last == 0 ? 0 : line[last - 1];
   if (after.at == before.at && after.branches.on == before.branches.on) return;
+  if (after.at != before.at) after.chosen.reset();  // it was chosen with other views in sight
   after.stand = stand_at(after.at, control);
   // Going along the timeline is one change, however many views it goes by.
   const std::size_t limit = ScanHistory::limit(session_->configuration());

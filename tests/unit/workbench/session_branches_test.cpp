@@ -183,6 +183,19 @@ TEST_F(SessionBranches, AfterUndoTheRobotStandsWhereItStood) {
   EXPECT_EQ(now().records[3].motion.distance, whole);
 }
 
+TEST_F(SessionBranches, AChoiceStaysWhereItWasMade) {
+  runner_.load(long_scan(), job_control());
+  steps(3);
+  const std::size_t chosen = other();
+  runner_.take_view(chosen);
+  runner_.go_to("", 2, job_control());
+  EXPECT_EQ(now().next_candidate, now().proposal());
+  expect_same_scan(now(), *fresh(2, long_scan()));
+  runner_.undo(job_control());
+  EXPECT_EQ(views(), 3u);
+  EXPECT_EQ(now().next_candidate, chosen) << "undo brings it back";
+}
+
 TEST_F(SessionBranches, TheGibbsMapIsThereAgainWhereItsViewsAre) {
   runner_.load(long_scan(), job_control());
   steps(2);
