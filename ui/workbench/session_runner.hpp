@@ -102,6 +102,7 @@ class SessionRunner {
   Stand stand_at(std::uint32_t number, const JobControl& control);
   void tell_notices(const SavedSession& saved, std::size_t first) const;
   void follow_compared(const JobControl& control);
+  void go_on_comparing(const std::string& branch, const JobControl& control);
   SessionSnapshot snapshot_of(const Stand& stand);
   void start(Configuration configuration, std::shared_ptr<DriverConnection> scanner, const JobControl& control);
   Configuration for_another_scan(Configuration configuration) const;

@@ -60,7 +60,7 @@ void SessionRunner::go_to(const std::string& name, std::optional<std::size_t> vi
   change_when_gone_ = history_.last_change();
   const bool is_swapped = snapshot_->compared && snapshot_->compared->branch == branch.name;
   adopt(std::move(after));
-  if (is_swapped) compare(before.branches.current().name, control, view_for_view_);
+  if (is_swapped) go_on_comparing(before.branches.current().name, control);
   follow_compared(control);
 }
 
@@ -128,7 +128,17 @@ void SessionRunner::compare(const std::string& name, const JobControl& control, 
 
 /// After this branch has gone on or back.
 void SessionRunner::follow_compared(const JobControl& control) {
-  if (view_for_view_ && snapshot_->compared) compare(std::string(snapshot_->compared->branch), control, true);
+  if (view_for_view_ && snapshot_->compared) go_on_comparing(std::string(snapshot_->compared->branch), control);
+}
+
+/// What was done before it has been done, whether or not the other branch can be shown now: it is left away if not.
+void SessionRunner::go_on_comparing(const std::string& branch, const JobControl& control) {
+  try {
+    compare(branch, control, view_for_view_);
+  } catch (const std::exception& error) {
+    compare("", control);
+    if (notice_) notice_(fmt::format("'{}' is compared no longer: {}", branch, error.what()));
+  }
 }
 
 /// What the window would show if the session stood there.

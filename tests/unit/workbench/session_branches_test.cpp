@@ -157,6 +157,28 @@ TEST_F(SessionBranches, AreComparedViewForView) {
   EXPECT_EQ(shown(), 4u) << "its end again";
 }
 
+TEST_F(SessionBranches, AViewStaysTakenThoughTheOtherBranchCannotFollowIt) {
+  Configuration c = long_scan();
+  c.history.memory = 0.0;  // the maps of the other one are to be made again
+  runner_.load(c, job_control());
+  steps(3);
+  runner_.go_to("", 1, job_control());
+  runner_.take_view(other());
+  steps(1);
+  runner_.compare("main", job_control(), true);
+  ASSERT_TRUE(now().compared);
+  std::stop_source stop;
+  SessionRunner::JobControl stopping = job_control();
+  stopping.stop = stop.get_token();
+  stopping.progress = [&](double, std::string_view what) {
+    if (what == "making the map again") stop.request_stop();
+  };
+  EXPECT_NO_THROW(runner_.step(stopping));
+  EXPECT_TRUE(stop.stop_requested()) << "nothing had to be made again";
+  EXPECT_EQ(views(), 3u);
+  EXPECT_FALSE(now().compared) << "the two have not as many views";
+}
+
 TEST_F(SessionBranches, GoingIsUndoneAlsoWhereAsManyChangesWereMadeBefore) {
   runner_.load(long_scan(), job_control());
   steps(5);
