@@ -73,7 +73,10 @@ void SessionRunner::connect(const ScannerWishes& wishes, std::optional<Configura
   Configuration following = before;
   forget_fitted(following);
   control.progress(0.0, "reaching the scanner");
-  if (scanner_) scanner_->leave();  // it may be the same one
+  if (scanner_) {
+    scanner_->leave();  // it may be the same one
+    show_next();        // also if nothing comes of the other: that it is left
+  }
   auto scanner = connect_scanner(following, wishes, control.stop);
   start(std::move(following), std::move(scanner), control);
   before_scanner_ = before;

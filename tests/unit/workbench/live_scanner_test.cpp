@@ -117,6 +117,21 @@ TEST_F(LiveScannerTest, OneThatIsEndedToStopItIsSaidToBeLost) {
   EXPECT_THAT(worker_.log().entries()->back().text, testing::HasSubstr("reach it again"));
 }
 
+TEST_F(LiveScannerTest, OneThatWasLeftForAnotherIsSaidToBeLostThoughThatWasCancelled) {
+  connect();
+  behave("silence", "hello");
+  worker_.post(request::Connect{fmt::format("'{}' '{}'", NEXTVIEW_FAKE_DRIVER, fault_.string())});
+  wait_until([&] { return worker_.progress().what == "reaching the scanner"; });
+  worker_.cancel();
+  wait_until_idle();
+  EXPECT_TRUE(worker_.snapshot()->live) << "the session is another one";
+  EXPECT_TRUE(worker_.snapshot()->scanner_lost);
+  behave("", "");
+  worker_.post(request::Reconnect{});
+  wait_until_idle();
+  EXPECT_FALSE(worker_.snapshot()->scanner_lost);
+}
+
 TEST_F(LiveScannerTest, IsReachedAgainAndGoesOn) {
   connect();
   step("Move");
