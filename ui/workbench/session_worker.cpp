@@ -68,6 +68,7 @@ WorkerProgress SessionWorker::progress() const {
 }
 
 void SessionWorker::drop_all() {
+  for (const auto& [number, request] : queue_) done_.push_back({number, true});  // who wrote it down hears of it
   queue_.clear();
   progress_.playing = progress_.paused = false;
   job_.request_stop();

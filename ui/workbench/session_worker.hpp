@@ -29,10 +29,10 @@ class SessionWorker {
   void post(SessionRequest request);
   /// How many requests were posted: the number of the last one.
   std::uint64_t posted() const;
-  /// What was done, in its order.
+  /// What was done, in its order, and what was dropped before it was.
   struct Done {
     std::uint64_t request = 0;  ///< its number; 0: a view of request::Play
-    bool failed = false;
+    bool failed = false;        ///< or dropped: nothing came of it
   };
   /// Since this was asked last.
   std::vector<Done> take_done();

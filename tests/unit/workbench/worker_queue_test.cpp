@@ -38,6 +38,23 @@ TEST_F(WorkerQueue, CancelEmptiesIt) {
   EXPECT_EQ(now()->records.size(), 1u) << "what comes after a cancel is done";
 }
 
+/// A script that is saved would do it.
+TEST_F(WorkerQueue, WhatIsDroppedIsToldAsNotDone) {
+  load();
+  worker_.take_done();
+  begin_step();
+  const std::uint64_t running = worker_.posted();
+  worker_.post(request::Step{});
+  worker_.post(request::Refine{1, 8});
+  worker_.cancel();
+  open_gate();
+  wait_until_idle();
+  std::vector<std::uint64_t> not_done;
+  for (const auto& [request, failed] : worker_.take_done())
+    if (failed) not_done.push_back(request);
+  EXPECT_THAT(not_done, testing::UnorderedElementsAre(running, running + 1, running + 2));
+}
+
 TEST_F(WorkerQueue, ALoadEmptiesItAndStopsWhatRuns) {
   Configuration box = small_scan();
   box.object.file = "box";
