@@ -33,9 +33,8 @@ SessionWorker::SessionWorker(std::function<void()> on_news)
     : on_news_(std::move(on_news)), thread_([this](std::stop_token stop) { run(stop); }) {}
 
 SessionWorker::~SessionWorker() {
+  thread_.request_stop();  // first: what it begins after a cancel would not hear of that
   cancel();
-  thread_.request_stop();
-  wake_.notify_all();
 }
 
 void SessionWorker::news() const {
@@ -133,6 +132,7 @@ std::vector<SessionWorker::Done> SessionWorker::take_done() {
 std::optional<std::pair<std::uint64_t, SessionRequest>> SessionWorker::next_request(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   for (;;) {
+    if (stop.stop_requested()) return std::nullopt;
     catch_up(lock);
     wake_.wait(lock, stop, [&] { return !queue_.empty() || progress_.playing; });
     if (stop.stop_requested()) return std::nullopt;
