@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "ui/commands/command_target.hpp"
+#include "ui/commands/needs.hpp"
 
 namespace nextview {
 namespace {
@@ -20,14 +21,27 @@ std::string needs_question(const CommandState& s) {
 }  // namespace
 
 const CommandOf<std::string> command::connect{
-    {"connect", "File", "Connect a scanner…",
-     "Scans with a live scanner: starts the program that drives it (assets/drivers has examples)."},
+    {.name = "connect",
+     .menu = "File",
+     .text = "Connect a scanner…",
+     .help = "Scans with a live scanner: starts the program that drives it (assets/drivers has examples).",
+     .question =
+         [](const CommandState& t, const auto&) {
+           return CommandQuestion{what_is_lost(t, true), "Connect"};
+         }},
     argument::text("command", "the program and its arguments, as in a shell"),
     [](CommandTarget& t, const std::string& words) { t.worker.post(request::Connect{words}); }};
 
-const CommandOf<> command::disconnect{
-    {"disconnect", "File", "Leave the scanner", "Goes back to what was scanned before it.", {}, needs_scanner},
-    [](CommandTarget& t) { t.worker.post(request::Disconnect{}); }};
+const CommandOf<> command::disconnect{{.name = "disconnect",
+                                       .menu = "File",
+                                       .text = "Leave the scanner",
+                                       .help = "Goes back to what was scanned before it.",
+                                       .why_not = needs_scanner,
+                                       .question =
+                                           [](const CommandState& t, const auto&) {
+                                             return CommandQuestion{what_is_lost(t, true), "Leave"};
+                                           }},
+                                      [](CommandTarget& t) { t.worker.post(request::Disconnect{}); }};
 
 const CommandOf<> command::reconnect{{"reconnect",
                                       "File",

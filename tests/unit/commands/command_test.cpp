@@ -9,6 +9,7 @@
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
+#include "ui/commands/scanner_commands.hpp"
 #include "ui/commands/script.hpp"
 
 namespace nextview {
@@ -281,6 +282,9 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   EXPECT_NE(of_opening("sphere"), "");
   EXPECT_EQ(of_opening("/no/such/part.stl"), "") << "it will be refused, and nothing is lost";
   EXPECT_EQ(of_opening("/dev/null"), "") << "nor is this an object";
+  const auto of_scanner = [&](const Command& c) { return c.question({session, {}, {}}, {"driver"}).text; };
+  EXPECT_NE(of_scanner(command::connect), "");
+  EXPECT_NE(of_scanner(command::disconnect), "");
   session.gibbs_lost = 0;
   EXPECT_EQ(question(), "");
 }
