@@ -92,6 +92,10 @@ TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
   user.drop(file("wrong.toml"));
   user.wait();
   EXPECT_EQ(user.window().question(), "") << "it is refused";
+  write_file(folder_ / "gone.toml", "[object]\nfile = \"/no/such/part.stl\"\n");
+  user.drop(file("gone.toml"));
+  user.wait();
+  EXPECT_EQ(user.window().question(), "") << "what it scans is not there";
   write_file(folder_ / "mine.toml", "[sensor]\nrange_noise = 0.001\n");
   user.drop(file("mine.toml"));
   user.wait();

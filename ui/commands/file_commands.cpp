@@ -136,13 +136,28 @@ bool may_be_opened(const std::filesystem::path& file) {
   return std::filesystem::is_directory(file, ignored) || (is_there(file) && not_an_input(file).empty());
 }
 
+/// @throws std::exception that says why they cannot be taken: they are wrong, or what they scan is not there.
+void require_settings(const SessionSnapshot& session, const std::filesystem::path& file) {
+  const Configuration wanted = with_next_input(session.configuration, file);
+  wanted.validate();
+  if (!session.live && wanted.recorded.folder.empty()) resolve_object(wanted);
+}
+
+/// Likewise of all that is opened, as far as its name tells.
+void require_openable(const SessionSnapshot& session, const std::filesystem::path& file) {
+  if (carries_settings(file)) return require_settings(session, file);
+  if (may_be_opened(file)) return;
+  const std::string reason = not_an_input(resolve_object(file.string()));
+  if (!reason.empty()) throw std::invalid_argument(fmt::format("{}: {}", file.string(), reason));
+}
+
 /// The settings of a file start the scan over as any other does; another object, everybody knows, takes its place.
 CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std::string>& values) {
   const std::filesystem::path file = values.at(0);
   if (is_demo_file(file)) return command::play_demo.question(t, values);
   if (carries_settings(file)) {
     try {
-      with_next_input(t.session.configuration, file).validate();
+      require_settings(t.session, file);
       return restart_question(t, fmt::format("Taking the settings of {}", file.filename().string()));
     } catch (const std::exception&) {
       return {};  // it will be refused, and nothing is lost
@@ -162,6 +177,7 @@ CommandQuestion ask_before_quitting(const CommandState& t, const std::vector<std
 
 void open_file(CommandTarget& t, const std::string& file) {
   if (is_demo_file(file)) return execute(command::play_demo(file), t);
+  if (t.progress.busy) require_openable(t.session, file);  // what runs is not ended for what is refused
   t.worker.post(request::OpenFile{file});
 }
 

@@ -289,6 +289,19 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   EXPECT_EQ(question(), "");
 }
 
+TEST(Commands, WhatIsRefusedEndsNothingThatRuns) {
+  SessionWorker worker;
+  WindowState window;
+  const SessionSnapshot none;
+  WorkerProgress refining;
+  refining.busy = true;
+  CommandTarget target{worker, window, none, refining};
+  EXPECT_THROW(execute(make_call("open", {"/no/such/part.stl"}), target), std::exception);
+  EXPECT_THROW(execute(make_call("open", {"/no/such/settings.toml"}), target), std::exception);
+  EXPECT_THROW(execute(make_call("open", {"/dev/null"}), target), std::exception) << "nor is this an object";
+  EXPECT_EQ(worker.posted(), 0u);
+}
+
 TEST(Commands, NoCommandNeedsASessionWithoutSayingSo) {
   SessionWorker worker;
   const SessionSnapshot none;
