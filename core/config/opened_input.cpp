@@ -59,7 +59,10 @@ bool carries_settings(const std::filesystem::path& file) {
 
 Configuration with_next_input(Configuration configuration, const std::filesystem::path& input) {
   ObjectConfig& object = configuration.object;
-  if (!carries_settings(input) && input != object.file && !same_file(input, object.file)) {
+  // Settings may name another object, too: what was set of this one is then not what they leave out.
+  std::filesystem::path next = input;
+  if (carries_settings(input)) next = with_input(configuration, input).object.file;
+  if (next != object.file && !same_file(next, object.file)) {
     object.unit = LengthUnit::automatic;
     object.up = UpAxis::automatic;
     object.longest_side = 0.0;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/config/object_lengths.hpp"
+#include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
@@ -53,6 +55,21 @@ TEST(WithNextInput, TakesNoUnitOrSizeFromTheFileBefore) {
   EXPECT_EQ(next.object.up, UpAxis::automatic);
   EXPECT_EQ(next.object.longest_side, 0.0) << "it would be scaled, and nothing said so";
   EXPECT_FALSE(next.sources.contains("object.unit"));
+}
+
+TEST(WithNextInput, TakesNoUnitFromTheObjectBeforeWhereSettingsNameAnother) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "mine.toml";
+  Configuration inches;
+  inches.object.file = "part.stl";
+  give(inches, "object.unit", "inch", "--object.unit");
+  const auto unit_after = [&](const char* toml) {
+    std::ofstream(file) << toml;
+    return with_next_input(inches, file).object.unit;
+  };
+  EXPECT_EQ(unit_after("[object]\nfile = 'other.stl'\n"), LengthUnit::automatic);
+  EXPECT_EQ(unit_after("[object]\nfile = 'other.stl'\nunit = 'cm'\n"), LengthUnit::centimetres);
+  EXPECT_EQ(unit_after("[planner]\ngain = 'random'\n"), LengthUnit::inches) << "the object stays";
 }
 
 TEST(NotAnInput, GoesByTheName) {
