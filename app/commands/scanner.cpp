@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/file/printable.hpp"
+#include "core/setting/length_text.hpp"
 
 namespace nextview {
 namespace {
@@ -20,8 +21,8 @@ std::string text(const Pose& pose) {
 
 /// A robot moves when someone looks.
 bool confirmed(const Pose& from, const Pose& to) {
-  fmt::print(stderr, "\nMove the camera {:.3g} m to {}? n ends the scan, which --resume goes on with. [y/N] ",
-             (to.translation() - from.translation()).norm(), text(to));
+  fmt::print(stderr, "\nMove the camera by {} to {}? n ends the scan, which --resume goes on with. [y/N] ",
+             length_text((to.translation() - from.translation()).norm()), text(to));
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
 }
