@@ -52,13 +52,16 @@ constexpr const char* sensor_preset = "sensor.preset";  // sets other settings, 
 /// What ends a scan and what ranks which views may change while it goes on; what was scanned depends on all else.
 /// Before the first view the candidates are those that coverage is a share of. Nothing happens if the setting is so
 /// already.
-void change_setting(CommandTarget& target, const std::string& key, const Configuration& wanted) {
+void change_setting(CommandTarget& target, const std::string& key, Configuration wanted) {
   wanted.validate();
-  if (to_toml(wanted) == to_toml(target.session.configuration)) return;
-  if (key.starts_with("termination.")) return target.worker.post(request::SetTermination{wanted.termination});
+  const bool is_so = to_toml(wanted) == to_toml(target.session.configuration);
   const bool changes_share = key.starts_with("views.") && target.session.records.empty();
-  if (keeps_scan(key) && !changes_share) return target.worker.post(request::SetPlanning{planning_of(wanted)});
-  target.worker.post(request::Load{wanted});
+  if (keeps_scan(key) && !changes_share) {
+    // What waits may change it first: then it is to be changed back.
+    if (!is_so || target.progress.busy) target.worker.post(request::ChangeSetting{key, setting(wanted, key).text()});
+  } else if (!is_so) {
+    target.worker.post(request::Load{std::move(wanted)});
+  }
 }
 
 /// Fields show millimetres where a script has metres: a length with its unit is right in both.

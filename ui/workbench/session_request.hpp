@@ -45,9 +45,10 @@ struct Reconnect {};
 struct SetTermination {
   TerminationConfig termination;
 };
-/// Changes what ranks which views, and keeps the scan.
-struct SetPlanning {
-  PlanningConfig planning;
+/// Changes when the scan is done, or what ranks which views, by one setting, and keeps the scan. All others are as they
+/// are by then: of several that are changed while a view is taken none is lost.
+struct ChangeSetting {
+  std::string key, text;
 };
 /// Starts over with the same configuration.
 struct Reset {};
@@ -121,7 +122,7 @@ struct ForgetRuns {};
 
 using SessionRequest =
     std::variant<request::Load, request::OpenFile, request::OfferSession, request::Connect, request::Disconnect,
-                 request::Reconnect, request::SetTermination, request::SetPlanning, request::Reset, request::Step,
+                 request::Reconnect, request::SetTermination, request::ChangeSetting, request::Reset, request::Step,
                  request::Play, request::Pause, request::TakeView, request::TakeCustomView, request::Undo,
                  request::Redo, request::GoTo, request::BeginBranch, request::RenameBranch, request::RemoveBranch,
                  request::Compare, request::KeepCamera, request::RemoveCamera, request::Refine, request::Export,

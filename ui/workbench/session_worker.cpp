@@ -216,7 +216,7 @@ void SessionWorker::execute(const SessionRequest& request) {
                    log_.add(LogEntry::Level::success, "The scanner is reached again");
                  },
                  [&](const request::SetTermination& r) { runner_.set_termination(r.termination); },
-                 [&](const request::SetPlanning& r) { runner_.set_planning(r.planning, job_control()); },
+                 [&](const request::ChangeSetting& r) { change_setting(r); },
                  [&](request::Reset) { runner_.load(runner_.configuration(), job_control()); },
                  [&](const request::Step& r) {
                    runner_.step(
@@ -265,6 +265,16 @@ void SessionWorker::execute(const SessionRequest& request) {
                  [&](request::ForgetRuns) { runner_.forget_runs(); },
              },
              request);
+}
+
+void SessionWorker::change_setting(const request::ChangeSetting& wanted) {
+  Configuration configuration = runner_.configuration();
+  auto all = settings(configuration);
+  Setting& setting = find_setting(all, wanted.key);
+  if (setting.text() == wanted.text) return;
+  setting.set(wanted.text);
+  if (wanted.key.starts_with("termination.")) return runner_.set_termination(configuration.termination);
+  runner_.set_planning(planning_of(configuration), job_control());
 }
 
 SessionRunner::JobControl SessionWorker::job_control() {

@@ -61,6 +61,7 @@ class SessionWorker {
   /// Does what was put off, while nothing is asked for.
   void catch_up(std::unique_lock<std::mutex>& lock);
   void execute(const SessionRequest& request);
+  void change_setting(const request::ChangeSetting& wanted);
   void attempt(std::uint64_t number, const SessionRequest& request);
   void finish(const SessionRequest& request, const SessionSnapshot& before);
   void drop_all();  ///< of the queue and the job; the mutex must be held

@@ -118,6 +118,7 @@ std::string what_was_cancelled(const SessionRequest& request, const SessionSnaps
 void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot& before) {
   const SessionSnapshot& s = *runner_.snapshot();
   const auto* opened = std::get_if<request::OpenFile>(&request);
+  const auto* changed = std::get_if<request::ChangeSetting>(&request);
   if (opened && is_there(opened->file)) add_recent_file(state_folder_, opened->file);
   if (s.session != before.session) {
     log_start(request, before, s, log_);
@@ -128,10 +129,11 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
     } else {
       log_.add(Level::note, fmt::format("At view {} again", s.records.size()));
     }
-  } else if (is<request::SetTermination>(request)) {
+  } else if (is<request::SetTermination>(request) || (changed && changed->key.starts_with("termination."))) {
     if (s.finished != before.finished) s.finished.empty() ? log_.add(Level::note, going_on(s)) : log_end(s, log_);
-  } else if (is<request::SetPlanning>(request)) {
-    if (!s.records.empty()) log_.add(Level::note, "The candidates are ranked anew; the scan stays");
+  } else if (changed) {
+    if (!s.records.empty() && s.map != before.map)
+      log_.add(Level::note, "The candidates are ranked anew; the scan stays");
   } else if (s.scanner_lost && !before.scanner_lost) {
     log_.add(Level::warning,
              "Stopped by ending the scanner's program, which cannot stop a move itself; reach it again");

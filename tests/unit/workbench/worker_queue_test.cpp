@@ -85,6 +85,24 @@ TEST_F(WorkerQueue, WhatWaitsIsDoneInItsOrder) {
                           "This begins 'branch 2'; 'main' keeps its 2 views", StartsWith("View 2 from candidate ")));
 }
 
+TEST_F(WorkerQueue, OfSettingsThatAreChangedMeanwhileNoneIsLost) {
+  load();
+  begin_step();
+  worker_.post(request::ChangeSetting{"termination.views", "7"});
+  worker_.post(request::ChangeSetting{"termination.surface_left", "0.01"});
+  worker_.post(request::ChangeSetting{"planner.gain", "farthest"});
+  worker_.post(request::ChangeSetting{"planner.cost_weight", "0.5"});
+  open_gate();
+  wait_until_idle();
+  EXPECT_EQ(now()->message, "");
+  EXPECT_EQ(now()->records.size(), 1u);
+  const Configuration& c = now()->configuration;
+  EXPECT_EQ(c.termination.views, 7);
+  EXPECT_EQ(c.termination.surface_left, 0.01);
+  EXPECT_EQ(c.planner.gain, "farthest");
+  EXPECT_EQ(c.planner.weights.cost, 0.5);
+}
+
 TEST_F(WorkerQueue, PauseTakesWaitingPlaysAwayAndNothingElse) {
   load();
   begin_step();
