@@ -174,6 +174,26 @@ TEST(Inspection, CountsAndKnowsItsSession) {
   EXPECT_EQ(second.session, scan.runner.snapshot());
 }
 
+/// What cannot be looked at ends no program that holds a scan.
+TEST(InspectionWorker, GoesOnAfterAFailure) {
+  InspectedScan scan(scan_by("occlusion-aware"));
+  scan.step();
+  auto broken = std::make_shared<SessionSnapshot>(scan.now());
+  broken->scans.clear();
+  Selection taken;
+  taken.view = {Kind::taken, 0};
+  InspectionWorker worker;
+  const auto wait = [&] {
+    while (worker.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  worker.ask(broken, taken);
+  wait();
+  EXPECT_EQ(worker.answer()->session, nullptr) << "there is no answer";
+  worker.ask(scan.runner.snapshot(), taken);
+  wait();
+  EXPECT_EQ(worker.answer()->session, scan.runner.snapshot());
+}
+
 TEST(InspectionWorker, AnswersTheLatestQuestion) {
   InspectedScan scan(scan_by("occlusion-aware"));
   scan.step();
