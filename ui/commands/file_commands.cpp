@@ -154,6 +154,15 @@ void require_openable(const SessionSnapshot& session, const std::filesystem::pat
   if (!reason.empty()) throw std::invalid_argument(fmt::format("{}: {}", file.string(), reason));
 }
 
+/// A file that is dropped by accident stops a robot, too.
+CommandQuestion with_scanner(CommandQuestion question, const CommandState& t) {
+  if (t.session.live)
+    question.text += fmt::format(
+        "{}The scanner is left, and what it does is stopped: undo, and then Reach the scanner again, go on with it.",
+        question.text.empty() ? "" : " ");
+  return question;
+}
+
 /// The settings of a file start the scan over as any other does; another object, everybody knows, takes its place.
 CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std::string>& values) {
   const std::filesystem::path file = values.at(0);
@@ -161,13 +170,13 @@ CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std:
   if (carries_settings(file)) {
     try {
       require_settings(t.session, file);
-      return restart_question(t, fmt::format("Taking the settings of {}", file.filename().string()));
+      return with_scanner(restart_question(t, fmt::format("Taking the settings of {}", file.filename().string())), t);
     } catch (const std::exception&) {
       return {};  // it will be refused, and nothing is lost
     }
   }
   if (!may_be_opened(file)) return {};
-  return {what_is_lost(t, true), "Open"};
+  return with_scanner({what_is_lost(t, true), "Open"}, t);
 }
 
 CommandQuestion ask_before_quitting(const CommandState& t, const std::vector<std::string>&) {

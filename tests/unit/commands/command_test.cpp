@@ -287,6 +287,10 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   EXPECT_NE(of_scanner(command::disconnect), "");
   session.gibbs_lost = 0;
   EXPECT_EQ(question(), "");
+  EXPECT_EQ(of_opening("sphere"), "") << "undo brings all of it back";
+  session.live = true;
+  EXPECT_THAT(of_opening("sphere"), StartsWith("The scanner is left, and what it does is stopped"));
+  EXPECT_EQ(of_opening("/no/such/part.stl"), "");
 }
 
 TEST(Commands, WhatIsRefusedEndsNothingThatRuns) {
