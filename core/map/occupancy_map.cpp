@@ -11,7 +11,6 @@
 
 #include "core/map/occlusion_marks.hpp"
 #include "core/map/ray_marks.hpp"
-#include "core/map/traversal.hpp"
 #include "core/map/uniform_bricks.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/stopped.hpp"
@@ -64,10 +63,7 @@ void OccupancyMap::insert(const Scan& scan, const std::stop_token& stop) {
   marks.pass(origin, scan.hits, scan.max_range, stop);
   marks.pass(origin, scan.misses, scan.max_range, stop);
   // Hits last: a voxel where a ray ends is a hit, whatever else passes through it.
-  for (const auto& point : scan.hits) {
-    const Eigen::Vector3i cell = grid_.cell_at(point.cast<double>());
-    if (grid_.contains(cell) && ray_length(origin, point) <= scan.max_range) marks.set(cell, hit);
-  }
+  marks.mark_ends(origin, scan.hits, scan.max_range, hit);
   add(
       [&](std::size_t brick, Touches& touches) {
         voxels_.for_each_row(brick, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {

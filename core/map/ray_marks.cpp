@@ -250,5 +250,16 @@ void RayMarks::pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector
     });
 }
 
+void RayMarks::mark_ends(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
+                         std::uint8_t mark) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Eigen::Vector3i cell = grid_.cell_at(ends[i].cast<double>());
+      if (grid_.contains(cell) && ray_length(origin, ends[i]) <= max_range)
+        std::atomic_ref(marks_[place(cell)]).store(mark, std::memory_order_relaxed);
+    }
+  });
+}
+
 }  // namespace nextview
 #endif

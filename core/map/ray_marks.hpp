@@ -17,11 +17,13 @@ class RayMarks {
   explicit RayMarks(const VoxelGrid& grid);
 
   /// Rays from `origin` to each of the ends [m, world]; those longer than `max_range` [m] pass as far as that.
-  /// Overwrites what set() has set. @throws Stopped
+  /// Overwrites what mark_ends() has left. @throws Stopped
   void pass(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
             const std::stop_token& stop = {});
+  /// Gives the voxels of the grid in which such rays end this mark; those longer than `max_range` [m] end nowhere.
+  void mark_ends(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> ends, double max_range,
+                 std::uint8_t mark);
   /// Of a voxel of the grid.
-  void set(const Eigen::Vector3i& cell, std::uint8_t mark) { marks_[place(cell)] = mark; }
   std::uint8_t at(const Eigen::Vector3i& cell) const { return marks_[place(cell)]; }
   /// The marks of the voxels from this one on, along x, up to the grid's edge.
   const std::uint8_t* row(const Eigen::Vector3i& cell) const { return &marks_[place(cell)]; }
