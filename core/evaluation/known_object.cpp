@@ -1,6 +1,7 @@
 #include "core/evaluation/known_object.hpp"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -89,15 +90,21 @@ std::vector<std::uint8_t> KnownObject::seen_from_any_pose(const Progress& progre
 
 void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,
                            const std::stop_token& stop) const {
-  const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
-  const Scan scan = back_project(ideal, T_world_camera, camera_.config().max_range, stop);
-  mark_visited(truth_.grid, scan, state.visited_voxels, stop);
-  std::vector<std::uint32_t> unseen;
-  std::ranges::copy_if(all_samples_, std::back_inserter(unseen), [&](std::uint32_t s) { return !state.seen[s]; });
-  for (const std::uint32_t s : visible_samples(surface(), *scene_, camera_, T_world_camera, unseen, any_slant, stop))
-    state.seen[s] = 1;
-  state.coverage.add(points, stop);
-  state.coverage_paper.add(points, stop);
+  const auto visit_voxels = [&] {
+    const DepthImage ideal = camera_.sense_ideal(*scene_, T_world_camera, stop);
+    const Scan scan = back_project(ideal, T_world_camera, camera_.config().max_range, stop);
+    mark_visited(truth_.grid, scan, state.visited_voxels, stop);
+  };
+  const auto see_samples = [&] {
+    std::vector<std::uint32_t> unseen;
+    std::ranges::copy_if(all_samples_, std::back_inserter(unseen), [&](std::uint32_t s) { return !state.seen[s]; });
+    for (const std::uint32_t s : visible_samples(surface(), *scene_, camera_, T_world_camera, unseen, any_slant, stop))
+      state.seen[s] = 1;
+  };
+  // Side by side: each has parts that one thread does alone.
+  tbb::parallel_invoke(
+      visit_voxels, see_samples, [&] { state.coverage.add(points, stop); },
+      [&] { state.coverage_paper.add(points, stop); });
 }
 
 }  // namespace nextview
