@@ -168,6 +168,18 @@ NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<
   return forecast;
 }
 
+std::vector<NewSurfaceInVoxel> new_surface_in_voxels(const NewSurfaceField& field, const Pose& T_world_camera,
+                                                     const RayBundle& bundle, const NewSurfaceOptions& options) {
+  std::vector<NewSurfaceInVoxel> voxels;
+  const RayRange all{bundle, 0, bundle.directions.size()};
+  const VoxelGrid& grid = field.grid();
+  area_seen(field, T_world_camera, all, options, [&](std::uint32_t place, double area) {
+    const Eigen::Vector3i lattice = grid.first + cell_of_place(grid, place);
+    voxels.push_back({(lattice.cast<double>() + Vector3::Constant(0.5)) * grid.resolution, area});
+  });
+  return voxels;
+}
+
 ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGrid& grid, const VoxelBricks& voxels,
                                      const Pose& T_world_camera, const RayBundle& bundle,
                                      const NewSurfaceOptions& options) {

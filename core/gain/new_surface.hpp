@@ -63,6 +63,15 @@ NewSurfaceForecast forecast_new_surface(const NewSurfaceField& field, std::span<
                                         const RayBundle& bundle, const NewSurfaceOptions& options,
                                         std::stop_token stop = {});
 
+/// New surface that a view is expected to see in a voxel.
+struct NewSurfaceInVoxel {
+  Vector3 middle;  ///< of the voxel [m, world]
+  double area;     ///< [cm^2]
+};
+/// That of a view, voxel by voxel along each of its rays: their sum is expected_new_surface.
+std::vector<NewSurfaceInVoxel> new_surface_in_voxels(const NewSurfaceField& field, const Pose& T_world_camera,
+                                                     const RayBundle& bundle, const NewSurfaceOptions& options);
+
 /// A view's expected new surface taken apart [cm^2]: the voxels with their probability of being occupied, which
 /// `voxels` of the whole `grid` say, and their visibility, which is reach.
 ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGrid& grid, const VoxelBricks& voxels,

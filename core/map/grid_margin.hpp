@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/map/voxel_grid.hpp"
 
@@ -10,6 +11,11 @@ namespace nextview {
 /// that they have left it, or leave there what nobody asks for.
 inline std::size_t place_with_margin(const VoxelGrid& grid, int x, int y, int z) {
   return (std::size_t(z + 1) * (grid.size.y() + 2) + (y + 1)) * (grid.size.x() + 2) + (x + 1);
+}
+/// The voxel of a place that is not in the margin.
+inline Eigen::Vector3i cell_of_place(const VoxelGrid& grid, std::uint32_t place) {
+  const auto row = std::uint32_t(grid.size.x()) + 2, rows = std::uint32_t(grid.size.y()) + 2;
+  return Eigen::Vector3i(int(place % row), int(place / row % rows), int(place / row / rows)) - Eigen::Vector3i::Ones();
 }
 inline std::size_t places_with_margin(const VoxelGrid& grid) {
   return (std::size_t(grid.size.x()) + 2) * (grid.size.y() + 2) * (grid.size.z() + 2);

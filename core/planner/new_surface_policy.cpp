@@ -12,22 +12,22 @@ namespace nextview {
 namespace {
 
 /// On which side of the object most of a view's expected new surface lies; empty if it is spread around.
-std::string side(const ScoreExplanation& explanation, const Vector3& centre, double resolution) {
+std::string side(std::span<const NewSurfaceInVoxel> voxels, const Vector3& centre) {
   constexpr double most = 0.6;
   constexpr std::array names = {"on its +x side", "on its -x side", "on its +y side",
                                 "on its -y side", "at its top",     "at its bottom"};
   std::array<double, 6> shares{};  // beyond a third of the way from the centre to either side
   Vector3 reach = Vector3::Zero();
-  const auto offset = [&](const ScoreExplanation::Voxel& v) -> Vector3 {
-    return (Vector3(v.lattice[0], v.lattice[1], v.lattice[2]) + Vector3::Constant(0.5)) * resolution - centre;
-  };
-  for (const auto& ray : explanation.rays)
-    for (const auto& voxel : ray.voxels) reach = reach.cwiseMax(offset(voxel).cwiseAbs());
-  for (const auto& ray : explanation.rays)
-    for (const auto& voxel : ray.voxels)
-      for (int axis = 0; axis < 3; ++axis)
-        if (const double at = offset(voxel)[axis]; std::abs(at) > reach[axis] / 3)
-          shares[2 * axis + (at < 0)] += voxel.contribution / explanation.value;
+  double all = 0.0;
+  for (const NewSurfaceInVoxel& voxel : voxels) {
+    reach = reach.cwiseMax((voxel.middle - centre).cwiseAbs());
+    all += voxel.area;
+  }
+  for (const NewSurfaceInVoxel& voxel : voxels) {
+    const Vector3 at = voxel.middle - centre;
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(at[axis]) > reach[axis] / 3) shares[2 * axis + (at[axis] < 0)] += voxel.area / all;
+  }
   const auto largest = std::max_element(shares.begin(), shares.end());
   return *largest < most ? "" : names[static_cast<std::size_t>(largest - shares.begin())];
 }
@@ -124,19 +124,14 @@ std::string NewSurfacePolicy::promise(double value, const PlanningState& state, 
   if (!(value > 0.0)) return text;
   const std::shared_ptr<const Seen> seen = see(state.known);
   const std::string where =
-      side(explanation(*seen, state, state.bundle, T_world_camera), seen->object_centre, seen->field.grid().resolution);
+      side(new_surface_in_voxels(seen->field, T_world_camera, state.bundle, options(state)), seen->object_centre);
   return where.empty() ? text : text + ", most of it " + where;
 }
 
 std::optional<ScoreExplanation> NewSurfacePolicy::explain(const PlanningState& state,
                                                           const Pose& T_world_camera) const {
-  return explanation(*see(state.known), state, state.fine_bundle ? *state.fine_bundle : state.bundle, T_world_camera);
-}
-
-ScoreExplanation NewSurfacePolicy::explanation(const Seen& seen, const PlanningState& state, const RayBundle& bundle,
-                                               const Pose& T_world_camera) const {
-  return explain_new_surface(seen.field, state.known.map.grid(), state.known.planning_voxels(), T_world_camera, bundle,
-                             options(state));
+  return explain_new_surface(see(state.known)->field, state.known.map.grid(), state.known.planning_voxels(),
+                             T_world_camera, state.fine_bundle ? *state.fine_bundle : state.bundle, options(state));
 }
 
 }  // namespace nextview

@@ -49,8 +49,6 @@ class NewSurfacePolicy : public Policy {
   };
   /// Made once for maps that are asked about several times in a row. From any thread.
   std::shared_ptr<const Seen> see(const Knowledge& known) const;
-  ScoreExplanation explanation(const Seen& seen, const PlanningState& state, const RayBundle& bundle,
-                               const Pose& T_world_camera) const;
   NewSurfaceOptions options(const PlanningState& state) const {
     const double stage = state.surface_left ? shown_over_expected(*state.surface_left) : 1.0;
     return {state.config.ray_length, model_.slant.times(stage * promise_kept(state.taken))};

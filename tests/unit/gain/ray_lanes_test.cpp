@@ -132,15 +132,21 @@ TEST_P(RayLanesOn, NewSurfaceIsThatOfRaysOneByOneToTheLastBit) {
         const auto why = explain_new_surface(field, made.map.grid(), made.map.voxels(), views[v], rays, options);
         EXPECT_EQ(areas[v], why.value) << v;
         EXPECT_EQ(forecast.areas[v], why.value) << v;
+        const auto voxels = new_surface_in_voxels(field, views[v], rays, options);
+        std::size_t seen = 0;
         // Part by part, in the order of rays and voxels: single precision tells if it is another.
         std::vector<float> parts(forecast.most.size(), 0.0f);
         const Vector3i count = (field.grid().size + Vector3i::Constant(7)) / 8;
         for (std::size_t r = 0; r < why.rays.size(); ++r)
           for (const auto& voxel : why.rays[r].voxels) {
-            const Vector3i p =
-                (Vector3i(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) - field.grid().first) / 8;
+            const Vector3i cell = Vector3i(voxel.lattice[0], voxel.lattice[1], voxel.lattice[2]) - field.grid().first;
+            ASSERT_LT(seen, voxels.size());
+            EXPECT_TRUE(field.grid().cell_at(voxels[seen].middle) == cell);
+            EXPECT_EQ(voxels[seen++].area, voxel.contribution);
+            const Vector3i p = cell / 8;
             parts[std::size_t((p.z() * count.y() + p.y()) * count.x() + p.x())] += float(voxel.contribution);
           }
+        EXPECT_EQ(seen, voxels.size());
         for (std::size_t p = 0; p < parts.size(); ++p)
           EXPECT_NEAR(forecast.parts[v][p], parts[p], 1e-5f * (1 + parts[p])) << v << ", " << p;
         compared += areas[v] != 0.0;
