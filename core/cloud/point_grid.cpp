@@ -69,7 +69,8 @@ void keep_least(std::vector<float>& values, std::size_t wanted) {
 }  // namespace
 
 Eigen::Vector3i PointGrid::cell(const Eigen::Vector3f& point) const {
-  return ((point - lower_) / edge_).array().floor().cast<int>().min(size_.array() - 1).max(0);
+  // Cut off, not rounded down, which would be a call each: what is below 0 is in the first cell either way.
+  return ((point - lower_) / edge_).array().cast<int>().min(size_.array() - 1).max(0);
 }
 
 PointGrid::PointGrid(const PointCloud& points, std::size_t wanted) {
