@@ -50,10 +50,11 @@ struct PlanningInput {
               scan.configuration.termination.surface_left,
               scan.fine_bundle.directions.empty() ? nullptr : &scan.fine_bundle,
               std::size_t(scan.configuration.termination.views)} {
+    if (!scan.planner->needs().true_surface) return;
     if (scan.recorded)
       surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
                                                                scan.recorded->seen(frames_taken(state.known)));
-    else if (state.evaluation && scan.planner->needs().true_surface)
+    else if (state.evaluation)
       surface = std::make_unique<SurfaceLeft<CandidateSight>>(scan.sight ? *scan.sight : scan.truth->sight(),
                                                               state.evaluation->seen);
     setup.true_surface = surface.get();
