@@ -89,6 +89,7 @@ class WayFinder {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const std::uint64_t lowest = all_.order[point] + rows_[r].way;
       const std::size_t begin = rows_[r].begin = go_on(rows_[r].begin, lowest);
+      if (all_.order[begin] >= lowest + length) continue;  // empty, as it mostly was for the point before
       std::size_t cells = 0;
       for (std::size_t i = 0; i < length; ++i) cells += all_.order[begin + i] < lowest + length;
       take(point, begin, cells, ways);
