@@ -184,8 +184,9 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
                                      const Pose& T_world_camera, const RayBundle& bundle,
                                      const NewSurfaceOptions& options) {
   ScoreExplanation explanation;
-  for (std::size_t i = 0; i < bundle.directions.size(); ++i) {
-    ScoreExplanation::RayPart& part = explanation.rays.emplace_back();
+  explanation.rays.resize(bundle.directions.size());
+  tbb::parallel_for(std::size_t{0}, bundle.directions.size(), [&](std::size_t i) {
+    ScoreExplanation::RayPart& part = explanation.rays[i];
     part.direction = T_world_camera.linear() * bundle.directions[i];
     const double worth = square_centimetres_of_a_square_metre * bundle.solid_angles[i];
     follow(field, T_world_camera.translation(), part.direction, options.ray_length,
@@ -200,9 +201,11 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
                                     reach,
                                     found});
              part.contribution += found;
-             explanation.value += found;  // as for the score, to round alike
            });
-  }
+  });
+  for (const ScoreExplanation::RayPart& part : explanation.rays)
+    for (const ScoreExplanation::Voxel& voxel : part.voxels)
+      explanation.value += voxel.contribution;  // as for the score, to round alike
   return explanation;
 }
 
