@@ -21,22 +21,24 @@ constexpr double patch = 0.12;  // over which drawn surfaces are alike, as a sha
 
 /// The voxels of a grid, and which lie beside each other.
 struct Lattice {
-  explicit Lattice(const VoxelGrid& of) : grid(of), size(grid.size), strides(1, size.x(), size.x() * size.y()) {}
+  explicit Lattice(const VoxelGrid& grid) : size(grid.size), strides(1, size.x(), size.x() * size.y()) {}
 
-  /// Calls `visit(i, x, y, z)` for all of them, or for all backwards.
+  /// Calls `visit(i, cell)` for all of them, or for all backwards.
   template <class Visit>
   void each(bool backwards, Visit visit) const {
-    const int count = size.prod();
-    for (int k = 0; k < count; ++k) {
-      const int i = backwards ? count - 1 - k : k;
-      visit(i, grid.cell(std::uint32_t(i)));
-    }
+    const auto along = [&](int k, int axis) { return backwards ? size[axis] - 1 - k : k; };
+    int i = backwards ? size.prod() - 1 : 0;
+    for (int z = 0; z < size.z(); ++z)
+      for (int y = 0; y < size.y(); ++y)
+        for (int x = 0; x < size.x(); ++x) {
+          visit(i, Eigen::Vector3i(along(x, 0), along(y, 1), along(z, 2)));
+          i += backwards ? -1 : 1;
+        }
   }
   bool is_at_rim(const Eigen::Vector3i& cell) const {
     return (cell.array() == 0).any() || (cell.array() == size.array() - 1).any();
   }
 
-  VoxelGrid grid;
   Eigen::Vector3i size, strides;
 };
 
@@ -49,7 +51,7 @@ std::vector<float> depths(const SurfaceEvidence& evidence, const NewSurfaceField
     const Kind kind = evidence.kind(cell);
     depth[i] = kind == Kind::free ? 0.0f : infinity;
     if (kind != Kind::unmeasured) return;
-    more[i] = -std::log1p(-std::min(field.at(i), 0.999f));
+    more[i] = -std::log1p(-std::min(field.at(cell.x(), cell.y(), cell.z()), 0.999f));
     if (lattice.is_at_rim(cell)) depth[i] = more[i];
   });
   for (int sweep = 0; sweep < 4; ++sweep) {  // ways with few turns back
@@ -138,14 +140,15 @@ std::vector<float> new_surface(const SurfaceEvidence& evidence, const NewSurface
   const Lattice lattice(field.grid());
   std::vector<float> shares(blocks.size(), 0.0f);
   lattice.each(false, [&](int i, const Eigen::Vector3i& cell) {
+    const float chance = field.at(cell.x(), cell.y(), cell.z());
     if (!blocks[i]) {
-      if (evidence.kind(cell) == Kind::free) shares[i] = field.at(i);
+      if (evidence.kind(cell) == Kind::free) shares[i] = chance;
       return;
     }
     bool is_bare = lattice.is_at_rim(cell);
     for (int axis = 0; axis < 3 && !is_bare; ++axis)
       is_bare = !blocks[i - lattice.strides[axis]] || !blocks[i + lattice.strides[axis]];
-    if (is_bare) shares[i] = evidence.kind(cell) == Kind::occupied ? -field.at(i) : 1.0f;
+    if (is_bare) shares[i] = evidence.kind(cell) == Kind::occupied ? -chance : 1.0f;
   });
   return shares;
 }

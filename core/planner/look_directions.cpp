@@ -58,7 +58,7 @@ bool LookDirections::gets_out(const Vector3& place, const Vector3& direction) co
   walk_ray_segments(grid, place, direction, std::numeric_limits<double>::max(),
                     [&](int x, int y, int z, double, double) {
                       if (own == Eigen::Vector3i(x, y, z)) return true;
-                      const float chance = field_.at(grid.index({x, y, z}));
+                      const float chance = field_.at(x, y, z);
                       out *= chance < 0.0f ? 0.0 : 1.0 - chance;
                       return out >= likely;
                     });
