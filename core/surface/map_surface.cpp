@@ -53,13 +53,24 @@ Eigen::AlignedBox3i solid_box(const VoxelGrid& grid, std::span<const float> soli
 class InsideField {
  public:
   explicit InsideField(const SolidPart& part)
-      : grid_(part.grid), offset_(part.offset), solid_(part.solid), walls_(wall_voxels(grid_, solid_)) {}
+      : grid_(part.grid),
+        offset_(part.offset),
+        solid_(part.solid),
+        walls_(wall_voxels(grid_, solid_)),
+        box_(solid_box(grid_, solid_)),
+        corners_{grid_.resolution, box_.min() - Eigen::Vector3i::Ones(), box_.sizes() + Eigen::Vector3i::Constant(4)},
+        at_corners_(corners_.voxel_count()) {
+    tbb::parallel_for(0, corners_.size.z(), [&](int z) {
+      for (int y = 0; y < corners_.size.y(); ++y)
+        for (int x = 0; x < corners_.size.x(); ++x)
+          at_corners_[corners_.index({x, y, z})] = least_around(corners_.first + Eigen::Vector3i(x, y, z));
+    });
+  }
 
   ScalarField make() const {
-    const Eigen::AlignedBox3i box = solid_box(grid_, solid_);
-    const Eigen::Vector3i first = 2 * box.min() - Eigen::Vector3i::Ones();  // a point outside on every side
+    const Eigen::Vector3i first = 2 * box_.min() - Eigen::Vector3i::Ones();  // a point outside on every side
     ScalarField field;
-    field.size = 2 * box.sizes() + Eigen::Vector3i::Constant(5);
+    field.size = 2 * box_.sizes() + Eigen::Vector3i::Constant(5);
     field.spacing = 0.5 * grid_.resolution;
     // From the map's corner: the same place to the last bit, whatever part of it is looked at.
     const Vector3 lower = (grid_.first - offset_).cast<double>() * grid_.resolution;
@@ -79,7 +90,7 @@ class InsideField {
  private:
   float solid(const Eigen::Vector3i& cell) const { return grid_.contains(cell) ? solid_[grid_.index(cell)] : 0.0f; }
 
-  float at_corner(const Eigen::Vector3i& corner) const {
+  float least_around(const Eigen::Vector3i& corner) const {
     float least = 1.0f;
     VoxelsAround(2 * corner).for_each([&](const Eigen::Vector3i& cell) { least = std::min(least, solid(cell)); });
     return least;
@@ -91,7 +102,7 @@ class InsideField {
     bool any_thin = false, all_thin = true;
     // The corners around a point are to it what the voxels are, half a voxel on.
     VoxelsAround(point + Eigen::Vector3i::Ones()).for_each([&](const Eigen::Vector3i& corner) {
-      sum += at_corner(corner);
+      sum += at_corners_[corners_.index(corner - corners_.first)];
       ++corners;
     });
     VoxelsAround(point).for_each([&](const Eigen::Vector3i& cell) {
@@ -108,6 +119,9 @@ class InsideField {
   Eigen::Vector3i offset_;
   std::span<const float> solid_;
   std::vector<Wall> walls_;
+  Eigen::AlignedBox3i box_;        ///< of what is solid
+  VoxelGrid corners_;              ///< of its voxels and of those beside it, numbered as voxels are
+  std::vector<float> at_corners_;  ///< as many points share each
 };
 
 /// Between points of the lattice, trilinear.

@@ -1,5 +1,7 @@
 #include "core/surface/solid_voxels.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 
@@ -218,17 +220,17 @@ std::optional<SolidPart> solid_part(const VoxelGrid& grid, const VoxelBricks& vo
 
 std::vector<Wall> wall_voxels(const VoxelGrid& grid, std::span<const float> solid) {
   std::vector<Wall> walls(solid.size(), Wall::none);
-  for (std::uint32_t v = 0; v < solid.size(); ++v) {
-    if (solid[v] < solid_from) continue;
+  tbb::parallel_for(std::uint32_t{0}, std::uint32_t(solid.size()), [&](std::uint32_t v) {
+    if (solid[v] < solid_from) return;
     walls[v] = Wall::thin;
     for_each_solid_block(grid, solid, v, [&](const auto&) { walls[v] = Wall::thick; });
-  }
+  });
   const auto beside = [&](std::uint32_t v, Wall wall) {
     bool found = false;
     for_each_neighbour(grid, v, Neighbours::all, [&](std::uint32_t n) { found |= walls[n] == wall; });
     return found;
   };
-  std::vector<std::uint32_t> specks, steps;
+  std::vector<std::uint32_t> specks;
   for_each_piece(grid, Neighbours::all, mask_of(walls.size(), [&](auto v) { return walls[v] == Wall::thin; }),
                  [&](const std::vector<std::uint32_t>& piece) {
                    const auto on_thick = [&](std::uint32_t v) { return beside(v, Wall::thick); };
@@ -236,9 +238,12 @@ std::vector<Wall> wall_voxels(const VoxelGrid& grid, std::span<const float> soli
                      specks.insert(specks.end(), piece.begin(), piece.end());
                  });
   for (const std::uint32_t v : specks) walls[v] = Wall::speck;
-  for (std::uint32_t v = 0; v < solid.size(); ++v)
-    if (walls[v] == Wall::thick && beside(v, Wall::thin) && in_lone_block(grid, solid, v)) steps.push_back(v);
-  for (const std::uint32_t v : steps) walls[v] = Wall::step;
+  std::vector<std::uint8_t> is_step(walls.size());
+  tbb::parallel_for(std::uint32_t{0}, std::uint32_t(walls.size()), [&](std::uint32_t v) {
+    is_step[v] = walls[v] == Wall::thick && beside(v, Wall::thin) && in_lone_block(grid, solid, v);
+  });
+  for (std::size_t v = 0; v < walls.size(); ++v)
+    if (is_step[v]) walls[v] = Wall::step;
   return walls;
 }
 
