@@ -107,7 +107,10 @@ std::vector<double> RecordedSurface::random_coverage(std::size_t first, std::uin
 
 CoverageByOrder RecordedSurface::compare_orders(std::span<const std::size_t> taken, std::uint64_t seed) const {
   const std::size_t first = taken.front();
-  return {coverage(taken), coverage(in_order_from(first, frames())), random_coverage(first, seed)};
+  const std::scoped_lock lock(comparing_);
+  if (!others_ || others_->first != first || others_->seed != seed)
+    others_ = OtherOrders{first, seed, coverage(in_order_from(first, frames())), random_coverage(first, seed)};
+  return {coverage(taken), others_->recorded, others_->random};
 }
 
 std::vector<std::size_t> RecordedSurface::covering_order(std::uint64_t seed) const {

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -39,17 +41,26 @@ class RecordedSurface {
 
   /// Share of the samples that are seen after the first, the second, … of these frames.
   std::vector<double> coverage(std::span<const std::size_t> order) const;
-  /// The frames taken beside the orders that were not: theirs are of all frames. @pre !taken.empty()
+  /// The frames taken beside the orders that were not: theirs are of all frames, and found once while a scan goes on.
+  /// From any thread. @pre !taken.empty()
   CoverageByOrder compare_orders(std::span<const std::size_t> taken, std::uint64_t seed) const;
   /// Frames in the order of a greedy set cover, shuffled by the seed (covering_order).
   std::vector<std::size_t> covering_order(std::uint64_t seed) const;
 
  private:
+  /// Coverage by orders of all frames.
+  struct OtherOrders {
+    std::size_t first;
+    std::uint64_t seed;
+    std::vector<double> recorded, random;
+  };
   std::vector<double> random_coverage(std::size_t first, std::uint64_t seed) const;
 
   double d_reg_;
   PointCloud samples_;
   std::vector<std::vector<std::uint32_t>> seen_from_;
+  mutable std::mutex comparing_;
+  mutable std::optional<OtherOrders> others_;  ///< those that were asked for last
 };
 
 }  // namespace nextview
