@@ -88,7 +88,8 @@ void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepP
     progress.clear();
     print_step(session, session.records().back());
     pictures.write(session, folder.out());
-    if (!avoid(failed, session)) break;
+    if (!avoid(failed, session) && session.finished().empty())
+      throw std::runtime_error("none of the views that are left could be taken");
   }
 }
 
