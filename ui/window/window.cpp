@@ -265,10 +265,10 @@ int run_window(const Configuration& configuration, const Script& script, const W
   script.demo ? interface.play_demo(script.calls) : interface.run_script(script.calls);
   prepare(target.handle(), interface);
   run(target, interface, [&] { return script.stop_on_error && errors.any(); });
-  interface.stop_recording();
   WindowPreferences after = interface.preferences();
   if (!script.calls.empty()) after = {after.text_scale, before.guide, before.dark, before.place_sizes};
   if (after != before) keep_preferences(state_folder(), after);
+  interface.stop_recording();  // last: its file may be one that cannot be written any more
   if (!script.stop_on_error || !errors.any()) interface.script().give_up("not done: the program ended before");
   return errors.any() ? exit_not_done : 0;
 }
