@@ -25,12 +25,18 @@ vtkNew<vtkImageData> to_vtk(const Image& image, int channels) {
   result->SetDimensions(image.width, image.height, 1);
   result->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
   auto* target = static_cast<std::uint8_t*>(result->GetScalarPointer());
-  for (int y = image.height; y-- > 0;)
-    for (int x = 0; x < image.width; ++x)
-      target = std::copy_n(&image.rgba[(std::size_t(y) * image.width + x) * 4], channels, target);
+  for (int y = image.height; y-- > 0;) {
+    const std::uint8_t* const row = &image.rgba[std::size_t(y) * image.width * 4];
+    if (channels == 4)
+      target = std::copy_n(row, std::size_t(image.width) * 4, target);
+    else
+      for (int x = 0; x < image.width; ++x) target = std::copy_n(row + std::size_t(x) * 4, channels, target);
+  }
   return result;
 }
 
+/// Of zlib's 1 to 9. VTK's own, 5, takes more than twice as long, for files that are a tenth smaller.
+constexpr int compression_level = 2;
 constexpr std::size_t end_of_header = 33;  // signature and first chunk, IHDR [bytes]
 
 /// VTK's writer does not write it.
@@ -55,6 +61,7 @@ Image side_by_side(const Image& left, const Image& right) {
 std::string png_bytes(const Image& image, const std::string& configuration, int channels) {
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
+  writer->SetCompressionLevel(compression_level);
   writer->SetInputData(to_vtk(image, channels));
   if (!configuration.empty()) writer->AddText(png_configuration_keyword, configuration.c_str());
   writer->Write();
