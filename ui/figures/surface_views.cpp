@@ -17,31 +17,33 @@ std::vector<Vector3> points_to_frame(const TriangleMesh& mesh) {
   return points;
 }
 
-Image draw(RenderTarget& target, const PageArea& panel, const TriangleMesh& mesh, const MeshPaint& paint,
+/// The scene as large as a panel. The target is so afterwards.
+Image draw(RenderTarget& target, Scene& scene, std::span<const Vector3> points, const PageArea& panel,
            const std::string& heading, const ViewDirection& direction, bool legend) {
-  const int width = target.width(), height = target.height();
   target.window().SetSize(int(panel.width), int(panel.height));
-  Scene scene;
-  scene.attach(target);
   scene.set_caption(heading);
   scene.set_axes(true, legend);
   scene.set_legends(legend);
-  scene.mesh().show(mesh, paint);
-  scene.frame(points_to_frame(mesh), direction);
+  scene.frame(points, direction);
   target.render();
-  Image image = target.read_back();
-  target.window().SetSize(width, height);
-  return image;
+  return target.read_back();
 }
 
 }  // namespace
 
 SurfaceViews::SurfaceViews(RenderTarget& target, const TriangleMesh& mesh, const MeshPaint& paint,
                            const std::string& heading, const PageArea& large, const PageArea& other_side,
-                           const PageArea& below)
-    : views_{View{large, draw(target, large, mesh, paint, heading, {-50, 24}, true)},
-             View{other_side, draw(target, other_side, mesh, paint, "From the other side", {130, 24}, false)},
-             View{below, draw(target, below, mesh, paint, "From below", {-50, -50}, false)}} {}
+                           const PageArea& below) {
+  const int width = target.width(), height = target.height();
+  const std::vector<Vector3> points = points_to_frame(mesh);
+  Scene scene;  // one for all: a surface may have a million triangles
+  scene.attach(target);
+  scene.mesh().show(mesh, paint);
+  views_ = {View{large, draw(target, scene, points, large, heading, {-50, 24}, true)},
+            View{other_side, draw(target, scene, points, other_side, "From the other side", {130, 24}, false)},
+            View{below, draw(target, scene, points, below, "From below", {-50, -50}, false)}};
+  target.window().SetSize(width, height);
+}
 
 void SurfaceViews::paint(vtkContext2D& context) const {
   Painter painter(context);

@@ -15,8 +15,6 @@
 namespace nextview {
 namespace {
 
-/// Faces that one task writes: enough to outweigh starting it.
-
 vtkSmartPointer<vtkFloatArray> float_array(int components, vtkIdType tuples) {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetNumberOfComponents(components);

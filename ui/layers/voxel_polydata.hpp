@@ -12,7 +12,7 @@ namespace nextview {
 /// for shaders/voxels_vertex.glsl; normals follow from it.
 vtkSmartPointer<vtkPolyData> voxel_polydata(const VoxelGrid& grid, std::span<const VoxelFace> faces);
 
-/// What a task takes of a list of faces.
+/// What a task takes of a list of faces: enough to outweigh starting it.
 inline constexpr std::size_t faces_per_task = 4096;
 
 /// What the vertex attribute "voxel_corner" holds.
