@@ -106,7 +106,8 @@ void draw_curves(const Session& session, const ExportArguments& a) {
 /// Returns what was written.
 std::string draw_scene(const Session& session, const ExportArguments& a, const ProgressLine& progress,
                        const std::stop_token& stop) {
-  SceneFigure figure(session, layers_of(a), size_of(a, {}));
+  OffscreenTarget target(smallest_picture, smallest_picture);
+  SceneFigure figure(target, session, layers_of(a), size_of(a, {}));
   const std::string configuration = configuration_text(session, a.path());
   if (a.kind() == ExportKind::picture) {
     write_png(figure.draw(direction_of(a), a.transparent), a.path(), configuration);

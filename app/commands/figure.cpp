@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
@@ -17,6 +18,7 @@
 #include "core/progress/stopped.hpp"
 #include "core/results/made_folder.hpp"
 #include "core/study/study_folder.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/report/scan_figures.hpp"
 #include "ui/report/study_charts.hpp"
 #include "ui/report/study_report.hpp"
@@ -37,6 +39,18 @@ struct FigureArguments {
   std::vector<int> views;
   double dpi = 2 * design_dpi, width = 0;  ///< width: of the print [mm]; 0: none
   bool list = false, dark = false;
+};
+
+/// What all pictures are drawn in, made when the first one is: what it takes to draw is made once.
+class SharedTarget {
+ public:
+  RenderTarget& get() {
+    if (!target_) target_.emplace(smallest_picture, smallest_picture);
+    return *target_;
+  }
+
+ private:
+  std::optional<OffscreenTarget> target_;
 };
 
 bool is_wanted(const FigureArguments& a, const std::string& name) { return a.name == "all" || a.name == name; }
@@ -73,11 +87,11 @@ void warn_of_letters(const FigureArguments& a, const std::string& name, const Ve
 }
 
 /// A drawing, and beside it what it shows and what it was made from.
-void write_drawing(const FigureArguments& a, const std::string& name, const VectorDrawing& drawing,
-                   nlohmann::ordered_json about, const std::string& configuration) {
+void write_drawing(const FigureArguments& a, RenderTarget& target, const std::string& name,
+                   const VectorDrawing& drawing, nlohmann::ordered_json about, const std::string& configuration) {
   const fs::path out = a.out;
-  const Image image =
-      a.size.empty() ? drawing.image(scale_of(a, drawing)) : drawing.image(picture_size(a.size, "--size"));
+  const Image image = a.size.empty() ? drawing.image(target, scale_of(a, drawing))
+                                     : drawing.image(target, picture_size(a.size, "--size"));
   write_png(image, out / (name + ".png"), configuration, a.dpi);
   if (drawing.is_vector())
     write_file(out / (name + ".svg"), drawing.svg(a.width > 0 ? std::optional(a.width) : std::nullopt));
@@ -98,14 +112,14 @@ void write_time_table(const fs::path& study, const fs::path& out) {
 }
 
 /// A figure that the study has nothing of is passed over, or, if it was asked for by name, an error.
-void write_figure(const FigureArguments& a, const StudyFigure& figure, const SummaryTable& table,
+void write_figure(const FigureArguments& a, SharedTarget& target, const StudyFigure& figure, const SummaryTable& table,
                   const fs::path& study) {
   const auto drawing = figure.draw(table, sheet_of(a));
   if (!drawing && a.name != "all")
     throw std::invalid_argument(fmt::format("{}: the study has nothing that {} shows, which needs {}", study.string(),
                                             figure.name, figure.needs));
   if (!drawing) return;
-  write_drawing(a, figure.name, *drawing,
+  write_drawing(a, target.get(), figure.name, *drawing,
                 {{"figure", figure.name},
                  {"caption", figure.caption},
                  {"study", study.filename().string()},
@@ -113,11 +127,11 @@ void write_figure(const FigureArguments& a, const StudyFigure& figure, const Sum
                 read_file(study / study_file_name));
 }
 
-void write_study_figures(const FigureArguments& a, const SummaryTable& table, const fs::path& study,
-                         const std::stop_token& stop) {
+void write_study_figures(const FigureArguments& a, SharedTarget& target, const SummaryTable& table,
+                         const fs::path& study, const std::stop_token& stop) {
   for (const StudyFigure& figure : study_figures()) {
     throw_if_stopped(stop);
-    if (is_wanted(a, figure.name)) write_figure(a, figure, table, study);
+    if (is_wanted(a, figure.name)) write_figure(a, target, figure, table, study);
   }
   if (is_wanted(a, time_table_name)) write_time_table(study, a.out);
   if (!is_wanted(a, report_name)) return;
@@ -126,8 +140,9 @@ void write_study_figures(const FigureArguments& a, const SummaryTable& table, co
 }
 
 /// Scenes are drawn for a scale, which follows from the drawing's size, if a picture's is given.
-VectorDrawing drawn(const FigureArguments& a, const ScanFigure& figure, std::span<ReportScan> scans) {
-  FigurePaper paper{look_of(a), a.dpi / design_dpi, a.views};
+VectorDrawing drawn(const FigureArguments& a, RenderTarget& target, const ScanFigure& figure,
+                    std::span<ReportScan> scans) {
+  FigurePaper paper{target, look_of(a), a.dpi / design_dpi, a.views};
   if (a.views.empty()) paper.views = {1, 2, 3, 4, 5, 6, 7, 8};
   if (a.size.empty() && a.width <= 0) return figure.draw(scans, paper);
   constexpr double coarse = 0.2;
@@ -145,7 +160,7 @@ void require_views(const std::vector<int>& views, const ReportScan& scan) {
           fmt::format("--views {}: {} has {}", view, scan.name, counted(scan.states.size(), "view")));
 }
 
-void write_scan_figures(const FigureArguments& a, const std::stop_token& stop) {
+void write_scan_figures(const FigureArguments& a, SharedTarget& target, const std::stop_token& stop) {
   if (std::ranges::none_of(scan_figures(), [&](const ScanFigure& figure) { return is_wanted(a, figure.name); })) return;
   const ProgressLine progress;
   auto scans = a.sessions.empty() ? made_scans(progress, stop) : report_scans(a.sessions, progress, stop);
@@ -155,7 +170,7 @@ void write_scan_figures(const FigureArguments& a, const std::stop_token& stop) {
   for (const ScanFigure& figure : scan_figures()) {
     throw_if_stopped(stop);
     if (is_wanted(a, figure.name))
-      write_drawing(a, figure.name, drawn(a, figure, scans),
+      write_drawing(a, target.get(), figure.name, drawn(a, target.get(), figure, scans),
                     {{"figure", figure.name}, {"caption", figure.caption}, {"scans", names}},
                     to_toml(scans.front().session->configuration(), a.out));
   }
@@ -213,8 +228,9 @@ int run(const FigureArguments& a) {
   require_folder_of_figures(a.out);
   const MadeFolder folder(a.out);
   const StopOnInterrupt stop;
-  if (table) write_study_figures(a, *table, study, stop.token());
-  write_scan_figures(a, stop.token());
+  SharedTarget target;
+  if (table) write_study_figures(a, target, *table, study, stop.token());
+  write_scan_figures(a, target, stop.token());
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/render/render_test.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 #include "ui/report/scene_panel.hpp"
 
 namespace nextview {
@@ -50,13 +51,14 @@ std::vector<ReportScan> scans() {
 
 TEST(Figures, OfScans) {
   auto all = scans();
-  const FigurePaper paper{Look::light(), 1.0, {1, 2, 4, 6, 99}};  // the scan has no view 99
+  OffscreenTarget target(64, 48);
+  const FigurePaper paper{target, Look::light(), 1.0, {1, 2, 4, 6, 99}};  // the scan has no view 99
   for (const ScanFigure& figure : scan_figures())
-    expect_screenshot("figure_" + figure.name, figure.draw(all, paper).image());
-  const FigurePaper dark{Look::dark(), 1.0, {1, 6}};
+    expect_screenshot("figure_" + figure.name, figure.draw(all, paper).image(target));
+  const FigurePaper dark{target, Look::dark(), 1.0, {1, 6}};
   for (const ScanFigure& figure : scan_figures())
     if (figure.name == "data_flow" || figure.name == "strategy" || figure.name == "sensor")
-      expect_screenshot("figure_" + figure.name + "_dark", figure.draw(all, dark).image());
+      expect_screenshot("figure_" + figure.name + "_dark", figure.draw(all, dark).image(target));
 }
 
 TEST(Figures, OfTheSensorAreOfTheScansOwn) {
@@ -65,7 +67,8 @@ TEST(Figures, OfTheSensorAreOfTheScansOwn) {
   c.termination.views = 1;
   std::vector<ReportScan> scans;
   scans.push_back(scan_of(c));
-  const std::string svg = sensor_figure(scans, {Look::light(), 1.0, {}}).svg();
+  OffscreenTarget target(64, 48);
+  const std::string svg = sensor_figure(scans, {target, Look::light(), 1.0, {}}).svg();
   for (const char* text : {"σ = 5 mm, voxels", "σ_φ = 0.18°", ">875<", ">900<", ">925<", ">80<"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/render/picture_comparison.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -31,7 +32,7 @@ struct Turntable {
     picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
     SceneLayers layers;
     layers.cloud = layers.map = layers.views = layers.rays = layers.region = layers.annotated = false;
-    figure = std::make_unique<SceneFigure>(picture, layers, PictureSize{edge, edge}, 1.0);
+    figure = std::make_unique<SceneFigure>(target, picture, layers, PictureSize{edge, edge}, 1.0);
   }
   Image turned(const ViewDirection& start, int frame, int count) {
     return figure->draw_turned(start, frame, count, true);
@@ -39,6 +40,7 @@ struct Turntable {
 
   TriangleMesh mesh;
   StepPicture picture;
+  OffscreenTarget target{64, 48};
   std::unique_ptr<SceneFigure> figure;
 };
 
@@ -78,7 +80,8 @@ TEST(SceneFigure, KeepsClearOfTheLegendsThatItHasAndOfNoOthers) {
   picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
   SceneLayers layers;
   layers.cloud = layers.views = layers.rays = layers.region = layers.object = false;
-  const Image image = SceneFigure(picture, layers, {440, 360}, 1.0).draw({}, false);
+  OffscreenTarget target(64, 48);
+  const Image image = SceneFigure(target, picture, layers, {440, 360}, 1.0).draw({}, false);
   Eigen::AlignedBox2i blue;
   for (int y = 90; y < image.height; ++y)  // below the legend, whose swatch is blue, too
     for (int x = 0; x < image.width; ++x) {

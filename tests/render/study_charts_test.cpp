@@ -13,6 +13,7 @@
 #include "core/study/summary_table.hpp"
 #include "tests/render/render_test.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -28,18 +29,20 @@ const SummaryTable& own_study() {
 }
 
 TEST(Figures, ChartsOfAStudy) {
+  OffscreenTarget target(64, 48);
   for (const StudyFigure& figure : study_figures()) {
     const auto drawing = figure.draw(own_study(), Look::light());
     ASSERT_TRUE(drawing) << figure.name;
-    expect_screenshot("study_" + figure.name, drawing->image());
+    expect_screenshot("study_" + figure.name, drawing->image(target));
   }
 }
 
 TEST(Figures, ChartsOfAStudyOnDarkPaper) {
+  OffscreenTarget target(64, 48);
   for (const StudyFigure& figure : study_figures())
     if (figure.name == "coverage_by_view" || figure.name == "gap_closed" || figure.name == "stationarity" ||
         figure.name == "log_loss_by_sensor")
-      expect_screenshot("study_" + figure.name + "_dark", figure.draw(own_study(), Look::dark())->image());
+      expect_screenshot("study_" + figure.name + "_dark", figure.draw(own_study(), Look::dark())->image(target));
 }
 
 /// A text of an SVG that reaches beyond its sides, by about how wide it is; empty if none does.
@@ -162,7 +165,9 @@ TEST(StudyCharts, OfPredictionsAreOfEveryPlanThatPredictsNewSurface) {
 TEST(Drawings, FitInTheMiddleOfAPage) {
   VectorDrawing drawing(100, 50, Look::light());
   drawing.box(0, 0, 100, 50, theme::chosen);
-  const Image image = drawing.image(PictureSize{200, 200});  // twice as large, with 50 px of paper above and below
+  OffscreenTarget target(64, 48);
+  // Twice as large, with 50 px of paper above and below.
+  const Image image = drawing.image(target, PictureSize{200, 200});
   const auto red = [&](int x, int y) { return int(image.rgba.at((std::size_t(y) * 200 + x) * 4)); };
   const auto green = [&](int x, int y) { return int(image.rgba.at((std::size_t(y) * 200 + x) * 4 + 1)); };
   EXPECT_EQ(image.width, 200);

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "ui/figures/session_figure.hpp"
-#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -39,20 +38,22 @@ std::vector<std::size_t> others(const StepPicture& picture) {
 }  // namespace
 
 struct SceneFigure::Parts {
-  explicit Parts(const PictureSize& s) : size(s) { scene.attach(target); }
+  Parts(RenderTarget& target, const PictureSize& size) : apart(target, {&scene.renderer()}, size) {
+    scene.attach(target);
+  }
 
-  PictureSize size;
-  OffscreenTarget target{smallest_picture, smallest_picture};
   Scene scene;
-  DrawnApart apart{target, {&scene.renderer()}, size};
+  DrawnApart apart;
   Vector3 centre = Vector3::Zero();
 };
 
-SceneFigure::SceneFigure(const Session& session, const SceneLayers& layers, const PictureSize& size)
-    : SceneFigure(step_picture(session), layers, size, picture_scale(size)) {}
+SceneFigure::SceneFigure(RenderTarget& target, const Session& session, const SceneLayers& layers,
+                         const PictureSize& size)
+    : SceneFigure(target, step_picture(session), layers, size, picture_scale(size)) {}
 
-SceneFigure::SceneFigure(const StepPicture& picture, const SceneLayers& layers, const PictureSize& size, double scale)
-    : parts_(std::make_unique<Parts>(size)) {
+SceneFigure::SceneFigure(RenderTarget& target, const StepPicture& picture, const SceneLayers& layers,
+                         const PictureSize& size, double scale)
+    : parts_(std::make_unique<Parts>(target, size)) {
   Scene& scene = parts_->scene;
   scene.set_scale(scale);
   scene.set_dark(layers.dark);

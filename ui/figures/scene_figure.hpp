@@ -17,13 +17,15 @@ struct SceneLayers {
   bool dark = false;       ///< on dark paper
 };
 
-/// The scene of a session alone, as the window has it, drawn headless (ensure_headless).
+/// The scene of a session alone, as the window has it.
 class SceneFigure {
  public:
+  /// Draws in the target, which must live longer, beside what that shows.
   /// @pre the session has taken a step
-  SceneFigure(const Session& session, const SceneLayers& layers, const PictureSize& size);
+  SceneFigure(RenderTarget& target, const Session& session, const SceneLayers& layers, const PictureSize& size);
   /// What one picture of a scan shows. `scale`: pixels a pixel of the design.
-  SceneFigure(const StepPicture& picture, const SceneLayers& layers, const PictureSize& size, double scale);
+  SceneFigure(RenderTarget& target, const StepPicture& picture, const SceneLayers& layers, const PictureSize& size,
+              double scale);
   ~SceneFigure();
 
   /// All of what is shown.

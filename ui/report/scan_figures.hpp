@@ -7,6 +7,7 @@
 
 #include "core/offline/refinement.hpp"
 #include "core/session/session.hpp"
+#include "ui/render_target/render_target.hpp"
 #include "ui/report/vector_drawing.hpp"
 
 namespace nextview {
@@ -27,12 +28,13 @@ struct ReportScan {
 
 /// What scans are drawn on, and how much of them.
 struct FigurePaper {
+  RenderTarget& target;  ///< scenes are drawn in it, one after the other: what it takes to draw is made once
   Look look;
   double scale = 1.0;      ///< pixels a pixel of the drawing
   std::vector<int> views;  ///< columns of `strategy`, from 1; those that the scan does not have are left out
 };
 
-/// A figure that needs no study: of one scan or several, drawn headless (ensure_headless).
+/// A figure that needs no study: of one scan or several.
 struct ScanFigure {
   std::string name;
   std::string caption;                                                           ///< what it shows, and how it is read

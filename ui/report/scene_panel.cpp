@@ -13,7 +13,7 @@ void draw_scene_panel(VectorDrawing& drawing, const DrawingArea& area, const Ste
   shown.cloud |= layers.object && !picture.object;
   shown.dark = paper.look.is_dark();
   const auto pixels = [&](double length) { return int(std::lround(length * paper.scale)); };
-  SceneFigure figure(picture, shown, {pixels(area.width), pixels(area.height)}, paper.scale);
+  SceneFigure figure(paper.target, picture, shown, {pixels(area.width), pixels(area.height)}, paper.scale);
   drawing.picture(area.left, area.top, points.empty() ? figure.draw(direction, false) : figure.draw(direction, points));
 }
 

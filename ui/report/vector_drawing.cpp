@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkPen.h>
 
 #include <algorithm>
@@ -177,9 +178,10 @@ class VectorDrawing::PixelPainter {
   double left_, height_, scale_;
 };
 
-Image VectorDrawing::drawn(const PictureSize& size, double scale) const {
+Image VectorDrawing::drawn(RenderTarget& target, const PictureSize& size, double scale) const {
   const double left = 0.5 * (size.width / scale - width_), top = 0.5 * (size.height / scale - height_);
-  return draw_page(size.width, size.height, [&](vtkContext2D& context) {
+  target.window().SetSize(size.width, size.height);
+  return draw_page(target, [&](vtkContext2D& context) {
     const auto width = float(size.width), height = float(size.height);
     context.GetPen()->SetLineType(vtkPen::NO_PEN);
     const auto channel = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
@@ -190,16 +192,18 @@ Image VectorDrawing::drawn(const PictureSize& size, double scale) const {
   });
 }
 
-Image VectorDrawing::image(double scale) const {
+Image VectorDrawing::image(RenderTarget& target, double scale) const {
   const auto pixels = [&](double length) { return int(std::lround(length * scale)); };
-  return drawn({pixels(width_), pixels(height_)}, scale);
+  return drawn(target, {pixels(width_), pixels(height_)}, scale);
 }
 
 double VectorDrawing::scale_within(const PictureSize& size) const {
   return std::min(size.width / width_, size.height / height_);
 }
 
-Image VectorDrawing::image(const PictureSize& size) const { return drawn(size, scale_within(size)); }
+Image VectorDrawing::image(RenderTarget& target, const PictureSize& size) const {
+  return drawn(target, size, scale_within(size));
+}
 
 double text_width(const std::string& words, int size) {
   std::size_t letters = 0;

@@ -13,6 +13,8 @@
 
 namespace nextview {
 
+class RenderTarget;
+
 /// Colours of a drawing that do not mean anything.
 struct Look {
   Colour paper, ink, soft_ink, hairline;
@@ -65,10 +67,10 @@ class VectorDrawing {
   std::string svg(std::optional<double> printed_width = {}) const;
   /// Of its letters; none if it has none [px].
   std::optional<int> smallest_text() const;
-  /// Drawn headless (ensure_headless). `scale`: pixels a pixel of the drawing.
-  Image image(double scale = 1.0) const;
+  /// Drawn in the target, which is as large as the picture afterwards. `scale`: pixels a pixel of the drawing.
+  Image image(RenderTarget& target, double scale = 1.0) const;
   /// In the middle of a page of this size, as large as it fits.
-  Image image(const PictureSize& size) const;
+  Image image(RenderTarget& target, const PictureSize& size) const;
   /// At which it fits there.
   double scale_within(const PictureSize& size) const;
 
@@ -98,7 +100,7 @@ class VectorDrawing {
   };
   class SvgWriter;
   class PixelPainter;
-  Image drawn(const PictureSize& size, double scale) const;
+  Image drawn(RenderTarget& target, const PictureSize& size, double scale) const;
 
   double width_, height_;
   Look look_;
