@@ -145,8 +145,7 @@ VectorDrawing drawn(const FigureArguments& a, RenderTarget& target, const ScanFi
   FigurePaper paper{target, look_of(a), a.dpi / design_dpi, a.views};
   if (a.views.empty()) paper.views = {1, 2, 3, 4, 5, 6, 7, 8};
   if (a.size.empty() && a.width <= 0) return figure.draw(scans, paper);
-  constexpr double coarse = 0.2;
-  paper.scale = coarse;
+  paper.scale = 0.0;
   const VectorDrawing first = figure.draw(scans, paper);
   paper.scale = a.size.empty() ? scale_of(a, first) : first.scale_within(picture_size(a.size, "--size"));
   return figure.draw(scans, paper);

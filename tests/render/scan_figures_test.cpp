@@ -73,6 +73,17 @@ TEST(Figures, OfTheSensorAreOfTheScansOwn) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
+TEST(Figures, WithoutTheirScenesAreAsLargeAsWithThem) {
+  auto all = scans();
+  OffscreenTarget target(64, 48);
+  const VectorDrawing whole = strategy_figure(all, {target, Look::light(), 0.2, {1, 6}});
+  const VectorDrawing laid_out = strategy_figure(all, {target, Look::light(), 0.0, {1, 6}});
+  EXPECT_FALSE(whole.is_vector());
+  EXPECT_TRUE(laid_out.is_vector());
+  EXPECT_EQ(laid_out.width(), whole.width());
+  EXPECT_EQ(laid_out.height(), whole.height());
+}
+
 TEST(ScenePanels, AreFramedByTheCloudWhereTheObjectIsNotKnown) {
   StepPicture picture;
   picture.grid = region_of_interest(Vector3::Zero(), 1.28, 0.01);

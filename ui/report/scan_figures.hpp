@@ -30,7 +30,7 @@ struct ReportScan {
 struct FigurePaper {
   RenderTarget& target;  ///< scenes are drawn in it, one after the other: what it takes to draw is made once
   Look look;
-  double scale = 1.0;      ///< pixels a pixel of the drawing
+  double scale = 1.0;      ///< pixels a pixel of the drawing; 0: scenes are left out, to see how large it is
   std::vector<int> views;  ///< columns of `strategy`, from 1; those that the scan does not have are left out
 };
 

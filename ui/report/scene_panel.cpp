@@ -9,6 +9,7 @@ namespace nextview {
 void draw_scene_panel(VectorDrawing& drawing, const DrawingArea& area, const StepPicture& picture,
                       const SceneLayers& layers, const FigurePaper& paper, const ViewDirection& direction,
                       std::span<const Vector3> points) {
+  if (!(paper.scale > 0.0)) return;
   SceneLayers shown = layers;
   shown.cloud |= layers.object && !picture.object;
   shown.dark = paper.look.is_dark();
