@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/options.hpp"
@@ -17,6 +18,7 @@
 #include "core/session/saved_session.hpp"
 #include "ui/figures/refinement_figure.hpp"
 #include "ui/figures/sensor_model_figure.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -84,7 +86,7 @@ void print(const RefinementJob& job, const Refinement& r) {
         best(r.gains_before), best(r.gains_after), r.gains_after.size(), r.rank_correlation);
 }
 
-void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder& out) {
+void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder& out, RenderTarget& target) {
   RefinementPicture picture;
   picture.title = fmt::format("{} refined", job.name);
   picture.remark = fmt::format("{}, model {}", counted(job.scans.size(), "view"), name(job.sampler.model.kind));
@@ -100,9 +102,9 @@ void write_pictures(const RefinementJob& job, const Refinement& r, OutputFolder&
     picture.numbers_note = "near: within 3 voxels of the surface; visited by noise-free rays";
   }
   picture.numbers = numbers(r);
-  write_png(draw_refinement_figure(picture), out.claim("refinement.png"));
+  write_png(draw_refinement_figure(target, picture), out.claim("refinement.png"));
   const double max_range = job.scans.front().max_range;
-  write_png(draw_sensor_model_figure({job.sampler.model, job.grid.resolution, 0.6 * max_range, max_range}),
+  write_png(draw_sensor_model_figure(target, {job.sampler.model, job.grid.resolution, 0.6 * max_range, max_range}),
             out.claim("sensor_models.png"));
 }
 
@@ -123,12 +125,13 @@ int run(const RefineArguments& arguments) {
   print(job, refinement);
   out.begin("refine", job.object);
   write_refinement(job, refinement, out);
-  if (!arguments.no_pictures) write_pictures(job, refinement, out);
+  std::optional<OffscreenTarget> target;  // one for all: what it takes to draw in it is made once
+  if (!arguments.no_pictures) write_pictures(job, refinement, out, target.emplace(1600, 1000));
   std::string surface_files;
   if (!arguments.no_surfaces) {
     const auto surfaces = scan_surfaces(job, refinement, progress, stop.token());
     progress.clear();
-    surface_files = write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, !arguments.no_pictures);
+    surface_files = write_and_print_surfaces(surfaces, job.name, job.scans.size(), out, target ? &*target : nullptr);
   }
   fmt::print("\n{}/\n", printable(out.path().string()));
   if (!arguments.no_pictures) fmt::print("  refinement.png, sensor_models.png\n");

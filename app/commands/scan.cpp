@@ -21,6 +21,7 @@
 #include "core/session/session_folder.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "ui/figures/session_figure.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -38,7 +39,7 @@ struct ScanArguments {
 class StepPictures {
  public:
   StepPictures(bool wanted, bool only_missing) : only_missing_(only_missing) {
-    if (wanted) figure_ = std::make_unique<SessionFigure>();
+    if (wanted) figure_.emplace(target_.emplace(1600, 1000));
   }
   void write(const Session& session, OutputFolder& out) {
     if (!figure_) return;
@@ -46,8 +47,15 @@ class StepPictures {
     if (!only_missing_ || !is_there(out.path() / name)) figure_->write(session, out.claim(name));
   }
 
+  /// After the last step: what was drawn in, for other pictures; none if none are wanted.
+  RenderTarget* leave_target() {
+    figure_.reset();
+    return target_ ? &*target_ : nullptr;
+  }
+
  private:
-  std::unique_ptr<SessionFigure> figure_;
+  std::optional<OffscreenTarget> target_;  ///< one for all: what it takes to draw in it is made once
+  std::optional<SessionFigure> figure_;
   bool only_missing_;
 };
 
@@ -94,7 +102,8 @@ void take_views(Session& session, Scanner* scanner, SessionFolder& folder, StepP
 }
 
 void write_results(const Session& session, const ScanArguments& arguments, OutputFolder& out,
-                   const std::string& failure, const ProgressLine& progress, const std::stop_token& stop) {
+                   const std::string& failure, StepPictures& pictures, const ProgressLine& progress,
+                   const std::stop_token& stop) {
   progress(1.0, "writing the files");
   write_scan(session, out);
   std::string surface_files;
@@ -102,7 +111,7 @@ void write_results(const Session& session, const ScanArguments& arguments, Outpu
     const auto surfaces = scan_surfaces(session, progress, stop);
     progress.clear();
     surface_files =
-        write_and_print_surfaces(surfaces, session.name(), session.records().size(), out, !arguments.no_pictures);
+        write_and_print_surfaces(surfaces, session.name(), session.records().size(), out, pictures.leave_target());
     if (surfaces.empty())
       surface_files = fmt::format(
           "  (no surfaces: stopped before they were made; nextview export {} surface surface.ply makes one)\n",
@@ -129,7 +138,7 @@ int finish(Session& session, const ScanArguments& arguments, Scanner* scanner, S
     failure = error.what();  // what was taken is written all the same
   }
   try {
-    write_results(session, arguments, folder.out(), failure, progress, stop);
+    write_results(session, arguments, folder.out(), failure, pictures, progress, stop);
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error& error) {  // a full disk, for example

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "core/file/counted.hpp"
 #include "core/surface/seen_part.hpp"
 #include "ui/figures/surface_error_figure.hpp"
-#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -29,17 +27,14 @@ Image draw(RenderTarget& target, const ScanSurface& surface, const std::string& 
 }  // namespace
 
 std::string write_and_print_surfaces(std::span<const ScanSurface> surfaces, const std::string& name, std::size_t views,
-                                     OutputFolder& out, bool pictures) {
+                                     OutputFolder& out, RenderTarget* target) {
   std::vector<std::string> files = write_surfaces(surfaces, out);
   if (surfaces.empty()) return "";  // stopped
-  // One for all: what it takes to draw in it is made once.
-  std::optional<OffscreenTarget> target;
   fmt::print("\n");
   for (const ScanSurface& surface : surfaces) {
     fmt::print("Surface {}.\n", summary(surface));
-    if (surface.surface.empty() || !pictures) continue;
+    if (surface.surface.empty() || !target) continue;
     files.push_back(surface.name + ".png");
-    if (!target) target.emplace(1600, 1000);
     write_png(draw(*target, surface, name, views), out.claim(files.back()));
   }
   const bool unseen = std::any_of(files.begin(), files.end(), [](const auto& f) { return f.ends_with("_unseen.stl"); });

@@ -4,6 +4,7 @@
 #include "tests/render/render_test.hpp"
 #include "ui/figures/refinement_figure.hpp"
 #include "ui/figures/sensor_model_figure.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -70,16 +71,22 @@ TEST(Figures, Refinement) {
   const PictureBound another_draw(0.03, 255,
                                   "the chains' draws hang on how the processor rounds; another seed changes 2.4 % of "
                                   "the pixels: the traces, the entropies, last digits");
-  expect_screenshot("refinement", draw_refinement_figure(picture_of(plate)), another_draw);
+  OffscreenTarget target(64, 48);
+  expect_screenshot("refinement", draw_refinement_figure(target, picture_of(plate)), another_draw);
 }
 
-TEST(Figures, SensorModels) { expect_screenshot("sensor_models", draw_sensor_model_figure({})); }
+TEST(Figures, SensorModels) {
+  OffscreenTarget target(64, 48);
+  expect_screenshot("sensor_models", draw_sensor_model_figure(target, {}));
+  EXPECT_EQ(target.width(), 64) << "it is not as it was";
+}
 
 TEST(SensorModelFigure, ShowsThePeaksOfASmallPartsModels) {
   SensorModelPicture small;
   small.model.sigma = 0.00005;
   small.resolution = 0.0002, small.surface = 0.0216, small.max_range = 0.036;
-  const Image image = draw_sensor_model_figure(small);
+  OffscreenTarget target(64, 48);
+  const Image image = draw_sensor_model_figure(target, small);
   const auto has_curve = [&](int x, int top, int bottom) {
     for (int y = top; y < bottom; ++y) {
       const std::uint8_t* pixel = &image.rgba[(std::size_t(y) * image.width + x) * 4];
@@ -102,9 +109,10 @@ TEST(RefinementFigure, NeedsNoTruthAndNoChains) {
   const GridSlice slice = default_slice(picture);
   EXPECT_EQ(slice.axis, 1);
   EXPECT_EQ(slice.index, 7);
-  EXPECT_EQ(draw_refinement_figure(picture).width, 1600);
+  OffscreenTarget target(64, 48);
+  EXPECT_EQ(draw_refinement_figure(target, picture).width, 1600);
   picture.gibbs = std::span(gibbs).first(7);
-  EXPECT_THROW(draw_refinement_figure(picture), std::invalid_argument);
+  EXPECT_THROW(draw_refinement_figure(target, picture), std::invalid_argument);
 }
 
 }  // namespace

@@ -64,6 +64,14 @@ Image draw_page(RenderTarget& target, const std::function<void(vtkContext2D&)>& 
   return image;
 }
 
+Image draw_page(RenderTarget& target, const PictureSize& size, const std::function<void(vtkContext2D&)>& paint) {
+  const PictureSize before{target.width(), target.height()};
+  target.window().SetSize(size.width, size.height);
+  Image image = draw_page(target, paint);
+  target.window().SetSize(before.width, before.height);
+  return image;
+}
+
 void paint_panel(Painter& painter, const PageArea& panel, const std::string& heading, const std::string& remark) {
   painter.frame(panel.left - 1, panel.bottom - 1, panel.width + 2, panel.height + 2, theme::hairline);
   const double y = panel.top() - 30;

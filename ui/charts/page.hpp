@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/appearance/picture_size.hpp"
 #include "ui/drawing/painter.hpp"
 #include "ui/render_target/render_target.hpp"
 
@@ -28,6 +29,8 @@ inline constexpr double heading_height = 40.0;
 
 /// A flat picture as large as the target: `paint` draws over a blank page.
 Image draw_page(RenderTarget& target, const std::function<void(vtkContext2D&)>& paint);
+/// The same of another size; the target is as large as it was afterwards.
+Image draw_page(RenderTarget& target, const PictureSize& size, const std::function<void(vtkContext2D&)>& paint);
 /// The same, drawn headless (ensure_headless).
 Image draw_page(int width, int height, const std::function<void(vtkContext2D&)>& paint);
 

@@ -148,12 +148,13 @@ GridSlice default_slice(const RefinementPicture& picture) {
   return slice_of_largest_difference(picture.grid, picture.conventional, picture.gibbs);
 }
 
-Image draw_refinement_figure(const RefinementPicture& picture, int width, int height) {
+Image draw_refinement_figure(RenderTarget& target, const RefinementPicture& picture) {
+  constexpr int width = 1600, height = 1000;
   const std::size_t voxels = picture.grid.voxel_count();
   if (picture.conventional.size() != voxels || picture.gibbs.size() != voxels)
     throw std::invalid_argument(fmt::format("refinement figure: {} and {} voxels for a grid of {}",
                                             picture.conventional.size(), picture.gibbs.size(), voxels));
-  return draw_page(width, height, [&](vtkContext2D& context) {
+  return draw_page(target, {width, height}, [&](vtkContext2D& context) {
     Painter painter(context);
     const double top = height - paint_title(painter, width, height, picture.title, picture.remark, picture.caption);
     paint_slices(context, picture, width, top);

@@ -10,7 +10,7 @@
 #include "core/mesh/parts.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "ui/figures/grid_slice.hpp"
-#include "ui/render_target/image.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 
@@ -41,9 +41,8 @@ struct RefinementPicture {
 GridSlice default_slice(const RefinementPicture& picture);
 
 /// The map refined by the Gibbs sampler beside the conventional one, as for a paper: three slices (both maps and their
-/// difference), what stays uncertain, the chains, and numbers. Drawn headless (ensure_headless). Made for 1600 x 1000
-/// pixels.
+/// difference), what stays uncertain, the chains, and numbers. Drawn in the target, whatever its size.
 /// @throws std::invalid_argument if the numbers of voxels are not the grid's, or the slice is not within it.
-Image draw_refinement_figure(const RefinementPicture& picture, int width = 1600, int height = 1000);
+Image draw_refinement_figure(RenderTarget& target, const RefinementPicture& picture);
 
 }  // namespace nextview

@@ -170,7 +170,8 @@ void check(const SensorModelPicture& picture) {
 
 }  // namespace
 
-Image draw_sensor_model_figure(const SensorModelPicture& picture, int width, int height) {
+Image draw_sensor_model_figure(RenderTarget& target, const SensorModelPicture& picture) {
+  constexpr int width = 1200, height = 700;
   check(picture);
   const auto plots = plots_of(picture);
   const std::string remark =
@@ -180,7 +181,7 @@ Image draw_sensor_model_figure(const SensorModelPicture& picture, int width, int
       "normalised. All ranges: its integral from 0 to {1}. Beyond range: what it gives to no return (paper and "
       "cone: p({1}), our reading).",
       length_text(picture.surface), length_text(picture.max_range));
-  return draw_page(width, height, [&](vtkContext2D& context) {
+  return draw_page(target, {width, height}, [&](vtkContext2D& context) {
     Painter painter(context);
     const double top = height - paint_title(painter, width, height, "Forward sensor models", remark, caption);
     const double panel_width = std::floor((width - 3 * page_margin) / 2);

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gibbs/forward_sensor_model.hpp"
-#include "ui/render_target/image.hpp"
+#include "ui/render_target/render_target.hpp"
 
 namespace nextview {
 
@@ -14,9 +14,9 @@ struct SensorModelPicture {
 };
 
 /// p(z | the first occupied voxel) over the range z, a panel a model, logarithmic, each as it is: not made to sum up to
-/// one. Each says what its curve adds up to over all ranges, and what it gives to 'beyond range'. Drawn headless
-/// (ensure_headless). Made for 1200 x 700 pixels.
+/// one. Each says what its curve adds up to over all ranges, and what it gives to 'beyond range'. Drawn in the
+/// target, whatever its size.
 /// @throws std::invalid_argument if the model is not valid, or the surface is not within the maximum range.
-Image draw_sensor_model_figure(const SensorModelPicture& picture, int width = 1200, int height = 700);
+Image draw_sensor_model_figure(RenderTarget& target, const SensorModelPicture& picture);
 
 }  // namespace nextview

@@ -3,7 +3,6 @@
 #include "core/setting/length_text.hpp"
 #include "ui/charts/scan_curves.hpp"
 #include "ui/layers/ray_segments.hpp"
-#include "ui/render_target/offscreen_target.hpp"
 
 namespace nextview {
 namespace {
@@ -93,14 +92,6 @@ std::vector<ChartContent> session_charts(const Session& session) {
   return scan_charts(course);
 }
 
-struct SessionFigure::Parts {
-  OffscreenTarget target{1600, 1000};
-  StepFigure figure{target};
-};
-
-SessionFigure::SessionFigure() : parts_(std::make_unique<Parts>()) {}
-SessionFigure::~SessionFigure() = default;
-
 void SessionFigure::write(const Session& session, const std::filesystem::path& file) {
   StepPicture picture = step_picture(session);
   if (!session.finished().empty()) {
@@ -109,9 +100,9 @@ void SessionFigure::write(const Session& session, const std::filesystem::path& f
     picture.chosen.reset();  // no view follows
     picture.rays.clear();
   }
-  parts_->figure.show(picture);
-  parts_->target.render();
-  write_png(parts_->target.read_back(), file);
+  figure_.show(picture);
+  target_.render();
+  write_png(target_.read_back(), file);
 }
 
 }  // namespace nextview

@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <memory>
 
 #include "core/session/session.hpp"
 #include "ui/figures/step_figure.hpp"
@@ -15,17 +14,17 @@ StepPicture step_picture(const Session& session);
 /// The curves of a session up to its last step.
 std::vector<ChartContent> session_charts(const Session& session);
 
-/// Draws a session's steps headless, one after the other.
+/// Draws a session's steps, one after the other.
 class SessionFigure {
  public:
-  SessionFigure();
-  ~SessionFigure();
+  /// Draws over the whole target, which must live longer. Made for 1600 x 1000 pixels.
+  explicit SessionFigure(RenderTarget& target) : target_(target), figure_(target) {}
   /// @throws std::runtime_error if the file cannot be written.
   void write(const Session& session, const std::filesystem::path& file);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  RenderTarget& target_;
+  StepFigure figure_;
 };
 
 }  // namespace nextview

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <vtkContext2D.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,6 @@
 
 #include "core/setting/percent_text.hpp"
 #include "core/surface/seen_part.hpp"
-#include "ui/appearance/picture_size.hpp"
 #include "ui/charts/curve_plot.hpp"
 #include "ui/figures/surface_views.hpp"
 #include "ui/figures/uncertainty_spread.hpp"
@@ -28,12 +26,11 @@ struct SurfaceErrorLayout {
   SurfaceErrorLayout(RenderTarget& target, const SurfacePicture& picture, double share_of_numbers) {
     const int page_width = target.width(), page_height = target.height();
     double top = page_height;
-    target.window().SetSize(smallest_picture, smallest_picture);
-    draw_page(target, [&](vtkContext2D& context) {  // what the title needs, only a page can tell, of any size
+    // What the title needs, only a page can tell; one of any size.
+    draw_page(target, {smallest_picture, smallest_picture}, [&](vtkContext2D& context) {
       Painter painter(context);
       top -= paint_title(painter, page_width, page_height, picture.title, picture.remark, picture.caption);
     });
-    target.window().SetSize(page_width, page_height);
     const double column = std::floor((page_width - 4 * page_margin) / 3), second = 2 * page_margin + column,
                  third = second + column + page_margin;
     const double both = top - 3 * page_margin, small = std::floor(0.4 * both),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkPen.h>
 
 #include <algorithm>
@@ -180,8 +179,7 @@ class VectorDrawing::PixelPainter {
 
 Image VectorDrawing::drawn(RenderTarget& target, const PictureSize& size, double scale) const {
   const double left = 0.5 * (size.width / scale - width_), top = 0.5 * (size.height / scale - height_);
-  target.window().SetSize(size.width, size.height);
-  return draw_page(target, [&](vtkContext2D& context) {
+  return draw_page(target, size, [&](vtkContext2D& context) {
     const auto width = float(size.width), height = float(size.height);
     context.GetPen()->SetLineType(vtkPen::NO_PEN);
     const auto channel = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };

@@ -67,7 +67,7 @@ class VectorDrawing {
   std::string svg(std::optional<double> printed_width = {}) const;
   /// Of its letters; none if it has none [px].
   std::optional<int> smallest_text() const;
-  /// Drawn in the target, which is as large as the picture afterwards. `scale`: pixels a pixel of the drawing.
+  /// Drawn in the target, which is as large as it was afterwards. `scale`: pixels a pixel of the drawing.
   Image image(RenderTarget& target, double scale = 1.0) const;
   /// In the middle of a page of this size, as large as it fits.
   Image image(RenderTarget& target, const PictureSize& size) const;
