@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "ui/drawing/shader_file.hpp"
 #include "ui/layers/coarse_mesh.hpp"
@@ -140,15 +141,20 @@ MeshLayer::MeshLayer(vtkRenderer& renderer)
 }
 
 void MeshLayer::take(vtkSmartPointer<vtkPolyData> polydata) {
-  has_coarse_ = polydata->GetNumberOfPolys() > many_triangles;
-  coarse_->SetInputDataObject(has_coarse_ ? coarse(*polydata, coarse_cells) : vtkSmartPointer<vtkPolyData>::New());
+  if (polydata.Get() == full_->GetInputDataObject(0, 0)) return;
+  coarse_->SetInputDataObject(vtkSmartPointer<vtkPolyData>::New());
   full_->SetInputDataObject(polydata);
+  has_coarse_ = false;
   set_coarse(wants_coarse_);
 }
 
+/// It is made when it is wanted first: pictures that nobody moves need none.
 void MeshLayer::set_coarse(bool wants_coarse) {
   wants_coarse_ = wants_coarse;
-  actor_->SetMapper(wants_coarse && has_coarse_ ? coarse_ : full_);
+  auto& polydata = *vtkPolyData::SafeDownCast(full_->GetInputDataObject(0, 0));
+  const bool is_drawn = wants_coarse && polydata.GetNumberOfPolys() > many_triangles;
+  if (is_drawn && !std::exchange(has_coarse_, true)) coarse_->SetInputDataObject(coarse(polydata, coarse_cells));
+  actor_->SetMapper(is_drawn ? coarse_ : full_);
 }
 
 void MeshLayer::show(const TriangleMesh& mesh, MeshStyle style) {

@@ -62,7 +62,7 @@ class MeshLayer : public Layer {
   void take(vtkSmartPointer<vtkPolyData> polydata);
 
   ShadedPolydata shaded_;
-  /// Each keeps on the graphics card what it draws. The second has nothing where the first has few triangles.
+  /// Each keeps on the graphics card what it draws. The second has nothing until it is wanted.
   vtkSmartPointer<vtkOpenGLPolyDataMapper> full_, coarse_;
   vtkSmartPointer<vtkActor> actor_;
   bool has_coarse_ = false, wants_coarse_ = false;
