@@ -156,6 +156,17 @@ TEST_F(SceneRanges, ASelectionLastsAsLongAsWhatItIsOf) {
   EXPECT_EQ(user_.window().title(), "Nextview - sphere - view 0 of 4");
 }
 
+TEST_F(SceneRanges, ACandidateThatIsNoMoreIsNotLookedAt) {
+  const auto selection = [&] { return user_.window().state().selection; };
+  user_.run("step\npanel view\nselect-view 7\n");
+  ASSERT_EQ(selection().candidate(), 7u);
+  const auto session = user_.session().session;
+  user_.run("set views.count 6\n");
+  ASSERT_EQ(user_.session().session, session) << "the scan goes on";
+  ASSERT_LT(user_.session().candidates.size(), 8u);
+  EXPECT_TRUE(selection().view == ViewSelection{});
+}
+
 /// Lines that only differ in their values, as of a slider, are one; those that add up, or name a thing, are not.
 TEST_F(SceneRanges, TheScriptHasWhatWasDoneAndNothingElse) {
   user_.run(

@@ -102,7 +102,7 @@ void Interface::Parts::share_scene() {
   scene_is_old = true;
 }
 
-/// Another session has other views, voxels and rays; after going back some of them are gone.
+/// Another session has other views, voxels and rays; after going back, or by other settings, some of them are gone.
 void Interface::Parts::follow_session() {
   const SessionSnapshot& s = *news.snapshot;
   if (session != s.session) {
@@ -117,8 +117,10 @@ void Interface::Parts::follow_session() {
     }
   }
   state.layers.follow_comparison(s.compared != nullptr);
-  if (state.selection.view.kind == ViewSelection::Kind::taken && state.selection.view.index >= s.records.size())
-    state.selection.view = {};
+  ViewSelection& selected = state.selection.view;
+  const bool is_gone = (selected.kind == ViewSelection::Kind::taken && selected.index >= s.records.size()) ||
+                       (selected.kind == ViewSelection::Kind::candidate && selected.index >= s.candidates.size());
+  if (is_gone) selected = {};
 }
 
 void Interface::Parts::draw_interface(double seconds) {
