@@ -16,6 +16,7 @@ const Eigen::Matrix3d cones_from_rgb{{0.4122214708, 0.5363325363, 0.0514459929},
 const Eigen::Matrix3d lab_from_cones{{0.2104542553, 0.7936177850, -0.0040720468},
                                      {1.9779984951, -2.4285922050, 0.4505937099},
                                      {0.0259040371, 0.7827717662, -0.8086757660}};
+const Eigen::Matrix3d rgb_from_cones = cones_from_rgb.inverse(), cones_from_lab = lab_from_cones.inverse();
 
 double to_linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 double to_srgb(double c) {
@@ -24,8 +25,8 @@ double to_srgb(double c) {
 }
 
 Colour from_lab(const Eigen::Vector3d& lab) {
-  const Eigen::Vector3d cones = (lab_from_cones.inverse() * lab).array().cube();
-  const Eigen::Vector3d rgb = cones_from_rgb.inverse() * cones;
+  const Eigen::Vector3d cones = (cones_from_lab * lab).array().cube();
+  const Eigen::Vector3d rgb = rgb_from_cones * cones;
   return {to_srgb(rgb.x()), to_srgb(rgb.y()), to_srgb(rgb.z())};
 }
 

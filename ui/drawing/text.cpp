@@ -8,14 +8,22 @@
 #include <string>
 
 namespace nextview {
+namespace {
 
-std::filesystem::path font_file(TextWeight weight) {
-  const std::string name = weight == TextWeight::semi_bold ? "Inter-SemiBold" : "Inter-Regular";
+std::filesystem::path find_font(const std::string& name) {
   const std::filesystem::path fonts = "/usr/share/fonts";
   for (const auto& file : {fonts / "opentype/inter" / (name + ".otf"), fonts / "truetype/inter" / (name + ".ttf")}) {
     if (std::filesystem::exists(file)) return file;
   }
   throw std::runtime_error("the font " + name + " is missing from /usr/share/fonts; install the package fonts-inter");
+}
+
+}  // namespace
+
+/// Looked for once: a scene has dozens of texts, which are measured and drawn in each picture.
+const std::filesystem::path& font_file(TextWeight weight) {
+  static const std::filesystem::path regular = find_font("Inter-Regular"), semi_bold = find_font("Inter-SemiBold");
+  return weight == TextWeight::semi_bold ? semi_bold : regular;
 }
 
 void set_text(vtkTextProperty& property, int size, const Colour& colour, TextWeight weight) {

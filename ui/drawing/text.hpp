@@ -11,7 +11,7 @@ enum class TextWeight { regular, semi_bold };
 
 /// The product's font, Inter (Debian's fonts-inter).
 /// @throws std::runtime_error naming the package to install if the font is not there.
-std::filesystem::path font_file(TextWeight weight);
+const std::filesystem::path& font_file(TextWeight weight);
 
 /// Sets font, size [px] and colour.
 void set_text(vtkTextProperty& property, int size, const Colour& colour, TextWeight weight = TextWeight::regular);
