@@ -40,16 +40,17 @@ class DemoWindow {
   bool is_done() const { return interface_.script_is_done(); }
   /// The next frame, `seconds` after the last one: drawn once nothing runs any more and no line is left to do.
   Image frame(double seconds, const std::stop_token& stop) {
-    interface_.draw(seconds);
+    bool is_new = interface_.draw(seconds);
     while (!interface_.is_still()) {
       throw_if_stopped(stop);
       if (interface_.seconds_to_next_frame() > 0.0)
         static_cast<void>(news_.try_acquire_for(std::chrono::milliseconds(5)));
       else
-        interface_.draw(0.0);
+        is_new |= interface_.draw(0.0);
       if (failure_) throw std::runtime_error(*failure_);
     }
-    return target_.read_back();
+    if (is_new || last_.rgba.empty()) last_ = target_.read_back();
+    return last_;
   }
   Configuration configuration() { return worker_.snapshot()->configuration; }
 
@@ -60,6 +61,7 @@ class DemoWindow {
   InspectionWorker inspector_;
   Interface interface_;
   std::optional<std::string> failure_;
+  Image last_;  ///< what stands still need not be read again
 };
 
 }  // namespace
