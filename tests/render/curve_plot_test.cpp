@@ -125,6 +125,20 @@ TEST(Chart, EachSeriesIsALineInItsColour) {
   EXPECT_LT(spot(image, theme::series[2]).pixels, 5) << "there is no third";
 }
 
+TEST(Chart, OnALargerPageLettersAndLinesAreLarger) {
+  OffscreenTarget target(64, 48);
+  const ChartContent content{"Title", "view", "", "coverage", "%", {{"", {0, 20}, {20, 80}}}, 100.0, true};
+  const auto ink = [&](const PictureSize& size) {
+    const Image image = draw_charts(target, std::vector{content}, size, false);
+    int pixels = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) pixels += image.rgba[i] < 180;  // the grid is paler
+    return double(pixels);
+  };
+  const double usual = ink({640, 400});
+  EXPECT_GT(ink({1280, 800}), 3 * usual) << "else lines are as long again, and letters as they were";
+  EXPECT_LT(ink({1280, 400}), 2.5 * usual) << "what is wider alone has no room for them";
+}
+
 TEST(Page, WhatCannotBePaintedIsToldToWhoAsked) {
   for (int again = 0; again < 3; ++again)
     EXPECT_THROW(draw_page(width, height, [](vtkContext2D&) { throw std::invalid_argument("no"); }),

@@ -71,12 +71,13 @@ void set_ticks(vtkAxis& axis, const std::vector<double>& ticks, double low_margi
   axis.SetRange(ticks.front() - low_margin * range, ticks.back() + high_margin * range);
 }
 
-void style_axis(vtkAxis& axis, const std::string& title) {
+void style_axis(vtkAxis& axis, const std::string& title, double scale) {
+  const int size = int(std::lround(theme::small_text * scale));
   axis.SetTitle(title);
-  set_text(*axis.GetTitleProperties(), theme::small_text, theme::soft_ink);
-  set_text(*axis.GetLabelProperties(), theme::small_text, theme::soft_ink);
-  set_pen(*axis.GetPen(), theme::soft_ink, 1);
-  set_pen(*axis.GetGridPen(), theme::hairline, 1);
+  set_text(*axis.GetTitleProperties(), size, theme::soft_ink);
+  set_text(*axis.GetLabelProperties(), size, theme::soft_ink);
+  set_pen(*axis.GetPen(), theme::soft_ink, scale);
+  set_pen(*axis.GetGridPen(), theme::hairline, scale);
 }
 
 struct Extent {
@@ -91,7 +92,8 @@ struct Extent {
 };
 
 /// `hidden`: beneath another, beside which it is seen if it is wide.
-void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colour, double y_factor, bool hidden) {
+void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colour, double y_factor, bool hidden,
+                double scale) {
   vtkNew<vtkDoubleArray> x, y;
   x->SetName("x");
   y->SetName(series.name.c_str());
@@ -105,9 +107,9 @@ void add_series(vtkChartXY& chart, const ChartSeries& series, const Colour& colo
   // VTK takes a line through a single point for an error.
   auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(series.x.size() > 1 ? vtkChart::LINE : vtkChart::POINTS));
   plot->SetInputData(table, 0, 1);
-  set_pen(*plot->GetPen(), colour, hidden ? 6 : 2);
+  set_pen(*plot->GetPen(), colour, scale * (hidden ? 6 : 2));
   plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  plot->SetMarkerSize(hidden ? 12 : 6);
+  plot->SetMarkerSize(float(scale * (hidden ? 12 : 6)));
 }
 
 /// Whether a curve would be hidden beneath another.
@@ -126,16 +128,18 @@ class TitledChart : public vtkChartXY {
   vtkTypeMacro(TitledChart, vtkChartXY)
 
       bool Paint(vtkContext2D* context) override {
-    constexpr float margin = 16, title = 36;
-    const auto width = float(GetScene()->GetSceneWidth()), height = float(GetScene()->GetSceneHeight());
-    Painter painter(*context);
+    constexpr double margin = 16, title = 36;  // [px] of the design, as all here
+    const double width = GetScene()->GetSceneWidth() / scale, height = GetScene()->GetSceneHeight() / scale;
+    Painter painter(*context, scale);
     painter.text(margin, height - 30, heading, theme::caption, theme::ink, TextWeight::semi_bold);
-    float rows = 0;
-    if (names.size() > 1) rows = float(paint_curve_names(painter, margin, height - title, width - 2 * margin, names));
-    SetSize(vtkRectf(margin, 4, width - 2 * margin, height - title - rows - 8));
+    double rows = 0;
+    if (names.size() > 1) rows = paint_curve_names(painter, margin, height - title, width - 2 * margin, names);
+    const auto px = [&](double length) { return float(length * scale); };
+    SetSize(vtkRectf(px(margin), px(4), px(width - 2 * margin), px(height - title - rows - 8)));
     return vtkChartXY::Paint(context);
   }
 
+  double scale = 1.0;  ///< pixels of the display a pixel of the design
   std::string heading;
   std::vector<CurveName> names;
 };
@@ -169,6 +173,16 @@ void Chart::attach(RenderTarget& target, const Viewport& viewport) {
   target.window().AddRenderer(renderer_);
 }
 
+void Chart::set_scale(double scale) {
+  TitledChart& chart = *parts_->chart;
+  for (const int side : {vtkAxis::BOTTOM, vtkAxis::LEFT}) {
+    vtkAxis& axis = *chart.GetAxis(side);
+    axis.SetTickLength(float(axis.GetTickLength() * scale / chart.scale));
+    axis.SetLabelOffset(float(axis.GetLabelOffset() * scale / chart.scale));
+  }
+  chart.scale = scale;
+}
+
 void Chart::show(const ChartContent& content) {
   Extent x, y;
   for (const ChartSeries& series : content.series) {
@@ -191,11 +205,11 @@ void Chart::show(const ChartContent& content) {
     const bool hidden = std::ranges::any_of(
         later, [&](const ChartSeries& other) { return lies_on(content.series[i], other, top - std::min(0.0, y.low)); });
     const Colour& colour = theme::series[i % theme::series.size()];
-    add_series(chart, content.series[i], colour, scale.factor, hidden);
+    add_series(chart, content.series[i], colour, scale.factor, hidden, chart.scale);
     chart.names.push_back({content.series[i].name, colour});
   }
-  style_axis(*chart.GetAxis(vtkAxis::BOTTOM), Scale(1.0, "").title(content.x_label, content.x_unit));
-  style_axis(*chart.GetAxis(vtkAxis::LEFT), scale.title(content.y_label, content.y_unit));
+  style_axis(*chart.GetAxis(vtkAxis::BOTTOM), Scale(1.0, "").title(content.x_label, content.x_unit), chart.scale);
+  style_axis(*chart.GetAxis(vtkAxis::LEFT), scale.title(content.y_label, content.y_unit), chart.scale);
   set_ticks(*chart.GetAxis(vtkAxis::BOTTOM), round_ticks(x.low, x.high, 8, content.whole_x), 0.02, 0.02);
   set_ticks(*chart.GetAxis(vtkAxis::LEFT),
             round_ticks(std::min(0.0, y.low) / scale.factor, top / scale.factor, 5, false), 0.0, 0.03);

@@ -41,6 +41,10 @@ class Chart {
   /// Draws into this part of the target from now on.
   void attach(RenderTarget& target, const Viewport& viewport = {});
 
+  /// Pixels of the display a pixel of the design, 1 unless told otherwise: letters and lines become as much larger in
+  /// what is shown from now on.
+  void set_scale(double scale);
+
   /// @throws std::invalid_argument naming the series if its x and y differ in number.
   void show(const ChartContent& content);
 

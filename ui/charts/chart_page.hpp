@@ -9,7 +9,7 @@ namespace nextview {
 
 // Charts on one page, two beside each other.
 
-/// As pixels.
+/// As pixels. On a page that is larger than usual letters and lines are larger, too.
 Image draw_charts(RenderTarget& target, std::span<const ChartContent> charts, const PictureSize& size,
                   bool transparent);
 
