@@ -152,11 +152,17 @@ void Interface::Parts::draw_interface(double seconds) {
   do_calls(std::move(calls));
 }
 
-/// While the camera moves, the coordinates stay; in a demo nobody points.
+/// While the camera moves, the coordinates stay, and as long as neither pointer nor picture changes: all points are
+/// looked at for them. In a demo nobody points.
 void Interface::Parts::point_at(const ImVec2& mouse) {
   const bool over_scene = !ImGui::GetIO().WantCaptureMouse && view.rectangle().contains(mouse.x, mouse.y);
-  if (!over_scene || state.presentation.demo) return state.pointed_at.reset();
-  if (motion_left <= 0) state.pointed_at = view.surface_point(mouse.x, mouse.y);
+  if (!over_scene || state.presentation.demo) {
+    pointed_from.reset();
+    return state.pointed_at.reset();
+  }
+  const std::tuple now(mouse.x, mouse.y, scene_drawings);
+  if (motion_left > 0 || std::exchange(pointed_from, now) == now) return;
+  state.pointed_at = view.surface_point(mouse.x, mouse.y);
 }
 
 /// ImGui shows a window that is new a frame after it was made.

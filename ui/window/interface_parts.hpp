@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "ui/commands/script_recorder.hpp"
 #include "ui/panels/all_panels.hpp"
@@ -88,6 +89,7 @@ struct Interface::Parts {
   bool scene_waits = false;  ///< for the faces of a new map, and for a frame at least
   FacesAhead faces;
   std::size_t scene_drawings = 0;
+  std::optional<std::tuple<float, float, std::size_t>> pointed_from;  ///< pointer, and which picture it was over
   int settling = frames_to_settle;
   std::optional<PictureSize> size_before;  ///< of the target, while a picture of the window is drawn in another size
 
