@@ -112,7 +112,6 @@ Image DrawnApart::draw(bool transparent) {
 }
 
 Image DrawnApart::draw_and_read() {
-  using ReadPixels = void (*)(int, int, int, int, unsigned int, unsigned int, void*);
   target_.render();
   vtkGenericOpenGLRenderWindow& window = target_.window();
   const int width = size_.width, height = size_.height;
@@ -124,14 +123,8 @@ Image DrawnApart::draw_and_read() {
   window.BlitDisplayFramebuffer(0, 0, 0, width, height, 0, 0, width, height, gl_color_buffer_bit, gl_nearest);
   pixels_->Bind(gl_read_framebuffer);
   pixels_->ActivateReadBuffer(0);
-  const std::size_t row = std::size_t(width) * 4;
-  std::vector<std::uint8_t> upside_down(row * height);
-  reinterpret_cast<ReadPixels>(target_.gl_function("glReadPixels"))(0, 0, width, height, gl_rgba, gl_unsigned_byte,
-                                                                    upside_down.data());
+  Image image = target_.read_pixels();
   state.PopFramebufferBindings();
-  Image image{width, height, std::vector<std::uint8_t>(upside_down.size())};
-  for (int y = 0; y < height; ++y) std::copy_n(&upside_down[(height - 1 - y) * row], row, &image.rgba[y * row]);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
 }
 

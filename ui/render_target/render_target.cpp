@@ -97,12 +97,15 @@ Image RenderTarget::read_pixels() {
   using ReadPixels = void (*)(int, int, int, int, unsigned int, unsigned int, void*);
   Image image{width(), height(), {}};
   const std::size_t row = std::size_t(image.width) * 4;
-  std::vector<std::uint8_t> pixels(row * image.height);
+  image.rgba.resize(row * image.height);
   reinterpret_cast<ReadPixels>(gl_function("glReadPixels"))(0, 0, image.width, image.height, gl_rgba, gl_unsigned_byte,
-                                                            pixels.data());
-  image.rgba.resize(pixels.size());
-  for (int y = 0; y < image.height; ++y) {
-    std::copy_n(&pixels[(image.height - 1 - y) * row], row, &image.rgba[y * row]);
+                                                            image.rgba.data());
+  std::vector<std::uint8_t> lower(row);  // rows go from bottom to top there
+  for (int y = 0; y < image.height / 2; ++y) {
+    std::uint8_t *const here = &image.rgba[y * row], *const there = &image.rgba[(image.height - 1 - y) * row];
+    std::copy_n(here, row, lower.data());
+    std::copy_n(there, row, here);
+    std::copy_n(lower.data(), row, there);
   }
   // A window's back buffer may have no alpha, and an opaque picture needs none.
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
