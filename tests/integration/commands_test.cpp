@@ -50,10 +50,44 @@ std::size_t another(const SessionSnapshot& s) {
   return candidate;
 }
 
+// Every command, by the case that walks it.
+using Names = std::vector<std::string>;
+const Names scan_names = {
+    // File and Scan
+    "open", "set", "reset-setting", "export", "save-picture", "save-script", "quit", "step", "play", "pause", "speed",
+    "take-view", "take-proposal", "take-custom-view", "cancel", "undo", "redo", "reset",
+    // Gibbs and Select
+    "refine", "pause-refinement", "resume-refinement", "select-view", "select-taken", "select-next", "custom-view",
+    "look-through", "inspect-voxel", "inspect-ray", "clear-selection",
+    // Scene and Layers
+    "frame", "look-from", "zoom", "toggle-object", "toggle-cloud", "toggle-octree", "toggle-views", "toggle-rays",
+    "toggle-region", "toggle-missed", "object-style", "cloud-colour", "voxel-map", "voxel-colour", "toggle-occupied",
+    "toggle-unknown", "toggle-free", "toggle-uncertain", "threshold", "uncertain-from", "slice-axis", "slice-at",
+    "lock-ranges",
+    // Window and Help
+    "panel", "curves", "forget-runs", "sort", "palette", "shortcuts"};
+const Names timeline_names = {"previous-view", "next-view", "go-to-view",     "branch", "go-to-branch", "rename-branch",
+                              "remove-branch", "compare",   "stop-comparing", "split",  "continue"};
+const Names export_names = {"export-cloud",  "export-map",     "export-surface",  "export-views",
+                            "export-curves", "export-picture", "export-turntable"};
+const Names scene_names = {"standard-view",  "turn",         "toggle-orthographic", "keep-camera",  "go-to-camera",
+                           "remove-camera",  "section-axis", "section-at",          "flip-section", "second-view",
+                           "toggle-surface", "surface-of",   "surface-colour",      "edit-region",  "toggle-candidates",
+                           "toggle-legends", "measure",      "measure-point"};
+const Names window_names = {"dark",        "panel-sizes", "text-size", "hide-panels",
+                            "full-screen", "file-dialog", "guide",     "manual"};
+const Names demo_names = {"caption", "title",  "highlight", "orbit",      "fly-to",
+                          "wait",    "assert", "record",    "record-stop"};
+const Names scanner_names = {"connect", "answer", "reconnect", "disconnect"};
+/// By tests of their own: a large scan, a demo, and what comes of a question about one.
+const Names walked_elsewhere = {"reset-settings", "play-demo", "dismiss"};
+
 class Commands : public InTemporaryFolder {
  protected:
   Commands() { write_file(folder_ / "tiny scan.toml", to_toml(coarse_scan())); }
   std::filesystem::path file(const char* name) const { return folder_ / name; }
+  /// As a script has it.
+  std::string path(const char* name) const { return '"' + file(name).string() + '"'; }
 
   /// Does these lines, each of which must be done, and looks at the window.
   void walk(User& user, const std::string& lines) {
@@ -71,81 +105,113 @@ class Commands : public InTemporaryFolder {
     expect_valid(user.window().state(), user.session());
   }
 
+  /// One after the other, the window looked at after each.
+  void walk_each(User& user, std::initializer_list<const char*> scripts) {
+    for (const char* lines : scripts) walk(user, lines);
+  }
+  /// Likewise, each of these commands with each value that it can have.
+  void walk_choices(User& user, std::initializer_list<const char*> names) {
+    for (const char* command : names)
+      for (const std::string& value : find_command(command).arguments().front().choices({}))
+        walk(user, fmt::format("{} {}", command, value));
+  }
+
+  /// At the end of a case.
+  void expect_walked(User& user, const Names& names) const {
+    for (const std::string& name : names) EXPECT_TRUE(walked_.contains(name)) << name;
+    expect_words_for_people(*user.worker().log().entries());
+  }
+
   std::set<std::string> walked_;
 };
 
 TEST_F(Commands, EachIsDoneByAScript) {
   User user(coarse_scan(), width, height, scale);
-  const auto path = [&](const char* name) { return '"' + file(name).string() + '"'; };
   walk(user, "frame\nlook-from 30 20\nzoom 2\nstep\nstep\n");
-  for (const char* lines : {"take-view",
-                            "take-proposal",
-                            "custom-view",
-                            "custom-view 0.6 -0.6 0.5 0 0 0",
-                            "take-custom-view",
-                            "look-through",
-                            "select-next",
-                            "select-taken 1",
-                            "inspect-voxel 0.01 0.02 0.03",
-                            "inspect-ray 5",
-                            "clear-selection",
-                            "step",
-                            "undo",
-                            "redo",
-                            "set termination.views 1\ncontinue\nset termination.views 6",
-                            "refine 2 20",
-                            "refine",
-                            endless_refinement,
-                            "toggle-object",
-                            "toggle-cloud",
-                            "toggle-octree",
-                            "toggle-views",
-                            "toggle-rays",
-                            "toggle-region",
-                            "edit-region",
-                            "edit-region",
-                            "toggle-missed",
-                            "toggle-object",
-                            "toggle-cloud",
-                            "toggle-octree",
-                            "toggle-views",
-                            "toggle-rays",
-                            "toggle-region",
-                            "toggle-occupied",
-                            "toggle-unknown",
-                            "toggle-free",
-                            "toggle-uncertain",
-                            "toggle-free",
-                            "threshold 0.4",
-                            "uncertain-from 0.3",
-                            "slice-axis y",
-                            "slice-at 0.05",
-                            "slice-at 0 0.1",
-                            "slice-axis none",
-                            "lock-ranges",
-                            "panel log",
-                            "sort gain ascending",
-                            "palette",
-                            "palette",
-                            "palette \"two words\"",
-                            "palette",
-                            "shortcuts",
-                            "shortcuts"}) {
-    if (std::string(lines) == "take-view") walk(user, fmt::format("select-view {}", another(user.session())));
-    walk(user, lines);
-  }
-  for (const char* command : {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel",
-                              "section-axis", "second-view", "surface-of", "surface-colour"})
-    for (const std::string& value : find_command(command).arguments().front().choices({}))
-      walk(user, fmt::format("{} {}", command, value));
+  walk(user, fmt::format("select-view {}", another(user.session())));
+  walk_each(user, {"take-view",
+                   "take-proposal",
+                   "custom-view",
+                   "custom-view 0.6 -0.6 0.5 0 0 0",
+                   "take-custom-view",
+                   "look-through",
+                   "select-next",
+                   "select-taken 1",
+                   "inspect-voxel 0.01 0.02 0.03",
+                   "inspect-ray 5",
+                   "clear-selection",
+                   "step",
+                   "undo",
+                   "redo",
+                   "refine 2 20",
+                   "refine",
+                   endless_refinement,
+                   "toggle-object",
+                   "toggle-cloud",
+                   "toggle-octree",
+                   "toggle-views",
+                   "toggle-rays",
+                   "toggle-region",
+                   "toggle-missed",
+                   "toggle-object",
+                   "toggle-cloud",
+                   "toggle-octree",
+                   "toggle-views",
+                   "toggle-rays",
+                   "toggle-region",
+                   "toggle-occupied",
+                   "toggle-unknown",
+                   "toggle-free",
+                   "toggle-uncertain",
+                   "toggle-free",
+                   "threshold 0.4",
+                   "uncertain-from 0.3",
+                   "slice-axis y",
+                   "slice-at 0.05",
+                   "slice-at 0 0.1",
+                   "slice-axis none",
+                   "lock-ranges",
+                   "panel log",
+                   "sort gain ascending",
+                   "palette",
+                   "palette",
+                   "palette \"two words\"",
+                   "palette",
+                   "shortcuts",
+                   "shortcuts"});
+  walk_choices(user, {"object-style", "cloud-colour", "voxel-map", "voxel-colour", "slice-axis", "panel"});
   for (const char* kind : {"entropy", "coverage", "divergence", "gain", "time"})
     walk(user, fmt::format("curves {} entropy", kind));
+  walk(user, "export " + path("a scan") + "\n");
+  walk(user, "save-picture " + path("a picture.png") + "\n");
+  EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
+  EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
+  walk(user, "reset\nspeed 0\nplay\npause\n");
+  walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
+  walk(user, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
+  walk(user, "save-script " + path("a script.txt") + "\n");
+  EXPECT_NO_THROW(parse_script(read_file(file("a script.txt"))));
+  EXPECT_FALSE(user.window().wants_to_quit());
+  user.run("quit\n");
+  EXPECT_TRUE(user.window().wants_to_quit());
+  walked_.insert("quit");
+  expect_walked(user, scan_names);
+}
+
+TEST_F(Commands, EachOfTheTimelineIsDoneByAScript) {
+  User user(coarse_scan(), width, height, scale);
+  walk(user, "step\nstep\n");
   walk(user, "previous-view\nnext-view\ngo-to-view 1\nbranch \"what if\"\nrename-branch \"what if\" closer\nstep\n");
   walk(user,
        "go-to-branch main\nsplit closer\nprevious-view\nnext-view\ncompare closer\nstop-comparing\nremove-branch "
        "closer\n");
-  walk(user, "export " + path("a scan") + "\n");
-  walk(user, "save-picture " + path("a picture.png") + "\n");
+  walk(user, "set termination.views 1\ncontinue\nset termination.views 6");
+  expect_walked(user, timeline_names);
+}
+
+TEST_F(Commands, EachThatExportsIsDoneByAScript) {
+  User user(coarse_scan(), width, height, scale);
+  walk(user, "step\nstep\n");
   for (const auto& [command, name] :
        {std::pair("export-cloud", "a cloud.ply"), std::pair("export-map", "a map.bt"),
         std::pair("export-surface", "a surface.stl"), std::pair("export-views", "some views.json"),
@@ -155,15 +221,28 @@ TEST_F(Commands, EachIsDoneByAScript) {
   }
   walk(user, "export-turntable " + path("a turn") + " 2 64x48\n");
   EXPECT_TRUE(std::filesystem::exists(file("a turn") / "frame_00002.png"));
-  EXPECT_TRUE(std::filesystem::exists(file("a scan") / "steps.csv"));
-  EXPECT_GT(std::filesystem::file_size(file("a picture.png")), 10'000u);
+  expect_walked(user, export_names);
+}
+
+TEST_F(Commands, EachOfTheSceneIsDoneByAScript) {
+  User user(coarse_scan(), width, height, scale);
+  walk(user, "step\nstep\n");
+  walk_each(user, {"toggle-region", "edit-region", "edit-region", "toggle-region"});
+  walk_choices(user, {"section-axis", "second-view", "surface-of", "surface-colour"});
   walk(user,
        "standard-view top\nturn 30 -10\ntoggle-candidates\ntoggle-candidates\ntoggle-legends\ntoggle-legends\nmeasure\n"
        "measure-point 0 0 0.1\nmeasure-point 0.1 0 0.1\nmeasure bore\nmeasure\n");
   walk(user,
        "toggle-surface\nsection-axis z\nsection-at 0.01\nflip-section\nsection-axis none\ntoggle-surface\n"
        "toggle-orthographic\nkeep-camera here\nturn 20 0\ngo-to-camera here\nremove-camera here\n"
-       "toggle-orthographic\ndark\ndark\npanel-sizes 300 400 200\n");
+       "toggle-orthographic\n");
+  expect_walked(user, scene_names);
+}
+
+TEST_F(Commands, EachOfWindowAndDemosIsDoneByAScript) {
+  User user(coarse_scan(), width, height, scale);
+  walk(user, "step\nstep\n");
+  walk(user, "dark\ndark\npanel-sizes 300 400 200\n");
   walk(user,
        "text-size bigger\nhide-panels\nhide-panels\ntext-size usual\nfull-screen\nfull-screen\n"
        "file-dialog export\nfile-dialog\nguide\nguide\n");
@@ -172,25 +251,28 @@ TEST_F(Commands, EachIsDoneByAScript) {
        "1.2\n"
        "wait 0.1\nwait until done\nassert views >= 1\ncaption \"\"\n");
   walk(user, "record " + path("a recording.nextview") + "\nmanual\nmanual planning\nmanual\nrecord-stop\n");
-  walk(user, "reset\nspeed 0\nplay\npause\n");
-  walk(user, "set planner.gain average-entropy\nstep\nreset-setting planner.gain\nforget-runs\n");
-  walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
-                 file("no_fault").string() + "'\"\nstep\nanswer Move\nreconnect\ndisconnect\n");
-  walk(user, "open box\nopen " + path("tiny scan.toml") + "\nset termination.views 3\n");
-  walk(user, "save-script " + path("a script.txt") + "\n");
-  EXPECT_NO_THROW(parse_script(read_file(file("a script.txt"))));
-  walked_.insert("reset-settings");  // a large scan: it has a test of its own, as has
-  walked_.insert("play-demo");
-  walked_.insert("dismiss");
-  walked_.insert("quit");
-  EXPECT_FALSE(user.window().wants_to_quit());
-  user.run("quit\n");
-  EXPECT_TRUE(user.window().wants_to_quit());
-  for (const Command& command : commands()) EXPECT_TRUE(walked_.contains(command.name)) << command.name;
-  expect_words_for_people(*user.worker().log().entries());
+  expect_walked(user, window_names);
+  expect_walked(user, demo_names);
 }
 
-/// This part of the test above once depended on how fast the machine was.
+TEST_F(Commands, EachOfAScannerIsDoneByAScript) {
+  User user(coarse_scan(), width, height, scale);
+  walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
+                 file("no_fault").string() + "'\"\nstep\nanswer Move\nreconnect\ndisconnect\n");
+  walk(user, "open box\n");  // after a scanner, a simulated camera again
+  expect_walked(user, scanner_names);
+}
+
+/// What a case names and does not walk fails there; what no case names fails here.
+TEST_F(Commands, EachIsNamedByACase) {
+  std::set<std::string> named;
+  for (const Names* names : {&scan_names, &timeline_names, &export_names, &scene_names, &window_names, &demo_names,
+                             &scanner_names, &walked_elsewhere})
+    for (const std::string& name : *names) EXPECT_TRUE(named.insert(name).second) << name << " is named twice";
+  for (const Command& command : commands()) EXPECT_TRUE(named.contains(command.name)) << command.name;
+}
+
+/// This part of EachIsDoneByAScript once depended on how fast the machine was.
 TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
   User user(coarse_scan(), width, height, scale);
   walk(user, endless_refinement);
