@@ -75,21 +75,27 @@ TEST_P(Panels, AreDrawnInTheirPlacesInEveryState) {
   Desk desk(width, height, scale);
   Inspector inspector;
   for (const State& state : states()) {
+    desk.snapshot = state.snapshot();
+    std::vector<Inspection> inspections;  // the same, whichever panel is in front
+    for (const ViewSelection view :
+         {ViewSelection{}, ViewSelection{ViewSelection::Kind::candidate, 0}, {ViewSelection::Kind::taken, 0}}) {
+      const bool taken = view.kind == ViewSelection::Kind::taken;
+      if (taken && desk.snapshot->records.empty()) continue;
+      Selection selection;
+      selection.view = view;
+      if (taken) selection.voxel = 500;
+      if (view.kind == ViewSelection::Kind::candidate) selection.ray = 3;
+      inspections.push_back(inspector.inspect(desk.snapshot, selection));
+    }
     for (const std::string& panel : panel_names()) {
       SCOPED_TRACE(std::string(state.name) + ", panel " + panel);
-      desk.snapshot = state.snapshot;
       desk.window = {};
       desk.window.bring_to_front(panel);
       desk.log.assign(3,
                       {LogEntry::Level::warning, "something that went wrong in a way that takes a line or two to say"});
-      for (const ViewSelection view :
-           {ViewSelection{}, ViewSelection{ViewSelection::Kind::candidate, 0}, {ViewSelection::Kind::taken, 0}}) {
-        desk.window.selection.view = view;
-        desk.window.selection.voxel = view.kind == ViewSelection::Kind::taken ? std::optional(500u) : std::nullopt;
-        desk.window.selection.ray =
-            view.kind == ViewSelection::Kind::candidate ? std::optional<std::size_t>(3) : std::nullopt;
-        if (view.kind == ViewSelection::Kind::taken && state.snapshot->records.empty()) continue;
-        desk.inspection = inspector.inspect(desk.snapshot, desk.window.selection);
+      for (const Inspection& inspection : inspections) {
+        desk.window.selection = inspection.selection;
+        desk.inspection = inspection;
         EXPECT_TRUE(desk.frames().empty()) << "a panel did something by itself";
         expect_in_place(desk.layout());
         expect_nothing_cut_off();
@@ -102,7 +108,7 @@ TEST_P(Panels, AreDrawnInTheirPlacesInEveryState) {
 TEST_P(Panels, AreDrawnWhileSomethingRuns) {
   const auto [width, height, scale] = GetParam();
   Desk desk(width, height, scale);
-  desk.snapshot = states()[3].snapshot;
+  desk.snapshot = states()[3].snapshot();
   for (WorkerProgress progress : all_progress()) {
     if (progress.refining)
       progress.sampler = std::make_shared<const SamplerDiagnostics>(desk.snapshot->gibbs->posterior->diagnostics);
@@ -117,7 +123,7 @@ TEST_P(Panels, AreDrawnWhileSomethingRuns) {
 TEST_P(Panels, SheetAndPaletteStayInTheWindow) {
   const auto [width, height, scale] = GetParam();
   Desk desk(width, height, scale);
-  desk.snapshot = states()[2].snapshot;
+  desk.snapshot = states()[2].snapshot();
   desk.window.shortcuts_open = true;
   desk.frames();
   for (const std::string name : {"Keys and mouse", "Commands", "File"}) {
@@ -140,7 +146,7 @@ TEST(FirstSteps, AreInTheSceneUntilAViewIsTaken) {
   for (const auto& [width, height, scale] : {std::tuple(1280, 800, 1.0), {640, 480, 1.0}, {3840, 2160, 2.0}}) {
     Desk desk(width, height, scale);
     for (const std::size_t state : {0u, 1u, 2u}) {  // nothing is open, nothing is measured, some views
-      desk.snapshot = states()[state].snapshot;
+      desk.snapshot = states()[state].snapshot();
       desk.frames();
       const ImGuiWindow* w = ImGui::FindWindowByName("First steps");
       const bool shown = w && w->WasActive && !w->Hidden;
@@ -148,7 +154,7 @@ TEST(FirstSteps, AreInTheSceneUntilAViewIsTaken) {
       EXPECT_EQ(shown, is_wanted) << width << ", state " << state;
       EXPECT_TRUE(!shown || is_within(w->Rect(), desk.layout().scene));
     }
-    desk.snapshot = states()[1].snapshot;
+    desk.snapshot = states()[1].snapshot();
     desk.window.guide_open = false;
     desk.frames();
     const ImGuiWindow* w = ImGui::FindWindowByName("First steps");
@@ -158,14 +164,14 @@ TEST(FirstSteps, AreInTheSceneUntilAViewIsTaken) {
 
 /// However many views there are, and however small the window is.
 TEST(FirstSteps, AreShownWhenTheyAreAskedForAndFitWhatIsOpen) {
-  auto recording = std::make_shared<SessionSnapshot>(*states()[2].snapshot);
+  auto recording = std::make_shared<SessionSnapshot>(*states()[2].snapshot());
   auto setup = std::make_shared<ScanSetup>(*recording->setup);
   const PointCloud point(1);
   setup->recorded = std::make_shared<RecordedSurface>(
       1, [&](std::size_t) { return point; }, 0.01);
   recording->setup = setup;
   const std::vector<std::pair<std::shared_ptr<const SessionSnapshot>, const char*>> all = {
-      {states()[2].snapshot, "Take the next view"}, {recording, "nothing is captured anew"}};
+      {states()[2].snapshot(), "Take the next view"}, {recording, "nothing is captured anew"}};
   for (const auto& [width, height] : {std::pair(1280, 800), {640, 480}})
     for (const auto& [snapshot, says] : all) {
       Desk desk(width, height, 1.0);

@@ -25,6 +25,10 @@ const ImGuiWindow* open_menu() {
   return stack.Size > 0 ? stack[0].Window : nullptr;
 }
 
+/// Apart from each other less than an item of a menu is high and the name of a menu is wide [px].
+constexpr float item_step = 16;
+constexpr double name_step = 20;
+
 /// Clicks everything in the menu that opens at `x`.
 void click_menu(Desk& desk, double x, std::set<float>& menus, std::set<std::string>& reached) {
   const double y = desk.layout().menu.height / 2;
@@ -37,7 +41,7 @@ void click_menu(Desk& desk, double x, std::set<float>& menus, std::set<std::stri
   const bool again = !menus.insert(r.Min.x).second;
   EXPECT_GE(r.Min.x, 0) << "a menu is outside of the window";
   EXPECT_LE(r.Max.y, desk.layout().status.y + desk.layout().status.height) << "a menu is outside of the window";
-  for (float at = r.Min.y; at < r.Max.y && !again; at += 8) {
+  for (float at = r.Min.y; at < r.Max.y && !again; at += item_step) {
     if (!open_menu()) desk.click(x, y);
     desk.frames();
     desk.click(r.Min.x + 20, at);
@@ -69,14 +73,17 @@ TEST(Reach, EveryCommandByMouseThroughTheMenu) {
   for (const WorkerProgress& progress : all_progress()) states.push_back({0, progress});
   states.push_back({1, {}});
   states.push_back({2, {}});
+  Desk desk;
+  open_all_ways(desk);
+  const Snapshots snapshots = all_snapshots(desk);
+  const WindowState opened = desk.window;
   for (const auto& [snapshot, progress] : states) {
-    Desk desk;
-    open_all_ways(desk);
+    desk.window = opened;
     desk.progress = progress;
-    desk.snapshot = all_snapshots(desk)[snapshot];
+    desk.snapshot = snapshots[snapshot];
     if (snapshot == 1) desk.window.recording = DemoRecording{"a.nextview"};
     std::set<float> menus;
-    for (double x = 10; x < 700; x += 15) click_menu(desk, x, menus, reached);
+    for (double x = 10; x < 700; x += name_step) click_menu(desk, x, menus, reached);
     EXPECT_EQ(menus.size(), nextview::menus().size());
   }
   for (const Command& command : commands()) {

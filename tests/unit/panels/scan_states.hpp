@@ -7,9 +7,22 @@
 namespace nextview {
 
 /// A scan in a state that panels may find it in.
-struct State {
+class State {
+ public:
+  using Snapshot = std::shared_ptr<const SessionSnapshot>;
+
+  State(const char* title, Snapshot (*make)()) : name(title), make_(make) {}
+  /// Made when it is first asked for: many tests are of one state.
+  const Snapshot& snapshot() const {
+    if (!made_) made_ = make_();
+    return made_;
+  }
+
   const char* name;
-  std::shared_ptr<const SessionSnapshot> snapshot;
+
+ private:
+  Snapshot (*make_)();
+  mutable Snapshot made_;
 };
 
 inline std::shared_ptr<const SessionSnapshot> with_gain(const char* gain) {
@@ -24,24 +37,31 @@ inline std::shared_ptr<const SessionSnapshot> with_candidates(int count) {
   return scanned(c, 1);
 }
 
+inline std::shared_ptr<const SessionSnapshot> without_evaluation() {
+  Configuration blind = small_scan();
+  blind.evaluation.enabled = false;
+  return scanned(blind, 2, true);
+}
+
+inline std::shared_ptr<const SessionSnapshot> that_failed() {
+  auto failed = std::make_shared<SessionSnapshot>(*scanned(small_scan(), 1));
+  failed->message = "cannot read '/a/rather/long/way/to/a/file/that/is/not/there.ply': no such file or directory";
+  return failed;
+}
+
 inline const std::vector<State>& states() {
-  static const std::vector<State> all = [] {
-    Configuration blind = small_scan();
-    blind.evaluation.enabled = false;
-    auto failed = std::make_shared<SessionSnapshot>(*scanned(small_scan(), 1));
-    failed->message = "cannot read '/a/rather/long/way/to/a/file/that/is/not/there.ply': no such file or directory";
-    return std::vector<State>{{"empty", std::make_shared<SessionSnapshot>()},
-                              {"before the first step", scanned(small_scan(), 0)},
-                              {"after steps", scanned(small_scan(), 2)},
-                              {"refined", scanned(small_scan(), 2, true)},
-                              {"finished", scanned(small_scan(), 4)},
-                              {"without evaluation", scanned(blind, 2, true)},
-                              {"combined", with_gain("combined")},
-                              {"random", with_gain("random")},
-                              {"one candidate", with_candidates(1)},
-                              {"500 candidates", with_candidates(500)},
-                              {"failed", failed}};
-  }();
+  using Snapshot = State::Snapshot;
+  static const std::vector<State> all{{"empty", []() -> Snapshot { return std::make_shared<SessionSnapshot>(); }},
+                                      {"before the first step", [] { return scanned(small_scan(), 0); }},
+                                      {"after steps", [] { return scanned(small_scan(), 2); }},
+                                      {"refined", [] { return scanned(small_scan(), 2, true); }},
+                                      {"finished", [] { return scanned(small_scan(), 4); }},
+                                      {"without evaluation", without_evaluation},
+                                      {"combined", [] { return with_gain("combined"); }},
+                                      {"random", [] { return with_gain("random"); }},
+                                      {"one candidate", [] { return with_candidates(1); }},
+                                      {"500 candidates", [] { return with_candidates(500); }},
+                                      {"failed", that_failed}};
   return all;
 }
 

@@ -59,25 +59,28 @@ TEST_P(WordsFit, InEveryPanel) {
   const auto [width, height, scale] = GetParam();
   Desk desk(width, height, scale);
   Inspector inspector;
-  for (const State& state : states())
+  for (const State& state : states()) {
+    desk.snapshot = state.snapshot();
+    Selection selection;
+    if (!desk.snapshot->records.empty()) selection.voxel = 500;
+    desk.inspection = inspector.inspect(desk.snapshot, selection);  // the same, whichever panel is in front
     for (const std::string& panel : panel_names()) {
       SCOPED_TRACE(std::string(state.name) + ", panel " + panel);
-      desk.snapshot = state.snapshot;
       desk.window = {};
       desk.window.guide_open = false;
       desk.window.bring_to_front(panel);
       desk.window.layers.section = Section{0, 0.0, false};
       desk.window.layers.surface = true;
-      if (!state.snapshot->records.empty()) desk.window.selection.voxel = 500;
-      desk.inspection = inspector.inspect(desk.snapshot, desk.window.selection);
+      desk.window.selection = selection;
       expect_fit(desk);
     }
+  }
 }
 
 TEST_P(WordsFit, InWhatOpensAboveThem) {
   const auto [width, height, scale] = GetParam();
   Desk desk(width, height, scale);
-  desk.snapshot = states()[1].snapshot;
+  desk.snapshot = states()[1].snapshot();
   expect_fit(desk);  // the first steps
   for (const auto& open : std::vector<std::function<void(WindowState&)>>{
            [](WindowState& w) { w.shortcuts_open = true; }, [](WindowState& w) { w.palette_open = true; },
@@ -97,7 +100,7 @@ TEST_P(WordsFit, InWhatOpensAboveThem) {
 TEST_P(WordsFit, InTheListOfCommandsWhateverIsFound) {
   const auto [width, height, scale] = GetParam();
   Desk desk(width, height, scale);
-  desk.snapshot = states()[1].snapshot;
+  desk.snapshot = states()[1].snapshot();
   for (const Command& command : commands()) {
     desk.window = {};
     desk.frames();
