@@ -1,6 +1,8 @@
 #include "tests/render/samples.hpp"
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/random/counter_random.hpp"
@@ -40,6 +42,45 @@ double facing(const Vector3& p, const Vector3& viewer) {
   return std::max(0.0, (p - on_axis).normalized().dot((viewer - p).normalized()));
 }
 
+PointCloud make_cloud(const Vector3& viewer) {
+  const CounterRandom random(7, 900);
+  PointCloud result;
+  for (std::uint64_t i = 0; i < 60000; ++i) {
+    const auto [u, v, n, unused] = random.uniform(i);
+    const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v;
+    const Vector3 p = on_torus(a, b);
+    if (normal(a, b).dot(viewer - p) > 0.1 && visible(p, viewer, 0.01)) {
+      result.push_back((p + 0.002 * (n - 0.5) * normal(a, b)).cast<float>());
+    }
+  }
+  return result;
+}
+
+Map make_map(const Vector3& viewer) {
+  Map result{region_of_interest(Vector3::Zero(), 0.64, 0.01), {}};
+  result.voxels.resize(result.grid.voxel_count());
+  for (std::uint32_t i = 0; i < result.voxels.size(); ++i) {
+    const Vector3 p = result.grid.centre(i);
+    const double d = distance(p);
+    if (d < -0.008 || !visible(p, viewer, 0.03)) continue;
+    // Surfaces met at a steep angle are hit often; others are unsure; the way there is free.
+    const double probability = d < 0.006 ? std::min(0.97, 0.55 + 0.6 * facing(p, viewer)) : 0.13;
+    const auto voxel_class = InverseSensorModel{}.classify(probability);
+    result.voxels[i] = {float(probability), float(entropy(probability)), voxel_class, true, 0};
+  }
+  return result;
+}
+
+/// Most pictures have the same viewer, and to trace its rays takes longer than to draw some of them. One store for each
+/// type of what is made.
+template <class Made>
+const Made& made_once(const Vector3& viewer, Made (*make)(const Vector3&)) {
+  static std::map<std::array<double, 3>, Made> made;
+  const std::array<double, 3> key{viewer.x(), viewer.y(), viewer.z()};
+  const auto found = made.find(key);
+  return found != made.end() ? found->second : made.emplace(key, make(viewer)).first->second;
+}
+
 }  // namespace
 
 TriangleMesh torus() {
@@ -57,34 +98,9 @@ TriangleMesh torus() {
   return mesh;
 }
 
-PointCloud cloud(const Vector3& viewer) {
-  const CounterRandom random(7, 900);
-  PointCloud result;
-  for (std::uint64_t i = 0; i < 60000; ++i) {
-    const auto [u, v, n, unused] = random.uniform(i);
-    const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v;
-    const Vector3 p = on_torus(a, b);
-    if (normal(a, b).dot(viewer - p) > 0.1 && visible(p, viewer, 0.01)) {
-      result.push_back((p + 0.002 * (n - 0.5) * normal(a, b)).cast<float>());
-    }
-  }
-  return result;
-}
+PointCloud cloud(const Vector3& viewer) { return made_once(viewer, make_cloud); }
 
-Map map(const Vector3& viewer) {
-  Map result{region_of_interest(Vector3::Zero(), 0.64, 0.01), {}};
-  result.voxels.resize(result.grid.voxel_count());
-  for (std::uint32_t i = 0; i < result.voxels.size(); ++i) {
-    const Vector3 p = result.grid.centre(i);
-    const double d = distance(p);
-    if (d < -0.008 || !visible(p, viewer, 0.03)) continue;
-    // Surfaces met at a steep angle are hit often; others are unsure; the way there is free.
-    const double probability = d < 0.006 ? std::min(0.97, 0.55 + 0.6 * facing(p, viewer)) : 0.13;
-    const auto voxel_class = InverseSensorModel{}.classify(probability);
-    result.voxels[i] = {float(probability), float(entropy(probability)), voxel_class, true, 0};
-  }
-  return result;
-}
+Map map(const Vector3& viewer) { return made_once(viewer, make_map); }
 
 std::vector<float> errors(const Map& map) {
   std::vector<float> result;
