@@ -1,6 +1,7 @@
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
 #include "tests/render/side_by_side.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 /// What the window's layers can show, on one page each.
 namespace nextview {
@@ -104,16 +105,17 @@ Image halved(const Image& large) {
 }
 
 TEST(HiDpi, TheSceneLooksTheSameTwiceAsFine) {
-  const Image usual = draw_scene(675, 490, show_everything);
-  const auto fine = [](double scale) {
-    return halved(draw_scene(1350, 980, [scale](Scene& scene) {
+  OffscreenTarget target(675, 490), fine_target(1350, 980);
+  const Image usual = draw_scene(target, show_everything);
+  const auto fine = [&](double scale) {
+    return halved(draw_scene(fine_target, [scale](Scene& scene) {
       scene.set_scale(scale);
       show_everything(scene);
     }));
   };
   const double scaled = compare(usual, fine(2.0)).changed_share, unscaled = compare(usual, fine(1.0)).changed_share;
   EXPECT_LT(scaled, 0.5 * unscaled) << "text and lines are not as large as at a scale of 1";
-  EXPECT_EQ(usual, draw_scene(675, 490, [](Scene& scene) {
+  EXPECT_EQ(usual, draw_scene(target, [](Scene& scene) {
               show_everything(scene);
               scene.set_scale(2.0);
               scene.set_scale(1.0);

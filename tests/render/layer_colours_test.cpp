@@ -6,6 +6,7 @@
 
 #include "tests/render/render_test.hpp"
 #include "tests/render/samples.hpp"
+#include "ui/render_target/offscreen_target.hpp"
 
 /// What the layers' colours and legends say, by pixels and by words.
 namespace nextview {
@@ -63,8 +64,9 @@ TEST(OctreeLayer, LegendsSayWhatTheEndsMeanAndWhatHasNoValue) {
 TEST(OctreeLayer, OtherValuesLaterDrawTheSameAsAtOnce) {
   const auto map = samples::map(viewer);
   const auto errors = samples::errors(map), differences = samples::differences(map);
+  OffscreenTarget target(320, 200);
   const auto draw = [&](bool later) {
-    return draw_scene(320, 200, [&](Scene& scene) {
+    return draw_scene(target, [&](Scene& scene) {
       scene.octree().show(map.grid, map.voxels, {true, true, true}, VoxelColouring::by_error,
                           later ? differences : errors);
       if (later) {
@@ -75,7 +77,8 @@ TEST(OctreeLayer, OtherValuesLaterDrawTheSameAsAtOnce) {
       scene.frame();
     });
   };
-  EXPECT_EQ(draw(false), draw(true));
+  const Image at_once = draw(false);
+  EXPECT_EQ(draw(true), at_once);
 }
 
 TEST(CloudLayer, LegendsAndRefusals) {
@@ -156,9 +159,10 @@ TEST(ViewsLayer, AScaleIsExplainedWhereACandidateHasItsColours) {
   });
 }
 
-/// A square that fills the picture, its corners of these classes, and how many pixels have which colour.
-std::map<std::array<int, 3>, int> colours_of_square(const std::vector<std::uint8_t>& classes) {
-  const Image image = draw_scene(300, 300, [&](Scene& scene) {
+/// A square that fills the picture of 300 x 300 pixels, its corners of these classes, and how many pixels have which
+/// colour.
+std::map<std::array<int, 3>, int> colours_of_square(RenderTarget& target, const std::vector<std::uint8_t>& classes) {
+  const Image image = draw_scene(target, [&](Scene& scene) {
     const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
     scene.set_axes(false, false);
     scene.set_legends(false);
@@ -176,13 +180,14 @@ std::map<std::array<int, 3>, int> colours_of_square(const std::vector<std::uint8
 }
 
 TEST(MeshLayer, ClassesDoNotMix) {
+  OffscreenTarget target(300, 300);
   std::vector<std::array<int, 3>> pure;
   for (const std::uint8_t one : {0, 1, 2}) {
-    const auto colours = colours_of_square({one, one, one, one});
+    const auto colours = colours_of_square(target, {one, one, one, one});
     ASSERT_EQ(colours.size(), 1u) << "flat and lit evenly";
     pure.push_back(colours.begin()->first);
   }
-  const auto colours = colours_of_square({0, 1, 2, 0});
+  const auto colours = colours_of_square(target, {0, 1, 2, 0});
   int clear = 0;
   for (const auto& [colour, pixels] : colours)
     if (std::find(pure.begin(), pure.end(), colour) != pure.end()) clear += pixels;

@@ -73,6 +73,10 @@ void expect_animation(const std::string& name, const std::vector<Image>& actual,
 
 Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill) {
   OffscreenTarget target(width, height);
+  return draw_scene(target, fill);
+}
+
+Image draw_scene(RenderTarget& target, const std::function<void(Scene&)>& fill) {
   Scene scene;
   scene.attach(target);
   fill(scene);

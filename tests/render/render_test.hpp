@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/render/picture_comparison.hpp"
+#include "ui/render_target/render_target.hpp"
 #include "ui/scene/scene.hpp"
 
 namespace nextview {
@@ -20,6 +21,9 @@ void expect_animation(const std::string& name, const std::vector<Image>& actual,
 
 /// Draws a scene into an image of this size [px]. Expects that OpenGL reports no error.
 Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill);
+
+/// The same on a target that there is: of pictures that are compared with each other, the shaders are compiled once.
+Image draw_scene(RenderTarget& target, const std::function<void(Scene&)>& fill);
 
 }  // namespace nextview
 

@@ -14,11 +14,12 @@ void show_map(Scene& scene, VoxelColouring colouring) {
 }
 
 TEST(SamePicture, AHiddenLayerIsAsIfNeverShown) {
-  const Image never = draw_scene(320, 200, [](Scene& scene) {
+  OffscreenTarget target(320, 200);
+  const Image never = draw_scene(target, [](Scene& scene) {
     scene.mesh().show(samples::torus());
     scene.frame();
   });
-  const Image hidden = draw_scene(320, 200, [](Scene& scene) {
+  const Image hidden = draw_scene(target, [](Scene& scene) {
     scene.mesh().show(samples::torus());
     scene.rays().show(samples::rays(look_at(viewer, Vector3::Zero())), {});
     scene.region().show({Vector3::Constant(-0.5), Vector3::Constant(0.5)});
@@ -30,12 +31,13 @@ TEST(SamePicture, AHiddenLayerIsAsIfNeverShown) {
 }
 
 TEST(SamePicture, ShowingAgainReplacesWhatWasShown) {
-  const Image once = draw_scene(320, 200, [](Scene& scene) {
+  OffscreenTarget target(320, 200);
+  const Image once = draw_scene(target, [](Scene& scene) {
     show_map(scene, VoxelColouring::by_class);
     scene.cloud().show({{0.0f, 0.0f, 0.1f}});
     scene.frame();
   });
-  const Image again = draw_scene(320, 200, [](Scene& scene) {
+  const Image again = draw_scene(target, [](Scene& scene) {
     scene.cloud().show(samples::cloud(viewer));
     show_map(scene, VoxelColouring::by_probability);
     show_map(scene, VoxelColouring::by_class);
@@ -46,12 +48,13 @@ TEST(SamePicture, ShowingAgainReplacesWhatWasShown) {
 }
 
 TEST(SamePicture, ColouringAndStyleCanChangeLater) {
-  const Image at_once = draw_scene(320, 200, [](Scene& scene) {
+  OffscreenTarget target(320, 200);
+  const Image at_once = draw_scene(target, [](Scene& scene) {
     show_map(scene, VoxelColouring::by_probability);
     scene.mesh().show(samples::torus(), MeshStyle::ghost);
     scene.frame();
   });
-  const Image later = draw_scene(320, 200, [](Scene& scene) {
+  const Image later = draw_scene(target, [](Scene& scene) {
     show_map(scene, VoxelColouring::by_class);
     scene.octree().set_colouring(VoxelColouring::by_probability);
     scene.mesh().show(samples::torus(), MeshStyle::wire);
@@ -62,8 +65,8 @@ TEST(SamePicture, ColouringAndStyleCanChangeLater) {
 }
 
 /// Everything, moved by so many voxels along each axis; the camera is framed anew, and so moves along.
-Image draw_moved(const Eigen::Vector3i& voxels) {
-  return draw_scene(480, 300, [&](Scene& scene) {
+Image draw_moved(RenderTarget& target, const Eigen::Vector3i& voxels) {
+  return draw_scene(target, [&](Scene& scene) {
     auto map = samples::map(viewer);
     map.grid.first += voxels;
     const Vector3 by = voxels.cast<double>() * map.grid.resolution;
@@ -83,19 +86,20 @@ Image draw_moved(const Eigen::Vector3i& voxels) {
 }
 
 TEST(SamePicture, WhatIsMovedWithItsCameraLooksTheSame) {
-  const Image here = draw_moved({0, 0, 0});
+  OffscreenTarget target(480, 300);
+  const Image here = draw_moved(target, {0, 0, 0});
   for (const Eigen::Vector3i& by : {Eigen::Vector3i(100, 0, 0), {-30, 70, 20}}) {
-    const PictureDifference difference = compare(here, draw_moved(by));
+    const PictureDifference difference = compare(here, draw_moved(target, by));
     // Coordinates are floats: edges may fall into the pixel beside.
     EXPECT_TRUE(difference.within({0.01, 255, "farther from the origin, floats are coarser"})) << difference.summary();
   }
-  EXPECT_FALSE(compare(here, draw_scene(480, 300, [](Scene& scene) { scene.frame(); })).within({}))
-      << "nothing is seen";
+  EXPECT_FALSE(compare(here, draw_scene(target, [](Scene& scene) { scene.frame(); })).within({})) << "nothing is seen";
 }
 
 TEST(SamePicture, AnotherColouringIsAnotherPicture) {
-  const auto draw = [](VoxelColouring colouring) {
-    return draw_scene(320, 200, [=](Scene& scene) {
+  OffscreenTarget target(320, 200);
+  const auto draw = [&](VoxelColouring colouring) {
+    return draw_scene(target, [=](Scene& scene) {
       show_map(scene, colouring);
       scene.frame();
     });

@@ -152,29 +152,34 @@ TEST(MeshPaint, LeavesNothingOnTheMeshThatIsShownNext) {
     scene.mesh().show(surface.mesh, {values, surface.seen, ColourMap::score(), 0.0, 5.0, "number", "mm"});
     plain(scene);
   };
-  EXPECT_EQ(draw_scene(320, 240, plain), draw_scene(320, 240, painted_before));
+  OffscreenTarget target(320, 240);
+  const Image never_painted = draw_scene(target, plain);
+  EXPECT_EQ(draw_scene(target, painted_before), never_painted);
 }
 
 TEST(MeshPaint, WhereThereIsNoValueTheNumberDoesNotMatter) {
   const Surface surface = two_squares();
   const std::vector<std::uint8_t> left = {1, 1, 1, 1, 0, 0};
+  OffscreenTarget target(320, 240);
   const auto picture = [&](float right) {
     const std::vector<float> values = {0, 1, 2, 3, right, right};
-    return draw_scene(320, 240, [&](Scene& scene) {
+    return draw_scene(target, [&](Scene& scene) {
       scene.mesh().show(surface.mesh, {values, left, ColourMap::score(), 0.0, 5.0, "number", "mm"});
       scene.frame({-50, 60});
     });
   };
-  EXPECT_EQ(picture(0.0f), picture(4.0f));
-  EXPECT_EQ(picture(0.0f), picture(std::numeric_limits<float>::quiet_NaN()));
+  const Image zero = picture(0.0f);
+  EXPECT_EQ(picture(4.0f), zero);
+  EXPECT_EQ(picture(std::numeric_limits<float>::quiet_NaN()), zero);
 }
 
 TEST(MeshPaint, InterpolatesNumbersNotColours) {
   // From -1 to +1 over one long triangle pair: colours mixed between the ends would never pass the map's light grey.
   const Surface surface = two_squares();
   const std::vector<float> values = {-1, -1, 0, 0, 1, 1}, ends = {-1, -1, 1, 1, 1, 1};
+  OffscreenTarget target(480, 320);
   for (const auto& numbers : {values, ends}) {
-    const Image image = draw_scene(480, 320, [&](Scene& scene) {
+    const Image image = draw_scene(target, [&](Scene& scene) {
       scene.mesh().show(surface.mesh, {numbers, {}, ColourMap::deviation(), -1.0, 1.0, "distance", "m"});
       scene.set_axes(false, false);
       scene.set_legends(false);
