@@ -211,7 +211,12 @@ TEST_F(Surfaces, ACameraThatSeesNothingGivesReasonsAndNoFiles) {
 
 // Whenever Ctrl+C comes, before the first view or after some.
 TEST_F(Surfaces, AStoppedScanLeavesNothingThatIsNoList) {
-  const Result result = nextview_interrupted(1.5, "scan sphere --no-pictures --out " + in("out").string());
+  // Views that are quick to take, and more of them than there is time for.
+  const Result result = nextview_interrupted(
+      0.7,
+      "scan sphere --no-pictures --views 200 --termination.surface_left 0 --sensor.width 80 --sensor.height 60 "
+      "--map.resolution 0.03 --map.region_edge 0.72 --views.count 200 --evaluation.surface_samples 1000 --out " +
+          in("out").string());
   EXPECT_EQ(result.exit_code, 130) << result.err;
   if (fs::exists(in("out") / "surfaces.json")) {
     EXPECT_TRUE(surfaces("out").is_object()) << surfaces("out");
