@@ -124,7 +124,8 @@ TEST(RefineScenes, RecordedScansHaveNoTruthAndWork) {
   scene += "view 0 0 0 0 0 0 1\nview 0.1 0 0 0 0 0 1\n";
   write_file(folder.path() / "scene.txt", scene);
   const std::string out = (folder.path() / "out").string();
-  const Result run = nextview("refine " + (folder.path() / "scene.txt").string() + " --out " + out);
+  const Result run =
+      nextview("refine " + (folder.path() / "scene.txt").string() + " --no-pictures --no-surfaces --out " + out);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const OccupancyMap map = read_octree(fs::path(out) / "posterior.ot");
   std::size_t occupied = 0;
