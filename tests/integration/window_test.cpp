@@ -9,6 +9,11 @@
 namespace nextview {
 namespace {
 
+/// Half the window each way, for what counts no pixels of a panel and clicks on nothing: a software renderer takes its
+/// time for each pixel.
+constexpr int half_width = 640, half_height = 400;
+constexpr double half_scale = 0.5;
+
 TEST(Window, LoadsTheObjectAndStepsByKeys) {
   User user(small_scan());
   EXPECT_EQ(user.window().title(), "Nextview - sphere - view 0 of 5");
@@ -27,7 +32,7 @@ TEST(Window, LoadsTheObjectAndStepsByKeys) {
 }
 
 TEST(Window, PlaysUntilTheScanIsFinished) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   user.type(key('P'));
   user.wait();
   EXPECT_EQ(user.session().records.size(), 5u);
@@ -79,7 +84,7 @@ TEST(Window, DrawsTheSceneOnlyWhenItChanged) {
 }
 
 TEST(Window, PanelsTellOfANewMapAFrameBeforeTheScene) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   Interface& window = user.window();
   const std::size_t drawings = window.scene_drawings();
   const std::string title = window.title();
@@ -91,7 +96,7 @@ TEST(Window, PanelsTellOfANewMapAFrameBeforeTheScene) {
 }
 
 TEST(Window, TheMissedSurfaceIsTheSameWheneverItIsShown) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   user.run("step\ntoggle-octree\ntoggle-missed\n");
   EXPECT_FALSE(user.window().scene().layers().mesh().visible()) << "the object lies in its own missed surface";
   const Image at_first = user.look();
@@ -104,7 +109,7 @@ TEST(Window, TheMissedSurfaceIsTheSameWheneverItIsShown) {
 }
 
 TEST(Window, KeysSwitchLayers) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   user.type(key('S'));
   user.wait();
   const Rectangle scene = user.window().layout().scene;
@@ -135,7 +140,7 @@ TEST(Window, ABadFileIsAMessageAndTheSessionStays) {
 }
 
 TEST(Window, ADroppedObjectIsLoaded) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   user.drop(assets_folder() / "objects" / "box.ply");
   user.wait();
   EXPECT_EQ(user.session().object_name, "box");
@@ -163,7 +168,7 @@ TEST(Window, APersonCanTakeAnotherView) {
 }
 
 TEST(Window, ControlQQuits) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   user.type(key('Q'));
   user.wait();
   EXPECT_FALSE(user.window().wants_to_quit());
