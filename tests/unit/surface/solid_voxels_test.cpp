@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "tests/unit/surface/made_maps.hpp"
 
@@ -23,15 +24,19 @@ std::vector<int> pieces(const VoxelGrid& grid, int steps, Belongs belongs) {
   std::vector<int> piece(grid.voxel_count(), -1);
   for (std::size_t v = 0; v < piece.size(); ++v)
     if (belongs(v)) piece[v] = int(v);
+  std::vector<std::pair<std::size_t, std::size_t>> beside;
+  for (std::uint32_t a = 0; a < piece.size(); ++a)
+    for (std::uint32_t b = 0; b < piece.size(); ++b) {
+      if (piece[a] < 0 || piece[b] < 0) continue;
+      const Eigen::Vector3i apart = (grid.cell(a) - grid.cell(b)).cwiseAbs();
+      if (apart.maxCoeff() <= 1 && apart.sum() <= steps) beside.emplace_back(a, b);
+    }
   for (bool changed = true; changed;) {
     changed = false;
-    for (std::uint32_t a = 0; a < piece.size(); ++a)
-      for (std::uint32_t b = 0; b < piece.size(); ++b) {
-        const Eigen::Vector3i apart = (grid.cell(a) - grid.cell(b)).cwiseAbs();
-        if (piece[a] < 0 || piece[b] < 0 || apart.maxCoeff() > 1 || apart.sum() > steps) continue;
-        changed |= piece[a] < piece[b];
-        piece[a] = std::max(piece[a], piece[b]);
-      }
+    for (const auto& [a, b] : beside) {
+      changed |= piece[a] < piece[b];
+      piece[a] = std::max(piece[a], piece[b]);
+    }
   }
   return piece;
 }
