@@ -63,7 +63,9 @@ std::vector<Step> voxels_on_line(const VoxelGrid& grid, const Vector3& origin, c
 
 Posterior::Posterior(const VoxelGrid& grid, const RangeMeasurements& measurements, const ForwardSensorModel& model,
                      double prior)
-    : voxel_count_(grid.voxel_count()), model_(model), prior_(prior), max_range_(measurements.max_range) {
+    : voxel_count_(grid.voxel_count()), model_(model), max_range_(measurements.max_range) {
+  for (int level = 0; level < levels(); ++level)
+    log_priors_.push_back(std::log(level == 0 ? 1.0 - prior : prior / (levels() - 1)));
   for (const RangeMeasurement& ray : measurements.rays) rays_.push_back(make_ray(grid, measurements, ray));
   rays_through_.resize(voxel_count_);
   for (std::size_t r = 0; r < rays_.size(); ++r)
@@ -94,8 +96,6 @@ Ray Posterior::make_ray(const VoxelGrid& grid, const RangeMeasurements& measurem
   }
   return ray;
 }
-
-double Posterior::log_prior(int level) const { return std::log(level == 0 ? 1.0 - prior_ : prior_ / (levels() - 1)); }
 
 double Posterior::log_likelihood(const Ray& ray, const Levels& map) const {
   if (model_.kind == ForwardModel::paper || model_.kind == ForwardModel::cone) {

@@ -46,7 +46,7 @@ class Posterior {
   int levels() const { return model_.levels(); }
   std::span<const Ray> rays() const { return rays_; }
 
-  double log_prior(int level) const;
+  double log_prior(int level) const { return log_priors_.at(static_cast<std::size_t>(level)); }
   double log_likelihood(const Ray& ray, const Levels& map) const;  ///< log p(z | m) of one ray, its weight not counted
   double log_joint(const Levels& map) const;                       ///< log p(z | m) p(m), the numerator of Eq. 3
   /// Adds how many measured rays reach each voxel of this map, times `share`.
@@ -59,7 +59,8 @@ class Posterior {
 
   std::size_t voxel_count_;
   ForwardSensorModel model_;
-  double prior_, max_range_;
+  double max_range_;
+  std::vector<double> log_priors_;  ///< of each level
   std::vector<Ray> rays_;
   std::vector<std::vector<std::size_t>> rays_through_;  ///< each voxel
 };
@@ -74,7 +75,8 @@ struct Marginals {
 /// Adds up all maps (Eqs. 3-4).
 Marginals enumerate(const Posterior& posterior);
 
-/// The distribution that a voxel's new level is drawn from, given the map: weights, one per level, of any sum.
+/// The distribution that a voxel's new level is drawn from, given the map: weights, one per level, of any sum, and the
+/// same whenever it is asked.
 using Conditional = std::function<std::vector<double>(const Levels& map, std::uint32_t voxel)>;
 
 /// The full conditional.

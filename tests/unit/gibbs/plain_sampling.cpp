@@ -30,6 +30,35 @@ Marginals zeros(const Posterior& posterior) {
   return {none, none, none};
 }
 
+/// A conditional that is asked once for each map and voxel: a chain on few voxels comes by the same maps again and
+/// again.
+class AskedOnce {
+ public:
+  AskedOnce(const Conditional& conditional, const Posterior& posterior)
+      : conditional_(conditional), levels_(static_cast<std::size_t>(posterior.levels())) {
+    std::size_t maps = 1;
+    for (std::size_t voxel = 0; voxel < posterior.voxel_count() && maps <= most_maps; ++voxel) maps *= levels_;
+    if (maps <= most_maps) answers_.resize(maps * posterior.voxel_count());
+  }
+
+  const std::vector<double>& operator()(const Levels& map, std::uint32_t voxel) {
+    if (answers_.empty()) return answer_ = conditional_(map, voxel);
+    std::size_t number = 0;
+    for (const std::uint8_t level : map) number = number * levels_ + level;
+    std::vector<double>& answer = answers_[number * map.size() + voxel];
+    if (answer.empty()) answer = conditional_(map, voxel);
+    return answer;
+  }
+
+ private:
+  static constexpr std::size_t most_maps = std::size_t{1} << 14;
+
+  const Conditional& conditional_;
+  std::size_t levels_;
+  std::vector<std::vector<double>> answers_;  ///< one per map and voxel; empty: there are too many maps
+  std::vector<double> answer_;                ///< the last one then
+};
+
 }  // namespace
 
 Marginals enumerate(const Posterior& posterior) {
@@ -73,9 +102,10 @@ std::vector<Marginals> gibbs_sampler(const Posterior& posterior, const Condition
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   Levels map(posterior.voxel_count(), 0);
+  AskedOnce weights_of(conditional, posterior);
   const auto sweep = [&] {
     for (std::uint32_t voxel = 0; voxel < map.size(); ++voxel) {
-      const std::vector<double> weights = conditional(map, voxel);
+      const std::vector<double>& weights = weights_of(map, voxel);
       double total = 0.0;
       for (const double weight : weights) total += weight;
       double left = uniform() * total;
