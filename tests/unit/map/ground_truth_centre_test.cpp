@@ -19,8 +19,9 @@ double winding_number(const TriangleMesh& mesh, const Vector3& point) {
   for (const auto& t : mesh.triangles) {
     const Vector3 a = mesh.vertices[t[0]].cast<double>() - point, b = mesh.vertices[t[1]].cast<double>() - point,
                   c = mesh.vertices[t[2]].cast<double>() - point;
-    angle += 2.0 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
-                                                     b.dot(c) * a.norm() + c.dot(a) * b.norm());
+    const double to_a = a.norm(), to_b = b.norm(), to_c = c.norm();
+    angle +=
+        2.0 * std::atan2(a.dot(b.cross(c)), to_a * to_b * to_c + a.dot(b) * to_c + b.dot(c) * to_a + c.dot(a) * to_b);
   }
   return angle / (4.0 * std::numbers::pi);
 }

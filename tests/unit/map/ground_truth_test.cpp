@@ -31,26 +31,40 @@ bool clips(std::vector<Vector3> polygon, const Vector3& lower, const Vector3& up
   return !polygon.empty();
 }
 
-bool surface_meets_box(const TriangleMesh& mesh, const Vector3& centre, double half_edge) {
+/// With the box around it.
+struct BoxedTriangle {
+  std::vector<Vector3> corners;
+  Eigen::AlignedBox3d bounds;
+};
+
+std::vector<BoxedTriangle> boxed_triangles(const TriangleMesh& mesh) {
+  std::vector<BoxedTriangle> triangles;
+  for (const auto& t : mesh.triangles) {
+    BoxedTriangle& triangle = triangles.emplace_back();
+    for (const auto vertex : t)
+      triangle.bounds.extend(triangle.corners.emplace_back(mesh.vertices[vertex].cast<double>()));
+  }
+  return triangles;
+}
+
+bool surface_meets_box(const std::vector<BoxedTriangle>& surface, const Vector3& centre, double half_edge) {
   const Vector3 lower = centre - Vector3::Constant(half_edge), upper = centre + Vector3::Constant(half_edge);
   const Eigen::AlignedBox3d voxel(lower, upper);
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
-    std::vector<Vector3> corners;
-    Eigen::AlignedBox3d bounds;
-    for (const auto vertex : t) bounds.extend(corners.emplace_back(mesh.vertices[vertex].template cast<double>()));
-    return voxel.intersects(bounds) && clips(corners, lower, upper);
+  return std::any_of(surface.begin(), surface.end(), [&](const BoxedTriangle& triangle) {
+    return voxel.intersects(triangle.bounds) && clips(triangle.corners, lower, upper);
   });
 }
 
 TEST(GroundTruthTouch, AgreesWithClippingEveryTriangleAtEveryVoxel) {
   for (const auto& [object, mesh] : objects()) {
     const GroundTruth truth = ground_truth(mesh, grid_around_origin());
+    const std::vector<BoxedTriangle> surface = boxed_triangles(mesh);
     std::size_t touched = 0, undecided = 0;
     for (std::uint32_t i = 0; i < truth.grid.voxel_count(); ++i) {
       // The convention gives a voxel 1e-5 of its edge more on all sides; within that the twin does not decide.
       const double half = 0.5 * truth.grid.resolution, slack = 2e-5 * truth.grid.resolution;
-      const bool at_least = surface_meets_box(mesh, truth.grid.centre(i), half - slack);
-      const bool at_most = surface_meets_box(mesh, truth.grid.centre(i), half + slack);
+      const bool at_least = surface_meets_box(surface, truth.grid.centre(i), half - slack);
+      const bool at_most = surface_meets_box(surface, truth.grid.centre(i), half + slack);
       ASSERT_LE(int(at_least), int(truth.touch[i])) << object << " voxel " << i;
       ASSERT_GE(int(at_most), int(truth.touch[i])) << object << " voxel " << i;
       touched += truth.touch[i];
