@@ -36,6 +36,12 @@ void show_sensor_settings(User& user) {
   user.wait();
 }
 
+/// What was told goes, warnings last, in one long frame: there is nothing to see of the time between.
+void let_notices_go(User& user) {
+  user.window().draw(13.0);
+  user.wait();
+}
+
 PictureBound bound() { return {0.03, 255, "times and progress differ from run to run"}; }
 
 TEST(PanelPictures, CandidatesThenAViewThenARayOfIt) {
@@ -53,7 +59,8 @@ TEST(PanelPictures, GibbsThenAVoxelOfIt) {
   User user(housing());
   user.run("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
   const auto pixel = user.window().scene().project(nearest_voxel(user));
-  user.run("voxel-map gibbs\nvoxel-colour difference\ntoggle-rays\ntoggle-cloud\nwait 13\n");  // notices go
+  user.run("voxel-map gibbs\nvoxel-colour difference\ntoggle-rays\ntoggle-cloud\n");
+  let_notices_go(user);
   expect_screenshot("panel_gibbs", user.look(), bound());
   user.run("voxel-map conventional\nvoxel-colour probability\ntoggle-rays\ntoggle-cloud\n");
   user.click(pixel->x(), pixel->y());
@@ -65,8 +72,8 @@ TEST(PanelPictures, GibbsThenAVoxelOfIt) {
 
 TEST(PanelPictures, LogAndMissedSurface) {
   User user(housing());
-  user.run(
-      "step\nstep\ntake-view 20\nstep\npanel log\ntoggle-octree\ntoggle-cloud\ntoggle-missed\ntoggle-rays\nzoom 4\n");
+  user.run("toggle-octree\ntoggle-cloud\ntoggle-rays\n");  // first: they need not be drawn at each step
+  user.run("step\nstep\ntake-view 20\nstep\npanel log\ntoggle-missed\nzoom 4\n");
   expect_screenshot("panel_log", user.look(), bound());
 }
 
@@ -76,7 +83,8 @@ TEST(PanelPictures, ASectionThroughTheSurface) {
   c.termination.surface_left = 0.0;
   User user(c);
   user.run("play\npanel layers\ntoggle-surface\ntoggle-views\nsection-axis x\nsecond-view octree\nframe\n");
-  user.run("wait until done\nwait 13\n");  // notices go, warnings last
+  user.run("wait until done\n");
+  let_notices_go(user);
   expect_screenshot("panel_section", user.look(), bound());
   user.run("dark\n");
   expect_screenshot("window_dark", user.look(), bound());
@@ -87,12 +95,12 @@ TEST(PanelPictures, CurvesOfSeveralRuns) {
   c.termination.views = 6;
   c.termination.surface_left = 0.0;
   User user(c);
-  user.run_quickly("play\n");
+  user.run_quickly("toggle-octree\nplay\n");  // which then need not be drawn at each step
   user.run_quickly("set planner.gain occlusion-aware\nreset\n");
   user.run_quickly("play\n");
   user.run_quickly("set planner.gain random\nreset\n");
-  user.run("play\ncurves coverage gain\ncloud-colour distance\ntoggle-octree\n");
-  user.run("wait until done\nwait 13\n");  // notices go, warnings last
+  user.run("play\ncurves coverage gain\ncloud-colour distance\nwait until done\n");
+  let_notices_go(user);
   expect_screenshot("panel_curves", user.look(), bound());
 }
 
