@@ -89,8 +89,11 @@ TEST_F(BadInput, Objects) {
 TEST_F(BadInput, AnObjectOfOneTriangleIsScanned) {
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const fs::path file = write("one.ply", ply_head + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  const Result run = nextview("scan " + file.string() +
-                              " --views 2 --no-pictures --sensor.width 80 --sensor.height 60 --out " + out());
+  const Result run =
+      nextview("scan " + file.string() +
+               " --views 2 --views.count 12 --evaluation.surface_samples 1000 --no-pictures --sensor.width 80 "
+               "--sensor.height 60 --out " +
+               out());
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
