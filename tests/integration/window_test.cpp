@@ -65,13 +65,13 @@ TEST(Window, NoClickIsLost) {
 }
 
 TEST(Window, DrawsTheSceneOnlyWhenItChanged) {
-  User user(small_scan());
+  User user(small_scan(), half_width, half_height, half_scale);
   user.type(key('S'));
   user.wait();
   const std::size_t drawings = user.window().scene_drawings();
   const Image drawn = user.look();
   const Rectangle left = user.window().layout().left;
-  const Point start{middle(left).x, left.y + left.height - 20};  // where nothing answers
+  const Point start{middle(left).x, left.y + left.height - 20 * half_scale};  // where nothing answers
   user.move(start.x, start.y);
   user.wait();
   for (int i = 0; i < 5; ++i) user.window().draw(1.0 / 60);
