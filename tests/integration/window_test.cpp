@@ -34,25 +34,25 @@ TEST(Window, LoadsTheObjectAndStepsByKeys) {
 TEST(Window, PlaysUntilTheScanIsFinished) {
   User user(small_scan(), half_width, half_height, half_scale);
   user.type(key('P'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 5u);
   EXPECT_FALSE(user.session().finished.empty());
   user.type(key('S'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 5u) << "a finished scan takes no more views";
   user.type(key('R'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 5u) << "it is asked first";
   user.type(key('S'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 5u) << "nothing is done behind a question";
   user.type(Key::enter);
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 5u) << "Enter alone loses nothing";
   user.type(key('R'));
-  user.wait();
+  user.wait_for_news();
   user.window().ask(parse_call("answer \"Start over\""));
-  user.wait();
+  user.wait_for_news();
   EXPECT_TRUE(user.session().records.empty());
 }
 
@@ -60,7 +60,7 @@ TEST(Window, NoClickIsLost) {
   User user(small_scan());
   const Point step = step_button(user.window().layout());
   for (int i = 0; i < 3; ++i) user.click(step.x, step.y);
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 3u);
 }
 
@@ -142,7 +142,7 @@ TEST(Window, ABadFileIsAMessageAndTheSessionStays) {
 TEST(Window, ADroppedObjectIsLoaded) {
   User user(small_scan(), half_width, half_height, half_scale);
   user.drop(assets_folder() / "objects" / "box.ply");
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.session().object_name, "box");
   EXPECT_EQ(user.session().configuration.views.count, 12) << "the other settings stay";
 }
@@ -150,19 +150,19 @@ TEST(Window, ADroppedObjectIsLoaded) {
 TEST(Window, APersonCanTakeAnotherView) {
   User user(small_scan());
   user.type(key('S'));
-  user.wait();
+  user.wait_for_news();
   const Layout layout = user.window().layout();
   const Point row = table_row(layout, 3), take = take_button(layout);
   const auto proposal = user.session().proposal();
   ASSERT_EQ(user.session().next_candidate, proposal);
   user.click(row.x, row.y);
   user.click(take.x, take.y);
-  user.wait();
+  user.wait_for_news();
   const auto chosen = user.session().next_candidate;
   EXPECT_NE(chosen, proposal);
   EXPECT_EQ(user.session().proposal(), proposal);
   user.type(key('S'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_TRUE(user.session().records.back().overridden);
   EXPECT_EQ(user.session().records.back().view, int(chosen.value()));
 }
@@ -170,11 +170,11 @@ TEST(Window, APersonCanTakeAnotherView) {
 TEST(Window, ControlQQuits) {
   User user(small_scan(), half_width, half_height, half_scale);
   user.type(key('Q'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_FALSE(user.window().wants_to_quit());
   user.window().push(input::KeyChange{Key::control, true});
   user.type(key('Q'));
-  user.wait();
+  user.wait_for_news();
   EXPECT_TRUE(user.window().wants_to_quit());
 }
 
