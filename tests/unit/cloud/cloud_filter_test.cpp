@@ -50,7 +50,7 @@ TEST(CloudFilter, OutlierRemovalKeepsWhatPclKeeps) {
         CloudConfig config;
         config.outlier_neighbours = neighbours;
         config.outlier_deviations = deviations;
-        const PointCloud cloud = sheet_with_outliers(seed, 4000, 40);
+        const PointCloud cloud = sheet_with_outliers(seed, 1500, 15);
         const PointCloud kept = clean(cloud, config);
         EXPECT_EQ(kept, pcl_keeps(cloud, config)) << seed << ' ' << neighbours << ' ' << deviations;
         EXPECT_LT(kept.size(), cloud.size());
