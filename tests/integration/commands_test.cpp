@@ -79,7 +79,7 @@ const Names window_names = {"dark",        "panel-sizes", "text-size", "hide-pan
 const Names demo_names = {"caption", "title",  "highlight", "orbit",      "fly-to",
                           "wait",    "assert", "record",    "record-stop"};
 const Names scanner_names = {"connect", "answer", "reconnect", "disconnect"};
-/// By tests of their own: a large scan, a demo, and what comes of a question about one.
+/// They have tests of their own; the first makes a large scan.
 const Names walked_elsewhere = {"reset-settings", "play-demo", "dismiss"};
 
 class Commands : public InTemporaryFolder {
@@ -259,7 +259,7 @@ TEST_F(Commands, EachOfAScannerIsDoneByAScript) {
   User user(coarse_scan(), width, height, scale);
   walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
                  file("no_fault").string() + "'\"\nstep\nanswer Move\nreconnect\ndisconnect\n");
-  walk(user, "open box\n");  // after a scanner, a simulated camera again
+  walk(user, "open box\nopen " + path("tiny scan.toml") + "\n");  // after a scanner, a simulated camera again
   expect_walked(user, scanner_names);
 }
 
