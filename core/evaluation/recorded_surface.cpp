@@ -16,12 +16,12 @@
 namespace nextview {
 namespace {
 
-using Cell = std::array<std::int32_t, 3>;
+using Cell = std::array<std::int64_t, 3>;
 
 struct CellHash {
   std::size_t operator()(const Cell& cell) const {
     std::size_t hash = 0;
-    for (const std::int32_t c : cell) hash = (hash ^ std::size_t(std::uint32_t(c))) * 0x9E3779B97F4A7C15u;
+    for (const std::int64_t c : cell) hash = (hash ^ std::size_t(c)) * 0x9E3779B97F4A7C15u;
     return hash ^ (hash >> 32);
   }
 };
@@ -32,7 +32,7 @@ PointCloud first_of_each_cell(const PointCloud& points, double edge, Cells& take
   PointCloud first;
   for (const Eigen::Vector3f& p : points) {
     const Eigen::Array3d at = (p.cast<double>().array() / edge).floor();
-    if (taken.insert({std::int32_t(at.x()), std::int32_t(at.y()), std::int32_t(at.z())}).second) first.push_back(p);
+    if (taken.insert({std::int64_t(at.x()), std::int64_t(at.y()), std::int64_t(at.z())}).second) first.push_back(p);
   }
   return first;
 }

@@ -76,6 +76,13 @@ TEST(RecordedSurface, TheSeedDecidesTheRandomOrders) {
   EXPECT_NE(surface.compare_orders(taken, 7).random, surface.compare_orders(taken, 8).random);
 }
 
+TEST(RecordedSurface, PointsFarOffOrFineCubesAreToldApart) {
+  const PointCloud frame = {{1e5f, 0.0f, 0.0f}, {2e5f, 0.0f, 0.0f}, {-1e5f, 0.0f, 0.0f}};  // 2e10 cubes from here
+  const auto cloud_of = [&](std::size_t) { return frame; };
+  const RecordedSurface surface(1, cloud_of, 1e-5);
+  EXPECT_EQ(surface.samples(), frame);
+}
+
 TEST(RecordedSurface, WithoutAPointThereIsNoSurface) { EXPECT_THROW(surface_of({{}, {}}), std::invalid_argument); }
 
 }  // namespace
