@@ -56,6 +56,11 @@ Sums change(const Brick& before, const Brick& after) {
   return change;
 }
 
+void require_same_size(const VoxelBricks& before, const VoxelBricks& after) {
+  if (before.edges() != after.edges())
+    throw std::invalid_argument(fmt::format("map change: {} voxels before, {} after", before.size(), after.size()));
+}
+
 }  // namespace
 
 MapEntropy map_entropy(const VoxelBricks& voxels) {
@@ -70,13 +75,25 @@ MapEntropy map_entropy(const VoxelBricks& voxels) {
 }
 
 MapChange map_change(const VoxelBricks& before, const VoxelBricks& after) {
-  if (before.edges() != after.edges())
-    throw std::invalid_argument(fmt::format("map change: {} voxels before, {} after", before.size(), after.size()));
+  require_same_size(before, after);
   const Sums all = sum(before.brick_count(), [&](std::size_t b, BrickMemory<Sums>& memory) {
     const auto &was = before.bricks()[b], &is = after.bricks()[b];
     return was.shares_with(is) ? Sums() : memory.of(*was, *is, [&] { return change(*was, *is); });
   });
   return {all.voxels, all.entropy};
+}
+
+std::size_t differing_classes(const VoxelBricks& one, const VoxelBricks& other) {
+  require_same_size(one, other);
+  const auto differing = [&](std::size_t b, BrickMemory<Sums>&) {
+    const Brick &here = *one.bricks()[b], &there = *other.bricks()[b];
+    Sums sums;
+    one.for_each_row(b, [&](std::size_t first, const Eigen::Vector3i&, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) sums.voxels += here.voxel_class(i) != there.voxel_class(i);
+    });
+    return sums;
+  };
+  return sum(one.brick_count(), differing).voxels;
 }
 
 }  // namespace nextview

@@ -18,4 +18,8 @@ struct MapChange {
 /// @throws std::invalid_argument if sizes differ.
 MapChange map_change(const VoxelBricks& before, const VoxelBricks& after);
 
+/// How many voxels are of another class in the one map than in the other. @throws std::invalid_argument if sizes
+/// differ.
+std::size_t differing_classes(const VoxelBricks& one, const VoxelBricks& other);
+
 }  // namespace nextview

@@ -49,9 +49,7 @@ void compare_maps(const Knowledge& before, const Knowledge& after, StepRecord& r
   record.total_entropy = map_entropy(after.planning_voxels()).total;
   record.refinement.emplace();
   record.refinement->diagnostics = after.posterior->posterior().diagnostics;
-  auto refined = after.posterior->voxels().begin();
-  for (const Voxel& voxel : after.map.voxels())
-    record.refinement->changed_class += voxel.voxel_class != (*refined++).voxel_class;
+  record.refinement->changed_class = differing_classes(after.map.voxels(), after.posterior->voxels());
 }
 
 void evaluate(const ScanSetup& setup, ScanState& state, const Scan& scan, StepRecord& record,

@@ -65,9 +65,24 @@ TEST(Entropy, AChangeIsWhatTheVoxelsLostAndThoseNewlyMeasured) {
   EXPECT_NEAR(map_change(certain, unknown).realised_gain, -10.0 * std::log(2.0), 1e-6);
 }
 
+TEST(Entropy, ClassesDifferWhereVoxelByVoxelTheyDo) {
+  std::mt19937 generator(5);
+  for (const Eigen::Vector3i& size : {Eigen::Vector3i(100, 100, 10), {9, 7, 17}, {16, 8, 24}, {1, 1, 1}}) {
+    std::vector<Voxel> one(std::size_t(size.prod())), other(one.size());
+    for (std::vector<Voxel>* voxels : {&one, &other})
+      for (Voxel& v : *voxels) v.voxel_class = static_cast<VoxelClass>(generator() % 3);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) differing += one[i].voxel_class != other[i].voxel_class;
+    const VoxelBricks a(size, one), b(size, other);
+    EXPECT_EQ(differing_classes(a, b), differing);
+    EXPECT_EQ(differing_classes(a, a), 0u);
+  }
+}
+
 TEST(Entropy, LengthsThatDifferAreRefused) {
   const VoxelBricks two({2, 1, 1}), three({3, 1, 1});
   EXPECT_THROW(map_change(two, three), std::invalid_argument);
+  EXPECT_THROW(differing_classes(two, three), std::invalid_argument);
 }
 
 TEST(Entropy, SameBitsOnAnyNumberOfThreads) {
