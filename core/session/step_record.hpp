@@ -19,8 +19,10 @@ struct StageSeconds {
 /// What refining the map did (gain gibbs only).
 struct RefinementRecord {
   SamplerDiagnostics diagnostics;
-  std::size_t changed_class = 0;                 ///< voxels whose class differs from the conventional map's
-  std::vector<double> conventional_gains;        ///< of each candidate: the same gain on the conventional map
+  std::size_t changed_class = 0;  ///< voxels whose class differs from the conventional map's
+  /// Of each candidate: the same gain on the conventional map. Empty, as what follows of it, if another planner ranks
+  /// them now that needs no Gibbs map.
+  std::vector<double> conventional_gains;
   std::optional<std::size_t> conventional_best;  ///< the candidate that it would have chosen
   double rank_correlation = 0.0;                 ///< Spearman's, of both maps' gains over the available candidates
   MapQuality quality_near_surface;               ///< with evaluation; as StepRecord::quality_near_surface

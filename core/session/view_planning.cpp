@@ -87,13 +87,16 @@ void ask_for_overlap(const ScanSetup& setup, const ScanState& state, std::vector
   for (std::size_t v = 0; v < candidates.size(); ++v) candidates[v].overlaps = overlap[v] >= least;
 }
 
-/// What the same planner would have made of the conventional map.
+/// What the same planner would have made of the conventional map. Nothing where that is the one it plans on: the
+/// planner is another one now than when the view was refined.
 void compare_with_conventional(const ScanSetup& setup, const ScanState& state, const PlanningInput& input,
                                std::vector<Candidate> candidates, StepRecord& record, const std::stop_token& stop) {
+  RefinementRecord& refinement = *record.refinement;
+  refinement.conventional_gains.clear(), refinement.conventional_best.reset(), refinement.rank_correlation = 0.0;
+  if (!state.known.posterior) return;
   Knowledge conventional = state.known;
   conventional.posterior = nullptr;
   const Plan plan = setup.planner->plan(input.setup, conventional, state.candidates, std::move(candidates), stop);
-  RefinementRecord& refinement = *record.refinement;
   std::vector<double> refined_gains, conventional_gains;
   refinement.conventional_gains.assign(plan.candidates.size(), 0.0);
   for (std::size_t v = 0; v < plan.candidates.size(); ++v) {

@@ -61,6 +61,24 @@ TEST(GibbsSession, AnotherGainOfThePosteriorDoesNotRefineItAgain) {
   EXPECT_TRUE(same_candidates(session.records()[1].candidates, kept.records[1]->candidates));
 }
 
+TEST(GibbsSession, APlannerThatNeedsNoPosteriorIsComparedWithNothing) {
+  Session session(gibbs_scan());
+  session.step();
+  const RefinementRecord of_gibbs = *session.records().front().refinement;
+  EXPECT_FALSE(of_gibbs.conventional_gains.empty());
+  const PlannerConfig gibbs = session.configuration().planner;
+  PlannerConfig plain = gibbs;
+  plain.gain = "area-factor";
+  session.set_planner(plain);
+  const RefinementRecord& refinement = *session.records().front().refinement;
+  EXPECT_TRUE(refinement.conventional_gains.empty());
+  EXPECT_FALSE(refinement.conventional_best.has_value());
+  EXPECT_EQ(refinement.rank_correlation, 0.0);
+  EXPECT_EQ(refinement.changed_class, of_gibbs.changed_class) << "the step's entropy is the Gibbs map's all the same";
+  session.set_planner(gibbs);
+  EXPECT_EQ(session.records().front().refinement->conventional_gains, of_gibbs.conventional_gains);
+}
+
 TEST(GibbsSession, OtherSettingsRefineTheSameScansAnew) {
   Session session(gibbs_scan());
   for (int i = 0; i < 2; ++i) session.step();
