@@ -47,13 +47,13 @@ VoxelBricks::VoxelBricks(const Eigen::Vector3i& size, std::span<const Voxel> vox
   if (voxels.size() != this->size())
     throw std::invalid_argument(fmt::format("voxel bricks: {} voxels for a grid of {}", voxels.size(), this->size()));
   const auto table = change_bricks();
-  std::size_t v = 0;
-  for (int z = 0; z < size.z(); ++z)
-    for (int y = 0; y < size.y(); ++y)
-      for (int x = 0; x < size.x(); ++x, ++v) {
-        const std::size_t at = place(x, y, z);
-        table[at / brick_voxels].change().set(at % brick_voxels, voxels[v]);
-      }
+  tbb::parallel_for(std::size_t{0}, brick_count(), [&](std::size_t b) {
+    Brick& brick = table[b].change();
+    for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
+      const std::size_t v = (std::size_t(cell.z()) * size.y() + cell.y()) * size.x() + cell.x();
+      for (std::size_t i = 0; i < count; ++i) brick.set(first + i, voxels[v + i]);
+    });
+  });
 }
 
 std::size_t VoxelBricks::Brick::measured_count() const {
