@@ -1,5 +1,8 @@
 #include "core/evaluation/recorded_surface.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,14 +61,19 @@ std::vector<std::uint32_t> observed_by(SurfaceCoverage nothing, const PointCloud
 RecordedSurface::RecordedSurface(std::size_t frames, const std::function<PointCloud(std::size_t)>& cloud_of,
                                  double d_reg, const Progress& progress, const std::stop_token& stop)
     : d_reg_(d_reg) {
-  std::vector<PointCloud> thinned;
+  std::vector<PointCloud> thinned(frames);
   Cells taken;
+  // No more frames than are read at the same time: each may be large.
+  const auto at_once = std::size_t(std::clamp(tbb::this_task_arena::max_concurrency(), 1, 8));
   for (std::size_t frame = 0; frame < frames; ++frame) {
     if (progress) progress(double(frame) / double(frames), "reading what the frames show");
     throw_if_stopped(stop);
-    Cells of_frame;
-    thinned.push_back(first_of_each_cell(cloud_of(frame), 0.5 * d_reg, of_frame));
-    const PointCloud added = first_of_each_cell(thinned.back(), 0.5 * d_reg, taken);
+    if (frame % at_once == 0)
+      tbb::parallel_for(frame, std::min(frames, frame + at_once), [&](std::size_t f) {
+        Cells of_frame;
+        thinned[f] = first_of_each_cell(cloud_of(f), 0.5 * d_reg, of_frame);
+      });
+    const PointCloud added = first_of_each_cell(thinned[frame], 0.5 * d_reg, taken);
     samples_.insert(samples_.end(), added.begin(), added.end());
   }
   if (samples_.empty()) throw std::invalid_argument("no frame has a point");

@@ -23,9 +23,9 @@ struct CoverageByOrder {
 /// of. Never changes.
 class RecordedSurface {
  public:
-  /// `cloud_of` gives the cleaned points of a frame [m, world]; each is asked for once. Samples are the final cloud
-  /// with one point per cube of half of `d_reg` [m]; a frame shows those that have a point of its own, thinned
-  /// likewise, within d_reg.
+  /// `cloud_of` gives the cleaned points of a frame [m, world]; each is asked for once, several at a time by different
+  /// threads. Samples are the final cloud with one point per cube of half of `d_reg` [m]; a frame shows those that have
+  /// a point of its own, thinned likewise, within d_reg.
   /// @throws std::invalid_argument if there are no points at all, and what cloud_of throws; Stopped
   RecordedSurface(std::size_t frames, const std::function<PointCloud(std::size_t)>& cloud_of, double d_reg,
                   const Progress& progress = {}, const std::stop_token& stop = {});

@@ -1,9 +1,13 @@
 #include "core/recording/recording.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <exception>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "core/file/counted.hpp"
@@ -51,9 +55,10 @@ class Survey {
 
  private:
   void add_point(const Pose& T_world_camera, const Vector3& point) {
+    const double range = point.norm();
     extent_.extend(T_world_camera * point);
-    farthest_ = std::max(farthest_, point.norm());
-    ranges_ += point.norm();
+    farthest_ = std::max(farthest_, range);
+    ranges_ += range;
     ++points_;
   }
   void add_image(const RecordedFrame& frame, const DepthImage& image) {
@@ -83,14 +88,38 @@ class Survey {
   std::vector<std::string> empty_;  ///< names of frames
 };
 
+/// What a frame measured, or why it cannot be read.
+struct ReadFrame {
+  Measured measured;
+  std::exception_ptr failure;
+};
+
+/// By several threads: to take a file apart takes longer than what is then done with it.
+std::vector<ReadFrame> read_frames(std::span<const RecordedFrame> frames) {
+  std::vector<ReadFrame> all(frames.size());
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+    try {
+      all[i].measured = frames[i].read();
+    } catch (...) {  // it is told of when it is its turn, so that the first that is damaged is
+      all[i].failure = std::current_exception();
+    }
+  });
+  return all;
+}
+
 Survey survey(const fs::path& path, const Recording& recording, const Progress& progress, const std::stop_token& stop) {
   Survey survey;
-  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+  const std::span<const RecordedFrame> frames = recording.frames;
+  // No more than are read at the same time: each may be large.
+  const auto at_once = std::size_t(std::clamp(tbb::this_task_arena::max_concurrency(), 1, 8));
+  std::vector<ReadFrame> ahead;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
     throw_if_stopped(stop);
-    const RecordedFrame& frame = recording.frames[i];
-    if (progress)
-      progress(static_cast<double>(i) / static_cast<double>(recording.frames.size()), "reading " + frame.name);
-    const Measured measured = frame.read();
+    const RecordedFrame& frame = frames[i];
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(frames.size()), "reading " + frame.name);
+    if (i % at_once == 0) ahead = read_frames(frames.subspan(i, std::min(at_once, frames.size() - i)));
+    const auto& [measured, failure] = ahead[i % at_once];
+    if (failure) std::rethrow_exception(failure);
     try {
       survey.add(frame, measured);
     } catch (const std::runtime_error& error) {

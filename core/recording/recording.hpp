@@ -26,7 +26,7 @@ using Measured = std::variant<DepthImage, std::vector<Vector3>>;
 struct RecordedFrame {
   std::string name;  ///< for people: "frame-000003", "bun045"
   Pose T_world_camera = Pose::Identity();
-  std::function<Measured()> read = {};  ///< @throws std::runtime_error naming the file and the reason
+  std::function<Measured()> read = {};  ///< from any thread; @throws std::runtime_error naming the file and the reason
 };
 
 /// Real scans of one object, in the order in which they were recorded.

@@ -45,6 +45,19 @@ TEST(Recording, EveryNthFrameProgressAndStop) {
   EXPECT_THROW(open_recording(folder / "", {.every = 0}), std::invalid_argument);
 }
 
+// They are read by several threads.
+TEST(Recording, OfSeveralDamagedFramesTheFirstIsNamed) {
+  const TemporaryFolder folder;
+  write_3dmatch(folder);
+  for (const char* name : {"frame-000011.depth.png", "frame-000010.depth.png"}) folder.write(name, "no image");
+  try {
+    open_recording(folder / "");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("frame-000010"));
+  }
+}
+
 TEST(Recording, Princeton) {
   const TemporaryFolder folder;
   std::string info = std::string("# Bin: B\n# Color camera intrinsic matrix\n") + intrinsics +
