@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
@@ -106,21 +108,32 @@ PointCloud binary_points(const PcdHeader& header, std::string_view data) {
   return points;
 }
 
+/// Where the words of a line begin.
+void find_words(std::string_view line, std::vector<const char*>& words) {
+  constexpr std::string_view blanks = " \t\v\f\r";
+  words.clear();
+  for (std::size_t at = line.find_first_not_of(blanks); at < line.size(); at = line.find_first_not_of(blanks, at)) {
+    words.push_back(line.data() + at);
+    at = std::min(line.find_first_of(blanks, at), line.size());
+  }
+}
+
+/// @pre `data` are the last of a std::string, which ends with a nought: so does the last number
 PointCloud ascii_points(const PcdHeader& header, std::string_view data) {
   if (header.points > data.size() / 2 + 1)
     throw std::runtime_error(fmt::format("is truncated: it claims {} points, more than it holds", header.points));
   const Place places[3] = {place_of(header, "x"), place_of(header, "y"), place_of(header, "z")};
-  std::istringstream lines{std::string(data)};
   PointCloud points;
-  std::string line;
-  while (points.size() < header.points && std::getline(lines, line)) {
-    std::istringstream text(line);
-    const std::vector<std::string> words = values<std::string>(text);
+  std::vector<const char*> words;
+  while (points.size() < header.points && !data.empty()) {
+    const std::string_view line = data.substr(0, data.find('\n'));
+    data.remove_prefix(std::min(line.size() + 1, data.size()));
+    find_words(line, words);
     if (words.empty()) continue;
     Eigen::Vector3f point;
     for (int axis = 0; axis < 3; ++axis) {
       if (places[axis].word >= words.size()) throw std::runtime_error("has a point with too few numbers");
-      point[axis] = std::strtof(words[places[axis].word].c_str(), nullptr);
+      point[axis] = std::strtof(words[places[axis].word], nullptr);
     }
     points.push_back(point);
   }
@@ -137,17 +150,30 @@ CloudFile read_pcd(const std::string& bytes) {
   throw std::runtime_error(fmt::format("its DATA are {}; ascii and binary are read", header.encoding));
 }
 
+bool is_pcd(const fs::path& file) { return without_gz(file).extension() == ".pcd"; }
+
+/// What `read` makes of a file's bytes; what is wrong with them is told with its name.
+template <class Read>
+auto read_named(const fs::path& file, const Read& read) {
+  const std::string bytes = read_plain_or_gzip(file);
+  try {
+    return read(bytes);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
 }  // namespace
+
+std::optional<Pose> read_viewpoint(const fs::path& file) {
+  if (!is_pcd(file)) return std::nullopt;
+  return read_named(file, [](const std::string& bytes) { return parse_pcd_header(bytes).viewpoint; });
+}
 
 CloudFile read_cloud_file(const fs::path& file) {
   CloudFile cloud;
-  if (without_gz(file).extension() == ".pcd") {
-    const std::string bytes = read_plain_or_gzip(file);
-    try {
-      cloud = read_pcd(bytes);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-    }
+  if (is_pcd(file)) {
+    cloud = read_named(file, read_pcd);
   } else {
     cloud.points = read_ply(file, {}, NotFinite::kept);
   }

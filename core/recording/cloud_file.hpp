@@ -18,6 +18,8 @@ struct CloudFile {
 /// not finite, as some have where nothing was measured, are left out.
 /// @throws std::runtime_error "FILE: reason"
 CloudFile read_cloud_file(const std::filesystem::path& file);
+/// CloudFile::viewpoint alone, without the points. @throws likewise, if the header is damaged
+std::optional<Pose> read_viewpoint(const std::filesystem::path& file);
 
 /// For people: "20000 points (3 that are not finite left out)".
 std::string points_text(std::size_t points, std::size_t left_out);

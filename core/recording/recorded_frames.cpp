@@ -94,7 +94,7 @@ std::vector<Vector3> cloud_points(const fs::path& file, double unit, PoseAxes ax
 FramePoses viewpoints(const std::vector<FrameFile>& files, PoseAxes axes) {
   FramePoses poses;
   for (const FrameFile& frame : files) {
-    const Pose T_world_sensor = read_cloud_file(frame.file).viewpoint.value_or(Pose::Identity());
+    const Pose T_world_sensor = read_viewpoint(frame.file).value_or(Pose::Identity());
     poses.T_world_camera.push_back(axes == PoseAxes::body ? T_world_sensor * camera_in_body() : T_world_sensor);
   }
   return poses;
