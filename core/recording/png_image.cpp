@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "core/recording/image_values.hpp"
 
@@ -86,18 +89,30 @@ int paeth(int left, int above, int above_left) {
   return to_above <= to_corner ? above : above_left;
 }
 
-int predicted(int filter, int left, int above, int above_left) {
+/// Adds to each byte of a row what is predicted of those beside and above it. `step`: from a byte to that of the pixel
+/// before it; before the first pixel all are 0.
+template <class Predict>
+void add_predicted(std::span<unsigned char> row, const unsigned char* above, std::size_t step, Predict predict) {
+  const std::size_t first = std::min(step, row.size());
+  const auto add = [&](std::size_t i, int left, int above_left) {
+    row[i] = static_cast<unsigned char>(row[i] + predict(left, int(above[i]), above_left));
+  };
+  for (std::size_t i = 0; i < first; ++i) add(i, 0, 0);
+  for (std::size_t i = first; i < row.size(); ++i) add(i, row[i - step], above[i - step]);
+}
+
+void undo_filter(int filter, std::span<unsigned char> row, const unsigned char* above, std::size_t step) {
   switch (filter) {
     case 0:
-      return 0;
+      return;
     case 1:
-      return left;
+      return add_predicted(row, above, step, [](int left, int, int) { return left; });
     case 2:
-      return above;
+      return add_predicted(row, above, step, [](int, int up, int) { return up; });
     case 3:
-      return (left + above) / 2;
+      return add_predicted(row, above, step, [](int left, int up, int) { return (left + up) / 2; });
     case 4:
-      return paeth(left, above, above_left);
+      return add_predicted(row, above, step, [](int left, int up, int corner) { return paeth(left, up, corner); });
     default:
       throw std::runtime_error("is damaged: a row has a filter that PNG does not have");
   }
@@ -105,19 +120,13 @@ int predicted(int filter, int left, int above, int above_left) {
 
 /// Rows hold differences to their neighbours, by the filter that their first byte names; undone in place.
 void undo_filters(std::string& pixels, const PngHeader& header) {
-  const std::size_t row_bytes = header.row_bytes(), step = header.pixel_bytes();
-  const std::string zeros(row_bytes, '\0');
-  const char* above = zeros.data();
+  const std::size_t row_bytes = header.row_bytes();
+  const std::vector<unsigned char> zeros(row_bytes);
+  const unsigned char* above = zeros.data();
   for (std::size_t y = 0; y < static_cast<std::size_t>(header.height); ++y) {
-    char* row = pixels.data() + y * (row_bytes + 1);
-    const auto filter = static_cast<unsigned char>(*row++);
-    for (std::size_t i = 0; i < row_bytes; ++i) {
-      const auto byte = [&](const char* from, bool there) { return there ? static_cast<unsigned char>(*from) : 0; };
-      const int left = byte(row + i - (i >= step ? step : 0), i >= step), up = byte(above + i, true);
-      const int corner = byte(above + i - (i >= step ? step : 0), i >= step);
-      row[i] = static_cast<char>(byte(row + i, true) + predicted(filter, left, up, corner));
-    }
-    above = row;
+    auto* const row = reinterpret_cast<unsigned char*>(pixels.data()) + y * (row_bytes + 1);
+    undo_filter(row[0], {row + 1, row_bytes}, above, header.pixel_bytes());
+    above = row + 1;
   }
 }
 
