@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <stop_token>
 #include <vector>
@@ -24,14 +25,16 @@ std::vector<OrientedPoint> oriented_points(const Scan& scan, double spacing, con
 /// in it.
 class MergedPoints {
  public:
+  using Cell = std::array<std::int64_t, 3>;  ///< of a cube: its number along each axis
+
   explicit MergedPoints(double spacing) : spacing_(spacing) {}  ///< edge of a cube [m]
   void add(const std::vector<OrientedPoint>& scan);
   std::vector<OrientedPoint> points() const;
 
  private:
   double spacing_;
-  std::map<std::array<int, 3>, std::vector<std::size_t>> at_;  ///< by cube: indices of sums_
-  std::vector<OrientedPoint> sums_;                            ///< positions and normals are sums, by weight
+  std::map<Cell, std::vector<std::size_t>> at_;  ///< indices of sums_
+  std::vector<OrientedPoint> sums_;              ///< positions and normals are sums, by weight
 };
 
 }  // namespace nextview

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -41,12 +43,17 @@ class Target {
     if (!points_.empty()) tree_.setInputCloud(cloud_);
   }
 
+  /// What a thread's searches find; kept from one to the next, for its memory.
+  struct Found {
+    std::vector<int> indices;
+    std::vector<float> squared;
+  };
   /// The nearest point that faces alike; null if none is within reach [m].
-  const OrientedPoint* nearest(const Vector3& position, const Vector3& normal, double reach) const {
+  const OrientedPoint* nearest(const Vector3& position, const Vector3& normal, double reach, Found& found) const {
     if (points_.empty()) return nullptr;
-    const int found = tree_.nearestKSearch(at(position), neighbours_tried, indices_, squared_);
-    for (int i = 0; i < found && double(squared_[std::size_t(i)]) < reach * reach; ++i) {
-      const OrientedPoint& point = points_[std::size_t(indices_[std::size_t(i)])];
+    const int count = tree_.nearestKSearch(at(position), neighbours_tried, found.indices, found.squared);
+    for (int i = 0; i < count && double(found.squared[std::size_t(i)]) < reach * reach; ++i) {
+      const OrientedPoint& point = points_[std::size_t(found.indices[std::size_t(i)])];
       if (point.normal.dot(normal) > facing_alike) return &point;
     }
     return nullptr;
@@ -63,8 +70,6 @@ class Target {
   Vector3 middle_;
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud_;
   pcl::search::KdTree<pcl::PointXYZ> tree_;
-  mutable std::vector<int> indices_ = std::vector<int>(neighbours_tried);
-  mutable std::vector<float> squared_ = std::vector<float>(neighbours_tried);
 };
 
 /// The scan's middle, and how far its points lie from there (root mean square): with it, turns count as lengths.
@@ -110,11 +115,17 @@ class Registrar {
       : scan_(std::move(scan)), target_(std::move(target)), extent_(extent) {}
 
   Pairs pairs(const Pose& T, double reach) const {
+    std::vector<const OrientedPoint*> nearest_of(scan_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan_.size(), 128), [&](const auto& range) {
+      Target::Found found;
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+        nearest_of[i] = target_.nearest(T * scan_[i].position, T.linear() * scan_[i].normal, reach, found);
+    });
     Pairs all;
-    for (const OrientedPoint& p : scan_) {
-      const Vector3 position = T * p.position, normal = T.linear() * p.normal;
-      const OrientedPoint* const nearest = target_.nearest(position, normal, reach);
+    for (std::size_t i = 0; i < scan_.size(); ++i) {
+      const OrientedPoint* const nearest = nearest_of[i];
       if (!nearest) continue;
+      const Vector3 position = T * scan_[i].position, normal = T.linear() * scan_[i].normal;
       const double distance = nearest->normal.dot(nearest->position - position);
       // Tukey's weight: a pair at the end of the reach counts for nothing, so none comes or goes at once.
       const double weight = std::pow(1.0 - (nearest->position - position).squaredNorm() / (reach * reach), 2);

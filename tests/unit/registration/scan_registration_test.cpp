@@ -83,6 +83,14 @@ INSTANTIATE_TEST_SUITE_P(Objects, Accuracies,
                          testing::Combine(testing::Values("slotted_housing", "slotted_plate", "sphere"),
                                           testing::Values(0.001, 0.002)));
 
+TEST(MergedPoints, PointsFarOffAreToldApart) {
+  MergedPoints merged(1e-4);  // 1e10 cubes and more from the world's origin
+  const std::vector<OrientedPoint> points = {{Vector3(1e6, 0, 0), Vector3::UnitZ(), 1.0},
+                                             {Vector3(2e6, 0, 0), Vector3::UnitZ(), 1.0}};
+  merged.add(points);
+  EXPECT_EQ(merged.points().size(), 2u);
+}
+
 TEST(RegisterScan, ATargetThatIsBroughtAlongIsTheSame) {
   const auto object = object_named("sphere");
   const Scans scans = scans_of(object, views_around(4), noise, {0.002, 0.2}, 2);
