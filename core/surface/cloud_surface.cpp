@@ -45,25 +45,35 @@ Cloud::Ptr to_pcl(std::span<const Scan> scans) {
   return cloud;
 }
 
+/// Of some points of a scan, the squared distances to the nearest others that lie elsewhere.
+std::vector<float> squared_spacings(const Scan& scan) {
+  constexpr std::size_t samples = 500;
+  const Cloud::Ptr cloud = to_pcl({&scan, 1});
+  if (cloud->size() < 2) return {};
+  Tree tree(false);
+  tree.setInputCloud(cloud);
+  pcl::Indices indices;
+  std::vector<float> squared, found;
+  for (std::size_t i = 0; i < cloud->size(); i += std::max<std::size_t>(1, cloud->size() / samples)) {
+    tree.nearestKSearch((*cloud)[i], 2, indices, squared);  // the point finds itself first
+    if (squared.back() > 0.0f) found.push_back(squared.back());
+  }
+  return found;
+}
+
 /// How far neighbouring points of one scan lie apart: the median over some points of some scans [m].
 double point_spacing(std::span<const Scan> scans) {
-  constexpr std::size_t looked_at = 4, samples = 500;  // scans, and points of each
+  constexpr std::size_t looked_at = 4;  // scans
   std::vector<const Scan*> with_points;
   for (const Scan& scan : scans)
     if (!scan.hits.empty()) with_points.push_back(&scan);
+  const std::size_t step = with_points.size() / looked_at + 1;
+  std::vector<std::vector<float>> of_scan((with_points.size() + step - 1) / step);
+  tbb::parallel_for(std::size_t{0}, of_scan.size(),
+                    [&](std::size_t s) { of_scan[s] = squared_spacings(*with_points[s * step]); });
   std::vector<float> squared_distances;
-  for (std::size_t s = 0; s < with_points.size(); s += with_points.size() / looked_at + 1) {
-    const Cloud::Ptr cloud = to_pcl({with_points[s], 1});
-    if (cloud->size() < 2) continue;
-    Tree tree(false);
-    tree.setInputCloud(cloud);
-    pcl::Indices indices;
-    std::vector<float> squared;
-    for (std::size_t i = 0; i < cloud->size(); i += std::max<std::size_t>(1, cloud->size() / samples)) {
-      tree.nearestKSearch((*cloud)[i], 2, indices, squared);  // the point finds itself first
-      if (squared.back() > 0.0f) squared_distances.push_back(squared.back());
-    }
-  }
+  for (const std::vector<float>& some : of_scan)
+    squared_distances.insert(squared_distances.end(), some.begin(), some.end());
   if (squared_distances.empty()) return 0.0;
   const auto middle = squared_distances.begin() + std::ptrdiff_t(squared_distances.size() / 2);
   std::nth_element(squared_distances.begin(), middle, squared_distances.end());
