@@ -23,6 +23,7 @@ struct PosteriorSums {
 class Chain {
  public:
   virtual ~Chain() = default;
+  /// Comes before all else.
   virtual void start(std::vector<std::uint8_t> map) = 0;
   /// Updates every site once, then makes the configured moves. Returns how many voxels changed.
   virtual std::size_t sweep(PosteriorSums* mean) = 0;

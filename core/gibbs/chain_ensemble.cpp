@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nextview {
 namespace {
@@ -44,12 +45,16 @@ ChainEnsemble::ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig
   for (int c = 0; c < config.chains; ++c) chains_.push_back(make_chain(lists, config, sites, c));
   diagnostics_.log_posterior.resize(config.chains);
   diagnostics_.changed_voxels.resize(config.chains);
-  diagnostics_.chain_bytes = chains_.front()->bytes();
   const std::size_t step = std::max<std::size_t>(1, sites.near_voxels.size() / traced_voxels);
   for (std::size_t k = 0; k < sites.near_voxels.size(); k += step) traced_.push_back(sites.near_voxels[k]);
   if (!config.keep_traces) return;
   kept_ = sites.near_voxels;
   std::ranges::sort(kept_);
+}
+
+void ChainEnsemble::start(int chain, std::vector<std::uint8_t> levels) {
+  chains_[chain]->start(std::move(levels));
+  if (chain == 0) diagnostics_.chain_bytes = chains_[chain]->bytes();
 }
 
 void ChainEnsemble::begin_mean(int sweeps) {

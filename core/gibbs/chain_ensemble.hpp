@@ -14,7 +14,8 @@ class ChainEnsemble {
   ChainEnsemble(const RayLists& lists, const PosteriorSamplerConfig& config, const Sites& sites,
                 std::size_t informed_elsewhere, SamplerDiagnostics& diagnostics);
 
-  void start(int chain, std::vector<std::uint8_t> levels) { chains_[chain]->start(std::move(levels)); }
+  /// Each chain before all else; different ones from different threads.
+  void start(int chain, std::vector<std::uint8_t> levels);
   std::span<const std::uint8_t> map(int chain) const { return chains_[chain]->map(); }
 
   /// Starts a new mean, over the next `sweeps` sweeps or more: what was before becomes burn-in.

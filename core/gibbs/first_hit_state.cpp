@@ -2,9 +2,7 @@
 
 namespace nextview {
 
-FirstHitState::FirstHitState(const RayLists& lists, const ForwardSensorModel&) : lists_(lists) {
-  reset(std::vector<std::uint8_t>(lists.grid().voxel_count(), 0));
-}
+FirstHitState::FirstHitState(const RayLists& lists, const ForwardSensorModel&) : lists_(lists) {}
 
 std::size_t FirstHitState::bytes() const { return map_.size() + first_.size() * sizeof(first_[0]); }
 

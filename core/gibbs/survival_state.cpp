@@ -17,7 +17,6 @@ SurvivalState::SurvivalState(const RayLists& lists, const ForwardSensorModel& mo
       passing_[level][code] = optical_depth::passing(depth_[level][code]);
       if (level > 0) passing_pairs_[(level - 1) / 2][code][(level - 1) % 2] = passing_[level][code];
     }
-  reset(std::vector<std::uint8_t>(lists.grid().voxel_count(), 0));
 }
 
 std::size_t SurvivalState::bytes() const {

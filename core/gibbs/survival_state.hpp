@@ -15,6 +15,7 @@ namespace nextview {
 /// front.
 class SurvivalState {
  public:
+  /// Of no map yet: reset() comes before all else.
   SurvivalState(const RayLists& lists, const ForwardSensorModel& model);
 
   int levels() const { return levels_; }
