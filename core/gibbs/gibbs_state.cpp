@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/gibbs/independence.hpp"
 #include "core/memory/available_memory.hpp"
 #include "core/progress/stopwatch.hpp"
 
@@ -30,7 +29,9 @@ void GibbsState::add(const Scan& scan) {
   RangeMeasurements view{all->max_range, {}, {}};
   view.add(scan);
   view.validate();
-  all->append(merge_rays(view, posterior_->grid, config_.ray_spacing));
+  const RangeMeasurements merged = merge_rays(view, posterior_->grid, config_.ray_spacing);
+  all->append(merged);
+  if (independence_follows_from_hits(config_.model)) hits_.add(hit_cells(merged, posterior_->grid));
   measured_rays_ += view.rays.size();
   measurements_ = std::move(all);
 }
@@ -64,7 +65,7 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
   double build_seconds = 0.0;
   std::unique_ptr<RayLists> lists = [&] {
     const Stopwatch watch(build_seconds);
-    return take_lists(with_independence(config.model, *measurements_, posterior_->grid), stop);
+    return take_lists(with_independence(config.model, hits_), stop);
   }();
   const bool grows = sweeps > 0 && !refined_->rays.empty() && refined_ != measurements_ &&
                      config.updated == UpdatedVoxels::occupied_and_free;

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <stop_token>
 
+#include "core/gibbs/independence.hpp"
 #include "core/gibbs/posterior_sampler.hpp"
 #include "core/map/occupancy_map.hpp"
 
@@ -51,6 +52,7 @@ class GibbsState {
   PosteriorSamplerConfig config_;
   InverseSensorModel classes_;
   std::size_t measured_rays_ = 0;
+  HitCells hits_;  ///< of all views, if the independence follows from them
   std::uint64_t refinements_ = 0;
   std::shared_ptr<const RangeMeasurements> measurements_;
   std::shared_ptr<const RangeMeasurements> refined_;  ///< those that the posterior knows
