@@ -14,6 +14,8 @@
 
 namespace nextview {
 
+struct ConfiguredObject;
+
 /// What is known of the object that was scanned, if it was a simulation.
 struct RefinementTruth {
   std::shared_ptr<const TriangleMesh> mesh;
@@ -50,6 +52,9 @@ RefinementJob refinement_job(const std::filesystem::path& scan_folder,
 /// What a configuration's camera sees of its object from these views: the k-th with the noise that it would have as a
 /// scan's k-th view. @throws std::runtime_error if stopped, or naming a file and the reason.
 RefinementJob refinement_job(const Configuration& configuration, std::span<const Pose> views,
+                             const Progress& progress = {}, std::stop_token stop = {});
+/// The same of an object that was loaded already, and the configuration that load_object() fitted to it.
+RefinementJob refinement_job(const Configuration& fitted, const ConfiguredObject& object, std::span<const Pose> views,
                              const Progress& progress = {}, std::stop_token stop = {});
 /// A recorded scene. Its sensor's noise is not known: a sigma of 0 means a quarter of a voxel edge.
 RefinementJob refinement_job(const RecordedScene& scene, const GibbsConfig& gibbs, std::uint64_t seed,

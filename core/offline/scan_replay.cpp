@@ -159,7 +159,12 @@ RefinementJob refinement_job(const Configuration& configuration, std::span<const
                              std::stop_token stop) {
   Configuration c = configuration;
   const ConfiguredObject object = load_object(c, stop);
-  return simulated_job(c, object, views, {}, progress, stop);
+  return refinement_job(c, object, views, progress, stop);
+}
+
+RefinementJob refinement_job(const Configuration& fitted, const ConfiguredObject& object, std::span<const Pose> views,
+                             const Progress& progress, std::stop_token stop) {
+  return simulated_job(fitted, object, views, {}, progress, stop);
 }
 
 }  // namespace nextview

@@ -114,10 +114,10 @@ RunResult perform_map(const Configuration& configuration, const std::string& kin
   around.layout = ViewLayout::fibonacci;
   around.count = configuration.termination.views;
   Configuration fitted = configuration;
-  load_object(fitted, stop);  // the views' distance follows from its size
+  const ConfiguredObject object = load_object(fitted, stop);  // the views' distance follows from its size
   around.radius = fitted.views.radius;
   const RefinementJob job =
-      refinement_job(fitted, candidate_views(around, view_target(fitted)), part(progress, 0.0, 0.3), stop);
+      refinement_job(fitted, object, candidate_views(around, view_target(fitted)), part(progress, 0.0, 0.3), stop);
   const auto make = [&] {
     const Stopwatch watch(kind == "gibbs" ? seconds.stages.refine : seconds.stages.insert);
     return map_of(job, kind, part(progress, 0.3, 1.0), stop);
