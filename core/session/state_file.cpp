@@ -113,9 +113,12 @@ std::string key_of(const Session& session, std::span<const JournalStep> line, co
 bool can_be_kept(const Session& session) {
   const ScanState& state = session.state();
   const Knowledge& known = state.known;
-  const auto same_number = [&](const auto& record) { return record->candidates.size() == state.candidates.size(); };
+  // Refinements are not in the file: those from before the planner was changed to one without would be lost.
+  const auto is_whole = [&](const auto& record) {
+    return record->candidates.size() == state.candidates.size() && !record->refinement;
+  };
   return state.has_maps && known.scanned && !known.posterior && !known.reference && !state.records.empty() &&
-         std::ranges::all_of(state.records, same_number) &&
+         std::ranges::all_of(state.records, is_whole) &&
          state.candidates == session.setup().candidates->candidates(nothing_scanned(session.setup(), {}).known);
 }
 

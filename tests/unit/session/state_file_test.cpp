@@ -118,6 +118,19 @@ TEST_F(StateFile, IsNotThereWhereItWouldNotBeWhole) {
   EXPECT_FALSE(fs::exists(file()));
   EXPECT_FALSE(opened());
   fs::remove_all(path());
+  {
+    Session session(c);
+    SessionFolder folder = SessionFolder::begin(OutputFolder(path(), {}), session);
+    ASSERT_TRUE(folder.step(session));
+    PlannerConfig plain = session.configuration().planner;
+    plain.gain = small_scan().planner.gain;
+    session.set_planner(plain);
+    folder.keep_configuration(session);
+    folder.keep_state(session);
+    ASSERT_TRUE(session.records().front().refinement);
+  }
+  EXPECT_FALSE(fs::exists(file())) << "it would not say what refining the first view did";
+  fs::remove_all(path());
   c = small_scan();
   c.views.layout = ViewLayout::adaptive;
   scan(c, 2);
