@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t largest_manifest = std::uintmax_t{1} << 20;  // [bytes]
+constexpr std::uintmax_t largest_manifest = std::uintmax_t{16} << 20;  // [bytes] frames of a demo are many
 
 constexpr std::array<std::string_view, 39> names = {"calibration.json",
                                                     "calibration.png",

@@ -43,6 +43,16 @@ class OutputFolders : public InTemporaryFolder {
   }
 };
 
+TEST_F(OutputFolders, OfManyFramesAreKnownAgain) {
+  fs::create_directories(folder_ / "out");
+  Manifest manifest{"nextview 9", "demo", std::nullopt, {}};
+  for (int number = 1; number <= 60'000; ++number) manifest.files.push_back(fmt::format("frame_{:05}.png", number));
+  write_manifest(manifest, folder_ / "out");
+  const auto read = read_manifest(folder_ / "out");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->files, manifest.files);
+}
+
 TEST_F(OutputFolders, ThatNothingWasWrittenToAreGoneAgain) {
   write("there/mine.txt");
   { const MadeFolder made(folder_ / "there" / "a" / "b"); }
