@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "core/gibbs/sampler_diagnostics.hpp"
-#include "core/map/occupancy.hpp"
-#include "core/map/voxel_grid.hpp"
+#include "core/map/voxel_bricks.hpp"
 
 namespace nextview {
 
@@ -36,10 +35,13 @@ struct GibbsPosterior {
 
   /// The posterior as gains, pictures and scores see a map: measured means informed. p is `touch`.
   std::vector<Voxel> voxels(const InverseSensorModel& classes) const { return voxels_of(touch, classes); }
+  /// The same in bricks.
+  VoxelBricks bricks(const InverseSensorModel& classes) const;
   /// The same, p being `centre`: what is open and what is solid.
   std::vector<Voxel> centre_voxels(const InverseSensorModel& classes) const { return voxels_of(centre, classes); }
 
  private:
+  Voxel voxel_of(std::size_t voxel, float p, const InverseSensorModel& classes) const;
   std::vector<Voxel> voxels_of(std::span<const float> p, const InverseSensorModel& classes) const;
 };
 

@@ -75,7 +75,7 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
       std::make_shared<GibbsPosterior>(sample_posterior(*lists, config, conventional, warm, progress, stop));
   posterior->diagnostics.measured_rays = measured_rays_;
   posterior->diagnostics.build_seconds = build_seconds;
-  voxels_ = VoxelBricks(posterior->grid.size, posterior->voxels(classes_));
+  voxels_ = posterior->bricks(classes_);
   posterior_ = std::move(posterior);
   refined_ = measurements_;
   ++refinements_;

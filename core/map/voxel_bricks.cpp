@@ -46,12 +46,22 @@ VoxelBricks::VoxelBricks(const Eigen::Vector3i& size)
 VoxelBricks::VoxelBricks(const Eigen::Vector3i& size, std::span<const Voxel> voxels) : VoxelBricks(size) {
   if (voxels.size() != this->size())
     throw std::invalid_argument(fmt::format("voxel bricks: {} voxels for a grid of {}", voxels.size(), this->size()));
+  set_each([&](std::size_t v) { return voxels[v]; });
+}
+
+VoxelBricks VoxelBricks::made_of(const Eigen::Vector3i& size, const std::function<Voxel(std::size_t)>& voxel_of) {
+  VoxelBricks made(size);
+  made.set_each(voxel_of);
+  return made;
+}
+
+void VoxelBricks::set_each(const std::function<Voxel(std::size_t)>& voxel_of) {
   const auto table = change_bricks();
   tbb::parallel_for(std::size_t{0}, brick_count(), [&](std::size_t b) {
     Brick& brick = table[b].change();
     for_each_row(b, [&](std::size_t first, const Eigen::Vector3i& cell, std::size_t count) {
-      const std::size_t v = (std::size_t(cell.z()) * size.y() + cell.y()) * size.x() + cell.x();
-      for (std::size_t i = 0; i < count; ++i) brick.set(first + i, voxels[v + i]);
+      const std::size_t v = (std::size_t(cell.z()) * size_.y() + cell.y()) * size_.x() + cell.x();
+      for (std::size_t i = 0; i < count; ++i) brick.set(first + i, voxel_of(v + i));
     });
   });
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <span>
 #include <vector>
@@ -79,6 +80,8 @@ class VoxelBricks {
   /// Of voxels in the grid's order, x fastest, as they are; 13 bytes each. @throws std::invalid_argument if there are
   /// not as many.
   VoxelBricks(const Eigen::Vector3i& size, std::span<const Voxel> voxels);
+  /// The same of voxels that are nowhere yet: `voxel_of` is asked for each by its number in the grid, from any thread.
+  static VoxelBricks made_of(const Eigen::Vector3i& size, const std::function<Voxel(std::size_t)>& voxel_of);
 
   std::size_t size() const { return std::size_t(size_.x()) * size_.y() * size_.z(); }  ///< voxels
   const Eigen::Vector3i& edges() const { return size_; }                               ///< voxels along each axis
@@ -164,6 +167,8 @@ class VoxelBricks {
   std::size_t bytes_beside(const VoxelBricks& other) const;
 
  private:
+  void set_each(const std::function<Voxel(std::size_t)>& voxel_of);
+
   Eigen::Vector3i size_, bricks_;
   CopyOnWrite<Brick> empty_;
   CopyOnWrite<std::vector<CopyOnWrite<Brick>>> table_;

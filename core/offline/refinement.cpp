@@ -48,7 +48,7 @@ Refinement refine(const RefinementJob& job, const Progress& progress, std::stop_
       job.grid, measurements_of(job.scans), job.sampler, probabilities(r.conventional.voxels()), {},
       [&](double fraction, std::string_view what, const SamplerDiagnostics&) { report(0.2 + 0.7 * fraction, what); },
       stop);
-  r.refined = VoxelBricks(job.grid.size, r.posterior.voxels(job.model));
+  r.refined = r.posterior.bricks(job.model);
   report(0.9, "scoring the candidate views");
   r.gains_before = gibbs_gains(job, r.conventional.voxels());
   r.gains_after = gibbs_gains(job, r.refined);

@@ -46,6 +46,8 @@ TEST(VoxelBricks, HoldWhatTheyAreMadeOfInTheGridsOrder) {
           ASSERT_EQ(bricks.cell(bricks.place(x, y, z)), Eigen::Vector3i(x, y, z));
         }
     EXPECT_EQ(bricks.dense().size(), voxels.size());
+    const VoxelBricks asked_for = VoxelBricks::made_of(size, [&](std::size_t i) { return voxels[i]; });
+    EXPECT_TRUE(std::ranges::equal(asked_for, bricks, {}, &Voxel::log_odds, &Voxel::log_odds));
   }
   EXPECT_THROW(VoxelBricks({2, 2, 2}, std::vector<Voxel>(7)), std::invalid_argument);
 }

@@ -28,6 +28,8 @@ TEST(GibbsSession, PlansOnThePosterior) {
   const VoxelBricks& voxels = session.planning_voxels();
   for (std::size_t v = 0; v < voxels.size(); ++v) {
     ASSERT_EQ(voxels[v].probability, posterior.touch[v]);
+    ASSERT_EQ(voxels[v].entropy, static_cast<float>(entropy(posterior.touch[v])));
+    ASSERT_EQ(voxels[v].voxel_class, session.map().model().classify(posterior.touch[v]));
     ASSERT_EQ(voxels[v].measured, posterior.informed[v] != 0);
   }
   EXPECT_EQ(last.total_entropy, map_entropy(voxels).total);
