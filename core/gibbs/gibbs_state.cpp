@@ -24,12 +24,17 @@ GibbsState::GibbsState(const VoxelGrid& grid, const PosteriorSamplerConfig& conf
 }
 
 void GibbsState::add(const Scan& scan) {
-  auto all = std::make_shared<RangeMeasurements>(*measurements_);
-  if (all->origins.empty()) all->max_range = measurements_of(std::span(&scan, 1)).max_range;  // refuses one without
-  RangeMeasurements view{all->max_range, {}, {}};
+  const RangeMeasurements& before = *measurements_;
+  const double max_range = before.origins.empty()
+                               ? measurements_of(std::span(&scan, 1)).max_range  // refuses one without
+                               : before.max_range;
+  RangeMeasurements view{max_range, {}, {}};
   view.add(scan);
   view.validate();
   const RangeMeasurements merged = merge_rays(view, posterior_->grid, config_.ray_spacing);
+  auto all = std::make_shared<RangeMeasurements>(RangeMeasurements{max_range, {}, {}});
+  all->rays.reserve(before.rays.size() + merged.rays.size());  // they are many: they are copied once
+  all->append(before);
   all->append(merged);
   if (independence_follows_from_hits(config_.model)) hits_.add(hit_cells(merged, posterior_->grid));
   measured_rays_ += view.rays.size();
