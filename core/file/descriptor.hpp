@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace nextview {
@@ -29,6 +30,9 @@ class Descriptor {
  private:
   int number_;
 };
+
+/// Writes all of it. Returns 0, or an errno: then a part of it may have been written.
+int write_all(int descriptor, std::string_view bytes);
 
 /// "FILE: cannot be VERB: the reason that stands for `error`", an errno, and what to do where that is known.
 std::runtime_error file_error(const std::filesystem::path& file, const char* verb, int error);

@@ -1,8 +1,6 @@
 #include "core/file/descriptor_buffer.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
+#include "core/file/descriptor.hpp"
 
 namespace nextview {
 
@@ -11,14 +9,7 @@ DescriptorBuffer::DescriptorBuffer(int descriptor) : descriptor_(descriptor) {
 }
 
 int DescriptorBuffer::flush() {
-  const char* next = pbase();
-  while (error_ == 0 && next < pptr()) {
-    const ssize_t written = ::write(descriptor_, next, static_cast<std::size_t>(pptr() - next));
-    if (written >= 0)
-      next += written;
-    else if (errno != EINTR)
-      error_ = errno;
-  }
+  if (error_ == 0) error_ = write_all(descriptor_, {pbase(), static_cast<std::size_t>(pptr() - pbase())});
   setp(held_.data(), held_.data() + held_.size());
   return error_;
 }

@@ -39,17 +39,6 @@ JournalText text_of(std::string_view bytes) {
   return text;
 }
 
-/// All of it, or an errno. Where that is not 0, part of it may have been written.
-int write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
 }  // namespace
 
 JournalText read_journal_file(const fs::path& file) { return text_of(read_file(file, largest)); }

@@ -1,9 +1,8 @@
 #include "core/mesh/scene_transfer.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
+
+#include "core/file/descriptor.hpp"
 
 namespace nextview {
 namespace {
@@ -15,15 +14,7 @@ struct TransferHeader {
 constexpr std::uint64_t longest_message = 1 << 12;  // [bytes]
 
 bool send(int pipe, const void* data, std::size_t size) {
-  const char* bytes = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::write(pipe, bytes, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return false;
-    bytes += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
+  return write_all(pipe, {static_cast<const char*>(data), size}) == 0;
 }
 
 template <class T>
