@@ -105,9 +105,16 @@ JournalWriter::JournalWriter(fs::path folder, JournalFile file) : folder_(std::m
 }
 
 JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& input, const std::string& settings) {
-  JournalWriter writer(folder, JournalFile::begin(folder / journal_name));
-  writer.file_.append(beginning_record(input, settings));
-  return writer;
+  JournalFile file = JournalFile::begin(folder / journal_name);
+  try {
+    JournalWriter writer(folder, std::move(file));
+    writer.file_.append(beginning_record(input, settings));
+    return writer;
+  } catch (...) {  // of a full disk, most likely: empty, it would be taken for a journal that lost its beginning
+    std::error_code ignored;
+    fs::remove(folder / journal_name, ignored);
+    throw;
+  }
 }
 
 JournalWriter JournalWriter::go_on(const fs::path& folder, Journal& journal) {

@@ -79,7 +79,7 @@ void require_same_input(const Journal& journal, const std::filesystem::path& fol
 /// Writes the journal of a session and its scans. It is locked as long as this lives.
 class JournalWriter {
  public:
-  /// @throws std::runtime_error naming the file and the reason
+  /// @throws std::runtime_error naming the file and the reason; then none is left behind
   static JournalWriter begin(const std::filesystem::path& folder, const JournalInput& input,
                              const std::string& settings);
   /// Goes on with what is there, which `journal` then says: where it was read before, and the file is as long as then,

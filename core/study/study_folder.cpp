@@ -149,15 +149,18 @@ void StudyFolder::keep(const std::string& key, const StudyRun& run, const RunRes
 
 void StudyFolder::add_timing(const std::string& key, const StudyRun& run, const RunSeconds& seconds) const {
   const fs::path file = folder_ / study_timings_name;
-  const bool is_new = !is_there(file);
   const Descriptor out(::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!out.is_open()) throw file_error(file, "written", errno);
+  const off_t before = ::lseek(out.get(), 0, SEEK_END);
   const StageSeconds& s = seconds.stages;
   const std::string row = fmt::format(
-      "{}{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}\n", is_new ? timing_columns : "", key,
-      name(run.part), csv_cell(object_label(run.object)), csv_cell(run.sensor), run.views, csv_cell(run.method),
+      "{}{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}\n", before == 0 ? timing_columns : "",
+      key, name(run.part), csv_cell(object_label(run.object)), csv_cell(run.sensor), run.views, csv_cell(run.method),
       run.start, run.seed, s.sense, s.clean, s.insert, s.refine, s.score, s.evaluate, seconds.total);
-  if (!out.is_open() || ::write(out.get(), row.data(), row.size()) != ssize_t(row.size()))
-    throw file_error(file, "written", errno);
+  const int error = write_all(out.get(), row);
+  if (error == 0) return;
+  [[maybe_unused]] const int ignored = ::ftruncate(out.get(), before);  // the next row would join a part of this one
+  throw file_error(file, "written", error);
 }
 
 }  // namespace nextview

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +11,8 @@
 #include <future>
 #include <iterator>
 #include <sstream>
+
+#include "tests/unit/file/file_size_limit.hpp"
 
 namespace nextview {
 namespace {
@@ -89,24 +90,6 @@ TEST_F(AtomicFileTest, NamesTheFileThatCannotBeWritten) {
   EXPECT_EQ(files(), 1u) << "a temporary file was left behind";
   EXPECT_EQ(read_file(folder_ / "taken/inside"), "x");
 }
-
-/// Files cannot grow over `bytes` while it lives: what a full disk does, without filling one.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int);
-};
 
 TEST_F(AtomicFileTest, AFullDiskLosesNothingAndIsReported) {
   write_file(folder_ / "a", "old");

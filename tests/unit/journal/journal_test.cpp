@@ -13,6 +13,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/file/read_file.hpp"
+#include "tests/unit/file/file_size_limit.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -171,6 +172,19 @@ TEST_F(JournalTest, WhatIsReadOfACaptureIsWhatWasLookedAt) {
   std::array<inotify_event, 8> events;
   EXPECT_EQ(::read(watch.get(), events.data(), sizeof(events)), ssize_t(2 * sizeof(inotify_event)))
       << "it is opened and closed once";
+}
+
+TEST_F(JournalTest, OnAFullDiskNoneIsBegun) {
+  const auto begin = [&] { JournalWriter::begin(folder_ / "", {"box.ply"}, "seed = 1\n"); };
+  {
+    const FileSizeLimit full(10);
+    EXPECT_THAT(begin, testing::ThrowsMessage<std::runtime_error>(HasSubstr("journal: cannot be written: ")));
+  }
+  EXPECT_FALSE(has_journal(folder_ / "")) << "an empty one would be taken for one that is damaged";
+  begin();
+  EXPECT_TRUE(read_journal(folder_ / "").steps.empty());
+  EXPECT_THROW(begin(), std::runtime_error) << "there is one";
+  EXPECT_TRUE(has_journal(folder_ / "")) << "which stays";
 }
 
 TEST_F(JournalTest, LeadsNowhereElse) {

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "core/file/atomic_file.hpp"
 #include "core/progress/stopped.hpp"
+#include "tests/unit/file/file_size_limit.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
@@ -89,6 +91,22 @@ TEST_F(StudyLoop, SaysHowManyRunsAreDoneOfThoseThatItDoes) {
                                  MatchesRegex("run 2 of 4: .*, seed 3; about [0-9]+ s left"),
                                  MatchesRegex("run 3 of 4: .*, seed 4; about [0-9]+ s left"),
                                  MatchesRegex("run 4 of 4: .*, seed 5; about [0-9]+ s left")));
+}
+
+TEST_F(StudyLoop, OnAFullDiskNoPartOfARowIsLeft) {
+  const StudyFolder out = begin();
+  const std::filesystem::path file = folder_ / "out/timings.csv";
+  const std::string before = timing_columns + std::string(10'000, 'x') + "\n";
+  write_file(file, before);
+  {
+    const FileSizeLimit full(before.size() + 10);
+    EXPECT_THAT([&] { out.keep(keys_.keys[0], study_.run(0), RunResult{}, RunSeconds{}); },
+                testing::ThrowsMessage<std::runtime_error>(
+                    testing::HasSubstr("timings.csv: cannot be written: File too large")));
+  }
+  EXPECT_EQ(read_file(file) == before, true);
+  out.keep(keys_.keys[1], study_.run(1), RunResult{}, RunSeconds{});
+  EXPECT_EQ(read_file(file).starts_with(before + keys_.keys[1] + ','), true);
 }
 
 TEST_F(StudyLoop, AStopLeavesWhatIsDone) {
