@@ -79,6 +79,11 @@ void write_file(const fs::path& file, std::string_view content) {
   out.commit();
 }
 
+void keep_names(const fs::path& folder) {
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.is_open()) reach_the_disk(opened.get());
+}
+
 void require_writable_folder(const fs::path& folder) {
   try {
     clean_up_once(folder);

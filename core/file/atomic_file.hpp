@@ -36,6 +36,11 @@ class AtomicFile {
 
 void write_file(const std::filesystem::path& file, std::string_view content);
 
+/// What was made or renamed in a folder is there after a power failure, too, where its file system can promise that; a
+/// file alone that reached the disk may be there without its name. It takes a while: it is for what cannot be had
+/// again.
+void keep_names(const std::filesystem::path& folder);
+
 /// @throws std::runtime_error naming the folder and the reason if no file can be made in it.
 void require_writable_folder(const std::filesystem::path& folder);
 

@@ -67,6 +67,7 @@ std::string write_capture(const Capture& capture, std::uint32_t number, const fs
     write_npy({image->camera.width, image->camera.height, image->range}, folder / name);
   else
     write_points(std::get<std::vector<Vector3>>(capture.measured), folder / name);
+  keep_names(folder);
   return name;
 }
 

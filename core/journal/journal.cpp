@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/file/atomic_file.hpp"
 #include "core/file/make_folder.hpp"
 #include "core/file/read_file.hpp"
 #include "core/file/unchanged.hpp"
@@ -109,6 +110,8 @@ JournalWriter JournalWriter::begin(const fs::path& folder, const JournalInput& i
   try {
     JournalWriter writer(folder, std::move(file));
     writer.file_.append(beginning_record(input, settings));
+    keep_names(folder);
+    keep_names(folder / "..");  // the folder may be new, too
     return writer;
   } catch (...) {  // of a full disk, most likely: empty, it would be taken for a journal that lost its beginning
     std::error_code ignored;
