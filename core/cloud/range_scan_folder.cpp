@@ -11,6 +11,7 @@
 
 #include "core/cloud/point_cloud.hpp"
 #include "core/file/atomic_file.hpp"
+#include "core/file/inner_path.hpp"
 #include "core/setting/rounded.hpp"
 #include "core/view/candidate_views.hpp"
 
@@ -61,6 +62,8 @@ std::vector<ConfLine> read_conf(const fs::path& file) {
     if (!words || !(words >> std::ws).eof())
       throw std::runtime_error(
           fmt::format("{}:{}: expected `bmesh FILE.ply tx ty tz qx qy qz qw`", file.string(), number));
+    if (const char* const why = why_not_within(scan.name))
+      throw std::runtime_error(fmt::format("{}:{}: '{}' {}", file.string(), number, scan.name, why));
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (!(std::abs(q.norm() - 1.0) <= 1e-3))
       throw std::runtime_error(fmt::format("{}:{}: the quaternion (qx qy qz qw) has length {:.6g}; it must be 1",

@@ -13,10 +13,10 @@ inline constexpr Bounds stand_off_bounds = from_to(0.01, 100);       // [m]
 inline constexpr Bounds range_scan_voxel_bounds = zero_or(1e-4, 1);  // [m]
 
 /// Reads the range scans of a folder as the Stanford 3D Scanning Repository has them: one file `*.conf` with a line
-/// `bmesh FILE.ply tx ty tz qx qy qz qw` a scan, and beside it each FILE.ply, or FILE.ply.gz. Other lines of the .conf
-/// and all but the vertices are passed over, and so are lines of a scan's header that are not known: `notice` hears of
-/// them, in one line for the folder. A point goes to the world by p_world = R(q)^T p_scan + t, in
-/// units of `unit` [m].
+/// `bmesh FILE.ply tx ty tz qx qy qz qw` a scan, and beside or below it each FILE.ply, or FILE.ply.gz. Other lines of
+/// the .conf and all but the vertices are passed over, and so are lines of a scan's header that are not known: `notice`
+/// hears of them, in one line for the folder. A point goes to the world by p_world = R(q)^T p_scan + t, in units of
+/// `unit` [m].
 ///
 /// The scanner sits on the +z side of a scan and looks along -z. Its camera is put at the mean x and y of the scan's
 /// points, `stand_off` [m] beyond their greatest z; rays from there run nearly along those of the scanner, not exactly.

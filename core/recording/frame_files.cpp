@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/file/gzip_file.hpp"
+#include "core/file/inner_path.hpp"
 
 namespace nextview {
 namespace {
@@ -52,13 +53,11 @@ bool match(std::string_view name, std::size_t at, std::string_view pattern, Matc
   return false;
 }
 
-/// Data of others must not lead out of their folder.
 void require_pattern_within(const fs::path& folder, const fs::path& pattern) {
   const auto refuse = [&](const char* why) {
     throw std::runtime_error(fmt::format("{}: the pattern '{}' {}", folder.string(), pattern.string(), why));
   };
-  if (pattern.is_absolute()) refuse("must be relative to the folder");
-  if (std::ranges::find(pattern, fs::path("..")) != pattern.end()) refuse("must not lead out of the folder");
+  if (const char* const why = why_not_within(pattern)) refuse(why);
   if (pattern.parent_path().string().find('*') != std::string::npos)
     refuse("may have a * in its last part only, the file's name");
   if (std::ranges::count(pattern.filename().string(), '*') > most_wildcards) refuse("has more than four *");

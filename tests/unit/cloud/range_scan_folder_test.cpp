@@ -233,6 +233,9 @@ TEST_F(RangeScanFolder, AWrongLineOfTheConfIsNamed) {
            {"bmesh a.ply 0 0 x 0 0 0 1", "expected `bmesh"},
            {"bmesh a.ply 0 0 nan 0 0 0 1", "expected `bmesh"},
            {"bmesh a.ply 0 0 1e999 0 0 0 1", "expected `bmesh"},
+           {"bmesh /tmp/a.ply 0 0 0 0 0 0 1", "'/tmp/a.ply' must be relative to the folder"},
+           {"bmesh ../a.ply 0 0 0 0 0 0 1", "'../a.ply' must not lead out of the folder"},
+           {"bmesh b/../../a.ply 0 0 0 0 0 0 1", "must not lead out of the folder"},
            {"bmesh a.ply 0 0 0 0 0 0 1e300", "has length inf; it must be 1"},
            {"bmesh a.ply 0 0 0 0 0 0.5 0.5", "has length 0.707107; it must be 1"},
            {"bmesh a.ply 0 0 0 0 0 0 0", "has length 0; it must be 1"}}) {
