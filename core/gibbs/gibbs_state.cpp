@@ -59,7 +59,7 @@ std::unique_ptr<RayLists> GibbsState::take_lists(const ForwardSensorModel& model
   return lists;
 }
 
-void GibbsState::refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress,
+void GibbsState::refine(const VoxelBricks* conventional, int sweeps, const SamplerProgress& progress,
                         std::stop_token stop) {
   PosteriorSamplerConfig config = config_;
   config.seed += refinements_ << 32;  // other numbers than the last time
@@ -76,8 +76,9 @@ void GibbsState::refine(std::span<const float> conventional, int sweeps, const S
                      config.updated == UpdatedVoxels::occupied_and_free;
   const WarmStart warm{posterior_->states, grows ? posterior_.get() : nullptr,
                        lists->first_ray_of(static_cast<std::uint32_t>(refined_->origins.size()))};
-  auto posterior =
-      std::make_shared<GibbsPosterior>(sample_posterior(*lists, config, conventional, warm, progress, stop));
+  // Where the maps go on from those that are there nobody asks for it.
+  const auto start_map = conventional && !grows ? probabilities(*conventional) : std::vector<float>();
+  auto posterior = std::make_shared<GibbsPosterior>(sample_posterior(*lists, config, start_map, warm, progress, stop));
   posterior->diagnostics.measured_rays = measured_rays_;
   posterior->diagnostics.build_seconds = build_seconds;
   voxels_ = posterior->bricks(classes_);

@@ -20,10 +20,11 @@ class GibbsState {
   /// of the first.
   void add(const Scan& scan);
   /// Samples the posterior of all views so far. `sweeps` as GibbsConfig::view_sweeps: if views were added since the
-  /// last refinement, so many sweeps are of what they may change (WarmStart::kept). `conventional` is where the first
-  /// refinement may start. After a requested stop it holds the posterior as far as it was sampled, which says so, and
-  /// can be refined on. @throws Stopped before the first sweep, and what `progress` throws; then it is as it was.
-  void refine(std::span<const float> conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
+  /// last refinement, so many sweeps are of what they may change (WarmStart::kept). `conventional` is the map that the
+  /// first refinement may start from; null: there is none. After a requested stop it holds the posterior as far as it
+  /// was sampled, which says so, and can be refined on. @throws Stopped before the first sweep, and what `progress`
+  /// throws; then it is as it was.
+  void refine(const VoxelBricks* conventional, int sweeps, const SamplerProgress& progress, std::stop_token stop);
 
   /// Unmeasured before the first refinement.
   const VoxelBricks& voxels() const { return voxels_; }

@@ -41,7 +41,7 @@ Knowledge with_posterior(Knowledge known, const RecordedScene& scene, const Prog
   const auto report = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
     if (progress) progress(fraction, what);
   };
-  posterior->refine(probabilities(known.map.voxels()), 0, report, stop);  // until it is stationary
+  posterior->refine(&known.map.voxels(), 0, report, stop);  // until it is stationary
   throw_if_stopped(stop);
   known.posterior = std::move(posterior);
   return known;

@@ -41,7 +41,7 @@ FusionSeconds fuse(Knowledge& known, const Scan& scan, const FusionConfig& confi
     const auto report_sampler = [&](double fraction, std::string_view what, const SamplerDiagnostics&) {
       if (progress) progress(fraction, what);
     };
-    posterior->refine(probabilities(after.map.voxels()), config.view_sweeps, report_sampler, stop);
+    posterior->refine(&after.map.voxels(), config.view_sweeps, report_sampler, stop);
     throw_if_stopped(stop);
     after.posterior = std::move(posterior);
   }

@@ -263,7 +263,7 @@ void SessionRunner::refine(int chains, int sweeps, const JobControl& control) {
     control.sampler(so_far);
     control.progress(0.1 + 0.9 * fraction, what);
   };
-  refinement_->refine(probabilities(session_->map().voxels()), 0, progress, control.stop);
+  refinement_->refine(&session_->map().voxels(), 0, progress, control.stop);
   if (is_there) throw_if_stopped(control.stop);
   SessionSnapshot next = *snapshot_;
   show_refinement(next, *refinement_);
