@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "core/planner/look_ahead_planner.hpp"
@@ -76,11 +77,17 @@ void Session::set_planning(const PlanningConfig& config, const Progress& progres
   adopt(std::move(state));
 }
 
+/// Only records that are new are copied: they hold all their candidates, 1,000 of a recording of so many frames.
 void Session::adopt(ScanState state) {
-  std::vector<StepRecord> records;
-  for (const auto& record : state.records) records.push_back(*record);
-  candidates_ = poses_of(state.candidates);
-  records_ = std::move(records);
+  const auto first_new = std::ranges::mismatch(state.records, state_.records).in1;
+  std::vector<StepRecord> added;
+  for (auto record = first_new; record != state.records.end(); ++record) added.push_back(**record);
+  std::vector<Pose> candidates = poses_of(state.candidates);
+  if (state.records.size() > records_.capacity()) records_.reserve(2 * state.records.size());
+  // From here on nothing fails: a step is taken as a whole, or not at all.
+  records_.resize(state.records.size() - added.size());
+  std::ranges::move(added, std::back_inserter(records_));
+  candidates_ = std::move(candidates);
   state_ = std::move(state);
 }
 
