@@ -99,6 +99,18 @@ std::vector<double> RecordedSurface::coverage(std::span<const std::size_t> order
   return shares;
 }
 
+double RecordedSurface::covered_by(std::span<const std::size_t> frames) const {
+  const std::scoped_lock lock(covering_);
+  const std::size_t before = covered_.frames.size();
+  if (before > frames.size() || !std::ranges::equal(covered_.frames, frames.first(before))) covered_ = {};
+  covered_.seen.resize(samples_.size());
+  for (const std::size_t frame : frames.subspan(covered_.frames.size())) {
+    for (const std::uint32_t s : seen_from_[frame]) covered_.count += !std::exchange(covered_.seen[s], std::uint8_t{1});
+    covered_.frames.push_back(frame);
+  }
+  return double(covered_.count) / double(samples_.size());
+}
+
 std::vector<double> RecordedSurface::random_coverage(std::size_t first, std::uint64_t seed) const {
   constexpr int runs = 20;
   std::vector<double> mean(frames());

@@ -41,6 +41,9 @@ class RecordedSurface {
 
   /// Share of the samples that are seen after the first, the second, … of these frames.
   std::vector<double> coverage(std::span<const std::size_t> order) const;
+  /// The same after the last of them. Where they begin with those that were asked for last, only the others are gone
+  /// through. From any thread.
+  double covered_by(std::span<const std::size_t> frames) const;
   /// The frames taken beside the orders that were not: theirs are of all frames, and found once while a scan goes on.
   /// From any thread. @pre !taken.empty()
   CoverageByOrder compare_orders(std::span<const std::size_t> taken, std::uint64_t seed) const;
@@ -54,11 +57,19 @@ class RecordedSurface {
     std::uint64_t seed;
     std::vector<double> recorded, random;
   };
+  /// What these frames show together.
+  struct Covered {
+    std::vector<std::size_t> frames;
+    std::vector<std::uint8_t> seen;  ///< by sample
+    std::size_t count = 0;           ///< of those
+  };
   std::vector<double> random_coverage(std::size_t first, std::uint64_t seed) const;
 
   double d_reg_;
   PointCloud samples_;
   std::vector<std::vector<std::uint32_t>> seen_from_;
+  mutable std::mutex covering_;
+  mutable Covered covered_;  ///< that was asked for last
   mutable std::mutex comparing_;
   mutable std::optional<OtherOrders> others_;  ///< those that were asked for last
 };

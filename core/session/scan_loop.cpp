@@ -194,7 +194,7 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
   compare_maps(state.known, after.known, record);
   report(progress, stop, 0.6, "comparing with the object");
   evaluate(setup, after, *scan, record, stop);
-  if (setup.recorded) record.coverage_recorded = setup.recorded->coverage(frames_taken(after.known)).back();
+  if (setup.recorded) record.coverage_recorded = setup.recorded->covered_by(frames_taken(after.known));
   after.T_world_camera = acquired.reached;
   after.scans.push_back(scan);
   after.records.push_back(std::make_shared<const StepRecord>(std::move(record)));

@@ -51,6 +51,14 @@ TEST(RecordedSurface, CoverageIsThatOfEachPointLookedAt) {
   }
 }
 
+TEST(RecordedSurface, WhatFramesCoverDoesNotDependOnWhatWasAskedBefore) {
+  const RecordedSurface surface = surface_of(frames_of_a_plane());
+  const std::vector<std::vector<std::size_t>> asked = {{4},    {4, 0}, {4, 0, 2, 3}, {4, 0, 2, 3},
+                                                       {4, 0}, {4, 1}, {0, 4, 1},    {5}};
+  for (const auto& frames : asked) EXPECT_EQ(surface.covered_by(frames), surface.coverage(frames).back());
+  EXPECT_EQ(surface.covered_by({}), 0.0);
+}
+
 TEST(RecordedSurface, AllFramesShowAllOfItInAnyOrder) {
   const RecordedSurface surface = surface_of(frames_of_a_plane());
   const CoverageByOrder orders = surface.compare_orders(std::vector<std::size_t>{3, 5, 0, 1, 2, 4}, 1);
