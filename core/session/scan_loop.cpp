@@ -35,6 +35,12 @@ RegistrationLimits limits_of(const ScanSetup& setup, const Pose& T_world_camera)
   return registration_limits(c.registration, setup.source.range_noise, c.map.resolution, known);
 }
 
+std::shared_ptr<const CapturedScan> cleaned(const ScanSetup& setup, const Capture& capture, double& seconds,
+                                            const std::stop_token& stop) {
+  const Stopwatch watch(seconds);
+  return std::make_shared<const CapturedScan>(to_scan(capture, &setup.configuration.cloud, stop));
+}
+
 /// What the view did to the maps, as numbers of its record.
 void compare_maps(const Knowledge& before, const Knowledge& after, StepRecord& record) {
   Stopwatch watch(record.seconds.evaluate);
@@ -123,6 +129,7 @@ StepRecord begin_record(const ScanState& state, const Acquired& acquired) {
   record.motion = acquired.motion;
   record.registration = acquired.registration;
   record.seconds.sense = acquired.sense_seconds;
+  record.seconds.clean = acquired.clean_seconds;
   return record;
 }
 
@@ -152,8 +159,8 @@ void register_capture(const ScanSetup& setup, const ScanState& state, Registrati
   const Configuration& c = setup.configuration;
   if (c.registration.mode == RegistrationConfig::Mode::off || state.scans.empty()) return;
   const RegistrationLimits limits = limits_of(setup, acquired.capture.T_world_camera);
-  acquired.registration =
-      register_scan(to_scan(acquired.capture, &c.cloud, stop).scan, state.scans, limits, target, stop);
+  acquired.cleaned = cleaned(setup, acquired.capture, acquired.clean_seconds, stop);
+  acquired.registration = register_scan(acquired.cleaned->scan, state.scans, limits, target, stop);
 }
 
 std::string beyond_limits(const ScanSetup& setup, const Acquired& acquired) {
@@ -164,6 +171,7 @@ std::string beyond_limits(const ScanSetup& setup, const Acquired& acquired) {
 void correct(Acquired& acquired) {
   if (!acquired.registration || !acquired.registration->reliable) return;
   acquired.capture.T_world_camera = acquired.registration->T_corrected_believed * acquired.capture.T_world_camera;
+  acquired.cleaned = nullptr;  // where it stood before
 }
 
 ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired& acquired, const Progress& progress,
@@ -171,14 +179,12 @@ ScanState absorb(const ScanSetup& setup, const ScanState& state, const Acquired&
   StepRecord record = begin_record(state, acquired);
   ScanState after = state;
   report(progress, stop, 0.1, "cleaning the cloud");
-  CapturedScan captured = [&] {
-    Stopwatch watch(record.seconds.clean);
-    return to_scan(acquired.capture, &setup.configuration.cloud, stop);
-  }();
-  record.hits = captured.hits;
-  record.misses = captured.scan.misses.size();
-  record.points = captured.scan.hits.size();
-  const auto scan = std::make_shared<const Scan>(std::move(captured.scan));
+  const auto captured =
+      acquired.cleaned ? acquired.cleaned : cleaned(setup, acquired.capture, record.seconds.clean, stop);
+  record.hits = captured->hits;
+  record.misses = captured->scan.misses.size();
+  record.points = captured->scan.hits.size();
+  const std::shared_ptr<const Scan> scan(captured, &captured->scan);
 
   report(progress, stop, 0.4, "updating the map");
   const FusionSeconds seconds = fuse(after.known, *scan, fusion(setup), part(progress, 0.5, 0.6), stop);

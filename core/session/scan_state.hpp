@@ -69,7 +69,8 @@ struct Acquired {
   Capture capture;                   ///< its pose is the one that counts: corrected, if it was
   Pose believed = Pose::Identity();  ///< the capture's pose as it came
   MotionCost motion;                 ///< of getting there
-  double sense_seconds = 0.0;
+  double sense_seconds = 0.0, clean_seconds = 0.0;
+  std::shared_ptr<const CapturedScan> cleaned = {};   ///< of a capture that was registered; null: it is to be cleaned
   std::optional<ScanRegistration> registration = {};  ///< with the scans before it; none: not asked for
   /// What the robot then said of the candidates; empty: it is to be asked.
   std::vector<Reach> reach = {};

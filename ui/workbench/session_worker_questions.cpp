@@ -58,8 +58,7 @@ void SessionWorker::offer(const EarlierSession& session) {
 Session::Verdict SessionWorker::judge(const Acquired& acquired, const std::string& reason) {
   std::vector<std::string> answers = {"Take it", "Reject it"};
   auto scan = std::make_shared<DoubtfulScan>();
-  const CloudConfig cleaning = runner_.configuration().cloud;
-  const Scan taken = to_scan(acquired.capture, &cleaning).scan;
+  const Scan& taken = acquired.cleaned->scan;  // as it was registered
   scan->reached = taken.hits;
   if (acquired.registration->reliable) {
     answers.insert(answers.begin(), "Correct it");
