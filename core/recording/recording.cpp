@@ -22,59 +22,87 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Where points lie.
+struct PointsExtent {
+  Eigen::AlignedBox3d box;              ///< [m, world]
+  double farthest = 0.0, ranges = 0.0;  ///< the largest range, and their sum [m]
+  std::size_t count = 0;
+
+  void add(const Pose& T_world_camera, const Vector3& point) {
+    const double range = point.norm();
+    box.extend(T_world_camera * point);
+    farthest = std::max(farthest, range);
+    ranges += range;
+    ++count;
+  }
+  void add(const PointsExtent& others) {
+    box.extend(others.box);
+    farthest = std::max(farthest, others.farthest);
+    ranges += others.ranges;
+    count += others.count;
+  }
+};
+
+PointsExtent extent_of(const DepthImage& image, const Pose& T_world_camera) {
+  PointsExtent extent;
+  std::size_t i = 0;
+  for (int v = 0; v < image.camera.height; ++v)
+    for (int u = 0; u < image.camera.width; ++u, ++i)
+      if (const float range = image.range[i]; DepthImage::is_range(range))
+        extent.add(T_world_camera, range * image.camera.direction(u, v));
+  return extent;
+}
+
+/// What a frame measured, or why it cannot be read.
+struct ReadFrame {
+  Measured measured;
+  PointsExtent extent;  ///< of an image
+  std::exception_ptr failure;
+};
+
 /// What all frames together measured.
 class Survey {
  public:
-  void add(const RecordedFrame& frame, const Measured& measured) {
-    const std::size_t before = points_;
-    if (const auto* image = std::get_if<DepthImage>(&measured))
-      add_image(frame, *image);
-    else
-      add_points(frame, std::get<std::vector<Vector3>>(measured));
-    if (points_ == before) empty_.push_back(frame.name);
+  void add(const RecordedFrame& frame, const ReadFrame& read) {
+    const std::size_t before = points_.count;
+    if (const auto* image = std::get_if<DepthImage>(&read.measured)) {
+      require_same_size(image->camera);
+      points_.add(read.extent);
+    } else {
+      add_points(frame, std::get<std::vector<Vector3>>(read.measured));
+    }
+    if (points_.count == before) empty_.push_back(frame.name);
   }
 
   /// With lengths times `unit` [m].
   void tell(Recording& recording, double unit, const DescribedDataset& dataset) const {
     recording.camera = camera_ ? *camera_ : cloud_camera_.camera();
-    recording.extent = {extent_.min() * unit, extent_.max() * unit};
-    recording.max_range = 1.01 * farthest_ * unit;
-    recording.points = points_;
+    recording.extent = {points_.box.min() * unit, points_.box.max() * unit};
+    recording.max_range = 1.01 * points_.farthest * unit;
+    recording.points = points_.count;
     if (const std::string outside = cloud_camera_.outside(); !camera_ && !outside.empty())
       recording.guessed.push_back(outside);
     Eigen::AlignedBox3d cameras;
     for (const RecordedFrame& frame : recording.frames) cameras.extend(frame.T_world_camera.translation());
-    recording.doubt = doubted_unit(dataset, cameras.diagonal().norm(), unit * ranges_ / double(points_));
+    recording.doubt = doubted_unit(dataset, cameras.diagonal().norm(), unit * points_.ranges / double(points_.count));
     if (!recording.doubt.empty()) recording.guessed.push_back(recording.doubt);
     if (!empty_.empty())
       recording.guessed.push_back(
           fmt::format("{} measured nothing, {} for example", counted(empty_.size(), "frame"), empty_.front()));
   }
-  std::size_t points() const { return points_; }
-  double longest_side() const { return extent_.sizes().maxCoeff(); }
+  std::size_t points() const { return points_.count; }
+  double longest_side() const { return points_.box.sizes().maxCoeff(); }
 
  private:
-  void add_point(const Pose& T_world_camera, const Vector3& point) {
-    const double range = point.norm();
-    extent_.extend(T_world_camera * point);
-    farthest_ = std::max(farthest_, range);
-    ranges_ += range;
-    ++points_;
-  }
-  void add_image(const RecordedFrame& frame, const DepthImage& image) {
-    if (!camera_) camera_ = image.camera;
-    if (camera_->width != image.camera.width || camera_->height != image.camera.height)
-      throw std::runtime_error(fmt::format("the image has {} x {} pixels, those before it {} x {}", image.camera.width,
-                                           image.camera.height, camera_->width, camera_->height));
-    std::size_t i = 0;
-    for (int v = 0; v < image.camera.height; ++v)
-      for (int u = 0; u < image.camera.width; ++u, ++i)
-        if (const float range = image.range[i]; DepthImage::is_range(range))
-          add_point(frame.T_world_camera, range * image.camera.direction(u, v));
+  void require_same_size(const PinholeCamera& camera) {
+    if (!camera_) camera_ = camera;
+    if (camera_->width != camera.width || camera_->height != camera.height)
+      throw std::runtime_error(fmt::format("the image has {} x {} pixels, those before it {} x {}", camera.width,
+                                           camera.height, camera_->width, camera_->height));
   }
   void add_points(const RecordedFrame& frame, const std::vector<Vector3>& points) {
     for (const Vector3& point : points) {
-      add_point(frame.T_world_camera, point);
+      points_.add(frame.T_world_camera, point);
       cloud_camera_.see(point);
     }
     cloud_camera_.end_of_frame();
@@ -82,24 +110,18 @@ class Survey {
 
   std::optional<PinholeCamera> camera_;  ///< of images
   CloudCamera cloud_camera_;
-  Eigen::AlignedBox3d extent_;
-  double farthest_ = 0.0, ranges_ = 0.0;  ///< the largest range, and their sum
-  std::size_t points_ = 0;
+  PointsExtent points_;
   std::vector<std::string> empty_;  ///< names of frames
 };
 
-/// What a frame measured, or why it cannot be read.
-struct ReadFrame {
-  Measured measured;
-  std::exception_ptr failure;
-};
-
-/// By several threads: to take a file apart takes longer than what is then done with it.
+/// By several threads, with all that takes long and follows from one frame alone.
 std::vector<ReadFrame> read_frames(std::span<const RecordedFrame> frames) {
   std::vector<ReadFrame> all(frames.size());
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
     try {
       all[i].measured = frames[i].read();
+      if (const auto* image = std::get_if<DepthImage>(&all[i].measured))
+        all[i].extent = extent_of(*image, frames[i].T_world_camera);
     } catch (...) {  // it is told of when it is its turn, so that the first that is damaged is
       all[i].failure = std::current_exception();
     }
@@ -118,10 +140,10 @@ Survey survey(const fs::path& path, const Recording& recording, const Progress& 
     const RecordedFrame& frame = frames[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(frames.size()), "reading " + frame.name);
     if (i % at_once == 0) ahead = read_frames(frames.subspan(i, std::min(at_once, frames.size() - i)));
-    const auto& [measured, failure] = ahead[i % at_once];
-    if (failure) std::rethrow_exception(failure);
+    const ReadFrame& read = ahead[i % at_once];
+    if (read.failure) std::rethrow_exception(read.failure);
     try {
-      survey.add(frame, measured);
+      survey.add(frame, read);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), frame.name, error.what()));
     }
