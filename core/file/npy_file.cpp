@@ -25,21 +25,21 @@ constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t alignment = 64, before_length = 8;  // of the header's end; magic and version [bytes]
 
 /// The header's text, and where the values begin.
-struct Header {
-  std::string text;
+struct HeaderText {
+  std::string_view text;
   std::size_t end = 0;
 };
 
-Header header_of(const std::string& bytes) {
-  if (!bytes.starts_with(magic) || bytes.size() < before_length) throw std::invalid_argument("is no .npy file");
+HeaderText header_text(std::string_view bytes) {
+  if (!bytes.starts_with(magic) || bytes.size() < before_length) throw std::runtime_error("is no .npy file");
   const unsigned version = static_cast<unsigned char>(bytes[6]);
-  if (version < 1 || version > 3) throw std::invalid_argument(fmt::format("has version {} of .npy", version));
+  if (version < 1 || version > 3) throw std::runtime_error(fmt::format("has version {} of .npy", version));
   const std::size_t width = version == 1 ? 2 : 4;
-  if (bytes.size() < before_length + width) throw std::invalid_argument("ends within its header");
+  if (bytes.size() < before_length + width) throw std::runtime_error("ends within its header");
   std::uint32_t length = 0;
   std::memcpy(&length, bytes.data() + before_length, width);
   const std::size_t begin = before_length + width;
-  if (bytes.size() - begin < length) throw std::invalid_argument("ends within its header");
+  if (bytes.size() - begin < length) throw std::runtime_error("ends within its header");
   return {bytes.substr(begin, length), begin + length};
 }
 
@@ -96,15 +96,32 @@ std::vector<float> values_of(std::string_view bytes) {
   return {values.begin(), values.end()};
 }
 
-NpyTable table_of(const std::string& bytes) {
-  const Header header = header_of(bytes);
+NpyTable table_of(std::string_view bytes) {
+  const NpyHeader header = npy_header(bytes);
+  if (header.type != "<f4" && header.type != "<f8")
+    throw std::runtime_error(
+        fmt::format("holds values of type '{}'; float32 ('<f4') and float64 ('<f8') are read", printable(header.type)));
+  const std::size_t size = header.type == "<f4" ? sizeof(float) : sizeof(double);
+  NpyTable table;
+  table.rows = header.rows;
+  table.columns = header.columns;
+  const std::uint64_t count = std::uint64_t(table.rows) * std::uint64_t(table.columns);
+  if (bytes.size() - header.end != count * size)
+    throw std::runtime_error(fmt::format("has {} bytes of values; {} x {} values have {}", bytes.size() - header.end,
+                                         table.rows, table.columns, count * size));
+  const std::string_view values = bytes.substr(header.end);
+  table.values = size == sizeof(float) ? values_of<float>(values) : values_of<double>(values);
+  return table;
+}
+
+}  // namespace
+
+NpyHeader npy_header(std::string_view bytes) {
+  const HeaderText header = header_text(bytes);
   const std::string_view type = between(after_key(header.text, "descr"), quotes, quotes);
-  if (type != "<f4" && type != "<f8")
-    throw std::invalid_argument(
-        fmt::format("holds values of type '{}'; float32 ('<f4') and float64 ('<f8') are read", printable(type)));
-  const std::size_t size = type == "<f4" ? sizeof(float) : sizeof(double);
+  if (type.empty()) throw std::runtime_error("does not say of what type its values are");
   if (!after_key(header.text, "fortran_order").starts_with("False"))
-    throw std::invalid_argument("is not row by row (C order)");
+    throw std::runtime_error("is not row by row (C order)");
   const std::string_view shape = between(after_key(header.text, "shape"), "(", ")");
   std::string_view rest = shape;
   const std::optional<int> rows = take_size(rest);
@@ -112,27 +129,16 @@ NpyTable table_of(const std::string& bytes) {
   const std::optional<int> columns = is_two ? take_size(rest) : std::nullopt;
   if (columns && skip_one(rest, ",")) skip_all(rest, " ");
   if (!columns || !rest.empty())
-    throw std::invalid_argument(fmt::format("has the shape ({}); two dimensions are read", printable(shape)));
-  NpyTable table;
-  table.rows = *rows;
-  table.columns = *columns;
-  const std::uint64_t count = std::uint64_t(table.rows) * std::uint64_t(table.columns);
-  if (bytes.size() - header.end != count * size)
-    throw std::invalid_argument(fmt::format("has {} bytes of values; {} x {} values have {}", bytes.size() - header.end,
-                                            table.rows, table.columns, count * size));
-  const std::string_view values = std::string_view(bytes).substr(header.end);
-  table.values = size == sizeof(float) ? values_of<float>(values) : values_of<double>(values);
-  return table;
+    throw std::runtime_error(fmt::format("has the shape ({}); two dimensions are read", printable(shape)));
+  return {std::string(type), *columns, *rows, header.end};
 }
-
-}  // namespace
 
 NpyTable read_npy(const std::filesystem::path& file) { return npy_of(read_file(file), file); }
 
 NpyTable npy_of(const std::string& bytes, const std::filesystem::path& file) {
   try {
     return table_of(bytes);
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", printable(file.string()), error.what()));
   }
 }

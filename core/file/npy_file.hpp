@@ -1,9 +1,20 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nextview {
+
+/// What a .npy file says before its values.
+struct NpyHeader {
+  std::string type;  ///< as NumPy names it: "<f4"
+  int columns = 0, rows = 0;
+  std::size_t end = 0;  ///< where the values begin [bytes]
+};
+/// Of a file's bytes: two dimensions, row by row (C order), versions 1 to 3.
+/// @throws std::runtime_error with the reason alone, for the caller to name the file
+NpyHeader npy_header(std::string_view bytes);
 
 /// A table of numbers as NumPy keeps it, row by row.
 struct NpyTable {

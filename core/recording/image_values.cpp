@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/file/npy_file.hpp"
+
 namespace nextview {
 
 static_assert(std::endian::native == std::endian::little, "values are copied as they stand in files");
@@ -39,29 +41,6 @@ std::int64_t pgm_number(std::string_view& rest) {
   if (error != std::errc() || value <= 0) throw std::runtime_error("is a damaged PGM: its header makes no sense");
   rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
   return value;
-}
-
-/// The text behind a key of the dictionary in a .npy header.
-std::string_view npy_entry(std::string_view header, std::string_view key) {
-  const std::size_t at = header.find(key);
-  if (at == std::string_view::npos) throw std::runtime_error(fmt::format("is no .npy file: it has no entry {}", key));
-  std::string_view rest = header.substr(at + key.size());
-  rest.remove_prefix(std::min(rest.find_first_not_of(" :"), rest.size()));
-  return rest;
-}
-
-/// Rows and columns, out of "(480, 640), …".
-std::pair<int, int> npy_shape(std::string_view text) {
-  int shape[2] = {0, 0};
-  for (int i = 0; i < 2; ++i) {
-    text.remove_prefix(std::min(text.find_first_not_of(i == 0 ? "( " : ", "), text.size()));
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), shape[i]);
-    if (error != std::errc()) throw std::runtime_error("must hold a two-dimensional array");
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  }
-  text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
-  if (!text.starts_with(')')) throw std::runtime_error("must hold a two-dimensional array");
-  return {shape[0], shape[1]};
 }
 
 }  // namespace
@@ -95,22 +74,12 @@ ImageValues decode_pgm(std::string_view bytes) {
 }
 
 ImageValues decode_npy(std::string_view bytes) {
-  const std::size_t length_size = bytes.size() > 6 && bytes[6] >= 2 ? 4 : 2;
-  if (bytes.size() < 8 + length_size) throw std::runtime_error("is truncated");
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < length_size; ++i)
-    length |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[8 + i])) << 8 * i;
-  if (length > bytes.size() - 8 - length_size) throw std::runtime_error("is truncated");
-  const std::string_view header = bytes.substr(8 + length_size, length);
-  const std::string_view kind = npy_entry(header, "'descr'").substr(0, 5);
-  constexpr std::string_view kinds[] = {"'<u2'", "'<f4'", "'<f8'"};  // in the order of RawType
-  const auto known = std::ranges::find(kinds, kind);
-  if (known == std::end(kinds))
+  const NpyHeader header = npy_header(bytes);
+  constexpr std::string_view types[] = {"<u2", "<f4", "<f8"};  // in the order of RawType
+  const auto known = std::ranges::find(types, std::string_view(header.type));
+  if (known == std::end(types))
     throw std::runtime_error("must hold little-endian uint16, float32 or float64 ('<u2', '<f4' or '<f8')");
-  if (!npy_entry(header, "'fortran_order'").starts_with("False"))
-    throw std::runtime_error("must hold its array row by row (fortran_order False)");
-  const auto [height, width] = npy_shape(npy_entry(header, "'shape'"));
-  return decode_raw(bytes, width, height, static_cast<RawType>(known - kinds), 8 + length_size + length);
+  return decode_raw(bytes, header.columns, header.rows, static_cast<RawType>(known - types), header.end);
 }
 
 ImageValues decode_raw(std::string_view bytes, int width, int height, RawType type, std::size_t offset) {
