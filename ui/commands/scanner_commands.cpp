@@ -66,4 +66,10 @@ const CommandOf<std::string> command::answer{
       t.worker.answer(text);
     }};
 
+CommandCall answer_to(const WorkerProgress& asked, const std::string& text) {
+  CommandCall call = command::answer(text);
+  call.run = [text, number = asked.question_number](CommandTarget& t) { t.worker.answer(text, number); };
+  return call;
+}
+
 }  // namespace nextview

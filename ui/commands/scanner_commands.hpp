@@ -8,3 +8,10 @@ extern const CommandOf<> disconnect, reconnect;
 extern const CommandOf<std::string> answer;  ///< to what a job waits for
 
 }  // namespace nextview::command
+
+namespace nextview {
+
+/// An answer to what is asked here: never to a later question that nobody has seen yet.
+CommandCall answer_to(const WorkerProgress& asked, const std::string& text);
+
+}  // namespace nextview

@@ -107,10 +107,10 @@ bool press_what_has_the_ring() {
 
 void obey_answers(const PanelContext& context) {
   const std::vector<std::string>& answers = context.progress.answers;
-  if (pressed(Key::escape)) return context.post(command::answer(answers.back()));
+  if (pressed(Key::escape)) return context.post(answer_to(context.progress, answers.back()));
   const bool is_in_it = ImGui::GetCurrentContext()->NavWindow == ImGui::FindWindowByName("Question");
   if (is_in_it && press_what_has_the_ring()) return;
-  context.post(command::answer(answers[context.progress.usual_answer()]));
+  context.post(answer_to(context.progress, answers[context.progress.usual_answer()]));
 }
 
 /// Whether something lies over the panels that has the keyboard.

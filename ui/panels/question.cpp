@@ -59,13 +59,19 @@ void draw_question(const PanelContext& context, const Rectangle& scene) {
   if (doubtful) draw_colours(context, *doubtful);
   ImGui::Dummy({0, style.px(8)});
   const std::vector<std::string>& answers = context.progress.answers;
+  // What was pressed for the question before answers nothing, nor does the second click of a double click.
+  ImGui::PushID(int(context.progress.question_number));
+  const bool is_second =
+      ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseClickedLastCount[ImGuiMouseButton_Left] > 1;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     const Icon icon = i + 1 == answers.size() ? Icon::cancel : i == 0 ? Icon::play : Icon::none;
     const bool is_usual = i == context.progress.usual_answer();
-    if (icon_button(style, icon, answers[i].c_str(), is_usual)) context.post(command::answer(answers[i]));
+    if (icon_button(style, icon, answers[i].c_str(), is_usual) && !is_second)
+      context.post(answer_to(context.progress, answers[i]));
     tooltip(help_of(context.progress, i));
   }
+  ImGui::PopID();
   ImGui::End();
   ImGui::PopStyleVar(3);
 }

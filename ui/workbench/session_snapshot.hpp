@@ -154,6 +154,7 @@ struct WorkerProgress {
   double fraction = 0.0;    ///< of the job, 0 to 1
   std::string what;
   std::string question;                               ///< that the job waits for an answer to; empty: it does not
+  std::uint64_t question_number = 0;                  ///< of the last question; no two have the same
   std::vector<std::string> answers;                   ///< that there are, the last one the cautious one
   std::vector<std::string> effects;                   ///< what each of them does; empty: their names say it
   bool costs = false;                                 ///< what the first of them does

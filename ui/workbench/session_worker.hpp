@@ -43,8 +43,8 @@ class SessionWorker {
   void pause_refinement(bool pause);
   /// Of the question whether to go on with a session, the first to do so.
   static const std::vector<std::string>& offer_answers();
-  /// Answers the question that the job waits with (WorkerProgress::question).
-  void answer(const std::string& text);
+  /// Answers the question that the job waits with (WorkerProgress::question), if that is the one of this number.
+  void answer(const std::string& text, std::optional<std::uint64_t> number = {});
   /// Waits this long before each view but the first while playing [s].
   void set_pause_between_views(double seconds);
 

@@ -11,10 +11,10 @@
 
 namespace nextview {
 
-void SessionWorker::answer(const std::string& text) {
+void SessionWorker::answer(const std::string& text, std::optional<std::uint64_t> number) {
   {
     const std::lock_guard lock(mutex_);
-    if (progress_.question.empty()) return;
+    if (progress_.question.empty() || number.value_or(progress_.question_number) != progress_.question_number) return;
     answer_ = text;
   }
   wake_.notify_all();
@@ -26,6 +26,7 @@ std::string SessionWorker::ask(std::string question, std::vector<std::string> an
   const std::string cautious = answers.back();
   std::unique_lock lock(mutex_);
   progress_.question = std::move(question);
+  ++progress_.question_number;
   progress_.answers = std::move(answers);
   progress_.doubtful = std::move(about);
   progress_.effects = std::move(effects);

@@ -125,6 +125,27 @@ TEST(Front, WhatAnAnswerDoesIsToldWithItsKey) {
   }
 }
 
+/// A robot moves for it, and nobody has seen the next question by then.
+TEST(Front, TheSecondClickOfADoubleClickAnswersNoOtherQuestion) {
+  Desk desk;
+  desk.progress.question = "Go there?";
+  desk.progress.answers = {"Move", "Refuse"};
+  desk.progress.question_number = 1;
+  desk.frames();
+  const auto all = seen_texts();
+  const SeenText* const button = find_text(all, "Move", "Question");
+  ASSERT_TRUE(button);
+  const auto click = [&] {
+    desk.click(button->from.x + 4, button->middle());
+    return names(desk.frames());
+  };
+  EXPECT_EQ(click(), std::vector<std::string>{"answer Move"});
+  desk.progress.question_number = 2;
+  EXPECT_THAT(click(), IsEmpty());
+  for (int frame = 0; frame < 40; ++frame) desk.frame();
+  EXPECT_EQ(click(), std::vector<std::string>{"answer Move"}) << "it was seen by then";
+}
+
 /// The palette lies over the question: whoever closes it has not answered.
 TEST(Front, EscapeCancelsWhatRunsAndElseSelectsNothing) {
   Desk desk;

@@ -94,6 +94,24 @@ TEST_F(LiveScannerTest, ARefusalEndsThePlay) {
   EXPECT_EQ(views(), 0u);
 }
 
+TEST_F(LiveScannerTest, AnAnswerIsToItsOwnQuestionAlone) {
+  connect();
+  const auto wait_for_question = [&](std::uint64_t number) {
+    wait_until([&] {
+      const WorkerProgress now = worker_.progress();
+      return !now.question.empty() && now.question_number == number;
+    });
+  };
+  worker_.post(request::Play{});
+  wait_for_question(1);
+  worker_.answer("Move", 1);
+  wait_for_question(2);
+  worker_.answer("Move", 1);  // as of a second click
+  worker_.answer("Refuse", 2);
+  wait_until_idle();
+  EXPECT_EQ(views(), 1u);
+}
+
 TEST_F(LiveScannerTest, CancellingAnswersTheQuestion) {
   connect();
   worker_.post(request::Step{});
