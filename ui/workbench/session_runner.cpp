@@ -56,18 +56,18 @@ void SessionRunner::load(Configuration configuration, const JobControl& control)
 
 void SessionRunner::open(const std::filesystem::path& input, const JobControl& control) {
   if (is_session(input)) return open_session(input, control);
-  const Configuration before = for_another_scan(scanner_ ? before_scanner_ : configuration());
+  const Configuration before = for_another_scan(scanner_ ? tree_->before_scanner : configuration());
   start(session_ ? with_next_input(before, input) : with_input(before, input), nullptr, control);
 }
 
 void SessionRunner::disconnect(const JobControl& control) {
-  if (scanner_) start(before_scanner_, nullptr, control);
+  if (scanner_) start(tree_->before_scanner, nullptr, control);
 }
 
 void SessionRunner::connect(const ScannerWishes& wishes, std::optional<Configuration> wanted,
                             const JobControl& control) {
   const Configuration before = for_another_scan(wanted     ? *std::move(wanted)
-                                                : scanner_ ? before_scanner_
+                                                : scanner_ ? tree_->before_scanner
                                                            : configuration());
   if (!session_) wanted_ = before;
   Configuration following = before;
@@ -79,7 +79,7 @@ void SessionRunner::connect(const ScannerWishes& wishes, std::optional<Configura
   }
   auto scanner = connect_scanner(following, wishes, control.stop);
   start(std::move(following), std::move(scanner), control);
-  before_scanner_ = before;
+  tree_->before_scanner = before;
 }
 
 void SessionRunner::reconnect(const JobControl& control) {
@@ -97,6 +97,7 @@ void SessionRunner::start(Configuration configuration, std::shared_ptr<DriverCon
   Stand beginning = stand_of(*session, std::make_shared<SeenSurface>(*session));
   if (session_) history_.push(now(), nullptr, ScanHistory::limit(session_->configuration()));
   auto tree = std::make_shared<StepTree>(beginning, session->camera());
+  if (scanner && scanner == scanner_) tree->before_scanner = tree_->before_scanner;
   adopt({session, std::move(scanner), std::make_shared<KeptSession>(state_folder_, notice_), std::move(tree), 0,
          Branches(), std::move(beginning)});
 }

@@ -128,7 +128,6 @@ class SessionRunner {
   ScanHistory history_;
   std::uint64_t change_when_gone_ = 0;         ///< the last one when the timeline was gone along
   std::shared_ptr<DriverConnection> scanner_;  ///< of the session, if it is a live one
-  Configuration before_scanner_;               ///< to go back to
   std::filesystem::path state_folder_;         ///< empty: sessions are not kept
   KeptSession::Notice notice_;
   std::shared_ptr<KeptSession> kept_;   ///< of the session; null without one

@@ -41,6 +41,8 @@ class StepTree {
   std::uint32_t at = 0;  ///< where the session stands
   Branches branches;     ///< it stands on the current one
   RefinedMap refined;    ///< set aside and brought back with the session
+  /// What was scanned before the live scanner that the session has, and is gone back to without it; likewise.
+  Configuration before_scanner;
 
   /// What a saved session has taken: it is known from its journal, and taken again where one goes there.
   void add(std::shared_ptr<SavedSession> saved);

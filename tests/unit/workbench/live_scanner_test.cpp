@@ -201,5 +201,28 @@ TEST_F(LiveScannerTest, IsLeftForWhatWasScannedBefore) {
   std::filesystem::remove(file);
 }
 
+/// What was before the second scanner is not what was before the first.
+TEST_F(LiveScannerTest, IsLeftForWhatWasBeforeItAlsoAfterAnotherOneWasUndone) {
+  Configuration box;
+  box.object.file = "box";
+  box.map.region = "-1 -1 -1 1 1 1.5";
+  box.map.resolution = 0.1;
+  box.views.count = 6;
+  box.evaluation.surface_samples = 500;
+  const std::string command = fmt::format("'{}' '{}'", NEXTVIEW_FAKE_DRIVER, fault_.string());
+  for (const int views : {7, 9}) {
+    box.termination.views = views;
+    worker_.post(request::Connect{command, true, box});
+    wait_until_idle();
+    ASSERT_TRUE(worker_.snapshot()->live) << worker_.snapshot()->message;
+  }
+  worker_.post(request::Undo{});
+  wait_until_idle();
+  worker_.post(request::Disconnect{});
+  wait_until_idle();
+  EXPECT_FALSE(worker_.snapshot()->live) << worker_.snapshot()->message;
+  EXPECT_EQ(worker_.snapshot()->configuration.termination.views, 7);
+}
+
 }  // namespace
 }  // namespace nextview
