@@ -53,7 +53,7 @@ struct ChangeSetting {
 /// Starts over with the same configuration.
 struct Reset {};
 struct Step {
-  bool with_last = false;  ///< undone together with the change before it
+  bool with_last = false;  ///< undone together with the change of the limits before it
 };
 /// Steps until the scan is finished or paused.
 struct Play {};

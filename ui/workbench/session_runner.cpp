@@ -135,9 +135,15 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge,
   if (!can_step()) return;
   session_->set_judge(judge);
   HistoryEntry before = now();
-  if (!kept_->step(*session_, control.progress, control.stop)) {
-    if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
-    return;
+  try {
+    if (!kept_->step(*session_, control.progress, control.stop)) {
+      if (scanner_ && scanner_->is_lost()) show_next();  // it was ended, to stop it
+      if (with_last) take_back_limits();
+      return;
+    }
+  } catch (...) {
+    if (with_last) take_back_limits();
+    throw;
   }
   if (with_last && history_.can_undo()) before = history_.take_last();
   before.chosen.reset();
@@ -147,6 +153,15 @@ void SessionRunner::step(const JobControl& control, const Session::Judge& judge,
   remember(std::move(before));
   show_map(*snapshot_);
   follow_compared(control);
+}
+
+/// They were lifted for a view that was not taken.
+void SessionRunner::take_back_limits() {
+  if (!history_.can_undo()) return;
+  session_->set_termination(history_.take_last().stand.termination);
+  tree_->set_stand(tree_->at, stand_of(*session_, seen_));
+  kept_->follow(*session_, tree_->line(tree_->at), tree_->branches);
+  show_next();
 }
 
 void SessionRunner::take_view(std::size_t candidate) {

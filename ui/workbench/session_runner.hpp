@@ -53,7 +53,7 @@ class SessionRunner {
   void set_planning(const PlanningConfig& planning, const JobControl& control);
   /// Nothing without a session that can step.
   /// `judge` is asked of a scan that does not fit those before it (Session::Judge). `with_last`: one undo takes back
-  /// this and the change before it.
+  /// this and the change of the limits before it, which is taken back at once where no view is taken.
   void step(const JobControl& control, const Session::Judge& judge = {}, bool with_last = false);
   void take_view(std::size_t candidate);
   void take_custom_view(const Pose& T_world_camera);
@@ -89,6 +89,7 @@ class SessionRunner {
   HistoryEntry now() const;
   static Stand stand_of(const Session& session, std::shared_ptr<SeenSurface> seen);
   void remember(HistoryEntry before);
+  void take_back_limits();
   void choose(const std::function<void()>& change);
   void choose_again(const NextView& chosen);
   void change_branches(const std::function<void(Branches&)>& change);

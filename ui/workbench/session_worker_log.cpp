@@ -137,6 +137,8 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   } else if (s.scanner_lost && !before.scanner_lost) {
     log_.add(Level::warning,
              "Stopped by ending the scanner's program, which cannot stop a move itself; reach it again");
+  } else if (is<request::Step>(request) && s.finished != before.finished) {
+    log_end(s, log_);  // Continue took no view: the limits hold again
   } else if (s.map != before.map && !is<request::Refine>(request)) {
     log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
   } else if (is<request::BeginBranch>(request)) {

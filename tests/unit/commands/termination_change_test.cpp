@@ -1,6 +1,7 @@
 // What ends a scan changes while it goes on, and the scan is kept.
 #include <gmock/gmock.h>
 
+#include "core/progress/stopped.hpp"
 #include "tests/unit/workbench/session_runner_test.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/script.hpp"
@@ -67,6 +68,26 @@ TEST_F(TerminationChange, IsUndoneAndRedone) {
   EXPECT_FALSE(now().can_redo);
   runner_.undo(job_control());
   expect_same_scan(now(), *all);
+}
+
+/// As Continue does, and somebody cancels it.
+TEST_F(TerminationChange, IsTakenBackWithAViewThatIsNotTaken) {
+  runner_.load(with_views(2), job_control());
+  steps(2);
+  const auto before = runner_.snapshot();
+  runner_.set_termination(with_views(5).termination);
+  ASSERT_EQ(now().finished, "");
+  std::stop_source cancelled;
+  cancelled.request_stop();
+  SessionRunner::JobControl control = job_control();
+  control.stop = cancelled.get_token();
+  try {
+    runner_.step(control, {}, true);
+  } catch (const Stopped&) {
+  }
+  expect_same_scan(now(), *before);
+  runner_.undo(job_control());
+  EXPECT_EQ(now().records.size(), 1u) << "the change is none any more";
 }
 
 TEST_F(TerminationChange, NothingToChangeIsFound) {
