@@ -80,6 +80,19 @@ void log_branch(const SessionSnapshot& before, const SessionSnapshot& now, Sessi
                                    counted(left, "view")));
 }
 
+/// Where the scan stands after another one of its states came back, or by what it goes on from the same.
+void log_place(const SessionSnapshot& before, const SessionSnapshot& now, SessionLog& log) {
+  const Branch &was = before.timeline->branches.current(), &is = now.timeline->branches.current();
+  const std::size_t views = now.records.size();
+  if (is.id == was.id && views == before.records.size()) {
+    if (views > 0) log.add(Level::note, "The candidates are ranked anew; the scan stays");
+    return;
+  }
+  const std::string branch = is.id == was.id ? "" : fmt::format(" of '{}'", is.name);
+  log.add(Level::note, views > before.records.size() ? fmt::format("At view {}{} again", views, branch)
+                                                     : fmt::format("Back at view {}{}", views, branch));
+}
+
 /// How a refinement went; of one that was cancelled, what is left of it.
 void log_refinement(const GibbsMap& gibbs, bool cancelled, SessionLog& log) {
   const SamplerDiagnostics& d = gibbs.posterior->diagnostics;
@@ -122,25 +135,18 @@ void SessionWorker::finish(const SessionRequest& request, const SessionSnapshot&
   if (opened && is_there(opened->file)) add_recent_file(state_folder_, opened->file);
   if (s.session != before.session) {
     log_start(request, before, s, log_);
-  } else if (s.records.size() > before.records.size()) {
-    if (is<request::Step>(request)) {
-      log_branch(before, s, log_);
-      log_view(s, log_);
-    } else {
-      log_.add(Level::note, fmt::format("At view {} again", s.records.size()));
-    }
+  } else if (is<request::Step>(request) && s.records.size() > before.records.size()) {
+    log_branch(before, s, log_);
+    log_view(s, log_);
   } else if (is<request::SetTermination>(request) || (changed && changed->key.starts_with("termination."))) {
     if (s.finished != before.finished) s.finished.empty() ? log_.add(Level::note, going_on(s)) : log_end(s, log_);
-  } else if (changed) {
-    if (!s.records.empty() && s.map != before.map)
-      log_.add(Level::note, "The candidates are ranked anew; the scan stays");
   } else if (s.scanner_lost && !before.scanner_lost) {
     log_.add(Level::warning,
              "Stopped by ending the scanner's program, which cannot stop a move itself; reach it again");
   } else if (is<request::Step>(request) && s.finished != before.finished) {
     log_end(s, log_);  // Continue took no view: the limits hold again
   } else if (s.map != before.map && !is<request::Refine>(request)) {
-    log_.add(Level::note, fmt::format("Back at view {}", s.records.size()));
+    log_place(before, s, log_);
   } else if (is<request::BeginBranch>(request)) {
     log_.add(Level::note, fmt::format("What is taken from here on is on '{}'", s.timeline->branches.current().name));
   }

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "core/setting/area_text.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 #include "tests/unit/workbench/gated_worker.hpp"
@@ -24,6 +26,29 @@ class WorkerLog : public GatedWorker {
     return fmt::format(": {} points, {} of new surface", r.points, area_text(r.new_surface));
   }
 };
+
+TEST_F(WorkerLog, SaysOnWhichBranchAViewIsAndWhetherOnlyTheRankingIsAnother) {
+  using Level = LogEntry::Level;
+  const auto done = [&](SessionRequest request) {
+    worker_.post(std::move(request));
+    wait_until_idle();
+  };
+  load();
+  step();
+  step();
+  done(request::Undo{});
+  step();
+  done(request::GoTo{"main"});
+  expect_last(Level::note, "Back at view 2 of 'main'");
+  done(request::GoTo{"branch 2", 1});
+  expect_last(Level::note, "Back at view 1 of 'branch 2'");
+  const std::string ranked = "The candidates are ranked anew; the scan stays";
+  done(request::ChangeSetting{"planner.gain", "farthest"});
+  expect_last(Level::note, ranked);
+  done(request::Undo{});
+  expect_last(Level::note, ranked);
+  EXPECT_EQ(std::ranges::count(log(), ranked), 2);
+}
 
 TEST_F(WorkerLog, HasALineForEachThing) {
   using Level = LogEntry::Level;
